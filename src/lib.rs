@@ -1,0 +1,4 @@
+//! OpenNCK: an open simulator of the NC/PLC interface of SINUMERIK-style controls.
+
+pub mod source;
+pub mod units;

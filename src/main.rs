@@ -1,0 +1,2 @@
+//! The program `opennck`.
+fn main() {}

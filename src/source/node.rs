@@ -1,0 +1,300 @@
+//! A TOML 1.0 file as a tree in which every value knows its line, and the reading of it.
+//!
+//! Readers take what they know with [`Table::take`] and end with [`Table::finish`], which refuses what is left
+//! over by name; so an unknown key can never be ignored.
+
+use std::collections::BTreeMap;
+
+use toml::de::{DeTable, DeValue};
+
+use super::{Place, Problem, did_you_mean};
+
+/// A value and where it stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// The line of the value.
+    pub place: Place,
+    /// The value.
+    pub value: Value,
+}
+
+/// What TOML knows, but for dates, which nothing here needs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// `"text"`.
+    Text(String),
+    /// `12`, `0xFF`.
+    Integer(i64),
+    /// `1.5`.
+    Float(f64),
+    /// `true`.
+    Boolean(bool),
+    /// `[1, 2]`.
+    Array(Vec<Node>),
+    /// `[section]` or `{ key = value }`.
+    Table(Table),
+}
+
+/// Keys with their values, in the order of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// Where the table begins.
+    pub place: Place,
+    entries: Vec<(String, Place, Node)>,
+    known: Vec<&'static str>,
+}
+
+impl Table {
+    /// Reads a TOML document.
+    ///
+    /// # Errors
+    /// The first place where it is not TOML 1.0.
+    pub fn parse(text: &str, file: &str) -> Result<Self, Problem> {
+        let start = Place::file(file);
+        let lines = Lines::new(text);
+        let document = DeTable::parse(text).map_err(|error| {
+            let line = error.span().map_or(0, |span| lines.line(span.start));
+            start.at_line(line).problem(
+                format!("expected TOML, found a mistake: {}", error.message().replace('\n', "; ")),
+                "TOML 1.0: strings in quotes, tables in brackets, one value per key",
+            )
+        })?;
+        table(document.get_ref(), &start.at_line(1), &lines, &start)
+    }
+
+    /// An empty table.
+    #[must_use]
+    pub fn empty(place: Place) -> Self {
+        Self { place, entries: Vec::new(), known: Vec::new() }
+    }
+
+    /// Takes a value out by its name, and notes the name as known.
+    pub fn take(&mut self, key: &'static str) -> Option<Node> {
+        self.known.push(key);
+        let index = self.entries.iter().position(|(name, ..)| name == key)?;
+        Some(self.entries.remove(index).2)
+    }
+
+    /// Takes everything that is left: name, place of the name, value.
+    pub fn take_rest(&mut self) -> Vec<(String, Place, Node)> {
+        std::mem::take(&mut self.entries)
+    }
+
+    /// The names that are left.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().map(|(name, ..)| name.as_str())
+    }
+
+    /// Refuses what nobody took.
+    ///
+    /// # Errors
+    /// The first name that is left, with the nearest known one.
+    pub fn finish(&self) -> Result<(), Problem> {
+        let Some((name, place, _)) = self.entries.first() else { return Ok(()) };
+        let known = self.known.join("`, `");
+        let cure = did_you_mean(name, self.known.iter().copied(), "remove it");
+        Err(place.problem(format!("expected one of `{known}`, found the unknown key `{name}`"), cure))
+    }
+
+    /// Merges another table over this one: tables merge, everything else is replaced, `false` removes a table.
+    pub fn merge(&mut self, over: Self) {
+        for (name, place, node) in over.entries {
+            let existing = self.entries.iter().position(|(other, ..)| *other == name);
+            match existing {
+                None if matches!(node.value, Value::Boolean(false)) => self.entries.push((name, place, node)),
+                None => self.entries.push((name, place, node)),
+                Some(index) => {
+                    let (.., old) = &mut self.entries[index];
+                    match (&mut old.value, node.value) {
+                        (Value::Table(old), Value::Table(new)) => old.merge(new),
+                        (_, value) => *old = Node { place: node.place, value },
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Node {
+    /// What kind of value this is, in words for a message.
+    #[must_use]
+    pub fn found(&self) -> String {
+        match &self.value {
+            Value::Text(text) => format!("the text \"{text}\""),
+            Value::Integer(number) => format!("the integer {number}"),
+            Value::Float(number) => format!("the number {number}"),
+            Value::Boolean(value) => format!("{value}"),
+            Value::Array(_) => "an array".to_owned(),
+            Value::Table(_) => "a table".to_owned(),
+        }
+    }
+
+    /// The problem "expected this, found that" at this place.
+    #[must_use]
+    pub fn expected(&self, what: &str, cure: &str) -> Problem {
+        self.place.problem(format!("expected {what}, found {}", self.found()), cure)
+    }
+
+    /// A text.
+    ///
+    /// # Errors
+    /// It is something else.
+    pub fn text(&self, what: &str) -> Result<&str, Problem> {
+        match &self.value {
+            Value::Text(text) => Ok(text),
+            _ => Err(self.expected(what, "put it in quotes")),
+        }
+    }
+
+    /// A number, whole or not; it must be finite.
+    ///
+    /// # Errors
+    /// It is something else, or `inf` or `nan`.
+    pub fn number(&self, what: &str) -> Result<f64, Problem> {
+        match self.value {
+            Value::Integer(number) => Ok(number as f64),
+            Value::Float(number) if number.is_finite() => Ok(number),
+            _ => Err(self.expected(what, "write a finite number without quotes")),
+        }
+    }
+
+    /// A whole number.
+    ///
+    /// # Errors
+    /// It is something else.
+    pub fn integer(&self, what: &str) -> Result<i64, Problem> {
+        match self.value {
+            Value::Integer(number) => Ok(number),
+            _ => Err(self.expected(what, "write a whole number without quotes")),
+        }
+    }
+
+    /// `true` or `false`.
+    ///
+    /// # Errors
+    /// It is something else.
+    pub fn boolean(&self, what: &str) -> Result<bool, Problem> {
+        match self.value {
+            Value::Boolean(value) => Ok(value),
+            _ => Err(self.expected(what, "write true or false")),
+        }
+    }
+
+    /// A table.
+    ///
+    /// # Errors
+    /// It is something else.
+    pub fn into_table(self, what: &str) -> Result<Table, Problem> {
+        match self.value {
+            Value::Table(table) => Ok(table),
+            _ => Err(self.expected(what, "write it as a table")),
+        }
+    }
+
+    /// An array; a single value counts as an array of one.
+    #[must_use]
+    pub fn into_list(self) -> Vec<Self> {
+        match self.value {
+            Value::Array(nodes) => nodes,
+            _ => vec![self],
+        }
+    }
+}
+
+/// Finds the line of a byte offset.
+struct Lines(Vec<usize>);
+
+impl Lines {
+    fn new(text: &str) -> Self {
+        Self(text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(offset, _)| offset).collect())
+    }
+
+    fn line(&self, offset: usize) -> u32 {
+        u32::try_from(self.0.partition_point(|&newline| newline < offset) + 1).unwrap_or(u32::MAX)
+    }
+}
+
+fn table(from: &DeTable<'_>, place: &Place, lines: &Lines, file: &Place) -> Result<Table, Problem> {
+    let mut ordered = BTreeMap::new();
+    for (key, value) in from {
+        let key_place = file.at_line(lines.line(key.span().start));
+        let value_place = file.at_line(lines.line(value.span().start));
+        let node = node(value.get_ref(), &value_place, lines, file)?;
+        ordered.insert((key.span().start, key.get_ref().to_string()), (key_place, node));
+    }
+    let entries = ordered.into_iter().map(|((_, name), (place, node))| (name, place, node)).collect();
+    Ok(Table { place: place.clone(), entries, known: Vec::new() })
+}
+
+fn node(from: &DeValue<'_>, place: &Place, lines: &Lines, file: &Place) -> Result<Node, Problem> {
+    let value = match from {
+        DeValue::String(text) => Value::Text(text.to_string()),
+        DeValue::Integer(integer) => Value::Integer(
+            i64::from_str_radix(integer.as_str(), integer.radix())
+                .map_err(|_| place.problem("expected an integer of 64 bits, found a larger one", "write a smaller number"))?,
+        ),
+        DeValue::Float(float) => Value::Float(
+            float
+                .as_str()
+                .parse()
+                .map_err(|_| place.problem(format!("expected a number, found `{}`", float.as_str()), "write 1.5"))?,
+        ),
+        DeValue::Boolean(value) => Value::Boolean(*value),
+        DeValue::Datetime(_) => {
+            return Err(place.problem("expected a text, number, array or table, found a date", "put it in quotes"));
+        }
+        DeValue::Array(array) => Value::Array(
+            array
+                .iter()
+                .map(|item| node(item.get_ref(), &file.at_line(lines.line(item.span().start)), lines, file))
+                .collect::<Result<_, _>>()?,
+        ),
+        DeValue::Table(inner) => Value::Table(table(inner, place, lines, file)?),
+    };
+    Ok(Node { place: place.clone(), value })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> Table {
+        Table::parse(text, "t.toml").unwrap()
+    }
+
+    #[test]
+    fn a_value_knows_its_line_and_kind() {
+        let mut table = parsed("a = 1\n\n[b]\nc = \"x\"\n");
+        assert_eq!(table.take("a").unwrap().place.line, 1);
+        let mut b = table.take("b").unwrap().into_table("b").unwrap();
+        let problem = b.take("c").unwrap().number("a length in mm").unwrap_err();
+        assert_eq!(
+            problem.to_string(),
+            "t.toml:4: expected a length in mm, found the text \"x\"\n  write a finite number without quotes"
+        );
+    }
+
+    #[test]
+    fn what_nobody_took_is_refused_with_the_nearest_name() {
+        let mut table = parsed("strat = 1\n");
+        assert_eq!(table.take("start"), None);
+        let problem = table.finish().unwrap_err().to_string();
+        assert!(problem.contains("`strat`") && problem.contains("did you mean `start`?"), "{problem}");
+    }
+
+    #[test]
+    fn tables_merge_and_the_rest_is_replaced() {
+        let mut table = parsed("[x]\nstart = 1\n[x.cam]\nfrom = 2\nto = 3\n");
+        table.merge(parsed("[x]\ncam = false\nstop = 4\n"));
+        let mut x = table.take("x").unwrap().into_table("x").unwrap();
+        assert!(!x.take("cam").unwrap().boolean("cam").unwrap());
+        assert_eq!(x.take("start").unwrap().integer("start").unwrap(), 1);
+        assert_eq!(x.take("stop").unwrap().integer("stop").unwrap(), 4);
+    }
+
+    #[test]
+    fn a_mistake_names_its_line() {
+        let problem = Table::parse("a = 1\nb = \n", "t.toml").unwrap_err();
+        assert_eq!(problem.place.unwrap().line, 2);
+    }
+}
