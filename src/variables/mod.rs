@@ -1,0 +1,142 @@
+//! What the control shows beside bits: axis values, raised alarms, and events with their causes.
+//!
+//! The control writes all of it once in each cycle, in the stage "publish"; traces, expressions and clients read it.
+//! Nothing here knows a particular control: alarms and rules are numbers, whose texts the control gives
+//! through [`Describe`].
+
+mod events;
+
+pub use events::{Event, EventId, Events, Input, Quantity, Rule, RuleNumber, SignalBit};
+
+use serde::{Deserialize, Serialize};
+
+use crate::image::Names;
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, Position};
+
+/// Whose it is: the place of an alarm, of an event, of a signal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Place {
+    /// The whole control.
+    Nck,
+    /// A mode group.
+    ModeGroup(ModeGroupNumber),
+    /// A channel.
+    Channel(ChannelNumber),
+    /// A machine axis.
+    Axis(AxisNumber),
+}
+
+/// What one machine axis shows, as the actual-value display and the service-axes view do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AxisValues {
+    /// Actual value in the machine coordinate system, from the active measuring system.
+    pub position: Position,
+    /// Setpoint in the machine coordinate system.
+    pub setpoint: Position,
+    /// Actual velocity in mm/min or rev/min.
+    pub velocity: f64,
+    /// Setpoint minus actual value.
+    pub following_error: Position,
+    /// True position of the slide, in the machine frame of the plant.
+    pub slide: Position,
+    /// Actual value minus ideal position (MON-01); zero on everything but a synchronous axis.
+    pub synchronism_difference: Position,
+}
+
+/// One parameter of an alarm, `%1` to `%4` in its text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Parameter {
+    /// Not used by this alarm.
+    #[default]
+    None,
+    /// A channel, shown by its name.
+    Channel(ChannelNumber),
+    /// A machine axis, shown by its name.
+    Axis(AxisNumber),
+    /// A number: a reason, a code, a grouping.
+    Number(i64),
+}
+
+/// Number of an alarm in the manual's list; from [`AlarmNumber::OWN`] on, one that has only a name of our own (O-18).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct AlarmNumber(pub u32);
+
+impl AlarmNumber {
+    /// The first number that stands for a name of our own and is never shown.
+    pub const OWN: u32 = 1_000_000;
+}
+
+/// An alarm or message that is pending.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RaisedAlarm {
+    /// Which one.
+    pub number: AlarmNumber,
+    /// Whose.
+    pub place: Place,
+    /// `%1` to `%4`.
+    pub parameters: [Parameter; 4],
+}
+
+/// The alarms that are pending, in order of number and place; bounded, because a list on a control is.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Alarms {
+    raised: Vec<RaisedAlarm>,
+}
+
+impl Alarms {
+    /// How many alarms can be pending at once.
+    pub const CAPACITY: usize = 256;
+
+    /// An empty list with all the room it will ever need.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { raised: Vec::with_capacity(Self::CAPACITY) }
+    }
+
+    /// Takes over what is pending now, in order of number and place.
+    pub fn publish(&mut self, pending: impl Iterator<Item = RaisedAlarm>) {
+        self.raised.clear();
+        self.raised.extend(pending.take(Self::CAPACITY));
+        self.raised.sort_unstable_by_key(|alarm| (alarm.number, alarm.place));
+    }
+
+    /// All that are pending.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &RaisedAlarm> {
+        self.raised.iter()
+    }
+
+    /// How many are pending.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.raised.len()
+    }
+
+    /// The pending alarm of this number, at this place if one is named.
+    #[must_use]
+    pub fn find(&self, number: AlarmNumber, place: Option<Place>) -> Option<&RaisedAlarm> {
+        self.raised.iter().find(|alarm| alarm.number == number && place.is_none_or(|place| alarm.place == place))
+    }
+}
+
+/// Everything that the control shows beside bits.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Variables {
+    /// The values of each machine axis.
+    pub axes: PerAxis<AxisValues>,
+    /// What is pending.
+    pub alarms: Alarms,
+}
+
+/// The texts behind the numbers, given by the control.
+pub trait Describe {
+    /// The names of axes and channels.
+    fn names(&self) -> &Names;
+    /// The alarm's text with its parameters filled in.
+    fn alarm_text(&self, alarm: &RaisedAlarm) -> String;
+    /// The alarm as it is called: its number, or a name of our own.
+    fn alarm_name(&self, number: AlarmNumber) -> String;
+    /// The number behind a name of our own.
+    fn alarm_number(&self, name: &str) -> Option<AlarmNumber>;
+    /// A rule by its number.
+    fn rule(&self, rule: RuleNumber) -> Rule;
+}
