@@ -1,0 +1,26 @@
+//! The axis, dialect-free: setpoint profiles, position control, the drive's answer, encoders, and the one
+//! [`Coupling`] core that every gantry uses.
+//!
+//! Everything here is stepped by whole cycles with a cycle time in seconds; positions are whole increments, and a
+//! fraction of an increment is carried, never lost. Arithmetic is `+ − × ÷ sqrt` and comparisons only, so that every
+//! build and machine computes the same bits.
+
+mod coupling;
+mod encoder;
+mod profile;
+mod servo;
+
+pub use coupling::{Coupling, Difference, Stage};
+pub use encoder::{Encoder, EncoderSignal};
+pub use profile::{Limits, Setpoint};
+pub use servo::{Drive, velocity_command};
+
+/// Adds a movement in increments to a position, carrying the fraction.
+pub(crate) fn advance(position: crate::units::Position, carry: &mut f64, movement: f64) -> crate::units::Position {
+    let wanted = movement + *carry;
+    let whole = wanted.round();
+    *carry = wanted - whole;
+    #[expect(clippy::cast_possible_truncation, reason = "a cycle's movement fits by far; the cast saturates")]
+    let whole = whole as i64;
+    crate::units::Position::new(position.increments().wrapping_add(whole))
+}

@@ -1,0 +1,92 @@
+//! Position control and the drive behind it, run MD10070 / MD10060 times in an interpolation cycle.
+//!
+//! The speed loop answers as PT1, discretised as `a = T / (τ + T)`; that is stable for every τ ≥ 0.
+
+use serde::{Deserialize, Serialize};
+
+use crate::units::Position;
+
+/// The velocity that position control asks for, in increments per second.
+///
+/// `deviation` is setpoint minus actual value; what is smaller than half an encoder count cannot be seen and asks
+/// for nothing. `feed_forward` is the share of the setpoint velocity that is passed on (0 without feed-forward).
+#[must_use]
+pub fn velocity_command(deviation: Position, gain: f64, half_count: Position, setpoint_velocity: f64, feed_forward: f64) -> f64 {
+    let seen = if deviation.abs() <= half_count { 0.0 } else { deviation.increments() as f64 };
+    seen * gain + setpoint_velocity * feed_forward
+}
+
+/// A drive: the velocity of its motor, seen at the slide.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Drive {
+    velocity: f64,
+    carry: f64,
+}
+
+impl Drive {
+    /// The speed loop's answer to a command, one position-control cycle later.
+    pub fn answer(&mut self, command: f64, time_constant: f64, cycle: f64) {
+        let share = cycle / (time_constant + cycle);
+        self.velocity += share * (command - self.velocity);
+        // Far below one increment per hour: nothing moves any more, and arithmetic stays away from denormals.
+        if self.velocity.abs() < 1e-4 {
+            self.velocity = 0.0;
+        }
+    }
+
+    /// Its velocity in increments per second.
+    #[must_use]
+    pub const fn velocity(&self) -> f64 {
+        self.velocity
+    }
+
+    /// Something holds or carries it: the motor has this velocity now.
+    pub fn force(&mut self, velocity: f64) {
+        self.velocity = velocity;
+    }
+
+    /// Moves a slide for one cycle.
+    #[must_use]
+    pub fn moved(&mut self, slide: Position, cycle: f64) -> Position {
+        super::advance(slide, &mut self.carry, self.velocity * cycle)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CYCLE: f64 = 0.002;
+
+    #[test]
+    fn the_drive_answers_as_pt1() {
+        let mut drive = Drive::default();
+        for _ in 0..3 {
+            drive.answer(1000.0, 0.004, CYCLE);
+        }
+        // a = 2/(4+2) = 1/3; after three cycles 1 − (2/3)³ = 19/27 of the command.
+        assert!((drive.velocity() - 1000.0 * 19.0 / 27.0).abs() < 1e-9);
+    }
+
+    /// DYN-05 (without feed-forward): the following error at constant velocity is v/Kv.
+    #[test]
+    fn the_following_error_is_velocity_over_gain() {
+        let (gain, velocity) = (1000.0 / 60.0, 100e6);
+        let (mut setpoint, mut slide, mut drive) = (Position::ZERO, Position::ZERO, Drive::default());
+        for _ in 0..2_000 {
+            setpoint += Position::new(200_000);
+            let command = velocity_command(setpoint - slide, gain, Position::new(50), velocity, 0.0);
+            drive.answer(command, 0.003, CYCLE);
+            slide = drive.moved(slide, CYCLE);
+        }
+        // 100 mm/s ÷ 16.667 1/s = 6 mm, plus the one cycle (0.2 mm) that the setpoint is ahead in this order.
+        let error = (setpoint - slide).user();
+        assert!((error - 6.0).abs() < 0.201, "{error}");
+    }
+
+    #[test]
+    fn less_than_half_a_count_asks_for_nothing() {
+        assert_eq!(velocity_command(Position::new(50), 16.0, Position::new(50), 0.0, 0.0).to_bits(), 0.0_f64.to_bits());
+        assert!(velocity_command(Position::new(51), 16.0, Position::new(50), 0.0, 0.0) > 0.0);
+    }
+}
