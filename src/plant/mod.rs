@@ -3,6 +3,6 @@
 mod definition;
 
 pub use definition::{
-    AxisPlant, Bridge, Cam, Db11Byte5Bit2, Drive, EncoderKind, EncoderPlant, Given, Input, LimitSwitch,
-    PlantDefinition,
+    AxisPlant, Bridge, Cam, Db11Byte5Bit2, Drive, EncoderKind, EncoderPlant, Given, Input,
+    LimitSwitch, PlantDefinition,
 };

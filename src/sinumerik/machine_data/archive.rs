@@ -12,8 +12,8 @@ use crate::source::{Place, Problem, unreadable};
 use crate::units::{AxisNumber, ChannelNumber};
 
 use super::catalogue::{by_identifier, by_number, nearest_identifier};
-use super::table::Scope;
-use super::target::resolve;
+use super::table::{Datum, numbered};
+use super::target::{resolve, split_indices};
 use super::{MachineData, Owner, Target, Value, ascii, binary};
 
 /// How bad a finding is.
@@ -34,7 +34,7 @@ pub struct Finding {
     pub place: Option<Place>,
     /// The number of the datum, if it is known.
     pub number: Option<u32>,
-    /// The identifier as it was written or as the catalogue has it; may be empty.
+    /// The identifier with its prefix; may be empty.
     pub identifier: String,
     /// What was expected and what came.
     pub what: String,
@@ -52,7 +52,7 @@ impl fmt::Display for Finding {
             Severity::Warning => "warning: ",
             Severity::Error => "error: ",
         })?;
-        let number = self.number.map(|number| format!("MD{number}")).unwrap_or_default();
+        let number = self.number.map(numbered).unwrap_or_default();
         let name = [number.as_str(), self.identifier.as_str()].join(" ");
         if !name.trim().is_empty() {
             write!(f, "{}: ", name.trim())?;
@@ -68,20 +68,36 @@ impl fmt::Display for Finding {
 impl From<Problem> for Finding {
     fn from(problem: Problem) -> Self {
         let Problem { place, what, cure } = problem;
-        Self { severity: Severity::Error, place, number: None, identifier: String::new(), what, cure }
+        Self {
+            severity: Severity::Error,
+            place,
+            number: None,
+            identifier: String::new(),
+            what,
+            cure,
+        }
     }
 }
 
 /// One problem for the first of the findings that refused an archive, saying how many more there are.
 #[must_use]
 pub fn refusal(findings: &[Finding]) -> Problem {
-    let Some(first) = findings.first() else { return Problem::new("the machine data were refused", "") };
-    let name = first.number.map(|number| format!("MD{number} {}: ", first.identifier)).unwrap_or_default();
+    let Some(first) = findings.first() else {
+        return Problem::new("the machine data were refused", "");
+    };
+    let name = first
+        .number
+        .map(|number| format!("{} {}: ", numbered(number), first.identifier))
+        .unwrap_or_default();
     let more = match findings.len() - 1 {
         0 => String::new(),
         more => format!("; `machine-data check` shows {more} more"),
     };
-    Problem { place: first.place.clone(), what: format!("{name}{}{more}", first.what), cure: first.cure.clone() }
+    Problem {
+        place: first.place.clone(),
+        what: format!("{name}{}{more}", first.what),
+        cure: first.cure.clone(),
+    }
 }
 
 /// An assignment that means no datum of the catalogue: kept as it stands, to be written back.
@@ -129,7 +145,12 @@ impl fmt::Display for Summary {
             self.taken, self.unknown
         )?;
         for member in self.members.iter().filter(read) {
-            writeln!(f, "  {}: {} assignments", member.name, member.assignments.unwrap_or_default())?;
+            writeln!(
+                f,
+                "  {}: {} assignments",
+                member.name,
+                member.assignments.unwrap_or_default()
+            )?;
         }
         for member in self.members.iter().filter(|member| !read(member)) {
             writeln!(f, "  left: {}", member.name)?;
@@ -139,7 +160,7 @@ impl fmt::Display for Summary {
 }
 
 /// An archive that was read as a whole.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Archive {
     /// The values, with defaults where nothing was given.
     pub data: MachineData,
@@ -151,6 +172,13 @@ pub struct Archive {
     pub findings: Vec<Finding>,
     /// What was done with the files.
     pub summary: Summary,
+}
+
+/// Only the summary: the values of 31 axes fill screens.
+impl fmt::Debug for Archive {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Archive({})", self.summary)
+    }
 }
 
 /// An assignment as a reader found it.
@@ -178,17 +206,33 @@ impl Archive {
     pub fn load(files: &[PathBuf]) -> Result<Self, Vec<Finding>> {
         let mut sources = Vec::new();
         for path in files {
-            let bytes = std::fs::read(path).map_err(|error| vec![Finding::from(unreadable(path, &error))])?;
+            let bytes = std::fs::read(path)
+                .map_err(|error| vec![Finding::from(unreadable(path, &error))])?;
             sources.push((path.display().to_string(), bytes));
         }
-        Self::read(sources.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())))
+        Self::read(
+            sources
+                .iter()
+                .map(|(name, bytes)| (name.as_str(), bytes.as_slice())),
+        )
     }
 
     /// Reads the contents of files, each with the name that messages shall use.
     ///
+    /// ```
+    /// use opennck::sinumerik::machine_data::Archive;
+    ///
+    /// let file = ("machine.tea", b"N37100 $MA_GANTRY_AXIS_TYPE[AX3]=11\n".as_slice());
+    /// let archive = Archive::read([file]).unwrap();
+    /// let target = archive.data.parse_target("37100[AX3]").unwrap();
+    /// assert!(archive.is_given(&target));
+    /// ```
+    ///
     /// # Errors
     /// Every finding, if one of them is an error; nothing is loaded then.
-    pub fn read<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> Result<Self, Vec<Finding>> {
+    pub fn read<'a>(
+        files: impl IntoIterator<Item = (&'a str, &'a [u8])>,
+    ) -> Result<Self, Vec<Finding>> {
         let mut reading = Reading::default();
         for (name, bytes) in files {
             if binary::is_binary(bytes) {
@@ -203,7 +247,11 @@ impl Archive {
     }
 
     fn from_reading(reading: Reading) -> Result<Self, Vec<Finding>> {
-        let Reading { lines, mut findings, members } = reading;
+        let Reading {
+            lines,
+            mut findings,
+            members,
+        } = reading;
         let mut data = MachineData::default();
         let mut known = Vec::new();
         let mut unknown = BTreeMap::new();
@@ -213,7 +261,10 @@ impl Archive {
                 Ok(None) => {
                     // Only data of a channel differ by the section they stand in.
                     let per_channel = line.name.starts_with("$MC") || line.name.starts_with("$SC");
-                    let key = (per_channel.then_some(line.channel), line.name.to_ascii_uppercase());
+                    let key = (
+                        per_channel.then_some(line.channel),
+                        line.name.to_ascii_uppercase(),
+                    );
                     unknown.insert(key, (order, line));
                 }
                 Err(finding) => findings.push(finding),
@@ -234,7 +285,7 @@ impl Archive {
                         severity: Severity::Error,
                         place: Some(line.place),
                         number: Some(datum.number),
-                        identifier: datum.identifier.to_owned(),
+                        identifier: datum.full_identifier(),
                         what: problem.what,
                         cure: problem.cure,
                     });
@@ -243,16 +294,33 @@ impl Archive {
             };
             given.insert(target, line.place);
         }
-        if findings.iter().any(|finding| finding.severity == Severity::Error) {
-            findings.sort_by(|a, b| b.severity.cmp(&a.severity).then_with(|| a.place.cmp(&b.place)));
+        if findings
+            .iter()
+            .any(|finding| finding.severity == Severity::Error)
+        {
+            findings.sort_by(|a, b| {
+                b.severity
+                    .cmp(&a.severity)
+                    .then_with(|| a.place.cmp(&b.place))
+            });
             return Err(findings);
         }
         let mut unknown: Vec<_> = unknown.into_values().collect();
         unknown.sort_by_key(|(order, _)| *order);
         let unknown: Vec<_> = unknown.into_iter().map(|(_, line)| line.into()).collect();
         findings.extend(unknown_findings(&unknown));
-        let summary = Summary { members, taken: given.len(), unknown: unknown.len() };
-        Ok(Self { data, given, unknown, findings, summary })
+        let summary = Summary {
+            members,
+            taken: given.len(),
+            unknown: unknown.len(),
+        };
+        Ok(Self {
+            data,
+            given,
+            unknown,
+            findings,
+            summary,
+        })
     }
 
     /// Whether this value was given explicitly.
@@ -264,20 +332,36 @@ impl Archive {
     /// Whether any value of this datum was given explicitly for this owner.
     #[must_use]
     pub fn is_given_for(&self, number: u32, owner: Owner) -> bool {
-        self.given.keys().any(|target| target.datum().number == number && target.owner() == owner)
+        self.given
+            .keys()
+            .any(|target| target.datum().number == number && target.owner() == owner)
     }
 
     /// Whether any axis-specific datum was given for this machine axis: the machine has it.
     #[must_use]
     pub fn given_axis(&self, axis: AxisNumber) -> bool {
-        self.given.keys().any(|target| target.owner() == Owner::Axis(axis))
+        self.given
+            .keys()
+            .any(|target| target.owner() == Owner::Axis(axis))
     }
 }
 
 impl From<Line> for Assignment {
     fn from(line: Line) -> Self {
-        let Line { place, number, name, channel, value } = line;
-        Self { place, number, name, channel, value }
+        let Line {
+            place,
+            number,
+            name,
+            channel,
+            value,
+        } = line;
+        Self {
+            place,
+            number,
+            name,
+            channel,
+            value,
+        }
     }
 }
 
@@ -285,7 +369,7 @@ impl From<Line> for Assignment {
 const FIRST_DATUM: u32 = 9_000;
 
 /// The datum that a line means; `None` where the catalogue does not have it.
-fn known_datum(line: &Line) -> Result<Option<&'static super::Datum>, Finding> {
+fn known_datum(line: &Line) -> Result<Option<&'static Datum>, Finding> {
     let identifier = line.name.split('[').next().unwrap_or_default().trim();
     let number = line.number.filter(|number| *number >= FIRST_DATUM);
     let error = |what: String, cure: String| Finding {
@@ -297,34 +381,50 @@ fn known_datum(line: &Line) -> Result<Option<&'static super::Datum>, Finding> {
         cure,
     };
     // Without a prefix a name means a variable of the user, not a machine datum.
-    let by_name = identifier.starts_with('$').then(|| by_identifier(identifier)).flatten();
+    let by_name = identifier
+        .starts_with('$')
+        .then(|| by_identifier(identifier))
+        .flatten();
     match (by_name, number.and_then(by_number)) {
         (Some(datum), _) if number.is_none_or(|number| number == datum.number) => Ok(Some(datum)),
         (Some(datum), _) => Err(error(
-            format!("expected N{} before {identifier}, found N{}", datum.number, number.unwrap_or_default()),
-            "number and identifier must mean the same datum; correct one, or leave the number away".to_owned(),
+            format!(
+                "expected N{} before {identifier}, found N{}",
+                datum.number,
+                number.unwrap_or_default()
+            ),
+            "number and identifier must mean the same datum; correct one, or leave the number away"
+                .to_owned(),
         )),
         (None, Some(datum)) => Err(error(
             format!("expected {datum} by its number, found {identifier}"),
-            nearest_identifier(identifier)
-                .map_or_else(|| "correct the number or the identifier".to_owned(), |near| format!("did you mean `{near}`?")),
+            nearest_identifier(identifier).map_or_else(
+                || "correct the number or the identifier".to_owned(),
+                |near| format!("did you mean `{near}`?"),
+            ),
         )),
         (None, None) => Ok(None),
     }
 }
 
 /// Puts a known datum into the values.
-fn take(datum: &'static super::Datum, line: &Line, data: &mut MachineData) -> Result<Target, Problem> {
-    let (_, indices) = super::target::split_indices(&line.name).ok_or_else(|| {
+fn take(datum: &'static Datum, line: &Line, data: &mut MachineData) -> Result<Target, Problem> {
+    let (_, indices) = split_indices(&line.name).ok_or_else(|| {
         Problem::new(
-            format!("expected at most an index and an axis in brackets, found `{}`", line.name),
+            format!(
+                "expected at most an index and an axis in brackets, found `{}`",
+                line.name
+            ),
             "write `[AX1]`, `[0,AX1]` or `[0]`",
         )
     })?;
     let target = resolve(datum, &indices, line.channel, data)?;
     let value = Value::parse(&line.value).ok_or_else(|| {
         Problem::new(
-            format!("expected a {} for {datum}, found `{}`", datum.kind, line.value),
+            format!(
+                "expected a {} for {datum}, found `{}`",
+                datum.kind, line.value
+            ),
             "values are written as 12, 1.5, 1EX-05, 'H1c', TRUE or \"text\"",
         )
     })?;
@@ -366,24 +466,24 @@ pub fn files_of(machine: &Path) -> Result<Vec<PathBuf>, Problem> {
         files.push(entry.map_err(|error| unreadable(machine, &error))?.path());
     }
     let has = |path: &Path, wanted: &[&str]| {
-        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-        wanted.iter().any(|wanted| extension.eq_ignore_ascii_case(wanted))
+        let extension = path
+            .extension()
+            .and_then(|extension| extension.to_str())
+            .unwrap_or_default();
+        wanted
+            .iter()
+            .any(|wanted| extension.eq_ignore_ascii_case(wanted))
     };
     files.retain(|path| path.is_file() && has(path, &["tea", "ini", "mpf", "arc"]));
     files.sort();
     if files.len() > 1 && files.iter().any(|path| has(path, &["arc"])) {
         return Err(Place::file(&machine.display().to_string()).problem(
-            format!("expected one binary archive or ASCII archives, found {} archives of both kinds", files.len()),
+            format!(
+                "expected one binary archive or ASCII archives, found {} archives of both kinds",
+                files.len()
+            ),
             "keep one `.arc`, or only `.tea`, `.ini` and `.mpf`",
         ));
     }
     Ok(files)
-}
-
-/// Whether a name may belong to a channel: used by the writer, which writes a section for each.
-pub(super) const fn section_of(scope: Scope, owner: Owner) -> ChannelNumber {
-    match (scope, owner) {
-        (Scope::Channel, Owner::Channel(channel)) => channel,
-        (Scope::General | Scope::Setting | Scope::Axis | Scope::Channel, _) => ChannelNumber::FIRST,
-    }
 }

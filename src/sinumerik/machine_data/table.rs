@@ -103,22 +103,43 @@ pub struct Range {
 
 impl Range {
     /// Any value of the type.
-    pub const ANY: Self = Self { minimum: None, maximum: None, above_minimum: false };
+    pub const ANY: Self = Self {
+        minimum: None,
+        maximum: None,
+        above_minimum: false,
+    };
     /// Zero or more.
-    pub const NOT_NEGATIVE: Self = Self { minimum: Some(0.0), ..Self::ANY };
+    pub const NOT_NEGATIVE: Self = Self {
+        minimum: Some(0.0),
+        ..Self::ANY
+    };
     /// More than zero.
-    pub const POSITIVE: Self = Self { minimum: Some(0.0), above_minimum: true, ..Self::ANY };
+    pub const POSITIVE: Self = Self {
+        minimum: Some(0.0),
+        above_minimum: true,
+        ..Self::ANY
+    };
 
     /// From one value to another, both allowed.
     #[must_use]
     pub const fn between(minimum: f64, maximum: f64) -> Self {
-        Self { minimum: Some(minimum), maximum: Some(maximum), above_minimum: false }
+        Self {
+            minimum: Some(minimum),
+            maximum: Some(maximum),
+            above_minimum: false,
+        }
     }
 
     /// Whether a value is allowed.
     #[must_use]
     pub fn contains(&self, value: f64) -> bool {
-        let low = self.minimum.is_none_or(|minimum| if self.above_minimum { value > minimum } else { value >= minimum });
+        let low = self.minimum.is_none_or(|minimum| {
+            if self.above_minimum {
+                value > minimum
+            } else {
+                value >= minimum
+            }
+        });
         low && self.maximum.is_none_or(|maximum| value <= maximum)
     }
 }
@@ -163,9 +184,26 @@ pub struct Datum {
 /// The number and the full name, `MD37100 $MA_GANTRY_AXIS_TYPE`.
 impl fmt::Display for Datum {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let kind = if self.scope == Scope::Setting { "SD" } else { "MD" };
-        write!(f, "{kind}{} {}{}", self.number, self.scope.prefix(), self.identifier)
+        write!(f, "{} {}", numbered(self.number), self.full_identifier())
     }
+}
+
+impl Datum {
+    /// The identifier with its prefix, `$MA_GANTRY_AXIS_TYPE`.
+    #[must_use]
+    pub fn full_identifier(&self) -> String {
+        format!("{}{}", self.scope.prefix(), self.identifier)
+    }
+}
+
+/// A number as people write it: setting data have the numbers from 41000 to 43999, all others are machine data.
+pub(super) fn numbered(number: u32) -> String {
+    let kind = if (41_000..44_000).contains(&number) {
+        "SD"
+    } else {
+        "MD"
+    };
+    format!("{kind}{number}")
 }
 
 /// A datum and the way to its field.
@@ -243,7 +281,10 @@ macro_rules! whole_number {
                 Value::Integer(i64::from(*self))
             }
             fn from_value(value: &Value) -> Result<Self, String> {
-                value.whole().and_then(|whole| Self::try_from(whole).ok()).ok_or_else(|| $expected.to_owned())
+                value
+                    .whole()
+                    .and_then(|whole| Self::try_from(whole).ok())
+                    .ok_or_else(|| $expected.to_owned())
             }
         }
     };
@@ -258,7 +299,10 @@ impl Scalar for f64 {
         Value::Real(*self)
     }
     fn from_value(value: &Value) -> Result<Self, String> {
-        value.number().filter(|number| number.is_finite()).ok_or_else(|| "a finite number".to_owned())
+        value
+            .number()
+            .filter(|number| number.is_finite())
+            .ok_or_else(|| "a finite number".to_owned())
     }
 }
 
@@ -302,13 +346,18 @@ impl<T: Scalar> Field for T {
 
 impl<T: Scalar, const N: usize> Field for [T; N] {
     const KIND: Kind = T::KIND;
-    #[expect(clippy::cast_possible_truncation, reason = "no datum has more than 31 values")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "no datum has more than 31 values"
+    )]
     const COUNT: u8 = N as u8;
     fn value(&self, index: usize) -> Option<Value> {
         self.get(index).map(Scalar::value)
     }
     fn store(&mut self, index: usize, value: &Value) -> Result<(), String> {
-        let place = self.get_mut(index).ok_or_else(|| format!("an index from 0 to {}", N - 1))?;
+        let place = self
+            .get_mut(index)
+            .ok_or_else(|| format!("an index from 0 to {}", N - 1))?;
         *place = T::from_value(value)?;
         Ok(())
     }
@@ -332,7 +381,10 @@ macro_rules! machine_data {
         #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
         pub struct $table {
             $(
-                #[doc = concat!("MD", $number, " ", stringify!($identifier), ":", $($doc,)+ "")]
+                #[doc = concat!(
+                    "`", $number, " ", stringify!($identifier), "`:", $($doc,)+
+                    " (unit `", $unit, "`, acts by ", stringify!($effect), ")."
+                )]
                 pub $field: $type,
             )+
         }

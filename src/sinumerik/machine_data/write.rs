@@ -5,8 +5,7 @@ use std::fmt::Write;
 
 use crate::units::ChannelNumber;
 
-use super::Archive;
-use super::archive::section_of;
+use super::{Archive, Owner};
 
 impl Archive {
     /// The archive as an ASCII file: what was given and what is unknown, in sections by channel. Read again it is the
@@ -17,14 +16,29 @@ impl Archive {
         sections.insert(ChannelNumber::FIRST, String::new());
         for target in self.given.keys() {
             let datum = target.datum();
-            let Some(value) = self.data.get(target) else { continue };
-            let section = sections.entry(section_of(datum.scope, target.owner())).or_default();
+            let Some(value) = self.data.get(target) else {
+                continue;
+            };
+            // The control exports general and axis data in the section of channel 1.
+            let channel = match target.owner() {
+                Owner::Channel(channel) => channel,
+                Owner::Nck | Owner::Axis(_) => ChannelNumber::FIRST,
+            };
+            let section = sections.entry(channel).or_default();
             // Writing into a String cannot fail.
-            let _ = writeln!(section, "N{} {target}={}", datum.number, value.export(datum.kind));
+            let _ = writeln!(
+                section,
+                "N{} {target}={}",
+                datum.number,
+                value.export(datum.kind)
+            );
         }
         for unknown in &self.unknown {
             let section = sections.entry(unknown.channel).or_default();
-            let number = unknown.number.map(|number| format!("N{number} ")).unwrap_or_default();
+            let number = unknown
+                .number
+                .map(|number| format!("N{number} "))
+                .unwrap_or_default();
             let _ = writeln!(section, "{number}{}={}", unknown.name, unknown.value);
         }
         let mut text = "%_N_INITIAL_INI\n;$PATH=/\nMETRIC\n\n".to_owned();
