@@ -2,6 +2,7 @@
 
 pub mod image;
 pub mod motion;
+pub mod plant;
 pub mod plc;
 pub mod sinumerik;
 pub mod source;
