@@ -119,6 +119,8 @@ pub struct Axis {
     pub approach: Approach,
     /// A traversing key started an approach and has not been released since.
     pub key_used: bool,
+    /// Direction of the key that started the approach; 0 for channel-specific referencing.
+    pub approach_key: i8,
     /// Motion wanted, 64.4 and 64.5: +1, −1 or 0.
     pub traverse_request: i8,
     /// Motion commanded, 64.6 and 64.7: +1, −1 or 0.
@@ -151,6 +153,7 @@ impl Default for Axis {
             enabling: Enabling::default(),
             approach: Approach::default(),
             key_used: false,
+            approach_key: 0,
             traverse_request: 0,
             traverse_command: 0,
             feed_factor: 1.0,

@@ -135,7 +135,7 @@ impl State {
         axis.sense(&self.feedback[number]);
         axis.setpoint = crate::motion::Setpoint::at(axis.actual);
         if aborts {
-            self.abort_approach(number, true, event);
+            self.abort_approach(number, event);
         }
     }
 

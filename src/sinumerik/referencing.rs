@@ -143,6 +143,12 @@ impl Approach {
         self.cause
     }
 
+    /// MD34100 as it was selected for the latest approach.
+    #[must_use]
+    pub const fn set_position(&self) -> Position {
+        self.set_position
+    }
+
     /// Ends it, from wherever it is.
     pub fn abort(&mut self) {
         self.phase = Phase::Idle;
