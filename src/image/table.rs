@@ -65,7 +65,7 @@ macro_rules! signals {
             /// The last byte of the run in its data block.
             pub const LAST: u16 = $last;
             /// The signals of the run: bits in address order, then numbers in address order.
-            pub const SIGNALS: &'static [crate::image::Signal] = &[
+            pub const SIGNALS: &'static [$crate::image::Signal] = &[
                 $($crate::image::table::bits(
                     stringify!($get), $crate::image::Block::$block, $crate::image::Writer::$writer,
                     stringify!($kind), $byte, &[$high $(, $low)?], concat!($($doc),+),
@@ -86,10 +86,10 @@ macro_rules! signals {
         const _: () = $crate::image::table::check($name::SIGNALS, $first, $last);
 
         #[cfg(test)]
-        impl crate::image::table::Accessors for $name {
+        impl $crate::image::table::Accessors for $name {
             #[rustfmt::skip]
-            fn accessors() -> Vec<crate::image::table::Accessor<Self>> {
-                use crate::image::table::Raw;
+            fn accessors() -> Vec<$crate::image::table::Accessor<Self>> {
+                use $crate::image::table::Raw;
                 vec![
                     $((stringify!($get), |run| run.$get().raw(), |run, raw| run.$set(Raw::of(raw))),)*
                     $($((
