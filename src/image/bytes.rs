@@ -1,0 +1,157 @@
+//! Areas of plain bytes (inputs, outputs, flags, own data blocks), and how bytes are stored.
+
+use std::fmt;
+use std::ops::{Deref, DerefMut};
+use std::sync::Arc;
+
+use serde::de::{Error, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// An area of bytes, cheap to clone: copies share the bytes until one of them writes.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Bytes(Arc<Vec<u8>>);
+
+impl Bytes {
+    /// So many bytes, all 0.
+    #[must_use]
+    pub fn zeroed(length: usize) -> Self {
+        Self(Arc::new(vec![0; length]))
+    }
+
+    /// One bit, `IB3` bit 4 for `I3.4`; `false` beyond the end.
+    #[must_use]
+    pub fn bit(&self, byte: usize, bit: u8) -> bool {
+        self.byte(byte) >> (bit % 8) & 1 == 1
+    }
+
+    /// Sets one bit; nothing happens beyond the end.
+    pub fn set_bit(&mut self, byte: usize, bit: u8, value: bool) {
+        let mask = 1 << (bit % 8);
+        let old = self.byte(byte);
+        self.set_byte(byte, if value { old | mask } else { old & !mask });
+    }
+
+    /// One byte; 0 beyond the end.
+    #[must_use]
+    pub fn byte(&self, byte: usize) -> u8 {
+        self.0.get(byte).copied().unwrap_or(0)
+    }
+
+    /// Sets one byte; nothing happens beyond the end.
+    pub fn set_byte(&mut self, byte: usize, value: u8) {
+        if self.0.get(byte).is_some_and(|old| *old != value) {
+            Arc::make_mut(&mut self.0)[byte] = value;
+        }
+    }
+
+    /// Two bytes, most significant first.
+    #[must_use]
+    pub fn word(&self, byte: usize) -> u16 {
+        u16::from_be_bytes([self.byte(byte), self.byte(byte + 1)])
+    }
+
+    /// Sets two bytes, most significant first.
+    pub fn set_word(&mut self, byte: usize, value: u16) {
+        for (index, part) in value.to_be_bytes().into_iter().enumerate() {
+            self.set_byte(byte + index, part);
+        }
+    }
+
+    /// Four bytes, most significant first.
+    #[must_use]
+    pub fn double(&self, byte: usize) -> u32 {
+        u32::from(self.word(byte)) << 16 | u32::from(self.word(byte + 2))
+    }
+
+    /// Sets four bytes, most significant first.
+    pub fn set_double(&mut self, byte: usize, value: u32) {
+        for (index, part) in value.to_be_bytes().into_iter().enumerate() {
+            self.set_byte(byte + index, part);
+        }
+    }
+
+    /// A REAL.
+    #[must_use]
+    pub fn real(&self, byte: usize) -> f32 {
+        f32::from_bits(self.double(byte))
+    }
+
+    /// Sets a REAL.
+    pub fn set_real(&mut self, byte: usize, value: f32) {
+        self.set_double(byte, value.to_bits());
+    }
+}
+
+impl From<Vec<u8>> for Bytes {
+    fn from(bytes: Vec<u8>) -> Self {
+        Self(Arc::new(bytes))
+    }
+}
+
+impl Deref for Bytes {
+    type Target = [u8];
+    fn deref(&self) -> &[u8] {
+        &self.0
+    }
+}
+
+impl DerefMut for Bytes {
+    fn deref_mut(&mut self) -> &mut [u8] {
+        Arc::make_mut(&mut self.0).as_mut_slice()
+    }
+}
+
+impl Serialize for Bytes {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_bytes(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Bytes {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        read(deserializer).map(Self::from)
+    }
+}
+
+/// Reads bytes in whichever form the format stored them.
+fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<u8>, D::Error> {
+    struct AnyBytes;
+
+    impl<'de> Visitor<'de> for AnyBytes {
+        type Value = Vec<u8>;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("bytes")
+        }
+
+        fn visit_bytes<E: Error>(self, bytes: &[u8]) -> Result<Vec<u8>, E> {
+            Ok(bytes.to_vec())
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<Vec<u8>, A::Error> {
+            let mut bytes = Vec::new();
+            while let Some(byte) = sequence.next_element()? {
+                bytes.push(byte);
+            }
+            Ok(bytes)
+        }
+    }
+
+    deserializer.deserialize_bytes(AnyBytes)
+}
+
+/// Reads a part of the interface, whose length is fixed.
+pub(super) fn read_part<'de, D, T>(deserializer: D) -> Result<T, D::Error>
+where
+    D: Deserializer<'de>,
+    T: zerocopy::FromBytes,
+{
+    let bytes = read(deserializer)?;
+    T::read_from_bytes(&bytes).map_err(|_| {
+        D::Error::custom(format!(
+            "expected {} bytes of the interface, found {}",
+            size_of::<T>(),
+            bytes.len()
+        ))
+    })
+}

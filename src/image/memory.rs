@@ -1,0 +1,517 @@
+//! The memory of one control: the interface by writer, and what the PLC program keeps beside it.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use zerocopy::{FromBytes, FromZeros, Immutable, IntoBytes, KnownLayout, Unaligned};
+
+use crate::source::Problem;
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
+
+use super::bytes::read_part;
+use super::places::{self, Run};
+use super::{
+    Address, Area, AxisFromNck, AxisToNck, Bytes, ChannelFromNck, ChannelHmi, ChannelToNck, Format,
+    Location, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Part,
+    Profile, Width,
+};
+
+/// What the PLC writes to the NCK. The plain bytes of the interface blocks, which the catalogue does not name, lie
+/// behind it.
+#[derive(Clone, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct ToNck {
+    /// DB10.
+    pub nck: NckToNck,
+    /// DB11.
+    pub mode_groups: PerModeGroup<ModeGroupToNck>,
+    /// DB21 to DB30.
+    pub channels: PerChannel<ChannelToNck>,
+    /// DB31 to DB61.
+    pub axes: PerAxis<AxisToNck>,
+    /// Bytes without a name.
+    pub plain: Plain,
+}
+
+/// What the NCK writes.
+#[derive(Clone, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct FromNck {
+    /// DB10.
+    pub nck: NckFromNck,
+    /// DB11.
+    pub mode_groups: PerModeGroup<ModeGroupFromNck>,
+    /// DB21 to DB30.
+    pub channels: PerChannel<ChannelFromNck>,
+    /// DB31 to DB61.
+    pub axes: PerAxis<AxisFromNck>,
+}
+
+/// What the HMI writes: strobes and selections.
+#[derive(Clone, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct Hmi {
+    /// DB10.
+    pub nck: NckHmi,
+    /// DB11.
+    pub mode_groups: PerModeGroup<ModeGroupHmi>,
+    /// DB21 to DB30.
+    pub channels: PerChannel<ChannelHmi>,
+}
+
+/// The bytes of the interface blocks outside the runs of the catalogue: plain memory, reached by address.
+#[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct Plain {
+    pub(super) nck: [u8; places::PLAIN_NCK],
+    pub(super) mode_groups: [u8; places::PLAIN_MODE_GROUPS],
+    pub(super) channels: PerChannel<[u8; places::PLAIN_CHANNEL]>,
+    pub(super) axes: PerAxis<[u8; places::PLAIN_AXIS]>,
+}
+
+impl ToNck {
+    /// DB10.
+    pub fn nck(&mut self) -> &mut NckToNck {
+        &mut self.nck
+    }
+
+    /// DB11 of a mode group.
+    pub fn mode_group(&mut self, number: ModeGroupNumber) -> &mut ModeGroupToNck {
+        &mut self.mode_groups[number]
+    }
+
+    /// DB 20 + number.
+    pub fn channel(&mut self, number: ChannelNumber) -> &mut ChannelToNck {
+        &mut self.channels[number]
+    }
+
+    /// DB 30 + number.
+    pub fn axis(&mut self, number: AxisNumber) -> &mut AxisToNck {
+        &mut self.axes[number]
+    }
+}
+
+impl FromNck {
+    /// DB10.
+    #[must_use]
+    pub fn nck(&self) -> &NckFromNck {
+        &self.nck
+    }
+
+    /// DB11 of a mode group.
+    #[must_use]
+    pub fn mode_group(&self, number: ModeGroupNumber) -> &ModeGroupFromNck {
+        &self.mode_groups[number]
+    }
+
+    /// DB 20 + number.
+    #[must_use]
+    pub fn channel(&self, number: ChannelNumber) -> &ChannelFromNck {
+        &self.channels[number]
+    }
+
+    /// DB 30 + number.
+    #[must_use]
+    pub fn axis(&self, number: AxisNumber) -> &AxisFromNck {
+        &self.axes[number]
+    }
+}
+
+impl Hmi {
+    /// DB10.
+    #[must_use]
+    pub fn nck(&self) -> &NckHmi {
+        &self.nck
+    }
+
+    /// DB11 of a mode group.
+    #[must_use]
+    pub fn mode_group(&self, number: ModeGroupNumber) -> &ModeGroupHmi {
+        &self.mode_groups[number]
+    }
+
+    /// DB 20 + number.
+    #[must_use]
+    pub fn channel(&self, number: ChannelNumber) -> &ChannelHmi {
+        &self.channels[number]
+    }
+}
+
+impl Default for ToNck {
+    fn default() -> Self {
+        Self::new_zeroed()
+    }
+}
+
+impl Default for FromNck {
+    fn default() -> Self {
+        Self::new_zeroed()
+    }
+}
+
+impl Default for Hmi {
+    fn default() -> Self {
+        Self::new_zeroed()
+    }
+}
+
+impl PartialEq for ToNck {
+    fn eq(&self, other: &Self) -> bool {
+        self.as_bytes() == other.as_bytes()
+    }
+}
+
+impl PartialEq for FromNck {
+    fn eq(&self, other: &Self) -> bool {
+        self.as_bytes() == other.as_bytes()
+    }
+}
+
+impl PartialEq for Hmi {
+    fn eq(&self, other: &Self) -> bool {
+        self.as_bytes() == other.as_bytes()
+    }
+}
+
+impl Serialize for ToNck {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_bytes(self.as_bytes())
+    }
+}
+
+impl Serialize for FromNck {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_bytes(self.as_bytes())
+    }
+}
+
+impl Serialize for Hmi {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_bytes(self.as_bytes())
+    }
+}
+
+impl<'de> Deserialize<'de> for ToNck {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        read_part(deserializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for FromNck {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        read_part(deserializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Hmi {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        read_part(deserializer)
+    }
+}
+
+/// An own data block of the PLC program.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct DataBlock {
+    /// Its number.
+    pub number: u16,
+    /// Its name, for people.
+    pub name: Option<Arc<str>>,
+    /// Its bytes.
+    pub bytes: Bytes,
+}
+
+/// The own data blocks of the PLC program, ascending by number.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Blocks(Vec<DataBlock>);
+
+impl Blocks {
+    /// All of them, ascending.
+    pub fn iter(&self) -> impl Iterator<Item = &DataBlock> {
+        self.0.iter()
+    }
+
+    /// The bytes of a block.
+    #[must_use]
+    pub fn get(&self, number: u16) -> Option<&Bytes> {
+        let index = self
+            .0
+            .binary_search_by_key(&number, |block| block.number)
+            .ok()?;
+        Some(&self.0[index].bytes)
+    }
+
+    /// The bytes of a block, to be written.
+    pub fn get_mut(&mut self, number: u16) -> Option<&mut Bytes> {
+        let index = self
+            .0
+            .binary_search_by_key(&number, |block| block.number)
+            .ok()?;
+        Some(&mut self.0[index].bytes)
+    }
+
+    /// Puts a block in, in place of one with the same number.
+    pub fn put(&mut self, block: DataBlock) {
+        match self
+            .0
+            .binary_search_by_key(&block.number, |other| other.number)
+        {
+            Ok(index) => self.0[index] = block,
+            Err(index) => self.0.insert(index, block),
+        }
+    }
+}
+
+/// All memory that PLC programs, HMIs and the NCK share. A clone shares the plain areas until one side writes them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Memory {
+    /// What the PLC writes to the NCK.
+    pub to_nck: ToNck,
+    /// What the NCK writes.
+    pub from_nck: FromNck,
+    /// What the HMI writes.
+    pub hmi: Hmi,
+    /// I.
+    pub inputs: Bytes,
+    /// Q.
+    pub outputs: Bytes,
+    /// M.
+    pub flags: Bytes,
+    /// T, two bytes each.
+    pub timers: Bytes,
+    /// C, two bytes each.
+    pub counters: Bytes,
+    /// Own data blocks.
+    pub blocks: Blocks,
+}
+
+impl Default for Memory {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Memory {
+    /// Data blocks of the basic program that exist as plain memory where no image declares them (O-24).
+    pub const STANDARD_BLOCKS: [u16; 10] = [2, 4, 5, 7, 18, 19, 20, 71, 72, 73];
+    /// How many bytes each of them has.
+    pub const STANDARD_LENGTH: usize = 256;
+
+    /// Everything 0: the interface, M 256, I 128, Q 128, T 64, C 64 bytes, and the standard blocks (O-24).
+    #[must_use]
+    pub fn new() -> Self {
+        let block = |number| DataBlock {
+            number,
+            name: None,
+            bytes: Bytes::zeroed(Self::STANDARD_LENGTH),
+        };
+        Self {
+            to_nck: ToNck::default(),
+            from_nck: FromNck::default(),
+            hmi: Hmi::default(),
+            inputs: Bytes::zeroed(128),
+            outputs: Bytes::zeroed(128),
+            flags: Bytes::zeroed(256),
+            timers: Bytes::zeroed(64),
+            counters: Bytes::zeroed(64),
+            blocks: Blocks(Self::STANDARD_BLOCKS.into_iter().map(block).collect()),
+        }
+    }
+
+    /// The bytes of a part; none for a block that does not exist.
+    #[must_use]
+    pub fn part(&self, part: Part) -> &[u8] {
+        match part {
+            Part::ToNck => self.to_nck.as_bytes(),
+            Part::FromNck => self.from_nck.as_bytes(),
+            Part::Hmi => self.hmi.as_bytes(),
+            Part::Inputs => &self.inputs,
+            Part::Outputs => &self.outputs,
+            Part::Flags => &self.flags,
+            Part::Timers => &self.timers,
+            Part::Counters => &self.counters,
+            Part::Block(number) => self.blocks.get(number).map_or(&[], |bytes| bytes),
+        }
+    }
+
+    /// The bytes of a part, to be written.
+    pub fn part_mut(&mut self, part: Part) -> &mut [u8] {
+        match part {
+            Part::ToNck => self.to_nck.as_mut_bytes(),
+            Part::FromNck => self.from_nck.as_mut_bytes(),
+            Part::Hmi => self.hmi.as_mut_bytes(),
+            Part::Inputs => &mut self.inputs,
+            Part::Outputs => &mut self.outputs,
+            Part::Flags => &mut self.flags,
+            Part::Timers => &mut self.timers,
+            Part::Counters => &mut self.counters,
+            Part::Block(number) => self.blocks.get_mut(number).map_or(&mut [], |bytes| bytes),
+        }
+    }
+
+    /// Where an address lies.
+    ///
+    /// # Errors
+    /// There is no such data block, the address lies beyond its end, or it spans bytes of two writers.
+    pub fn locate(&self, address: &Address, profile: Profile) -> Result<Location, Problem> {
+        let (bit, width) = match address.width {
+            Width::Bit(bit) => (bit, 1),
+            Width::Bits { first, last } => (first, last - first + 1),
+            Width::Byte => (0, 8),
+            Width::Word => (0, 16),
+            Width::Double => (0, 32),
+        };
+        let byte = match address.area {
+            Area::Timers | Area::Counters => u32::from(address.byte) * 2,
+            _ => u32::from(address.byte),
+        };
+        let bytes = u32::from(width).div_ceil(8);
+        let run =
+            places::run(self, address.area, byte, bytes, profile).map_err(|problem| Problem {
+                what: format!("{address}: {}", problem.what),
+                ..problem
+            })?;
+        if run.left < bytes {
+            return Err(Problem::new(
+                format!("{address} spans bytes of two writers"),
+                "read or write its bytes one by one",
+            ));
+        }
+        let mut location = Location {
+            part: run.part,
+            offset: run.offset,
+            bit,
+            width,
+            format: Format::Unsigned,
+        };
+        location.format = address
+            .format
+            .unwrap_or_else(|| super::catalogue::usual_format(location));
+        Ok(location)
+    }
+
+    /// The raw bits at a place; 0 where this memory has no such bytes.
+    #[must_use]
+    pub fn read(&self, location: Location) -> u64 {
+        let start = location.offset as usize;
+        let bytes = self
+            .part(location.part)
+            .get(start..start + location.bytes() as usize)
+            .unwrap_or(&[]);
+        let number = bytes
+            .iter()
+            .fold(0, |number, &byte| number << 8 | u64::from(byte));
+        number >> location.bit & location.mask()
+    }
+
+    /// The number at a place, signed or REAL as its format says.
+    #[must_use]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "the width was checked: the number has at most 32 bits"
+    )]
+    pub fn value(&self, location: Location) -> f64 {
+        let raw = self.read(location);
+        match location.format {
+            Format::Unsigned => raw as f64,
+            Format::Signed => {
+                let unused = 64 - u32::from(location.width);
+                ((raw << unused).cast_signed() >> unused) as f64
+            }
+            Format::Real => f64::from(f32::from_bits(raw as u32)),
+        }
+    }
+
+    /// Writes raw bits to a place; bits that do not fit are dropped, and nothing happens where this memory has no
+    /// such bytes.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "one byte after the other is taken out on purpose"
+    )]
+    pub fn write(&mut self, location: Location, raw: u64) {
+        if self.read(location) == raw & location.mask() {
+            return; // a clone that shares the bytes keeps sharing them
+        }
+        let (start, count) = (location.offset as usize, location.bytes() as usize);
+        let Some(bytes) = self.part_mut(location.part).get_mut(start..start + count) else {
+            return;
+        };
+        let (mask, raw) = (location.mask() << location.bit, raw << location.bit);
+        for (index, byte) in bytes.iter_mut().rev().enumerate() {
+            let (mask, raw) = ((mask >> (8 * index)) as u8, (raw >> (8 * index)) as u8);
+            *byte = *byte & !mask | raw & mask;
+        }
+    }
+
+    /// Copies bytes of an area or a data block, as an S7 client reads them.
+    ///
+    /// # Errors
+    /// There is no such data block, or it ends before the last byte; then `into` is unchanged or partly filled.
+    pub fn read_bytes(
+        &self,
+        area: Area,
+        start: u32,
+        into: &mut [u8],
+        profile: Profile,
+    ) -> Result<(), Problem> {
+        let mut done = 0;
+        while done < into.len() {
+            let run = self.run_of(area, start, done, into.len(), profile)?;
+            let count = (run.left as usize).min(into.len() - done);
+            let from = run.offset as usize;
+            into[done..done + count].copy_from_slice(&self.part(run.part)[from..from + count]);
+            done += count;
+        }
+        Ok(())
+    }
+
+    /// Writes bytes of an area or a data block, as an S7 client writes them, whoever the bytes belong to.
+    ///
+    /// # Errors
+    /// There is no such data block, or it ends before the last byte; then nothing is written.
+    pub fn write_bytes(
+        &mut self,
+        area: Area,
+        start: u32,
+        bytes: &[u8],
+        profile: Profile,
+    ) -> Result<(), Problem> {
+        for write in [false, true] {
+            let mut done = 0;
+            while done < bytes.len() {
+                let run = self.run_of(area, start, done, bytes.len(), profile)?;
+                let count = (run.left as usize).min(bytes.len() - done);
+                if write {
+                    let to = run.offset as usize;
+                    self.part_mut(run.part)[to..to + count]
+                        .copy_from_slice(&bytes[done..done + count]);
+                }
+                done += count;
+            }
+        }
+        Ok(())
+    }
+
+    fn run_of(
+        &self,
+        area: Area,
+        start: u32,
+        done: usize,
+        length: usize,
+        profile: Profile,
+    ) -> Result<Run, Problem> {
+        let (done, length) = (u32::try_from(done), u32::try_from(length));
+        let (Ok(done), Ok(length)) = (done, length) else {
+            return Err(Problem::new(
+                "expected at most 65536 bytes at once, found more",
+                "read less",
+            ));
+        };
+        places::run(
+            self,
+            area,
+            start.saturating_add(done),
+            length - done,
+            profile,
+        )
+    }
+}

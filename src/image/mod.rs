@@ -1,0 +1,58 @@
+//! THE INTERFACE: the bytes that NCK, PLC and HMI exchange, and every way to name them.
+//!
+//! **Memory is by writer.** What the PLC writes to the NCK is [`ToNck`], what the NCK writes is [`FromNck`], what the
+//! operator panel writes is [`Hmi`]; each is one piece of contiguous bytes. A data block as STEP 7 sees it (DB31,
+//! bytes 0 to 147) is a table of ranges over the three. So direction is the borrow checker's business: a PLC program
+//! holds `&mut ToNck` and `&FromNck` and cannot write a bit of the NCK.
+//!
+//! ```
+//! use opennck::image::{FromNck, ToNck};
+//! use opennck::units::AxisNumber;
+//!
+//! let (mut to_nck, mut from_nck) = (ToNck::default(), FromNck::default());
+//! let x = AxisNumber::FIRST;
+//! from_nck.axes[x].set_gantry_synchronization_ready_to_start(true); // DB31.DBX101.4, as the NCK does it
+//! to_nck.axis(x).set_start_gantry_synchronization(from_nck.axis(x).gantry_synchronization_ready_to_start());
+//! assert!(to_nck.axes[x].start_gantry_synchronization()); // DB31.DBX29.4
+//! ```
+//!
+//! A signal is a row of a `signals!` table ([`Signal`]); from the row come accessor, documentation, symbol and address.
+//! An [`Address`] is the STEP 7 notation, a [`Location`] the place in memory it stands for, [`Names`] the names of this
+//! machine. The 828D ([`Profile::Sinumerik828d`]) is the same memory under other data block numbers, not a second
+//! model. What the catalogue does not name is plain memory that everybody may use.
+
+mod address;
+mod bytes;
+mod catalogue;
+mod db10;
+mod db11;
+mod db21;
+mod db31;
+mod location;
+mod memory;
+mod names;
+mod override_switch;
+mod places;
+mod preset;
+mod profile_828d;
+mod signal;
+mod table;
+mod value;
+
+#[cfg(test)]
+mod tests;
+
+pub use address::{Address, Area, Format, Width};
+pub use bytes::Bytes;
+pub use catalogue::{ByteSignals, signals, signals_at};
+pub use db10::{NckFromNck, NckHmi, NckToNck};
+pub use db11::{ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck};
+pub use db21::{ChannelFromNck, ChannelHmi, ChannelToNck};
+pub use db31::{AxisFromNck, AxisToNck};
+pub use location::{Location, Part, Profile};
+pub use memory::{Blocks, DataBlock, FromNck, Hmi, Memory, Plain, ToNck};
+pub use names::Names;
+pub use override_switch::{OverrideCoding, override_code};
+pub use preset::Preset;
+pub use signal::{Block, Kind, Signal, Writer};
+pub use value::raw_value;

@@ -1,0 +1,68 @@
+//! The override switches: which code a percentage has on the interface.
+
+use super::{Block, Location, Part, signals_at};
+
+/// The per cent of the positions of the switch, from position 1: the defaults of MD12010. The positions behind the
+/// last one count as 120 % as well.
+const POSITIONS: [u8; 23] = [
+    0, 1, 2, 4, 6, 8, 10, 20, 30, 40, 50, 60, 70, 75, 80, 85, 90, 95, 100, 105, 110, 115, 120,
+];
+
+/// The code of a percentage: the position of the switch in Gray code, or the percentage itself in binary up to 200.
+/// `None` if the switch has no such position.
+#[must_use]
+pub fn override_code(percent: u16, gray: bool) -> Option<u8> {
+    let percent = u8::try_from(percent).ok()?;
+    if !gray {
+        return (percent <= 200).then_some(percent);
+    }
+    let index = POSITIONS.iter().position(|other| *other == percent)?;
+    let position = u8::try_from(index + 1).ok()?;
+    Some(position ^ position >> 1)
+}
+
+/// Which overrides are coded as positions in Gray code; all of them unless machine data say otherwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OverrideCoding {
+    /// Axial feed override, MD12000.
+    pub axis_is_gray: bool,
+    /// Feed override of the channel, MD12020.
+    pub feed_is_gray: bool,
+    /// Rapid traverse override of the channel, MD12040.
+    pub rapid_traverse_is_gray: bool,
+}
+
+impl Default for OverrideCoding {
+    fn default() -> Self {
+        Self {
+            axis_is_gray: true,
+            feed_is_gray: true,
+            rapid_traverse_is_gray: true,
+        }
+    }
+}
+
+impl OverrideCoding {
+    /// Whether the override at a place is coded in Gray; `None` if no override lies there.
+    pub(super) fn at(self, location: Location) -> Option<bool> {
+        if location.part != Part::ToNck || location.width != 8 {
+            return None;
+        }
+        let byte = signals_at(location.part, location.offset)?;
+        match (byte.block, byte.byte) {
+            (Block::Axis, 0) => Some(self.axis_is_gray),
+            (Block::Channel, 4) => Some(self.feed_is_gray),
+            (Block::Channel, 5) => Some(self.rapid_traverse_is_gray),
+            _ => None,
+        }
+    }
+
+    /// The percentages that have a code.
+    pub(super) fn known(gray: bool) -> String {
+        if gray {
+            POSITIONS.map(|percent| percent.to_string()).join(", ")
+        } else {
+            "0 to 200".to_owned()
+        }
+    }
+}

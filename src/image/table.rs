@@ -1,0 +1,204 @@
+//! The table form of a run of interface bytes: one row per signal, in address order, and everything else follows
+//! from the row: getter, setter, documentation with the address, the entry of the catalogue, and a check at compile
+//! time that the rows ascend, do not overlap and stay inside the run.
+//!
+//! A bit row reads `bool, getter, setter: byte, bit;`, a group of bits `u8, getter, setter: byte, high to low;`. A
+//! number that spans bytes is never a bit row: it stands in the block `numbers` at the end of the run and is read and
+//! written big-endian, most significant byte first, as STEP 7 does.
+
+use super::signal::{Kind, Signal};
+
+/// Makes the bytes of one run, with accessors, and its part of the catalogue.
+macro_rules! signals {
+    (
+        $(#[doc = $about:literal])+
+        pub struct $name:ident: $block:ident, $writer:ident, $first:literal to $last:literal;
+        $(
+            $(#[doc = $doc:literal])+
+            $kind:ident, $get:ident, $set:ident: $byte:literal, $high:literal $(to $low:literal)?;
+        )*
+        $(numbers {$(
+            $(#[doc = $number_doc:literal])+
+            $number:ident, $number_get:ident, $number_set:ident: $number_byte:literal;
+        )*})?
+    ) => {
+        bitfield::bitfield! {
+            $(#[doc = $about])+
+            #[derive(
+                Clone, Copy, PartialEq, Eq,
+                zerocopy::FromBytes, zerocopy::IntoBytes, zerocopy::Immutable, zerocopy::KnownLayout,
+                zerocopy::Unaligned,
+            )]
+            #[repr(transparent)]
+            pub struct $name([u8; $last - $first + 1]);
+            no default BitRange;
+            impl Debug;
+            $(
+                $(#[doc = $doc])+
+                #[doc = concat!("\n\nByte ", $byte, ", bit ", $high $(, " to ", $low)?, ".")]
+                #[inline]
+                pub $kind, $get, $set:
+                    ($byte - $first) * 8 + $high $(, ($byte - $first) * 8 + $low)?;
+            )*
+        }
+
+        $(impl $name {$(
+            $(#[doc = $number_doc])+
+            #[doc = concat!("\n\nFrom byte ", $number_byte, ", big-endian.")]
+            #[must_use]
+            pub fn $number_get(&self) -> $number {
+                let mut bytes = [0; size_of::<$number>()];
+                bytes.copy_from_slice(&self.0[$number_byte - $first..][..size_of::<$number>()]);
+                $number::from_be_bytes(bytes)
+            }
+
+            $(#[doc = $number_doc])+
+            #[doc = concat!("\n\nFrom byte ", $number_byte, ", big-endian.")]
+            pub fn $number_set(&mut self, value: $number) {
+                self.0[$number_byte - $first..][..size_of::<$number>()].copy_from_slice(&value.to_be_bytes());
+            }
+        )*})?
+
+        impl $name {
+            /// The first byte of the run in its data block.
+            pub const FIRST: u16 = $first;
+            /// The last byte of the run in its data block.
+            pub const LAST: u16 = $last;
+            /// The signals of the run: bits in address order, then numbers in address order.
+            pub const SIGNALS: &'static [crate::image::Signal] = &[
+                $($crate::image::table::bits(
+                    stringify!($get), $crate::image::Block::$block, $crate::image::Writer::$writer,
+                    stringify!($kind), $byte, &[$high $(, $low)?], concat!($($doc),+),
+                ),)*
+                $($($crate::image::table::number(
+                    stringify!($number_get), $crate::image::Block::$block, $crate::image::Writer::$writer,
+                    stringify!($number), $number_byte, concat!($($number_doc),+),
+                ),)*)?
+            ];
+        }
+
+        const _: () = $crate::image::table::check($name::SIGNALS, $first, $last);
+
+        impl bitfield::BitRange<u8> for $name {
+            #[inline]
+            fn bit_range(&self, high: usize, low: usize) -> u8 {
+                (self.0[low / 8] >> (low % 8)) & (0xFF >> (7 - (high - low)))
+            }
+        }
+
+        impl bitfield::BitRangeMut<u8> for $name {
+            #[inline]
+            fn set_bit_range(&mut self, high: usize, low: usize, value: u8) {
+                let mask = (0xFF >> (7 - (high - low))) << (low % 8);
+                let byte = &mut self.0[low / 8];
+                *byte = *byte & !mask | (value << (low % 8)) & mask;
+            }
+        }
+    };
+}
+pub(super) use signals;
+
+/// The catalogue entry of a bit row.
+pub(super) const fn bits(
+    name: &'static str,
+    block: super::Block,
+    writer: super::Writer,
+    kind: &str,
+    byte: u16,
+    span: &[u8],
+    doc: &'static str,
+) -> Signal {
+    let is_bit = matches!(kind.as_bytes(), b"bool");
+    assert!(
+        is_bit == (span.len() == 1),
+        "a `bool` row names one bit, a `u8` row two: high to low"
+    );
+    let (bit, kind) = if is_bit {
+        (span[0], Kind::Bit)
+    } else {
+        assert!(span[0] > span[1], "a group is written high to low");
+        let width = span[0] - span[1] + 1;
+        (
+            span[1],
+            if width == 8 {
+                Kind::Byte
+            } else {
+                Kind::Bits(width)
+            },
+        )
+    };
+    Signal {
+        name,
+        block,
+        byte,
+        bit,
+        kind,
+        writer,
+        doc: doc.trim_ascii(),
+    }
+}
+
+/// The catalogue entry of a number row.
+pub(super) const fn number(
+    name: &'static str,
+    block: super::Block,
+    writer: super::Writer,
+    kind: &str,
+    byte: u16,
+    doc: &'static str,
+) -> Signal {
+    let kind = match kind.as_bytes() {
+        b"f32" => Kind::Real,
+        b"u16" => Kind::Word,
+        b"u32" => Kind::Double,
+        _ => panic!("a number is a u16, a u32 or an f32"),
+    };
+    Signal {
+        name,
+        block,
+        byte,
+        bit: 0,
+        kind,
+        writer,
+        doc: doc.trim_ascii(),
+    }
+}
+
+/// Holds at compile time: rows ascend, neighbours do not overlap, all stay inside the run, and no number touches
+/// another row.
+pub(super) const fn check(rows: &[Signal], first: u16, last: u16) {
+    let mut index = 0;
+    while index < rows.len() {
+        let row = &rows[index];
+        let from = row.byte as u32 * 8 + row.bit as u32;
+        let end = from + row.kind.width() as u32;
+        assert!(
+            row.byte >= first && end <= (last as u32 + 1) * 8,
+            "a signal lies outside its run"
+        );
+        assert!(
+            row.bit as u32 + row.kind.width() as u32 <= 8 || row.bit == 0,
+            "a signal leaves its byte"
+        );
+        if index + 1 < rows.len() && rows[index + 1].kind.is_number() == row.kind.is_number() {
+            let next = &rows[index + 1];
+            assert!(
+                end <= next.byte as u32 * 8 + next.bit as u32,
+                "rows must ascend and must not overlap"
+            );
+        }
+        if row.kind.is_number() {
+            let mut other = 0;
+            while other < rows.len() {
+                let start = rows[other].byte as u32 * 8 + rows[other].bit as u32;
+                let stop = start + rows[other].kind.width() as u32;
+                assert!(
+                    other == index || stop <= from || end <= start,
+                    "a number overlaps a signal"
+                );
+                other += 1;
+            }
+        }
+        index += 1;
+    }
+}

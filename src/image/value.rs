@@ -1,0 +1,105 @@
+//! Values in files: what may be written to a place, and what bits it becomes.
+
+use crate::source::{Node, Problem, Value};
+
+use super::{Format, Location, OverrideCoding, override_code};
+
+/// The raw bits of a value from a file: whole numbers must fit (negative ones as two's complement), numbers with a
+/// fraction only into a REAL, `true` and `false` only into a bit, `"100%"` only into an override, and text like
+/// `"2#1101_0000"` or `"16#D0"` is a whole number.
+///
+/// # Errors
+/// The value does not fit, at its place in the file.
+pub fn raw_value(node: &Node, location: Location, coding: OverrideCoding) -> Result<u64, Problem> {
+    match &node.value {
+        Value::Boolean(value) if location.width == 1 => Ok(u64::from(*value)),
+        Value::Boolean(_) => Err(node.expected("a number", "true and false are for single bits")),
+        Value::Integer(number) => integer(*number, node, location),
+        Value::Float(number) if location.format == Format::Real => real(*number, node),
+        Value::Float(_) => Err(node.expected(
+            "a whole number",
+            "only a REAL takes fractions: add :REAL to the address",
+        )),
+        Value::Text(text) => match (text.strip_suffix('%'), based(text)) {
+            (Some(percent), _) => per_cent(percent, node, location, coding),
+            (None, Some(number)) => integer(number, node, location),
+            (None, None) => Err(node.expected(
+                "a number, true, false or \"100%\"",
+                "write numbers without quotes",
+            )),
+        },
+        Value::Array(_) | Value::Table(_) => {
+            Err(node.expected("one value", "write one entry for each address"))
+        }
+    }
+}
+
+/// `2#1101_0000`, `8#17` and `16#D0`.
+fn based(text: &str) -> Option<i64> {
+    let (base, digits) = text.split_once('#')?;
+    let base = match base {
+        "2" => 2,
+        "8" => 8,
+        "16" => 16,
+        _ => return None,
+    };
+    i64::from_str_radix(&digits.replace('_', ""), base).ok()
+}
+
+fn integer(number: i64, node: &Node, location: Location) -> Result<u64, Problem> {
+    if location.format == Format::Real {
+        return real(number as f64, node);
+    }
+    let half = 1_i64 << (location.width - 1);
+    let (least, most) = match (location.format, location.width) {
+        (_, 1) => (0, 1),
+        (Format::Signed, _) => (-half, half - 1),
+        (Format::Unsigned | Format::Real, _) => (-half, 2 * half - 1),
+    };
+    if (least..=most).contains(&number) {
+        Ok(number.cast_unsigned() & location.mask())
+    } else {
+        Err(node.place.problem(
+            format!("expected a number from {least} to {most}, found {number}"),
+            format!("the place has {} bits", location.width),
+        ))
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a REAL has 32 bits; what does not fit is refused below"
+)]
+fn real(number: f64, node: &Node) -> Result<u64, Problem> {
+    let value = number as f32;
+    if value.is_finite() {
+        Ok(u64::from(value.to_bits()))
+    } else {
+        Err(node.expected("a number that fits a REAL", "a REAL ends at 3.4e38"))
+    }
+}
+
+fn per_cent(
+    text: &str,
+    node: &Node,
+    location: Location,
+    coding: OverrideCoding,
+) -> Result<u64, Problem> {
+    let Some(gray) = coding.at(location) else {
+        return Err(node.expected(
+            "a plain number",
+            "only feed_override and rapid_traverse_override take per cent",
+        ));
+    };
+    let code = text
+        .trim()
+        .parse()
+        .ok()
+        .and_then(|percent| override_code(percent, gray));
+    code.map(u64::from).ok_or_else(|| {
+        node.expected(
+            "a percentage of the override switch",
+            &format!("it has {}", OverrideCoding::known(gray)),
+        )
+    })
+}
