@@ -98,11 +98,12 @@ impl Coupling {
         self.members().filter(|&axis| axis != self.leads_now)
     }
 
-    /// The coupling closes: differences count from here (O-12).
-    pub fn close(&mut self, actual: impl Fn(AxisNumber) -> Position) {
+    /// The coupling closes: differences count from here (O-12), but for those that are absolute already.
+    pub fn close(&mut self, actual: impl Fn(AxisNumber) -> Position, absolute: impl Fn(AxisNumber) -> bool) {
         let leader = actual(self.leader);
         for follower in self.followers.iter_mut().flatten() {
-            follower.base = actual(follower.axis) - leader;
+            follower.base =
+                if absolute(follower.axis) { Position::ZERO } else { actual(follower.axis) - leader };
         }
     }
 
@@ -150,7 +151,7 @@ mod tests {
     #[test]
     fn the_difference_before_referencing_is_the_change_since_the_coupling_closed() {
         let mut coupling = coupling();
-        coupling.close(|which| if which == axis(1) { mm(5.0) } else { mm(7.0) });
+        coupling.close(|which| if which == axis(1) { mm(5.0) } else { mm(7.0) }, |_| false);
         assert_eq!(coupling.difference(axis(3), mm(5.0), mm(7.0)).0, mm(0.0));
         assert_eq!(coupling.difference(axis(3), mm(6.0), mm(8.25)).0, mm(0.25));
     }
@@ -158,7 +159,7 @@ mod tests {
     #[test]
     fn setting_the_first_reference_makes_no_jump_and_the_last_makes_it_absolute() {
         let mut coupling = coupling();
-        coupling.close(|_| mm(0.0));
+        coupling.close(|_| mm(0.0), |_| false);
         // Leader at 10.0 becomes 0.0: shifted by −10.
         coupling.value_shifted(axis(1), mm(-10.0), |_| false);
         assert_eq!(coupling.difference(axis(3), mm(0.0), mm(10.0)).0, mm(0.0));

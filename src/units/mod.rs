@@ -245,6 +245,15 @@ macro_rules! number_from_one {
                 Self(table)
             }
 
+            /// One made for each number.
+            pub fn from_fn(make: impl FnMut($name) -> T) -> Self {
+                let mut make = make;
+                Self(std::array::from_fn(|index| {
+                    #[expect(clippy::cast_possible_truncation, reason = "a table has at most 31 places")]
+                    make($name(index as u8 + 1))
+                }))
+            }
+
             /// Each with its number, ascending.
             pub fn iter(&self) -> impl Iterator<Item = ($name, &T)> {
                 $name::all().zip(self.0.iter())

@@ -3,6 +3,7 @@
 //! An event is plain numbers; it becomes text only when somebody prints it. Events form chains: `parent` is the
 //! event (or the edge of a signal, among the inputs) that led to this one.
 
+use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
 use super::Place;
@@ -96,16 +97,10 @@ pub struct Event {
 }
 
 /// The latest events, in a ring.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Events {
-    ring: Vec<Event>,
+    ring: ArrayVec<Event, { Self::CAPACITY }>,
     last: u32,
-}
-
-impl Default for Events {
-    fn default() -> Self {
-        Self { ring: Vec::with_capacity(Self::CAPACITY), last: 0 }
-    }
 }
 
 impl Events {
@@ -117,10 +112,8 @@ impl Events {
         self.last = self.last.wrapping_add(1).max(1);
         let id = EventId(self.last);
         let event = Event { id, cycle, place, rule, inputs, parent };
-        if self.ring.len() < Self::CAPACITY {
-            self.ring.push(event);
-        } else {
-            self.ring[self.last as usize % Self::CAPACITY] = event;
+        if self.ring.try_push(event).is_err() {
+            self.ring[(self.last as usize - 1) % Self::CAPACITY] = event;
         }
         id
     }
@@ -139,11 +132,7 @@ impl Events {
     /// An event that is still kept.
     #[must_use]
     pub fn find(&self, id: EventId) -> Option<&Event> {
-        let place = if self.ring.len() < Self::CAPACITY {
-            (id.0 as usize).checked_sub(1)?
-        } else {
-            id.0 as usize % Self::CAPACITY
-        };
+        let place = (id.0 as usize).checked_sub(1)? % Self::CAPACITY;
         self.ring.get(place).filter(|event| event.id == id)
     }
 }

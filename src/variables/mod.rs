@@ -8,6 +8,7 @@ mod events;
 
 pub use events::{Event, EventId, Events, Input, Quantity, Rule, RuleNumber, SignalBit};
 
+use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
 use crate::image::Names;
@@ -80,24 +81,17 @@ pub struct RaisedAlarm {
 /// The alarms that are pending, in order of number and place; bounded, because a list on a control is.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Alarms {
-    raised: Vec<RaisedAlarm>,
+    raised: ArrayVec<RaisedAlarm, { Self::CAPACITY }>,
 }
 
 impl Alarms {
     /// How many alarms can be pending at once.
-    pub const CAPACITY: usize = 256;
-
-    /// An empty list with all the room it will ever need.
-    #[must_use]
-    pub fn new() -> Self {
-        Self { raised: Vec::with_capacity(Self::CAPACITY) }
-    }
+    pub const CAPACITY: usize = 64;
 
     /// Takes over what is pending now, in order of number and place.
     pub fn publish(&mut self, pending: impl Iterator<Item = RaisedAlarm>) {
         self.raised.clear();
         self.raised.extend(pending.take(Self::CAPACITY));
-        self.raised.sort_unstable_by_key(|alarm| (alarm.number, alarm.place));
     }
 
     /// All that are pending.

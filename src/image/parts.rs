@@ -1,0 +1,206 @@
+//! The interface by writer: three pieces of contiguous bytes, without padding.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use zerocopy::{FromBytes, FromZeros, Immutable, IntoBytes, KnownLayout, Unaligned};
+
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
+
+use super::bytes::read_part;
+use super::{
+    AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck,
+    NckFromNck, NckHmi, NckToNck, places,
+};
+
+/// What the PLC writes to the NCK. The plain bytes of the interface blocks, which the catalogue does not name, lie
+/// behind it.
+#[derive(Clone, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct ToNck {
+    /// DB10.
+    pub nck: NckToNck,
+    /// DB11.
+    pub mode_groups: PerModeGroup<ModeGroupToNck>,
+    /// DB21 to DB30.
+    pub channels: PerChannel<ChannelToNck>,
+    /// DB31 to DB61.
+    pub axes: PerAxis<AxisToNck>,
+    /// Bytes without a name.
+    pub plain: Plain,
+}
+
+/// What the NCK writes.
+#[derive(Clone, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct FromNck {
+    /// DB10.
+    pub nck: NckFromNck,
+    /// DB11.
+    pub mode_groups: PerModeGroup<ModeGroupFromNck>,
+    /// DB21 to DB30.
+    pub channels: PerChannel<ChannelFromNck>,
+    /// DB31 to DB61.
+    pub axes: PerAxis<AxisFromNck>,
+}
+
+/// What the HMI writes: strobes and selections.
+#[derive(Clone, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct Hmi {
+    /// DB10.
+    pub nck: NckHmi,
+    /// DB11.
+    pub mode_groups: PerModeGroup<ModeGroupHmi>,
+    /// DB21 to DB30.
+    pub channels: PerChannel<ChannelHmi>,
+}
+
+/// The bytes of the interface blocks outside the runs of the catalogue: plain memory, reached by address.
+#[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct Plain {
+    pub(super) nck: [u8; places::PLAIN_NCK],
+    pub(super) mode_groups: [u8; places::PLAIN_MODE_GROUPS],
+    pub(super) channels: PerChannel<[u8; places::PLAIN_CHANNEL]>,
+    pub(super) axes: PerAxis<[u8; places::PLAIN_AXIS]>,
+}
+
+impl ToNck {
+    /// DB10.
+    pub fn nck(&mut self) -> &mut NckToNck {
+        &mut self.nck
+    }
+
+    /// DB11 of a mode group.
+    pub fn mode_group(&mut self, number: ModeGroupNumber) -> &mut ModeGroupToNck {
+        &mut self.mode_groups[number]
+    }
+
+    /// DB 20 + number.
+    pub fn channel(&mut self, number: ChannelNumber) -> &mut ChannelToNck {
+        &mut self.channels[number]
+    }
+
+    /// DB 30 + number.
+    pub fn axis(&mut self, number: AxisNumber) -> &mut AxisToNck {
+        &mut self.axes[number]
+    }
+}
+
+impl FromNck {
+    /// DB10.
+    #[must_use]
+    pub fn nck(&self) -> &NckFromNck {
+        &self.nck
+    }
+
+    /// DB11 of a mode group.
+    #[must_use]
+    pub fn mode_group(&self, number: ModeGroupNumber) -> &ModeGroupFromNck {
+        &self.mode_groups[number]
+    }
+
+    /// DB 20 + number.
+    #[must_use]
+    pub fn channel(&self, number: ChannelNumber) -> &ChannelFromNck {
+        &self.channels[number]
+    }
+
+    /// DB 30 + number.
+    #[must_use]
+    pub fn axis(&self, number: AxisNumber) -> &AxisFromNck {
+        &self.axes[number]
+    }
+}
+
+impl Hmi {
+    /// DB10.
+    #[must_use]
+    pub fn nck(&self) -> &NckHmi {
+        &self.nck
+    }
+
+    /// DB11 of a mode group.
+    #[must_use]
+    pub fn mode_group(&self, number: ModeGroupNumber) -> &ModeGroupHmi {
+        &self.mode_groups[number]
+    }
+
+    /// DB 20 + number.
+    #[must_use]
+    pub fn channel(&self, number: ChannelNumber) -> &ChannelHmi {
+        &self.channels[number]
+    }
+}
+
+impl Default for ToNck {
+    fn default() -> Self {
+        Self::new_zeroed()
+    }
+}
+
+impl Default for FromNck {
+    fn default() -> Self {
+        Self::new_zeroed()
+    }
+}
+
+impl Default for Hmi {
+    fn default() -> Self {
+        Self::new_zeroed()
+    }
+}
+
+impl PartialEq for ToNck {
+    fn eq(&self, other: &Self) -> bool {
+        self.as_bytes() == other.as_bytes()
+    }
+}
+
+impl PartialEq for FromNck {
+    fn eq(&self, other: &Self) -> bool {
+        self.as_bytes() == other.as_bytes()
+    }
+}
+
+impl PartialEq for Hmi {
+    fn eq(&self, other: &Self) -> bool {
+        self.as_bytes() == other.as_bytes()
+    }
+}
+
+impl Serialize for ToNck {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_bytes(self.as_bytes())
+    }
+}
+
+impl Serialize for FromNck {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_bytes(self.as_bytes())
+    }
+}
+
+impl Serialize for Hmi {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_bytes(self.as_bytes())
+    }
+}
+
+impl<'de> Deserialize<'de> for ToNck {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        read_part(deserializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for FromNck {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        read_part(deserializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Hmi {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        read_part(deserializer)
+    }
+}
+

@@ -1,0 +1,47 @@
+//! A test bench: a program on a memory, scan by scan.
+
+use crate::image::{Memory, Names};
+use crate::plc::{PlcFault, PlcIo, PlcProgram};
+use crate::units::{AxisNumber, Time};
+
+/// A memory, the names of a machine, and the time.
+pub(super) struct Bench {
+    pub(super) memory: Memory,
+    pub(super) names: Names,
+    pub(super) time: Time,
+}
+
+impl Bench {
+    /// A machine with these axes, from axis 1.
+    pub(super) fn with_axes(axes: &[&str]) -> Self {
+        let mut names = Names::default();
+        for (number, name) in AxisNumber::all().zip(axes) {
+            names.axes[number] = Some((*name).to_owned());
+        }
+        Self { memory: Memory::new(), names, time: Time::ZERO }
+    }
+
+    /// One scan, 10 ms after the last one.
+    pub(super) fn scan(&mut self, program: &mut dyn PlcProgram) -> Result<(), PlcFault> {
+        self.time += Time::from_millis(10);
+        program.scan(&mut self.io())
+    }
+
+    pub(super) fn io(&mut self) -> PlcIo<'_> {
+        let Memory { to_nck, from_nck, hmi, inputs, outputs, flags, timers, counters, blocks } = &mut self.memory;
+        PlcIo {
+            to_nck,
+            from_nck,
+            hmi,
+            inputs,
+            outputs,
+            flags,
+            timers,
+            counters,
+            blocks,
+            time: self.time,
+            cycle_time: Time::from_millis(10),
+            names: &self.names,
+        }
+    }
+}

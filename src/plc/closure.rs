@@ -1,0 +1,122 @@
+//! Programs written as Rust closures.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::source::Problem;
+
+use super::{PlcFault, PlcIo, PlcProgram};
+
+type Code<S> = Arc<dyn Fn(&mut S, &mut PlcIo<'_>) -> Result<(), PlcFault> + Send + Sync>;
+
+/// A closure and the state it works on. The code is shared between forks, the state is not.
+pub struct ClosureProgram<S> {
+    name: String,
+    initial: S,
+    state: S,
+    startup: Option<Code<S>>,
+    scan: Code<S>,
+}
+
+/// A program from a closure that runs once in each PLC cycle; `state` is all that it remembers.
+pub fn program<S>(
+    name: impl Into<String>,
+    state: S,
+    scan: impl Fn(&mut S, &mut PlcIo<'_>) + Send + Sync + 'static,
+) -> ClosureProgram<S>
+where
+    S: Clone,
+{
+    program_with_fault(name, state, move |state, io| {
+        scan(state, io);
+        Ok(())
+    })
+}
+
+/// As [`program`], for a closure that may stop the PLC.
+pub fn program_with_fault<S>(
+    name: impl Into<String>,
+    state: S,
+    scan: impl Fn(&mut S, &mut PlcIo<'_>) -> Result<(), PlcFault> + Send + Sync + 'static,
+) -> ClosureProgram<S>
+where
+    S: Clone,
+{
+    ClosureProgram { name: name.into(), initial: state.clone(), state, startup: None, scan: Arc::new(scan) }
+}
+
+impl<S> ClosureProgram<S>
+where
+    S: Clone + Serialize + DeserializeOwned + Send + 'static,
+{
+    /// Runs this closure after power on, before the first scan (OB100).
+    #[must_use]
+    pub fn on_startup(mut self, startup: impl Fn(&mut S, &mut PlcIo<'_>) + Send + Sync + 'static) -> Self {
+        self.startup = Some(Arc::new(move |state, io| {
+            startup(state, io);
+            Ok(())
+        }));
+        self
+    }
+
+    /// As a program of any kind.
+    #[must_use]
+    pub fn boxed(self) -> Box<dyn PlcProgram> {
+        Box::new(self)
+    }
+}
+
+impl<S> PlcProgram for ClosureProgram<S>
+where
+    S: Clone + Serialize + DeserializeOwned + Send + 'static,
+{
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn startup(&mut self, io: &mut PlcIo<'_>) -> Result<(), PlcFault> {
+        match &self.startup {
+            Some(startup) => startup(&mut self.state, io),
+            None => Ok(()),
+        }
+    }
+
+    fn scan(&mut self, io: &mut PlcIo<'_>) -> Result<(), PlcFault> {
+        (self.scan)(&mut self.state, io)
+    }
+
+    fn save(&self) -> Vec<u8> {
+        postcard::to_stdvec(&self.state).expect("plain data can be written to memory")
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> Result<(), Problem> {
+        let foreign = || {
+            Problem::new(
+                format!("expected the saved state of the PLC program `{}`, found {} bytes of another", self.name, saved.len()),
+                "restore it with the program that was saved",
+            )
+        };
+        let (state, rest) = postcard::take_from_bytes(saved).map_err(|_| foreign())?;
+        if !rest.is_empty() {
+            return Err(foreign());
+        }
+        self.state = state;
+        Ok(())
+    }
+
+    fn fork(&self) -> Option<Box<dyn PlcProgram>> {
+        Some(Box::new(Self {
+            name: self.name.clone(),
+            initial: self.initial.clone(),
+            state: self.state.clone(),
+            startup: self.startup.clone(),
+            scan: Arc::clone(&self.scan),
+        }))
+    }
+
+    fn reset(&mut self) {
+        self.state = self.initial.clone();
+    }
+}

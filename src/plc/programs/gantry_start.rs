@@ -1,0 +1,47 @@
+//! `gantry_start`: enables every axis, and starts the synchronization of a gantry grouping as soon as it may start.
+//!
+//! On each axis, start gantry synchronization (DBX29.4) follows gantry synchronization ready to start (DBX101.4); the
+//! NCK reports it, and evaluates the answer, on the leading axis only.
+
+use crate::plc::{ClosureProgram, program};
+
+use super::enable_all::enable;
+
+/// Every axis enabled, every grouping synchronized as soon as it is ready.
+#[must_use]
+pub fn gantry_start() -> ClosureProgram<()> {
+    program("gantry_start", (), |(), io| {
+        enable(io);
+        let names = io.names;
+        for (x, _) in names.axes.iter().filter(|(_, name)| name.is_some()) {
+            io.to_nck
+                .axis(x)
+                .set_start_gantry_synchronization(io.from_nck.axis(x).gantry_synchronization_ready_to_start());
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::gantry_start;
+    use crate::image::Profile;
+    use crate::plc::bench::Bench;
+
+    #[test]
+    fn the_start_follows_ready_to_start_on_its_axis() {
+        let mut bench = Bench::with_axes(&["X", "XF"]);
+        let at = |bench: &Bench, address: &str| {
+            bench.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap()
+        };
+        let (ready, start) = (at(&bench, "DB31.DBX101.4"), at(&bench, "DB31.DBX29.4"));
+        let other = at(&bench, "DB32.DBX29.4");
+        let mut program = gantry_start();
+        for value in [0, 1, 0] {
+            bench.memory.write(ready, value);
+            bench.scan(&mut program).unwrap();
+            assert_eq!(bench.memory.read(start), value);
+            assert_eq!(bench.memory.read(other), 0);
+        }
+        assert_eq!(bench.memory.read(at(&bench, "DB31.DBX2.1")), 1, "it enables the axes as well");
+    }
+}

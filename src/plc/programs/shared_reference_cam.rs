@@ -1,0 +1,69 @@
+//! `shared_reference_cam`: enables every axis; one reference cam, that of the leading axis, serves all axes of the
+//! gantry grouping.
+//!
+//! The leading axis is the first axis with gantry leading axis (DBX101.6) = 1. Its deceleration of reference point
+//! approach (DBX12.7), wherever that comes from, is copied to every other axis with gantry axis (DBX101.7) = 1.
+//! Without a leading axis nothing is copied. A machine with two groupings and two cams needs a program of its own.
+
+use crate::plc::{ClosureProgram, program};
+
+use super::enable_all::enable;
+
+/// Every axis enabled, one reference cam for the grouping.
+#[must_use]
+pub fn shared_reference_cam() -> ClosureProgram<()> {
+    program("shared_reference_cam", (), |(), io| {
+        enable(io);
+        let leading = io.from_nck.axes.iter().find(|(_, axis)| axis.gantry_leading_axis());
+        let Some((leading, _)) = leading else { return };
+        let on_cam = io.to_nck.axis(leading).deceleration_reference_point_approach();
+        for (number, axis) in io.from_nck.axes.iter() {
+            if number != leading && axis.gantry_axis() {
+                io.to_nck.axis(number).set_deceleration_reference_point_approach(on_cam);
+            }
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shared_reference_cam;
+    use crate::image::Profile;
+    use crate::plc::bench::Bench;
+
+    fn set(bench: &mut Bench, address: &str, value: u64) {
+        let at = bench.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap();
+        bench.memory.write(at, value);
+    }
+
+    fn cams(bench: &Bench) -> [u64; 3] {
+        [31, 32, 33].map(|db| {
+            let address = format!("DB{db}.DBX12.7").parse().unwrap();
+            bench.memory.read(bench.memory.locate(&address, Profile::Sinumerik840dSl).unwrap())
+        })
+    }
+
+    #[test]
+    fn the_cam_of_the_leading_axis_reaches_the_grouping_and_no_other_axis() {
+        let mut bench = Bench::with_axes(&["X", "Y", "XF"]);
+        set(&mut bench, "DB31.DBB101", 0xC0); // leading axis
+        set(&mut bench, "DB33.DBB101", 0x80); // synchronized axis
+        let mut program = shared_reference_cam();
+        set(&mut bench, "DB31.DBX12.7", 1);
+        bench.scan(&mut program).unwrap();
+        assert_eq!(cams(&bench), [1, 0, 1]);
+        set(&mut bench, "DB31.DBX12.7", 0);
+        set(&mut bench, "DB32.DBX12.7", 1);
+        bench.scan(&mut program).unwrap();
+        assert_eq!(cams(&bench), [0, 1, 0]);
+    }
+
+    #[test]
+    fn without_a_leading_axis_every_cam_stays_as_it_is() {
+        let mut bench = Bench::with_axes(&["X", "Y", "XF"]);
+        set(&mut bench, "DB33.DBB101", 0x80);
+        set(&mut bench, "DB33.DBX12.7", 1);
+        bench.scan(&mut shared_reference_cam()).unwrap();
+        assert_eq!(cams(&bench), [0, 0, 1]);
+    }
+}

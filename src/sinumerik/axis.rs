@@ -1,0 +1,227 @@
+//! The state of one machine axis in the control, and what it is told by its drive and encoders.
+
+use serde::{Deserialize, Serialize};
+
+use super::enabling::Enabling;
+use super::parameters::AxisParameters;
+use super::referencing::Approach;
+use crate::motion::{EncoderSignal, Limits, Setpoint};
+use crate::units::Position;
+use crate::variables::EventId;
+
+/// What drive and encoders tell in one cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Feedback {
+    /// Encoder 1 and 2.
+    pub encoders: [EncoderSignal; 2],
+    /// Half a count of each: the largest deviation that position control cannot see.
+    pub half_count: [Position; 2],
+    /// Velocity at the motor, in increments per second.
+    pub velocity: f64,
+    /// The drive has run up.
+    pub drive_ready: bool,
+    /// True position of the slide, which only the display of the simulator knows.
+    pub slide: Position,
+}
+
+/// What an axis is commanded to do in a cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Motion {
+    /// Brake to rest.
+    Brake {
+        /// In increments per second squared.
+        deceleration: f64,
+    },
+    /// Move at a velocity.
+    Run {
+        /// Signed, in increments per second.
+        velocity: f64,
+        /// In increments per second squared.
+        acceleration: f64,
+    },
+    /// Move to a position.
+    GoTo {
+        /// Where.
+        target: Position,
+        /// In increments per second.
+        velocity: f64,
+    },
+    /// Follow-up: the setpoint is the actual value.
+    Track,
+    /// The setpoint stays.
+    Hold,
+}
+
+impl Motion {
+    /// The direction that is commanded: +1, −1, or 0.
+    #[must_use]
+    pub fn direction(&self, from: Position) -> i8 {
+        let sign = match *self {
+            Self::Run { velocity, .. } => velocity,
+            Self::GoTo { target, velocity } if velocity > 0.0 => (target - from).increments() as f64,
+            Self::GoTo { .. } | Self::Brake { .. } | Self::Track | Self::Hold => 0.0,
+        };
+        if sign > 0.0 {
+            1
+        } else if sign < 0.0 {
+            -1
+        } else {
+            0
+        }
+    }
+}
+
+/// The events behind the signals of an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Causes {
+    /// 93.5, 93.7.
+    pub drive: EventId,
+    /// 61.3, 61.5 to 61.7.
+    pub enabling: EventId,
+    /// 102.5, 102.6.
+    pub measuring_system: EventId,
+    /// 60.4, 60.5.
+    pub reference: [EventId; 2],
+    /// 64.4 to 64.7.
+    pub motion: EventId,
+}
+
+/// One machine axis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Axis {
+    /// Where it is to be.
+    pub setpoint: Setpoint,
+    /// What this cycle commands.
+    pub motion: Motion,
+    /// The target of a [`Motion::GoTo`] is reached, and the setpoint rests on it.
+    pub arrived: bool,
+    /// Actual value minus encoder value, of each measuring system.
+    pub offset: [Position; 2],
+    /// Which measuring system is referenced.
+    pub referenced: [bool; 2],
+    /// Which measuring system is active, 0 or 1; without one the axis is parked.
+    pub measuring_system: Option<u8>,
+    /// Actual value in the machine coordinate system.
+    pub actual: Position,
+    /// The zero mark passed in the last cycle, as an actual value.
+    pub zero_mark: Option<Position>,
+    /// Actual velocity.
+    pub velocity: f64,
+    /// Half a count of the active encoder.
+    pub half_count: Position,
+    /// True position, for display.
+    pub slide: Position,
+    /// The drive has run up.
+    pub drive_ready: bool,
+    /// The way to position control and back.
+    pub enabling: Enabling,
+    /// Reference point approach.
+    pub approach: Approach,
+    /// A traversing key started an approach and has not been released since.
+    pub key_used: bool,
+    /// Motion wanted, 64.4 and 64.5: +1, −1 or 0.
+    pub traverse_request: i8,
+    /// Motion commanded, 64.6 and 64.7: +1, −1 or 0.
+    pub traverse_command: i8,
+    /// Factor of the axial override.
+    pub feed_factor: f64,
+    /// Feed stop on an axis of its unit, or feed disable of its channel.
+    pub feed_held: bool,
+    /// Feed disable of its channel.
+    pub feed_disabled: bool,
+    /// Why.
+    pub causes: Causes,
+}
+
+impl Default for Axis {
+    fn default() -> Self {
+        Self {
+            setpoint: Setpoint::default(),
+            motion: Motion::Hold,
+            arrived: false,
+            offset: [Position::ZERO; 2],
+            referenced: [false; 2],
+            measuring_system: None,
+            actual: Position::ZERO,
+            zero_mark: None,
+            velocity: 0.0,
+            half_count: Position::ZERO,
+            slide: Position::ZERO,
+            drive_ready: false,
+            enabling: Enabling::default(),
+            approach: Approach::default(),
+            key_used: false,
+            traverse_request: 0,
+            traverse_command: 0,
+            feed_factor: 1.0,
+            feed_held: false,
+            feed_disabled: false,
+            causes: Causes::default(),
+        }
+    }
+}
+
+impl Axis {
+    /// Takes what drive and encoders tell.
+    pub fn sense(&mut self, feedback: &Feedback) {
+        self.velocity = feedback.velocity;
+        self.slide = feedback.slide;
+        self.drive_ready = feedback.drive_ready;
+        if let Some(active) = self.measuring_system {
+            let active = usize::from(active);
+            let encoder = feedback.encoders[active];
+            self.half_count = feedback.half_count[active];
+            self.actual = encoder.value + self.offset[active];
+            self.zero_mark = encoder.zero_mark.map(|mark| mark + self.offset[active]);
+        }
+    }
+
+    /// The active measuring system is referenced.
+    #[must_use]
+    pub fn is_referenced(&self) -> bool {
+        self.measuring_system.is_some_and(|active| self.referenced[usize::from(active)])
+    }
+
+    /// Setpoint minus actual value.
+    #[must_use]
+    pub fn deviation(&self) -> Position {
+        self.setpoint.position - self.actual
+    }
+
+    /// The setpoint rests and the velocity is below MD36060.
+    #[must_use]
+    pub fn stands(&self, parameters: &AxisParameters) -> bool {
+        self.setpoint.is_at_rest() && self.velocity.abs() < parameters.standstill_velocity
+    }
+
+    /// The axis moves or is to move.
+    #[must_use]
+    pub fn is_in_motion(&self) -> bool {
+        self.traverse_command != 0 || !self.setpoint.is_at_rest()
+    }
+
+    /// Gives the place where it is another actual value: nothing moves.
+    pub fn shift(&mut self, by: Position) {
+        if let Some(active) = self.measuring_system {
+            self.offset[usize::from(active)] += by;
+            self.actual += by;
+            self.setpoint.shift(by);
+        }
+    }
+
+    /// Executes what the cycle commands.
+    pub fn execute(&mut self, parameters: &AxisParameters, cycle: f64) {
+        self.arrived = false;
+        match self.motion {
+            Motion::Brake { deceleration } => self.setpoint.run(0.0, deceleration, cycle),
+            Motion::Run { velocity, acceleration } => self.setpoint.run(velocity, acceleration, cycle),
+            Motion::GoTo { target, velocity } if velocity > 0.0 => {
+                let limits = Limits { velocity, acceleration: parameters.maximum_acceleration };
+                self.arrived = self.setpoint.go_to(target, limits, cycle);
+            }
+            Motion::GoTo { .. } => self.setpoint.run(0.0, parameters.maximum_acceleration, cycle),
+            Motion::Track => self.setpoint = Setpoint::at(self.actual),
+            Motion::Hold => self.setpoint = Setpoint::at(self.setpoint.position),
+        }
+    }
+}

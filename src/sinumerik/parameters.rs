@@ -1,0 +1,257 @@
+//! Active machine data in the units of the model: what the stages of a cycle work with.
+//!
+//! Made anew whenever machine data become active (power on, RESET, NEWCONF); read by every stage, written by none.
+//! Lengths are whole increments, velocities increments per second, times whole cycles.
+
+use super::gantry_definition::{self, Definitions};
+use super::machine_data::{Axis, MachineData};
+use crate::units::{AxisNumber, ChannelNumber, PerAxis, Position, Time};
+
+/// Values per measuring system, for index 0 and 1.
+pub type PerEncoder<T> = [T; 2];
+
+/// What is known of a machine beside its machine data.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AxisPresence {
+    /// The axis exists: it belongs to the channel, or machine data or the plant name it.
+    pub exists: bool,
+    /// The archive itself says MD30350 = 0 and the axis is simulated: no signals in its data block (E-26).
+    pub silent: bool,
+}
+
+/// The reference point approach of one axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference {
+    /// MD34000.
+    pub cam_is_active: bool,
+    /// MD34010 as a sign: +1 plus, −1 minus.
+    pub cam_direction: f64,
+    /// MD34020.
+    pub cam_velocity: f64,
+    /// MD34030.
+    pub maximum_cam_distance: Position,
+    /// MD34040.
+    pub marker_velocity: PerEncoder<f64>,
+    /// MD34050: the zero mark is searched from the rising cam edge.
+    pub marker_reverse: PerEncoder<bool>,
+    /// MD34060.
+    pub maximum_marker_distance: PerEncoder<Position>,
+    /// MD34070.
+    pub position_velocity: f64,
+    /// MD34080 + MD34090.
+    pub move_distance: PerEncoder<Position>,
+    /// MD34092.
+    pub cam_shift: PerEncoder<Position>,
+    /// MD34100.
+    pub set_position: [Position; 4],
+    /// MD34110.
+    pub cycle_number: i32,
+    /// MD34200.
+    pub mode: PerEncoder<u8>,
+    /// MD35150 as a share of MD34040.
+    pub creep_tolerance: f64,
+}
+
+/// The gantry data of one axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gantry {
+    /// MD37110.
+    pub warning_limit: Position,
+    /// MD37120.
+    pub trip_limit: Position,
+    /// MD37130.
+    pub trip_limit_not_synchronised: Position,
+    /// MD37140.
+    pub broken_up: bool,
+    /// MD37150 bit 1: the synchronous axis is referenced in the leading axis' direction.
+    pub direction_of_leading_axis: bool,
+    /// MD37150 bit 2: no message 10655.
+    pub suppress_message: bool,
+}
+
+/// One axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AxisParameters {
+    /// Whether there is such an axis.
+    pub exists: bool,
+    /// No signals in its data block.
+    pub silent: bool,
+    /// MD30300.
+    pub rotary: bool,
+    /// The channel it belongs to.
+    pub channel: Option<ChannelNumber>,
+    /// MD30200.
+    pub encoders: u8,
+    /// MD32000.
+    pub maximum_velocity: f64,
+    /// MD32300[0].
+    pub maximum_acceleration: f64,
+    /// MD32301, or MD32300 where that is 0.
+    pub jog_acceleration: f64,
+    /// MD32020, or SD41110 / SD41130 where that is not 0.
+    pub jog_velocity: f64,
+    /// MD32010.
+    pub jog_rapid_velocity: f64,
+    /// MD32200 in 1/s.
+    pub gain: f64,
+    /// MD36000 × MD36012.
+    pub exact_stop_coarse: Position,
+    /// MD36010 × MD36012.
+    pub exact_stop_fine: Position,
+    /// MD36020 in cycles.
+    pub positioning_cycles: u64,
+    /// MD36030 × MD36012.
+    pub standstill_tolerance: Position,
+    /// MD36060.
+    pub standstill_velocity: f64,
+    /// MD32000 / MD36610.
+    pub emergency_deceleration: f64,
+    /// MD36620 in cycles.
+    pub servo_disable_cycles: u64,
+    /// Reference point approach.
+    pub reference: Reference,
+    /// Gantry.
+    pub gantry: Gantry,
+}
+
+/// Everything that is active.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameters {
+    /// The interpolation cycle, MD10050 × MD10070.
+    pub cycle: Time,
+    /// How many position-control cycles make one, MD10070 / MD10060.
+    pub servo_cycles: u32,
+    /// MD11300: keys act as long as they are pressed, in INC and in the reference point approach.
+    pub jog_mode: bool,
+    /// MD12000.
+    pub axis_override_is_gray: bool,
+    /// MD12010: factor by switch position, from one.
+    pub axis_override_factors: [f64; 31],
+    /// MD12100.
+    pub binary_override_limit: f64,
+    /// MD20700 is not 0.
+    pub reference_needed: bool,
+    /// The axes.
+    pub axes: PerAxis<AxisParameters>,
+    /// The groupings that MD37100 defines, and what is wrong with them.
+    pub groupings: Definitions,
+}
+
+impl Parameters {
+    /// From the active machine data.
+    #[must_use]
+    pub fn new(data: &MachineData, presence: &PerAxis<AxisPresence>) -> Self {
+        let cycle = cycle_time(data);
+        let axes = PerAxis::from_fn(|number| axis(data, number, presence[number], cycle));
+        Self {
+            cycle,
+            servo_cycles: servo_cycles(data),
+            jog_mode: data.general.jog_inc_mode_leveltriggrd,
+            axis_override_is_gray: data.general.ovr_ax_is_gray_code,
+            axis_override_factors: data.general.ovr_factor_ax_speed,
+            binary_override_limit: data.general.ovr_factor_limit_bin,
+            reference_needed: data.channels[ChannelNumber::FIRST].refp_nc_start_lock != 0,
+            groupings: gantry_definition::define(data, &axes),
+            axes,
+        }
+    }
+
+    /// The existing axes.
+    pub fn existing(&self) -> impl Iterator<Item = (AxisNumber, &AxisParameters)> {
+        self.axes.iter().filter(|(_, axis)| axis.exists)
+    }
+
+    /// The factor of an axial override byte (O-21); Gray code 0 counts as position 1.
+    #[must_use]
+    pub fn axis_override(&self, code: u8) -> f64 {
+        if self.axis_override_is_gray {
+            let gray = code & 0x1F;
+            let binary = (0..5).map(|bit| ((gray >> bit).count_ones() as u8 & 1) << bit).sum::<u8>();
+            self.axis_override_factors[usize::from(binary.max(1)) - 1]
+        } else {
+            (f64::from(code) / 100.0).min(self.binary_override_limit)
+        }
+    }
+}
+
+/// The interpolation cycle (O-22), rounded to whole nanoseconds, at least one microsecond.
+#[must_use]
+pub fn cycle_time(data: &MachineData) -> Time {
+    let seconds = data.general.sysclock_cycle_time * f64::from(data.general.ipo_sysclock_time_ratio.max(1));
+    Time::from_seconds(seconds).max(Time::from_micros(1))
+}
+
+fn servo_cycles(data: &MachineData) -> u32 {
+    let ratio = data.general.ipo_sysclock_time_ratio.max(1) / data.general.posctrl_sysclock_time_ratio.max(1);
+    ratio.max(1).unsigned_abs()
+}
+
+fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresence, cycle: Time) -> AxisParameters {
+    let md = &data.axes[number];
+    let rotary = md.is_rot_ax;
+    // mm/min, or rev/min of 360 degrees.
+    let velocity = |value: f64| value * Position::PER_USER_UNIT / 60.0 * if rotary { 360.0 } else { 1.0 };
+    // m/s², or rev/s².
+    let acceleration = |value: f64| value * Position::PER_USER_UNIT * if rotary { 360.0 } else { 1_000.0 };
+    let cycles = |seconds: f64| if seconds > 0.0 { Time::from_seconds(seconds).in_cycles(cycle) } else { 0 };
+    let (linear_setting, rotary_setting) = (data.setting.jog_set_velo, data.setting.jog_rot_ax_set_velo);
+    let setting = if rotary { rotary_setting } else { linear_setting };
+    let factor = md.stop_limit_factor[0];
+    let maximum_velocity = velocity(md.max_ax_velo);
+    let maximum_acceleration = acceleration(md.max_ax_accel[0]).max(1.0);
+    AxisParameters {
+        exists: presence.exists,
+        silent: presence.silent,
+        rotary,
+        channel: presence.exists.then_some(ChannelNumber::FIRST),
+        encoders: md.num_encs,
+        maximum_velocity,
+        maximum_acceleration,
+        jog_acceleration: if md.jog_max_accel > 0.0 { acceleration(md.jog_max_accel) } else { maximum_acceleration },
+        jog_velocity: velocity(if setting > 0.0 { setting } else { md.jog_velo }).min(maximum_velocity),
+        jog_rapid_velocity: velocity(md.jog_velo_rapid).min(maximum_velocity),
+        gain: md.posctrl_gain[0] * 1_000.0 / 60.0,
+        exact_stop_coarse: Position::from_user(md.stop_limit_coarse * factor),
+        exact_stop_fine: Position::from_user(md.stop_limit_fine * factor),
+        positioning_cycles: cycles(md.positioning_time),
+        standstill_tolerance: Position::from_user(md.standstill_pos_tol * factor),
+        standstill_velocity: velocity(md.standstill_velo_tol),
+        emergency_deceleration: (maximum_velocity / md.ax_emergency_stop_time.max(cycle.seconds())).max(1.0),
+        servo_disable_cycles: cycles(md.servo_disable_delay_time),
+        reference: reference(md, maximum_velocity, &velocity),
+        gantry: gantry(md),
+    }
+}
+
+fn reference(md: &Axis, maximum_velocity: f64, velocity: &impl Fn(f64) -> f64) -> Reference {
+    let bounded = |value: f64| velocity(value).min(maximum_velocity);
+    Reference {
+        cam_is_active: md.refp_cam_is_active,
+        cam_direction: if md.refp_cam_dir_is_minus { -1.0 } else { 1.0 },
+        cam_velocity: bounded(md.refp_velo_search_cam),
+        maximum_cam_distance: Position::from_user(md.refp_max_cam_dist),
+        marker_velocity: md.refp_velo_search_marker.map(bounded),
+        marker_reverse: md.refp_search_marker_reverse,
+        maximum_marker_distance: md.refp_max_marker_dist.map(Position::from_user),
+        position_velocity: bounded(md.refp_velo_pos),
+        move_distance: std::array::from_fn(|encoder| {
+            Position::from_user(md.refp_move_dist[encoder]) + Position::from_user(md.refp_move_dist_corr[encoder])
+        }),
+        cam_shift: md.refp_cam_shift.map(Position::from_user),
+        set_position: md.refp_set_pos.map(Position::from_user),
+        cycle_number: md.refp_cycle_nr,
+        mode: md.enc_refp_mode,
+        creep_tolerance: md.spind_des_velo_tol,
+    }
+}
+
+fn gantry(md: &Axis) -> Gantry {
+    Gantry {
+        warning_limit: Position::from_user(md.gantry_pos_tol_warning),
+        trip_limit: Position::from_user(md.gantry_pos_tol_error),
+        trip_limit_not_synchronised: Position::from_user(md.gantry_pos_tol_ref),
+        broken_up: md.gantry_break_up,
+        direction_of_leading_axis: md.gantry_function_mask & 2 != 0,
+        suppress_message: md.gantry_function_mask & 4 != 0,
+    }
+}
