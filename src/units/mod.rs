@@ -42,6 +42,26 @@ impl Time {
         Self((seconds * 1e9).round() as i64)
     }
 
+    /// Reads a number and its unit, `us`, `ms`, `s`, `min` or `h`: `10ms`, `0.5 s`. `None` where it is something
+    /// else, negative, or beyond 292 years.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "the value is checked to be in range before")]
+    pub fn parse(text: &str) -> Option<Self> {
+        let text = text.trim();
+        let end = text.find(|letter: char| !letter.is_ascii_digit() && letter != '.')?;
+        let (number, unit) = text.split_at(end);
+        let nanos_per_unit = match unit.trim_start() {
+            "us" => 1e3,
+            "ms" => 1e6,
+            "s" => 1e9,
+            "min" => 60e9,
+            "h" => 3_600e9,
+            _ => return None,
+        };
+        let nanos = (number.parse::<f64>().ok()? * nanos_per_unit).round();
+        (nanos < 9.2e18).then_some(Self(nanos as i64))
+    }
+
     /// Whole nanoseconds.
     #[must_use]
     pub const fn nanos(self) -> i64 {
@@ -309,6 +329,17 @@ mod tests {
         assert_eq!(Time::from_millis(4).in_cycles(cycle), 2);
         assert_eq!(Time::from_micros(4_001).in_cycles(cycle), 3);
         assert_eq!(Time::ZERO.in_cycles(cycle), 1);
+    }
+
+    #[test]
+    fn a_time_is_read_with_its_unit_and_only_with_it() {
+        assert_eq!(Time::parse("10ms"), Some(Time::from_millis(10)));
+        assert_eq!(Time::parse("0.1 ms"), Some(Time::from_micros(100)));
+        assert_eq!(Time::parse("2min"), Some(Time::from_millis(120_000)));
+        assert_eq!(Time::parse("1h"), Some(Time::from_millis(3_600_000)));
+        for text in ["10", "ms", "", "-1s", "1e3s", "1.2.3s", "5cycles", "9999999999h", "inf s"] {
+            assert_eq!(Time::parse(text), None, "{text}");
+        }
     }
 
     #[test]

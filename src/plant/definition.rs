@@ -1,0 +1,619 @@
+//! What `plant.toml` says about the iron. The machine reads it once, before anything runs; a scenario merges its own
+//! `[plant.XF]` tables over it first.
+//!
+//! Lengths are millimetres, angles degrees, times have a unit. Positions are in machine-frame coordinates: they belong
+//! to the iron and do not move when an axis is referenced. What depends on machine data where the file says nothing
+//! stays open here ([`Given::Unsaid`], `None`); everything else has its default.
+
+use std::collections::BTreeMap;
+
+use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
+use crate::units::{Position, Time};
+
+/// The iron of a machine.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlantDefinition {
+    /// Time from one PLC scan to the next; `None` is the NC cycle.
+    pub plc_cycle: Option<Time>,
+    /// Who writes DB11.DBX5.2 (E-01); `None` is the control until somebody else does.
+    pub db11_5_2: Option<Db11Byte5Bit2>,
+    /// The axes by machine axis name (MD10000).
+    pub axes: BTreeMap<String, AxisPlant>,
+    /// The bridges by gantry grouping.
+    pub bridges: BTreeMap<u8, Bridge>,
+}
+
+/// What DB11.DBX5.2 is (E-01).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Db11Byte5Bit2 {
+    /// The control mirrors "active machine function REF" there.
+    Mirror,
+    /// The HMI's strobe of the machine function REF.
+    HmiStrobe,
+}
+
+/// Something that a file may say, remove with `false`, or say nothing about.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Given<T> {
+    /// Nothing is said; machine data decide.
+    #[default]
+    Unsaid,
+    /// `cam = false`: there is none.
+    Removed,
+    /// This one.
+    Said(T),
+}
+
+/// The iron of one axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AxisPlant {
+    /// Where the file speaks of it.
+    pub place: Place,
+    /// Where the slide stands at power on.
+    pub start: Position,
+    /// The drive.
+    pub drive: Drive,
+    /// Encoder 1 and encoder 2.
+    pub encoders: [EncoderPlant; 2],
+    /// The reference cam.
+    pub cam: Given<Cam>,
+    /// The hardware limit switch in plus direction.
+    pub limit_plus: Given<LimitSwitch>,
+    /// The hardware limit switch in minus direction.
+    pub limit_minus: Given<LimitSwitch>,
+}
+
+/// A drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Drive {
+    /// Time constant of the real speed loop; 3 ms unless said.
+    pub time_constant: Time,
+    /// Delay of each step of the start-up chain (O-20); 20 ms unless said.
+    pub ready_after: Time,
+    /// A drive that answers over a bus with a status of its own (E-23).
+    pub intelligent: bool,
+}
+
+impl Default for Drive {
+    fn default() -> Self {
+        Self {
+            time_constant: Time::from_millis(3),
+            ready_after: Time::from_millis(20),
+            intelligent: false,
+        }
+    }
+}
+
+/// An encoder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EncoderPlant {
+    /// Its kind; `None`: as MD30240 and MD34200 say.
+    pub kind: Option<EncoderKind>,
+    /// Machine-frame position of one zero mark.
+    pub zero_mark: Position,
+    /// From one zero mark to the next; `None`: as machine data say.
+    pub zero_mark_spacing: Option<Position>,
+    /// The smallest step it sees; 0.0001 mm or degrees unless said.
+    pub resolution: Position,
+}
+
+impl Default for EncoderPlant {
+    fn default() -> Self {
+        Self {
+            kind: None,
+            zero_mark: Position::ZERO,
+            zero_mark_spacing: None,
+            resolution: Position::new(100),
+        }
+    }
+}
+
+/// The kind of an encoder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EncoderKind {
+    /// Equal zero marks; the position is lost without power.
+    Incremental,
+    /// Knows its position always.
+    Absolute,
+    /// Zero marks whose distances tell the position.
+    DistanceCoded,
+}
+
+/// A reference cam: a closed interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cam {
+    /// Its lower end.
+    pub from: Position,
+    /// Its upper end.
+    pub to: Position,
+    /// Where its switch is wired; without it DBX12.7 is set after the PLC scan.
+    pub input: Option<Input>,
+}
+
+/// A hardware limit switch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LimitSwitch {
+    /// Where it is hit.
+    pub at: Position,
+    /// Where it is wired; without it DBX12.1 or DBX12.0 is set after the PLC scan.
+    pub input: Option<Input>,
+}
+
+/// An input of the PLC, `I3.4`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Input {
+    /// The byte.
+    pub byte: u16,
+    /// The bit, 0 to 7.
+    pub bit: u8,
+}
+
+/// The mechanical coupling of the slides of a grouping.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bridge {
+    /// Where the file speaks of it.
+    pub place: Place,
+    /// Slide of a synchronous axis less slide of the leading axis when unstrained.
+    pub offset: BTreeMap<String, Position>,
+    /// 0 slides move freely, 1 rigid; between: share of a difference that the iron takes back per second.
+    pub stiffness: f64,
+}
+
+impl AxisPlant {
+    /// An axis of which nothing is said.
+    #[must_use]
+    pub fn new(place: Place) -> Self {
+        Self {
+            place,
+            start: Position::ZERO,
+            drive: Drive::default(),
+            encoders: [EncoderPlant::default(); 2],
+            cam: Given::Unsaid,
+            limit_plus: Given::Unsaid,
+            limit_minus: Given::Unsaid,
+        }
+    }
+}
+
+impl PlantDefinition {
+    /// Reads the text of a `plant.toml`.
+    ///
+    /// # Errors
+    /// The first thing that is not understood, with file and line.
+    pub fn parse(text: &str, file: &str) -> Result<Self, Problem> {
+        Self::read(Table::parse(text, file)?)
+    }
+
+    /// Reads a tree, into which a scenario may have merged tables of its own.
+    ///
+    /// # Errors
+    /// The first thing that is not understood, with file and line.
+    pub fn read(mut table: Table) -> Result<Self, Problem> {
+        let mut plant = Self::default();
+        if let Some(node) = table.take("machine") {
+            let mut machine = node.into_table("the table [machine]")?;
+            plant.plc_cycle = machine
+                .take("plc_cycle")
+                .map(|node| time(&node))
+                .transpose()?;
+            plant.db11_5_2 = machine
+                .take("db11_5_2")
+                .map(|node| db11_5_2(&node))
+                .transpose()?;
+            machine.finish()?;
+        }
+        if let Some(node) = table.take("compatibility") {
+            let mut compatibility = node.into_table("the table [compatibility]")?;
+            if let Some(node) = compatibility.take("db11_5_2") {
+                let here = db11_5_2(&node)?;
+                if plant.db11_5_2.is_some_and(|other| other != here) {
+                    return Err(node.expected("the same db11_5_2 as in [machine]", "say it once"));
+                }
+                plant.db11_5_2 = Some(here);
+            }
+            compatibility.finish()?;
+        }
+        if let Some(node) = table.take("bridge") {
+            for (grouping, place, node) in node
+                .into_table("tables [bridge.1] to [bridge.8]")?
+                .take_rest()
+            {
+                let number = grouping.parse().ok().filter(|number| (1..=8).contains(number)).ok_or_else(|| {
+                    place.problem(
+                        format!("expected the number of a gantry grouping, 1 to 8, found `{grouping}`"),
+                        "write [bridge.1]",
+                    )
+                })?;
+                plant.bridges.insert(number, bridge(node)?);
+            }
+        }
+        for (name, place, node) in table.take_rest() {
+            let what = format!("a table [{name}] for the machine axis `{name}`");
+            let known = ["machine", "bridge", "compatibility"];
+            let table = node.into_table(&what).map_err(|problem| Problem {
+                cure: did_you_mean(&name, known, &problem.cure),
+                ..problem
+            })?;
+            plant.axes.insert(name, axis(table, place)?);
+        }
+        Ok(plant)
+    }
+
+    /// Checks every axis name against the names of the machine axes (MD10000, exact case).
+    ///
+    /// # Errors
+    /// The first name that no machine axis has, with its place and the nearest name.
+    pub fn check_names(&self, names: &[&str]) -> Result<(), Problem> {
+        let axes = self.axes.iter().map(|(name, axis)| (name, &axis.place));
+        let bridges = self
+            .bridges
+            .values()
+            .flat_map(|bridge| bridge.offset.keys().map(|name| (name, &bridge.place)));
+        for (name, place) in axes.chain(bridges) {
+            if !names.contains(&name.as_str()) {
+                let fallback = format!("the machine axes are `{}`", names.join("`, `"));
+                return Err(place.problem(
+                    format!("expected a machine axis name (MD10000), found `{name}`"),
+                    did_you_mean(name, names.iter().copied(), &fallback),
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn axis(mut table: Table, place: Place) -> Result<AxisPlant, Problem> {
+    let mut plant = AxisPlant::new(place);
+    if let Some(node) = table.take("start") {
+        plant.start = position(&node, "the position of the slide in mm or degrees")?;
+    }
+    if let Some(node) = table.take("drive") {
+        plant.drive = drive(node)?;
+    }
+    for (key, encoder) in ["encoder1", "encoder2"]
+        .into_iter()
+        .zip(&mut plant.encoders)
+    {
+        if let Some(node) = table.take(key) {
+            *encoder = read_encoder(node)?;
+        }
+    }
+    plant.cam = given(table.take("cam"), "a reference cam", cam)?;
+    plant.limit_plus = given(table.take("limit_plus"), "a limit switch", limit_switch)?;
+    plant.limit_minus = given(table.take("limit_minus"), "a limit switch", limit_switch)?;
+    table.finish()?;
+    if let (Given::Said(minus), Given::Said(plus)) = (plant.limit_minus, plant.limit_plus)
+        && minus.at >= plus.at
+    {
+        return Err(plant.place.problem(
+            format!(
+                "expected limit_plus above limit_minus = {}, found {}",
+                minus.at, plus.at
+            ),
+            "exchange the two",
+        ));
+    }
+    Ok(plant)
+}
+
+fn drive(node: Node) -> Result<Drive, Problem> {
+    let mut table = node.into_table("a drive")?;
+    let mut drive = Drive::default();
+    if let Some(node) = table.take("time_constant") {
+        drive.time_constant = time(&node)?;
+    }
+    if let Some(node) = table.take("ready_after") {
+        drive.ready_after = time(&node)?;
+    }
+    if let Some(node) = table.take("intelligent") {
+        drive.intelligent = node.boolean("whether the drive is intelligent")?;
+    }
+    table.finish()?;
+    Ok(drive)
+}
+
+fn read_encoder(node: Node) -> Result<EncoderPlant, Problem> {
+    let mut table = node.into_table("an encoder")?;
+    let mut encoder = EncoderPlant::default();
+    if let Some(node) = table.take("kind") {
+        let kinds = [
+            ("incremental", EncoderKind::Incremental),
+            ("absolute", EncoderKind::Absolute),
+            ("distance_coded", EncoderKind::DistanceCoded),
+        ];
+        encoder.kind = Some(one_of(&node, &kinds)?);
+    }
+    if let Some(node) = table.take("zero_mark") {
+        encoder.zero_mark = position(&node, "the position of a zero mark in mm or degrees")?;
+    }
+    if let Some(node) = table.take("zero_mark_spacing") {
+        encoder.zero_mark_spacing =
+            Some(distance(&node, "a spacing of more than 0 mm or degrees")?);
+    }
+    if let Some(node) = table.take("resolution") {
+        encoder.resolution = distance(&node, "a resolution of at least 0.000001 mm or degrees")?;
+    }
+    table.finish()?;
+    Ok(encoder)
+}
+
+fn cam(mut table: Table) -> Result<Cam, Problem> {
+    let from = required(&mut table, "from", "a cam")?;
+    let to = required(&mut table, "to", "a cam")?;
+    let input = table.take("input").map(|node| input(&node)).transpose()?;
+    table.finish()?;
+    if from > to {
+        return Err(table.place.problem(
+            format!("expected a cam whose `from` is not above its `to`, found {from} and {to}"),
+            "exchange the two",
+        ));
+    }
+    Ok(Cam { from, to, input })
+}
+
+fn limit_switch(mut table: Table) -> Result<LimitSwitch, Problem> {
+    let at = required(&mut table, "at", "a limit switch")?;
+    let input = table.take("input").map(|node| input(&node)).transpose()?;
+    table.finish()?;
+    Ok(LimitSwitch { at, input })
+}
+
+fn bridge(node: Node) -> Result<Bridge, Problem> {
+    let mut table = node.into_table("a bridge")?;
+    let mut bridge = Bridge {
+        place: table.place.clone(),
+        offset: BTreeMap::new(),
+        stiffness: 0.0,
+    };
+    if let Some(node) = table.take("offset") {
+        for (name, _, node) in node.into_table("offsets such as { XF = 0.0 }")?.take_rest() {
+            bridge
+                .offset
+                .insert(name, position(&node, "an offset in mm or degrees")?);
+        }
+    }
+    if let Some(node) = table.take("stiffness") {
+        bridge.stiffness = node.number("a stiffness from 0 to 1")?;
+        if !(0.0..=1.0).contains(&bridge.stiffness) {
+            return Err(node.expected("a stiffness from 0 to 1", "0 moves freely, 1 is rigid"));
+        }
+    }
+    table.finish()?;
+    Ok(bridge)
+}
+
+/// A part that can be removed by `false`.
+fn given<T>(
+    node: Option<Node>,
+    what: &str,
+    read: impl FnOnce(Table) -> Result<T, Problem>,
+) -> Result<Given<T>, Problem> {
+    match node {
+        None => Ok(Given::Unsaid),
+        Some(Node {
+            value: Value::Boolean(false),
+            ..
+        }) => Ok(Given::Removed),
+        Some(node) => node
+            .into_table(&format!("{what}, or false"))
+            .and_then(read)
+            .map(Given::Said),
+    }
+}
+
+fn required(table: &mut Table, key: &'static str, of: &str) -> Result<Position, Problem> {
+    let node = table.take(key).ok_or_else(|| {
+        table.place.problem(
+            format!("expected `{key}` of {of}, found nothing"),
+            format!("write {key} = 200.0"),
+        )
+    })?;
+    position(&node, "a position in mm or degrees")
+}
+
+/// The largest position that the control takes for a software limit switch; nothing is beyond.
+const FARTHEST: f64 = 1e8;
+
+fn position(node: &Node, what: &str) -> Result<Position, Problem> {
+    let number = node.number(what)?;
+    if number.abs() > FARTHEST {
+        return Err(node.expected(what, "positions are from -100000000 to 100000000"));
+    }
+    Ok(Position::from_user(number))
+}
+
+/// A position that is at least one increment.
+fn distance(node: &Node, what: &str) -> Result<Position, Problem> {
+    let distance = position(node, what)?;
+    if distance <= Position::ZERO {
+        return Err(node.expected(what, "write a larger number"));
+    }
+    Ok(distance)
+}
+
+fn time(node: &Node) -> Result<Time, Problem> {
+    let what = "a time such as \"10ms\"";
+    let cure = "write a number and us, ms, s, min or h, in quotes";
+    match &node.value {
+        Value::Text(text) => Time::parse(text).ok_or_else(|| node.expected(what, cure)),
+        Value::Integer(_)
+        | Value::Float(_)
+        | Value::Boolean(_)
+        | Value::Array(_)
+        | Value::Table(_) => Err(node.expected(what, cure)),
+    }
+}
+
+fn db11_5_2(node: &Node) -> Result<Db11Byte5Bit2, Problem> {
+    one_of(
+        node,
+        &[
+            ("mirror", Db11Byte5Bit2::Mirror),
+            ("hmi_strobe", Db11Byte5Bit2::HmiStrobe),
+        ],
+    )
+}
+
+fn one_of<T: Copy>(node: &Node, choices: &[(&str, T)]) -> Result<T, Problem> {
+    let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
+    let what = format!("one of \"{}\"", names.join("\", \""));
+    let text = node.text(&what)?;
+    let choice = choices.iter().find(|(name, _)| *name == text);
+    choice
+        .map(|(_, choice)| *choice)
+        .ok_or_else(|| node.expected(&what, &did_you_mean(text, names, "write one of them")))
+}
+
+fn input(node: &Node) -> Result<Input, Problem> {
+    let what = "an input such as \"I3.4\"";
+    let input = node.text(what)?.strip_prefix('I').and_then(|rest| {
+        let (byte, bit) = rest.split_once('.')?;
+        let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+        let input = Input {
+            byte: byte.parse().ok()?,
+            bit: bit.parse().ok()?,
+        };
+        (digits(byte) && digits(bit) && input.bit < 8).then_some(input)
+    });
+    input.ok_or_else(|| node.expected(what, "the letter I, the byte, a point, a bit from 0 to 7"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EXAMPLE: &str = r#"
+[machine]
+plc_cycle = "10ms"
+db11_5_2 = "mirror"
+[X]
+start = 120.0
+[X.drive]
+time_constant = "3ms"
+ready_after = "20ms"
+[X.encoder1]
+kind = "incremental"
+zero_mark = 0.300
+zero_mark_spacing = 10.0
+resolution = 0.0001
+[X.cam]
+from = 200.0
+to = 260.0
+input = "I3.4"
+[X.limit_plus]
+at = 980.0
+[bridge.1]
+offset = { XF = 0.5 }
+stiffness = 0.25
+"#;
+
+    fn refused(text: &str) -> String {
+        PlantDefinition::parse(text, "plant.toml")
+            .unwrap_err()
+            .to_string()
+    }
+
+    #[test]
+    fn a_plant_is_read_as_written() {
+        let plant = PlantDefinition::parse(EXAMPLE, "plant.toml").unwrap();
+        assert_eq!(plant.plc_cycle, Some(Time::from_millis(10)));
+        assert_eq!(plant.db11_5_2, Some(Db11Byte5Bit2::Mirror));
+        let x = &plant.axes["X"];
+        assert_eq!(
+            (x.start, x.drive),
+            (Position::from_user(120.0), Drive::default())
+        );
+        assert_eq!(x.encoders[0].kind, Some(EncoderKind::Incremental));
+        assert_eq!(x.encoders[0].zero_mark, Position::new(300_000));
+        assert_eq!(x.encoders[1], EncoderPlant::default());
+        let Given::Said(cam) = x.cam else {
+            panic!("{x:?}")
+        };
+        assert_eq!(
+            (cam.to, cam.input),
+            (Position::from_user(260.0), Some(Input { byte: 3, bit: 4 }))
+        );
+        assert_eq!(x.limit_minus, Given::Unsaid);
+        assert_eq!(plant.bridges[&1].offset["XF"], Position::from_user(0.5));
+    }
+
+    #[test]
+    fn a_scenario_replaces_values_and_removes_a_cam() {
+        let mut table = Table::parse(EXAMPLE, "plant.toml").unwrap();
+        table.merge(Table::parse("[X]\nstart = 1\ncam = false\n", "scenario.toml").unwrap());
+        let plant = PlantDefinition::read(table).unwrap();
+        assert_eq!(
+            (plant.axes["X"].start, plant.axes["X"].cam),
+            (Position::from_user(1.0), Given::Removed)
+        );
+        assert_eq!(
+            plant.axes["X"].encoders[0].zero_mark,
+            Position::new(300_000)
+        );
+    }
+
+    #[test]
+    fn an_unknown_key_is_refused_with_its_line_and_the_nearest_name() {
+        let message = refused("[X]\n[X.encoder1]\nzero_marc = 1\n");
+        assert!(
+            message.starts_with("plant.toml:3: ") && message.contains("did you mean `zero_mark`?"),
+            "{message}"
+        );
+        assert!(refused("machin = 1\n").contains("did you mean `machine`?"));
+    }
+
+    #[test]
+    fn values_out_of_range_are_refused_with_their_line() {
+        for text in [
+            "[X.encoder1]\nresolution = 0",
+            "[X.encoder1]\nzero_mark_spacing = -1",
+            "[X.encoder1]\nkind = \"abs\"",
+            "[X.drive]\ntime_constant = 3",
+            "[X.drive]\ntime_constant = \"3\"",
+            "[X.limit_plus]\nat = inf",
+            "[X.limit_plus]\nat = 1e12",
+            "[bridge.1]\nstiffness = 2",
+            "[bridge]\n9 = { stiffness = 0 }",
+            "[X.cam]\ninput = \"I3.8\"\nfrom = 1\nto = 2",
+        ] {
+            let message = refused(text);
+            assert!(message.starts_with("plant.toml:2: expected "), "{message}");
+        }
+        assert!(refused("[X.cam]\nfrom = 3\nto = 2").contains("found 3.000 and 2.000"));
+        assert!(refused("[X.cam]\nto = 2").contains("expected `from` of a cam"));
+    }
+
+    #[test]
+    fn a_name_that_no_machine_axis_has_is_refused() {
+        let plant = PlantDefinition::parse(EXAMPLE, "plant.toml").unwrap();
+        assert!(plant.check_names(&["X", "Y", "XF"]).is_ok());
+        let message = plant.check_names(&["Y", "XF"]).unwrap_err().to_string();
+        assert!(
+            message.contains("found `X`") && message.contains("plant.toml:5"),
+            "{message}"
+        );
+    }
+
+    #[test]
+    fn the_worked_examples_zero_marks_differ_by_its_misalignment() {
+        let text = include_str!("../../machine_data/g1_example/plant.toml");
+        let plant = PlantDefinition::parse(text, "plant.toml").unwrap();
+        plant.check_names(&["X", "Y", "XF"]).unwrap();
+        let (x, xf) = (&plant.axes["X"], &plant.axes["XF"]);
+        let difference = xf.encoders[0].zero_mark - x.encoders[0].zero_mark;
+        assert_eq!(
+            (difference, x.start - xf.start),
+            (Position::from_user(0.941), Position::ZERO)
+        );
+        assert_eq!(x.cam, xf.cam);
+    }
+
+    #[test]
+    fn db11_5_2_may_stand_in_compatibility_but_not_contradict() {
+        let plant =
+            PlantDefinition::parse("[compatibility]\ndb11_5_2 = \"hmi_strobe\"\n", "p").unwrap();
+        assert_eq!(plant.db11_5_2, Some(Db11Byte5Bit2::HmiStrobe));
+        let both = "[machine]\ndb11_5_2 = \"mirror\"\n[compatibility]\ndb11_5_2 = \"hmi_strobe\"\n";
+        assert!(refused(both).starts_with("plant.toml:4: "));
+    }
+}

@@ -1,0 +1,489 @@
+//! An archive of machine data as it was read: values, what was given, what is unknown, what was found.
+//!
+//! Reading goes in two steps, because a file may name an axis before MD10000 gives it that name: all assignments are
+//! collected, then names of axes and channels and the kinds of axes (MD30300) are set, then everything else in the
+//! order of the files, where a later assignment replaces an earlier one. One error, and nothing is loaded.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use crate::source::{Place, Problem, unreadable};
+use crate::units::{AxisNumber, ChannelNumber};
+
+use super::catalogue::{by_identifier, by_number, nearest_identifier};
+use super::table::{Datum, numbered};
+use super::target::{resolve, split_indices};
+use super::{MachineData, Owner, Target, Value, ascii, binary};
+
+/// How bad a finding is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// The archive is used.
+    Warning,
+    /// The archive is refused.
+    Error,
+}
+
+/// Something to say about an archive: where, which datum, what was expected and what came.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// How bad it is.
+    pub severity: Severity,
+    /// Where, if it stands in a file.
+    pub place: Option<Place>,
+    /// The number of the datum, if it is known.
+    pub number: Option<u32>,
+    /// The identifier with its prefix; may be empty.
+    pub identifier: String,
+    /// What was expected and what came.
+    pub what: String,
+    /// What to do about it; may be empty.
+    pub cure: String,
+}
+
+/// `a.tea:7: error: MD37100 GANTRY_AXIS_TYPE: expected …, found …`, and the cure in a second line.
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(place) = &self.place {
+            write!(f, "{place}: ")?;
+        }
+        f.write_str(match self.severity {
+            Severity::Warning => "warning: ",
+            Severity::Error => "error: ",
+        })?;
+        let number = self.number.map(numbered).unwrap_or_default();
+        let name = [number.as_str(), self.identifier.as_str()].join(" ");
+        if !name.trim().is_empty() {
+            write!(f, "{}: ", name.trim())?;
+        }
+        f.write_str(&self.what)?;
+        if !self.cure.is_empty() {
+            write!(f, "\n  {}", self.cure)?;
+        }
+        Ok(())
+    }
+}
+
+impl From<Problem> for Finding {
+    fn from(problem: Problem) -> Self {
+        let Problem { place, what, cure } = problem;
+        Self {
+            severity: Severity::Error,
+            place,
+            number: None,
+            identifier: String::new(),
+            what,
+            cure,
+        }
+    }
+}
+
+/// One problem for the first of the findings that refused an archive, saying how many more there are.
+#[must_use]
+pub fn refusal(findings: &[Finding]) -> Problem {
+    let Some(first) = findings.first() else {
+        return Problem::new("the machine data were refused", "");
+    };
+    let name = first
+        .number
+        .map(|number| format!("{} {}: ", numbered(number), first.identifier))
+        .unwrap_or_default();
+    let more = match findings.len() - 1 {
+        0 => String::new(),
+        more => format!("; `machine-data check` shows {more} more"),
+    };
+    Problem {
+        place: first.place.clone(),
+        what: format!("{name}{}{more}", first.what),
+        cure: first.cure.clone(),
+    }
+}
+
+/// An assignment that means no datum of the catalogue: kept as it stands, to be written back.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Assignment {
+    /// Where it stands.
+    pub place: Place,
+    /// The number in front of it, if there is one.
+    pub number: Option<u32>,
+    /// The name with its prefix and index: `$MA_SPIND_VELO_LIMIT[0,AX4]`.
+    pub name: String,
+    /// The channel of its section.
+    pub channel: ChannelNumber,
+    /// The value as it was written.
+    pub value: String,
+}
+
+/// A part of an archive.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Member {
+    /// Its name: a file, or a member of a binary archive with its folder.
+    pub name: String,
+    /// How many assignments were read in it; `None` where it holds no machine data and was left alone.
+    pub assignments: Option<usize>,
+}
+
+/// What was done with the files.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Summary {
+    /// The files and members in their order.
+    pub members: Vec<Member>,
+    /// How many values of known machine data were taken.
+    pub taken: usize,
+    /// How many unknown values were kept.
+    pub unknown: usize,
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let read = |member: &&Member| member.assignments.is_some();
+        let left = self.members.iter().filter(|member| !read(member)).count();
+        writeln!(
+            f,
+            "{} machine data taken, {} unknown kept, {left} members without machine data left alone",
+            self.taken, self.unknown
+        )?;
+        for member in self.members.iter().filter(read) {
+            writeln!(
+                f,
+                "  {}: {} assignments",
+                member.name,
+                member.assignments.unwrap_or_default()
+            )?;
+        }
+        for member in self.members.iter().filter(|member| !read(member)) {
+            writeln!(f, "  left: {}", member.name)?;
+        }
+        Ok(())
+    }
+}
+
+/// An archive that was read as a whole.
+#[derive(Clone, PartialEq)]
+pub struct Archive {
+    /// The values, with defaults where nothing was given.
+    pub data: MachineData,
+    /// What was given explicitly, and where.
+    pub given: BTreeMap<Target, Place>,
+    /// What is kept without being understood, in the order of the files.
+    pub unknown: Vec<Assignment>,
+    /// Warnings.
+    pub findings: Vec<Finding>,
+    /// What was done with the files.
+    pub summary: Summary,
+}
+
+/// Only the summary: the values of 31 axes fill screens.
+impl fmt::Debug for Archive {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Archive({})", self.summary)
+    }
+}
+
+/// An assignment as a reader found it.
+pub(super) struct Line {
+    pub(super) place: Place,
+    pub(super) number: Option<u32>,
+    pub(super) name: String,
+    pub(super) channel: ChannelNumber,
+    pub(super) value: String,
+}
+
+/// What the readers of files collect.
+#[derive(Default)]
+pub(super) struct Reading {
+    pub(super) lines: Vec<Line>,
+    pub(super) findings: Vec<Finding>,
+    pub(super) members: Vec<Member>,
+}
+
+impl Archive {
+    /// Reads files, in this order, as one import: ASCII archives, or a binary one.
+    ///
+    /// # Errors
+    /// Every finding, if one of them is an error; nothing is loaded then.
+    pub fn load(files: &[PathBuf]) -> Result<Self, Vec<Finding>> {
+        let mut sources = Vec::new();
+        for path in files {
+            let bytes = std::fs::read(path)
+                .map_err(|error| vec![Finding::from(unreadable(path, &error))])?;
+            sources.push((path.display().to_string(), bytes));
+        }
+        Self::read(
+            sources
+                .iter()
+                .map(|(name, bytes)| (name.as_str(), bytes.as_slice())),
+        )
+    }
+
+    /// Reads the contents of files, each with the name that messages shall use.
+    ///
+    /// ```
+    /// use opennck::sinumerik::machine_data::Archive;
+    ///
+    /// let file = ("machine.tea", b"N37100 $MA_GANTRY_AXIS_TYPE[AX3]=11\n".as_slice());
+    /// let archive = Archive::read([file]).unwrap();
+    /// let target = archive.data.parse_target("37100[AX3]").unwrap();
+    /// assert!(archive.is_given(&target));
+    /// ```
+    ///
+    /// # Errors
+    /// Every finding, if one of them is an error; nothing is loaded then.
+    pub fn read<'a>(
+        files: impl IntoIterator<Item = (&'a str, &'a [u8])>,
+    ) -> Result<Self, Vec<Finding>> {
+        let mut reading = Reading::default();
+        for (name, bytes) in files {
+            if binary::is_binary(bytes) {
+                if let Err(problem) = binary::read(name, bytes, &mut reading) {
+                    reading.findings.push(problem.into());
+                }
+            } else {
+                ascii::read(name, bytes, &mut reading);
+            }
+        }
+        Self::from_reading(reading)
+    }
+
+    fn from_reading(reading: Reading) -> Result<Self, Vec<Finding>> {
+        let Reading {
+            lines,
+            mut findings,
+            members,
+        } = reading;
+        let mut data = MachineData::default();
+        let mut known = Vec::new();
+        let mut unknown = BTreeMap::new();
+        for (order, line) in lines.into_iter().enumerate() {
+            match known_datum(&line) {
+                Ok(Some(datum)) => known.push((datum, line)),
+                Ok(None) => {
+                    // Only data of a channel differ by the section they stand in.
+                    let per_channel = line.name.starts_with("$MC") || line.name.starts_with("$SC");
+                    let key = (
+                        per_channel.then_some(line.channel),
+                        line.name.to_ascii_uppercase(),
+                    );
+                    unknown.insert(key, (order, line));
+                }
+                Err(finding) => findings.push(finding),
+            }
+        }
+        // Names first, then the kinds of axes, whose defaults they decide, then the rest.
+        known.sort_by_key(|(datum, _)| match datum.number {
+            10000 | 20000 => 0,
+            30300 => 1,
+            _ => 2,
+        });
+        let mut given = BTreeMap::new();
+        for (datum, line) in known {
+            let target = match take(datum, &line, &mut data) {
+                Ok(target) => target,
+                Err(problem) => {
+                    findings.push(Finding {
+                        severity: Severity::Error,
+                        place: Some(line.place),
+                        number: Some(datum.number),
+                        identifier: datum.full_identifier(),
+                        what: problem.what,
+                        cure: problem.cure,
+                    });
+                    continue;
+                }
+            };
+            given.insert(target, line.place);
+        }
+        if findings
+            .iter()
+            .any(|finding| finding.severity == Severity::Error)
+        {
+            findings.sort_by(|a, b| {
+                b.severity
+                    .cmp(&a.severity)
+                    .then_with(|| a.place.cmp(&b.place))
+            });
+            return Err(findings);
+        }
+        let mut unknown: Vec<_> = unknown.into_values().collect();
+        unknown.sort_by_key(|(order, _)| *order);
+        let unknown: Vec<_> = unknown.into_iter().map(|(_, line)| line.into()).collect();
+        findings.extend(unknown_findings(&unknown));
+        let summary = Summary {
+            members,
+            taken: given.len(),
+            unknown: unknown.len(),
+        };
+        Ok(Self {
+            data,
+            given,
+            unknown,
+            findings,
+            summary,
+        })
+    }
+
+    /// Whether this value was given explicitly.
+    #[must_use]
+    pub fn is_given(&self, target: &Target) -> bool {
+        self.given.contains_key(target)
+    }
+
+    /// Whether any value of this datum was given explicitly for this owner.
+    #[must_use]
+    pub fn is_given_for(&self, number: u32, owner: Owner) -> bool {
+        self.given
+            .keys()
+            .any(|target| target.datum().number == number && target.owner() == owner)
+    }
+
+    /// Whether any axis-specific datum was given for this machine axis: the machine has it.
+    #[must_use]
+    pub fn given_axis(&self, axis: AxisNumber) -> bool {
+        self.given
+            .keys()
+            .any(|target| target.owner() == Owner::Axis(axis))
+    }
+}
+
+impl From<Line> for Assignment {
+    fn from(line: Line) -> Self {
+        let Line {
+            place,
+            number,
+            name,
+            channel,
+            value,
+        } = line;
+        Self {
+            place,
+            number,
+            name,
+            channel,
+            value,
+        }
+    }
+}
+
+/// Below this number `N…` is only the number of a block; machine data have none there.
+const FIRST_DATUM: u32 = 9_000;
+
+/// The datum that a line means; `None` where the catalogue does not have it.
+fn known_datum(line: &Line) -> Result<Option<&'static Datum>, Finding> {
+    let identifier = line.name.split('[').next().unwrap_or_default().trim();
+    let number = line.number.filter(|number| *number >= FIRST_DATUM);
+    let error = |what: String, cure: String| Finding {
+        severity: Severity::Error,
+        place: Some(line.place.clone()),
+        number,
+        identifier: identifier.to_owned(),
+        what,
+        cure,
+    };
+    // Without a prefix a name means a variable of the user, not a machine datum.
+    let by_name = identifier
+        .starts_with('$')
+        .then(|| by_identifier(identifier))
+        .flatten();
+    match (by_name, number.and_then(by_number)) {
+        (Some(datum), _) if number.is_none_or(|number| number == datum.number) => Ok(Some(datum)),
+        (Some(datum), _) => Err(error(
+            format!(
+                "expected N{} before {identifier}, found N{}",
+                datum.number,
+                number.unwrap_or_default()
+            ),
+            "number and identifier must mean the same datum; correct one, or leave the number away"
+                .to_owned(),
+        )),
+        (None, Some(datum)) => Err(error(
+            format!("expected {datum} by its number, found {identifier}"),
+            nearest_identifier(identifier).map_or_else(
+                || "correct the number or the identifier".to_owned(),
+                |near| format!("did you mean `{near}`?"),
+            ),
+        )),
+        (None, None) => Ok(None),
+    }
+}
+
+/// Puts a known datum into the values.
+fn take(datum: &'static Datum, line: &Line, data: &mut MachineData) -> Result<Target, Problem> {
+    let (_, indices) = split_indices(&line.name).ok_or_else(|| {
+        Problem::new(
+            format!(
+                "expected at most an index and an axis in brackets, found `{}`",
+                line.name
+            ),
+            "write `[AX1]`, `[0,AX1]` or `[0]`",
+        )
+    })?;
+    let target = resolve(datum, &indices, line.channel, data)?;
+    let value = Value::parse(&line.value).ok_or_else(|| {
+        Problem::new(
+            format!(
+                "expected a {} for {datum}, found `{}`",
+                datum.kind, line.value
+            ),
+            "values are written as 12, 1.5, 1EX-05, 'H1c', TRUE or \"text\"",
+        )
+    })?;
+    data.store(&target, &value)?;
+    Ok(target)
+}
+
+/// One warning for each unknown identifier, at its first place.
+fn unknown_findings(unknown: &[Assignment]) -> Vec<Finding> {
+    let mut seen = BTreeSet::new();
+    let mut findings = Vec::new();
+    for assignment in unknown {
+        let identifier = assignment.name.split('[').next().unwrap_or_default();
+        if seen.insert(identifier) {
+            findings.push(Finding {
+                severity: Severity::Warning,
+                place: Some(assignment.place.clone()),
+                number: assignment.number,
+                identifier: identifier.to_owned(),
+                what: "expected a machine datum of the catalogue, found an unknown one; it is kept, but does nothing".to_owned(),
+                cure: String::new(),
+            });
+        }
+    }
+    findings
+}
+
+/// The archive files of a machine: the file itself, or in a directory all `*.tea`, `*.ini`, `*.mpf` by name, or one `*.arc`.
+///
+/// # Errors
+/// The path cannot be read, or a directory has a binary archive beside other archives. A directory without any
+/// archive gives an empty list.
+pub fn files_of(machine: &Path) -> Result<Vec<PathBuf>, Problem> {
+    if machine.is_file() {
+        return Ok(vec![machine.to_owned()]);
+    }
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(machine).map_err(|error| unreadable(machine, &error))? {
+        files.push(entry.map_err(|error| unreadable(machine, &error))?.path());
+    }
+    let has = |path: &Path, wanted: &[&str]| {
+        let extension = path
+            .extension()
+            .and_then(|extension| extension.to_str())
+            .unwrap_or_default();
+        wanted
+            .iter()
+            .any(|wanted| extension.eq_ignore_ascii_case(wanted))
+    };
+    files.retain(|path| path.is_file() && has(path, &["tea", "ini", "mpf", "arc"]));
+    files.sort();
+    if files.len() > 1 && files.iter().any(|path| has(path, &["arc"])) {
+        return Err(Place::file(&machine.display().to_string()).problem(
+            format!(
+                "expected one binary archive or ASCII archives, found {} archives of both kinds",
+                files.len()
+            ),
+            "keep one `.arc`, or only `.tea`, `.ini` and `.mpf`",
+        ));
+    }
+    Ok(files)
+}

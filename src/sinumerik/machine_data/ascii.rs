@@ -1,0 +1,181 @@
+//! The ASCII form of an archive (TEA, INI): one assignment a line, sections by channel, several members in a file.
+//!
+//! Reading is as tolerant as the control's import: line ends of either kind, Latin-1, a byte order mark, missing
+//! block numbers, blanks around `=`, comments, checksums of lines. A broken line is an error here; the control stops
+//! its import there (alarm 12550 and others), which would leave half of an archive in force.
+
+use crate::source::{Place, decode};
+use crate::units::ChannelNumber;
+
+use super::archive::{Finding, Line, Member, Reading, Severity};
+
+/// Reads a file.
+pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) {
+    read_text(name, &decode(bytes), Broken::Refuse, reading);
+}
+
+/// What happens to a line that is no assignment.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Broken {
+    /// An error: a person wrote the file.
+    Refuse,
+    /// A warning: the control wrote the file, and knows more kinds of line than we do.
+    Skip,
+}
+
+/// Reads a text; findings name `name` and the line.
+pub(super) fn read_text(name: &str, text: &str, broken: Broken, reading: &mut Reading) {
+    let file = Place::file(name);
+    let mut channel = ChannelNumber::FIRST;
+    let before = reading.lines.len();
+    for (number, line) in (1..).zip(text.lines()) {
+        let place = file.at_line(number);
+        let line = line.trim_matches(|letter: char| {
+            letter.is_whitespace() || letter == '\0' || letter == '\u{feff}'
+        });
+        // A header begins a member, and a member begins with channel 1.
+        if line.starts_with('%') {
+            channel = ChannelNumber::FIRST;
+            continue;
+        }
+        let line = without_comment(line);
+        if line.is_empty() || line.eq_ignore_ascii_case("METRIC") {
+            continue;
+        }
+        if ["M17", "M02", "M2", "M30"]
+            .iter()
+            .any(|end| line.eq_ignore_ascii_case(end))
+        {
+            channel = ChannelNumber::FIRST;
+            continue;
+        }
+        match kind(line) {
+            Kind::Channel(number) => channel = number,
+            Kind::Assignment { number, name, value } => {
+                let (name, value) = (name.to_owned(), value.to_owned());
+                reading.lines.push(Line { place, number, name, channel, value });
+            }
+            Kind::Broken(what, cure) => reading.findings.push(Finding {
+                severity: if broken == Broken::Refuse { Severity::Error } else { Severity::Warning },
+                place: Some(place),
+                number: None,
+                identifier: String::new(),
+                what,
+                cure: cure.to_owned(),
+            }),
+            Kind::Inch => reading.findings.push(Finding {
+                severity: Severity::Error,
+                place: Some(place),
+                number: None,
+                identifier: String::new(),
+                what: "expected METRIC, found INCH: this simulator reads machine data of the metric basic system only".to_owned(),
+                cure: "export the archive with MD10240 = 1".to_owned(),
+            }),
+        }
+    }
+    reading.members.push(Member {
+        name: name.to_owned(),
+        assignments: Some(reading.lines.len() - before),
+    });
+}
+
+enum Kind<'a> {
+    Channel(ChannelNumber),
+    Inch,
+    Assignment {
+        number: Option<u32>,
+        name: &'a str,
+        value: &'a str,
+    },
+    Broken(String, &'static str),
+}
+
+/// What a line without its comment is.
+fn kind(line: &str) -> Kind<'_> {
+    if line.eq_ignore_ascii_case("INCH") {
+        return Kind::Inch;
+    }
+    if let Some(inside) = strip_word(line, "CHANDATA") {
+        let number = inside
+            .trim()
+            .strip_prefix('(')
+            .and_then(|inside| inside.strip_suffix(')'));
+        return number
+            .and_then(|number| ChannelNumber::new(number.trim().parse().ok()?))
+            .map_or_else(
+                || {
+                    Kind::Broken(
+                        format!(
+                            "expected CHANDATA(1) to CHANDATA({}), found `{line}`",
+                            ChannelNumber::MAX
+                        ),
+                        "correct the number of the channel",
+                    )
+                },
+                Kind::Channel,
+            );
+    }
+    assignment(line).unwrap_or_else(|| {
+        Kind::Broken(
+            format!("expected an assignment such as `N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1`, found `{line}`"),
+            "write one assignment in a line",
+        )
+    })
+}
+
+/// `N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1`
+fn assignment(line: &str) -> Option<Kind<'_>> {
+    let (name, value) = line.split_once('=')?;
+    let (mut name, mut value) = (name.trim(), value.trim());
+    let mut number = None;
+    if let Some(rest) = name.strip_prefix(['N', 'n']) {
+        let digits = rest.len()
+            - rest
+                .trim_start_matches(|letter: char| letter.is_ascii_digit())
+                .len();
+        let (block, after) = rest.split_at(digits);
+        if digits > 0 && after.starts_with([' ', '\t', '$']) {
+            number = Some(block.parse().ok()?);
+            name = after.trim();
+        }
+    }
+    let mut letters = name.chars();
+    let first = letters.next()?;
+    let sound = (first == '$' || first == '_' || first.is_ascii_alphabetic())
+        && name
+            .split('[')
+            .next()?
+            .trim()
+            .chars()
+            .skip(1)
+            .all(|letter| letter == '_' || letter.is_ascii_alphanumeric());
+    // A checksum of the line stands behind the value as `'1f34`.
+    if let Some((before, checksum)) = value.rsplit_once([' ', '\t'])
+        && let Some(digits) = checksum.strip_prefix('\'')
+        && !digits.is_empty()
+        && digits.bytes().all(|digit| digit.is_ascii_hexdigit())
+    {
+        value = before.trim();
+    }
+    (sound && !value.is_empty()).then_some(Kind::Assignment {
+        number,
+        name,
+        value,
+    })
+}
+
+/// What stands behind a word, in capitals or not.
+fn strip_word<'a>(line: &'a str, word: &str) -> Option<&'a str> {
+    let (start, rest) = line.split_at_checked(word.len())?;
+    start.eq_ignore_ascii_case(word).then_some(rest)
+}
+
+/// Takes a comment off, unless its `;` stands inside quotes.
+fn without_comment(line: &str) -> &str {
+    let mut quoted = false;
+    let end = line.char_indices().find(|(_, letter)| {
+        quoted ^= *letter == '"';
+        *letter == ';' && !quoted
+    });
+    line[..end.map_or(line.len(), |(at, _)| at)].trim()
+}

@@ -1,0 +1,149 @@
+//! The catalogue: every machine datum the simulator knows, by number and by identifier.
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use crate::source;
+
+use super::table::{Datum, Row, Scope, Table};
+use super::{Axis, Channel, General, Setting};
+
+/// Every machine datum with the number of its row, by number.
+static BY_NUMBER: LazyLock<BTreeMap<u32, (&'static Datum, usize)>> = LazyLock::new(|| {
+    let mut all = BTreeMap::new();
+    collect(General::rows(), &mut all);
+    collect(Channel::rows(), &mut all);
+    collect(Axis::rows(), &mut all);
+    collect(Setting::rows(), &mut all);
+    all
+});
+
+static BY_IDENTIFIER: LazyLock<BTreeMap<&'static str, &'static Datum>> = LazyLock::new(|| {
+    BY_NUMBER
+        .values()
+        .map(|(datum, _)| (datum.identifier, *datum))
+        .collect()
+});
+
+fn collect<T>(rows: &'static [Row<T>], all: &mut BTreeMap<u32, (&'static Datum, usize)>) {
+    all.extend(
+        rows.iter()
+            .enumerate()
+            .map(|(row, entry)| (entry.datum.number, (&entry.datum, row))),
+    );
+}
+
+/// Every machine datum, ascending by number.
+pub fn catalogue() -> impl Iterator<Item = &'static Datum> {
+    BY_NUMBER.values().map(|(datum, _)| *datum)
+}
+
+/// The datum with this number.
+#[must_use]
+pub fn by_number(number: u32) -> Option<&'static Datum> {
+    BY_NUMBER.get(&number).map(|(datum, _)| *datum)
+}
+
+/// The datum with this identifier, with or without its prefix, in capitals or not.
+#[must_use]
+pub fn by_identifier(identifier: &str) -> Option<&'static Datum> {
+    let identifier = identifier.to_ascii_uppercase();
+    match Scope::split(&identifier) {
+        Some((scope, name)) => BY_IDENTIFIER
+            .get(name)
+            .copied()
+            .filter(|datum| datum.scope == scope),
+        None => BY_IDENTIFIER.get(identifier.as_str()).copied(),
+    }
+}
+
+/// The known identifier nearest to a misspelt one, without prefix.
+#[must_use]
+pub fn nearest_identifier(identifier: &str) -> Option<&'static str> {
+    let identifier = identifier.to_ascii_uppercase();
+    let name = Scope::split(&identifier).map_or(identifier.as_str(), |(_, name)| name);
+    source::nearest(name, BY_IDENTIFIER.keys().copied())
+}
+
+/// The place of a datum in its table.
+pub(super) fn row(number: u32) -> Option<usize> {
+    BY_NUMBER.get(&number).map(|(_, row)| *row)
+}
+
+impl Scope {
+    /// Takes the prefix off an identifier.
+    pub(super) fn split(identifier: &str) -> Option<(Self, &str)> {
+        [Self::General, Self::Setting, Self::Channel, Self::Axis]
+            .into_iter()
+            .find_map(|scope| {
+                identifier
+                    .strip_prefix(scope.prefix())
+                    .map(|name| (scope, name))
+            })
+    }
+}
+
+impl Datum {
+    /// The default of a linear axis as the control writes it; that of the first index.
+    #[must_use]
+    pub fn default_text(&self) -> String {
+        fn text<T: Table>(row: usize, datum: &Datum) -> String {
+            let value = T::rows()
+                .get(row)
+                .and_then(|row| (row.get)(&T::default(), 0));
+            value.map_or_else(String::new, |value| value.export(datum.kind))
+        }
+        let Some(row) = row(self.number) else {
+            return String::new();
+        };
+        match self.scope {
+            Scope::General => text::<General>(row, self),
+            Scope::Setting => text::<Setting>(row, self),
+            Scope::Channel => text::<Channel>(row, self),
+            Scope::Axis => text::<Axis>(row, self),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sinumerik::machine_data::{Effect, Kind, Value};
+
+    #[test]
+    fn a_datum_is_found_by_number_and_by_identifier() {
+        let datum = by_number(37100).unwrap();
+        assert_eq!(datum.to_string(), "MD37100 $MA_GANTRY_AXIS_TYPE");
+        assert_eq!(
+            (datum.kind, datum.count, datum.effect),
+            (Kind::Byte, 1, Effect::PowerOn)
+        );
+        assert_eq!(by_identifier("$MA_GANTRY_AXIS_TYPE"), Some(datum));
+        assert_eq!(by_identifier("gantry_axis_type"), Some(datum));
+        assert_eq!(by_identifier("$MC_GANTRY_AXIS_TYPE"), None);
+        assert_eq!(
+            nearest_identifier("$MA_GANTRY_AXIS_TYP"),
+            Some("GANTRY_AXIS_TYPE")
+        );
+    }
+
+    #[test]
+    fn rows_ascend_and_every_identifier_is_unique() {
+        let numbers: Vec<_> = Axis::rows().iter().map(|row| row.datum.number).collect();
+        assert!(numbers.is_sorted_by(|a, b| a < b));
+        assert_eq!(catalogue().count(), BY_IDENTIFIER.len());
+    }
+
+    #[test]
+    fn every_default_is_a_value_of_its_own_datum() {
+        for datum in catalogue() {
+            let value = Value::parse(&datum.default_text()).unwrap();
+            if let Some(number) = value.number() {
+                assert!(datum.range.contains(number), "{datum}");
+            }
+        }
+        assert_eq!(by_number(32084).unwrap().default_text(), "'Hff'");
+        assert_eq!(by_number(10000).unwrap().default_text(), "\"X1\"");
+        assert!(by_number(34093).unwrap().read_only && !by_number(34090).unwrap().read_only);
+    }
+}

@@ -1,0 +1,76 @@
+//! General machine data, `$MN_`: names, cycles, keys, handwheels, override switches.
+
+use super::table::machine_data;
+
+machine_data! {
+/// The machine data of the whole NC.
+General {
+    /// names of the machine axes; `AXn` stays valid beside them
+    10000 AXCONF_MACHAX_NAME_TAB axconf_machax_name_tab: [String; 31] = default_axis_names(); "", Range::ANY, PowerOn;
+    /// logical machine axes
+    10002 AXCONF_LOGIC_MACHAX_TAB axconf_logic_machax_tab: [String; 31] = std::array::from_fn(|index| format!("AX{}", index + 1)); "", Range::ANY, PowerOn;
+    /// mode group of each channel; 0 the channel does not exist
+    10010 ASSIGN_CHAN_TO_MODE_GROUP assign_chan_to_mode_group: [i32; 10] = [1, 0, 0, 0, 0, 0, 0, 0, 0, 0]; "", Range::between(0.0, 10.0), PowerOn;
+    /// basic system cycle
+    10050 SYSCLOCK_CYCLE_TIME sysclock_cycle_time: f64 = 0.004; "s", Range::POSITIVE, PowerOn;
+    /// position control cycle in basic system cycles
+    10060 POSCTRL_SYSCLOCK_TIME_RATIO posctrl_sysclock_time_ratio: i32 = 1; "", Range::between(1.0, 31.0), PowerOn, read_only true;
+    /// interpolation cycle in basic system cycles; one step of the simulator (O-22)
+    10070 IPO_SYSCLOCK_TIME_RATIO ipo_sysclock_time_ratio: i32 = 3; "", Range::between(1.0, 100.0), PowerOn;
+    /// computational resolution of linear axes
+    10200 INT_INCR_PER_MM int_incr_per_mm: f64 = 1_000.0; "1/mm", Range::POSITIVE, PowerOn;
+    /// computational resolution of rotary axes
+    10210 INT_INCR_PER_DEG int_incr_per_deg: f64 = 1_000.0; "1/deg", Range::POSITIVE, PowerOn;
+    /// basic system metric; this simulator knows no other
+    10240 SCALING_SYSTEM_IS_METRIC scaling_system_is_metric: bool = true; "", Range::between(1.0, 1.0), PowerOn;
+    /// settings of JOG
+    10735 JOG_MODE_MASK jog_mode_mask: u32 = 0; "", Range::ANY, Reset;
+    /// incremental JOG and reference point approach: 1 while the key is held, 0 from a press of the key on
+    11300 JOG_INC_MODE_LEVELTRIGGRD jog_inc_mode_leveltriggrd: bool = true; "", Range::ANY, PowerOn;
+    /// pulses of a handwheel per detent
+    11320 HANDWH_IMP_PER_LATCH handwh_imp_per_latch: [f64; 6] = [1.0; 6]; "", Range::ANY, PowerOn;
+    /// sizes of the fixed increments
+    11330 JOG_INCR_SIZE_TAB jog_incr_size_tab: [f64; 5] = [1.0, 10.0, 100.0, 1_000.0, 10_000.0]; "", Range::NOT_NEGATIVE, Reset;
+    /// handwheel gives 1 the way, 0 the velocity
+    11346 HANDWH_TRUE_DISTANCE handwh_true_distance: u8 = 1; "", Range::ANY, PowerOn;
+    /// alarms that are suppressed; bit 29: 16772
+    11410 SUPPRESS_ALARM_MASK suppress_alarm_mask: u32 = 0; "", Range::ANY, Reset;
+    /// alarms that are enabled
+    11411 ENABLE_ALARM_MASK enable_alarm_mask: u32 = 0; "", Range::ANY, Reset;
+    /// an alarm takes ready from 1 its channel, 0 the mode group
+    11412 ALARM_REACTION_CHAN_NOREADY alarm_reaction_chan_noready: bool = false; "", Range::ANY, PowerOn;
+    /// axial feed override is coded 1 Gray, 0 binary
+    12000 OVR_AX_IS_GRAY_CODE ovr_ax_is_gray_code: bool = true; "", Range::ANY, PowerOn;
+    /// axial feed override of each switch position
+    12010 OVR_FACTOR_AX_SPEED ovr_factor_ax_speed: [f64; 31] = FEED_OVERRIDE; "factor", Range::NOT_NEGATIVE, PowerOn;
+    /// path feed override is coded 1 Gray, 0 binary
+    12020 OVR_FEED_IS_GRAY_CODE ovr_feed_is_gray_code: bool = true; "", Range::ANY, PowerOn;
+    /// path feed override of each switch position
+    12030 OVR_FACTOR_FEEDRATE ovr_factor_feedrate: [f64; 31] = FEED_OVERRIDE; "factor", Range::NOT_NEGATIVE, PowerOn;
+    /// rapid traverse override is coded 1 Gray, 0 binary
+    12040 OVR_RAPID_IS_GRAY_CODE ovr_rapid_is_gray_code: bool = true; "", Range::ANY, PowerOn;
+    /// rapid traverse override of each switch position
+    12050 OVR_FACTOR_RAPID_TRA ovr_factor_rapid_tra: [f64; 31] = FEED_OVERRIDE.map(|factor| factor.min(1.0)); "factor", Range::NOT_NEGATIVE, PowerOn;
+    /// limit of a binary coded override
+    12100 OVR_FACTOR_LIMIT_BIN ovr_factor_limit_bin: f64 = 1.2; "factor", Range::NOT_NEGATIVE, PowerOn;
+}
+scope General
+}
+
+/// The override switch with 23 positions; the positions behind keep the last value.
+const FEED_OVERRIDE: [f64; 31] = [
+    0.0, 0.01, 0.02, 0.04, 0.06, 0.08, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9,
+    0.95, 1.0, 1.05, 1.1, 1.15, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2,
+];
+
+/// X1, Y1, Z1, A1, B1, C1, U1, V1, W1 and, our own continuation, X2 and so on.
+fn default_axis_names() -> [String; 31] {
+    let letters = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
+    std::array::from_fn(|index| {
+        format!(
+            "{}{}",
+            letters[index % letters.len()],
+            index / letters.len() + 1
+        )
+    })
+}

@@ -1,0 +1,216 @@
+//! Machine data: what the commissioning engineer told the control about the machine.
+//!
+//! The tables (`general.rs`, `setting.rs`, `channel.rs`, `axis.rs`) hold one row a datum; [`MachineData`] holds the
+//! values. A machine has two sets of them: the stored one, which files and the operator write with
+//! [`MachineData::set`], and the active one, which the control reads and which follows the stored one when a class of
+//! data becomes active, with [`MachineData::activate`]. [`Archive`] reads and writes commissioning archives.
+//!
+//! **Rotary axes.** Velocities and accelerations of a rotary axis have other defaults than those of a linear one
+//! (MD32000: 27.77 rev/min, not 10000 mm/min). Whenever MD30300 `IS_ROT_AX` changes, every such datum of the axis that
+//! still stands at the default of the old kind takes the default of the new kind. An archive sets MD30300 first and
+//! its other data after it, so what it says explicitly always stays.
+
+mod archive;
+mod ascii;
+mod axis;
+mod binary;
+mod catalogue;
+mod channel;
+mod check;
+mod general;
+mod setting;
+mod table;
+mod target;
+mod value;
+mod write;
+
+pub use archive::{Archive, Assignment, Finding, Member, Severity, Summary, files_of, refusal};
+pub use axis::Axis;
+pub use catalogue::{by_identifier, by_number, catalogue, nearest_identifier};
+pub use channel::Channel;
+pub use check::check;
+pub use general::General;
+pub use setting::Setting;
+pub use table::{Datum, Effect, Kind, Range, Scope};
+pub use target::{Owner, Target};
+pub use value::Value;
+
+use serde::{Deserialize, Serialize};
+
+use crate::source::Problem;
+use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel, Time};
+
+use table::Table;
+
+/// All machine data of a machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MachineData {
+    /// General machine data, `$MN_`.
+    pub general: General,
+    /// General setting data, `$SN_`.
+    pub setting: Setting,
+    /// Channel-specific machine data, `$MC_`.
+    pub channels: PerChannel<Channel>,
+    /// Axis-specific machine data, `$MA_`.
+    pub axes: PerAxis<Axis>,
+}
+
+/// The defaults of the control: linear axes, channels CHAN1 to CHAN10.
+impl Default for MachineData {
+    fn default() -> Self {
+        let mut channels = PerChannel::<Channel>::default();
+        for (number, channel) in channels.iter_mut() {
+            channel.chan_name = format!("CHAN{number}");
+        }
+        Self {
+            general: General::default(),
+            setting: Setting::default(),
+            channels,
+            axes: PerAxis::default(),
+        }
+    }
+}
+
+impl MachineData {
+    /// The interpolation cycle, MD10050 times MD10070: one step of the simulator (O-22).
+    #[must_use]
+    pub fn interpolation_cycle(&self) -> Time {
+        let ratio = u64::try_from(self.general.ipo_sysclock_time_ratio).unwrap_or(1);
+        Time::from_seconds(self.general.sysclock_cycle_time).times(ratio)
+    }
+
+    /// The machine axis of this name (MD10000, exact case) or `AXn`.
+    #[must_use]
+    pub fn axis(&self, name: &str) -> Option<AxisNumber> {
+        let by_name =
+            AxisNumber::all().find(|axis| self.axis_name(*axis) == name && !name.is_empty());
+        by_name.or_else(|| AxisNumber::new(numbered(name, "AX")?))
+    }
+
+    /// The name of a machine axis (MD10000).
+    #[must_use]
+    pub fn axis_name(&self, axis: AxisNumber) -> &str {
+        &self.general.axconf_machax_name_tab[axis.index()]
+    }
+
+    /// The channel of this name (MD20000, exact case) or `CHANn`.
+    #[must_use]
+    pub fn channel(&self, name: &str) -> Option<ChannelNumber> {
+        let by_name = self
+            .channels
+            .iter()
+            .find(|(_, channel)| channel.chan_name == name && !name.is_empty());
+        by_name
+            .map(|(number, _)| number)
+            .or_else(|| ChannelNumber::new(numbered(name, "CHAN")?))
+    }
+
+    /// Reads which value is meant: `34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `$MA_REFP_SET_POS[2,AX3]`,
+    /// `REFP_SET_POS[2,XF]`. Without an index it is index 0, without a channel it is channel 1.
+    ///
+    /// # Errors
+    /// The datum, axis, channel or index is unknown; the problem names the nearest known one.
+    pub fn parse_target(&self, text: &str) -> Result<Target, Problem> {
+        target::parse(text, self)
+    }
+
+    /// The value there.
+    #[must_use]
+    pub fn get(&self, target: &Target) -> Option<Value> {
+        fn from<T: Table>(table: &T, target: &Target) -> Option<Value> {
+            let row = T::rows().get(catalogue::row(target.datum().number)?)?;
+            (row.get)(table, usize::from(target.index()))
+        }
+        match (target.datum().scope, target.owner()) {
+            (Scope::General, _) => from(&self.general, target),
+            (Scope::Setting, _) => from(&self.setting, target),
+            (_, Owner::Channel(channel)) => from(&self.channels[channel], target),
+            (_, Owner::Axis(axis)) => from(&self.axes[axis], target),
+            (Scope::Channel | Scope::Axis, Owner::Nck) => None,
+        }
+    }
+
+    /// Writes a value as the operator or a scenario does: read-only data are refused.
+    ///
+    /// # Errors
+    /// The datum is read-only, or the value is not of its type or not in its range. Nothing changes then.
+    pub fn set(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
+        let datum = target.datum();
+        if datum.read_only {
+            return Err(Problem::new(
+                format!(
+                    "expected a machine datum that can be written, found {datum}, which only the control writes"
+                ),
+                "leave it to the control",
+            ));
+        }
+        self.store(target, value)
+    }
+
+    /// Writes a value as the import of an archive does.
+    fn store(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
+        let datum = target.datum();
+        let refused = |expected: &str| {
+            let found = value.export(datum.kind);
+            Problem::new(
+                format!("expected {expected} for {datum}, found {found}"),
+                "correct the value",
+            )
+        };
+        if let Some(number) = value.number()
+            && !datum.range.contains(number)
+        {
+            return Err(refused(&datum.range.to_string()));
+        }
+        let stored = match (datum.scope, target.owner()) {
+            (Scope::General, _) => store_in(&mut self.general, target, value),
+            (Scope::Setting, _) => store_in(&mut self.setting, target, value),
+            (_, Owner::Channel(channel)) => store_in(&mut self.channels[channel], target, value),
+            (_, Owner::Axis(axis)) => {
+                let axis = &mut self.axes[axis];
+                let was_rotary = axis.is_rot_ax;
+                let stored = store_in(axis, target, value);
+                if axis.is_rot_ax != was_rotary {
+                    let (linear, rotary) = (Axis::default(), Axis::rotary());
+                    let (from, to) = if was_rotary {
+                        (&rotary, &linear)
+                    } else {
+                        (&linear, &rotary)
+                    };
+                    axis.exchange_defaults(from, to);
+                }
+                stored
+            }
+            (Scope::Channel | Scope::Axis, Owner::Nck) => Err("an axis or a channel".to_owned()),
+        };
+        stored.map_err(|expected| refused(&expected))
+    }
+
+    /// Makes stored data active: copies every datum whose class acts at this level. POWER ON takes all, RESET all but
+    /// POWER ON data, NEWCONF what is NEWCONF or immediate (O-23).
+    pub fn activate(&mut self, stored: &Self, level: Effect) {
+        self.general.activate(&stored.general, level);
+        self.setting.activate(&stored.setting, level);
+        for (number, channel) in self.channels.iter_mut() {
+            channel.activate(&stored.channels[number], level);
+        }
+        for (number, axis) in self.axes.iter_mut() {
+            axis.activate(&stored.axes[number], level);
+        }
+    }
+}
+
+fn store_in<T: Table>(table: &mut T, target: &Target, value: &Value) -> Result<(), String> {
+    let row = catalogue::row(target.datum().number).and_then(|row| T::rows().get(row));
+    let row = row.ok_or_else(|| "a known datum".to_owned())?;
+    (row.set)(table, usize::from(target.index()), value)
+}
+
+/// The number behind a prefix: `AX12`.
+fn numbered(name: &str, prefix: &str) -> Option<u8> {
+    let digits = name.strip_prefix(prefix)?;
+    (!digits.starts_with(['0', '+'])).then(|| digits.parse().ok())?
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,430 @@
+//! How a table of machine data is written: one row a datum, from which come the typed field, its default, the
+//! catalogue entry and the access by number.
+//!
+//! The tables themselves are `general.rs`, `channel.rs`, `axis.rs` and `setting.rs`.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::value::Value;
+
+/// Whose datum it is, which is its prefix in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Scope {
+    /// General machine data, `$MN_`.
+    General,
+    /// General setting data, `$SN_`.
+    Setting,
+    /// Channel-specific machine data, `$MC_`.
+    Channel,
+    /// Axis-specific machine data, `$MA_`.
+    Axis,
+}
+
+impl Scope {
+    /// The prefix in a file.
+    #[must_use]
+    pub const fn prefix(self) -> &'static str {
+        match self {
+            Self::General => "$MN_",
+            Self::Setting => "$SN_",
+            Self::Channel => "$MC_",
+            Self::Axis => "$MA_",
+        }
+    }
+}
+
+/// When a stored value begins to act. The classes are ordered: what acts at a lower one acts at a higher one, too
+/// (O-23: NEWCONF data also become active by RESET).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Effect {
+    /// At once.
+    Immediate,
+    /// By "set machine data active".
+    NewConf,
+    /// By RESET.
+    Reset,
+    /// By power off and on.
+    PowerOn,
+}
+
+impl fmt::Display for Effect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Immediate => "immediate",
+            Self::NewConf => "NEWCONF",
+            Self::Reset => "RESET",
+            Self::PowerOn => "POWER ON",
+        })
+    }
+}
+
+/// The type of a datum as the list manual names it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// BOOLEAN: 0 or 1.
+    Boolean,
+    /// BYTE: 0 to 255.
+    Byte,
+    /// DWORD: a whole number of 32 bits with sign.
+    Dword,
+    /// UDWORD: 32 bits, written as `'H0F'`.
+    Udword,
+    /// DOUBLE: a finite number.
+    Double,
+    /// STRING: a text in quotes.
+    String,
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Boolean => "BOOLEAN",
+            Self::Byte => "BYTE",
+            Self::Dword => "DWORD",
+            Self::Udword => "UDWORD",
+            Self::Double => "DOUBLE",
+            Self::String => "STRING",
+        })
+    }
+}
+
+/// Which values a number may have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// The smallest value, if there is one.
+    pub minimum: Option<f64>,
+    /// The largest value, if there is one.
+    pub maximum: Option<f64>,
+    /// The smallest value itself is not allowed.
+    pub above_minimum: bool,
+}
+
+impl Range {
+    /// Any value of the type.
+    pub const ANY: Self = Self {
+        minimum: None,
+        maximum: None,
+        above_minimum: false,
+    };
+    /// Zero or more.
+    pub const NOT_NEGATIVE: Self = Self {
+        minimum: Some(0.0),
+        ..Self::ANY
+    };
+    /// More than zero.
+    pub const POSITIVE: Self = Self {
+        minimum: Some(0.0),
+        above_minimum: true,
+        ..Self::ANY
+    };
+
+    /// From one value to another, both allowed.
+    #[must_use]
+    pub const fn between(minimum: f64, maximum: f64) -> Self {
+        Self {
+            minimum: Some(minimum),
+            maximum: Some(maximum),
+            above_minimum: false,
+        }
+    }
+
+    /// Whether a value is allowed.
+    #[must_use]
+    pub fn contains(&self, value: f64) -> bool {
+        let low = self.minimum.is_none_or(|minimum| {
+            if self.above_minimum {
+                value > minimum
+            } else {
+                value >= minimum
+            }
+        });
+        low && self.maximum.is_none_or(|maximum| value <= maximum)
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.minimum, self.maximum) {
+            (None, None) => f.write_str("any value"),
+            (Some(minimum), None) if self.above_minimum => write!(f, "more than {minimum}"),
+            (Some(minimum), None) => write!(f, "{minimum} or more"),
+            (None, Some(maximum)) => write!(f, "{maximum} or less"),
+            (Some(minimum), Some(maximum)) => write!(f, "{minimum} to {maximum}"),
+        }
+    }
+}
+
+/// A row of the catalogue: what is known of a machine datum.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Datum {
+    /// Its number, `37100`.
+    pub number: u32,
+    /// Its name without the prefix, `GANTRY_AXIS_TYPE`.
+    pub identifier: &'static str,
+    /// Whose datum it is.
+    pub scope: Scope,
+    /// Its type.
+    pub kind: Kind,
+    /// Its unit in the metric basic system with linear axes; empty where it has none.
+    pub unit: &'static str,
+    /// Which values it may have.
+    pub range: Range,
+    /// How many values it has (per encoder 2, per parameter set 6, …); 1 without an index.
+    pub count: u8,
+    /// When a stored value begins to act.
+    pub effect: Effect,
+    /// Only the control writes it; an archive may carry it.
+    pub read_only: bool,
+    /// What it means.
+    pub doc: &'static str,
+}
+
+/// The number and the full name, `MD37100 $MA_GANTRY_AXIS_TYPE`.
+impl fmt::Display for Datum {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", numbered(self.number), self.full_identifier())
+    }
+}
+
+impl Datum {
+    /// The identifier with its prefix, `$MA_GANTRY_AXIS_TYPE`.
+    #[must_use]
+    pub fn full_identifier(&self) -> String {
+        format!("{}{}", self.scope.prefix(), self.identifier)
+    }
+}
+
+/// A number as people write it: setting data have the numbers from 41000 to 43999, all others are machine data.
+pub(super) fn numbered(number: u32) -> String {
+    let kind = if (41_000..44_000).contains(&number) {
+        "SD"
+    } else {
+        "MD"
+    };
+    format!("{kind}{number}")
+}
+
+/// A datum and the way to its field.
+pub(super) struct Row<T: 'static> {
+    pub(super) datum: Datum,
+    pub(super) get: fn(&T, usize) -> Option<Value>,
+    pub(super) set: fn(&mut T, usize, &Value) -> Result<(), String>,
+    pub(super) copy: fn(&mut T, &T),
+}
+
+/// A table of machine data.
+pub(super) trait Table: Default + 'static {
+    /// Its rows, ascending by number.
+    fn rows() -> &'static [Row<Self>];
+
+    /// The defaults of a rotary axis, which differ where a velocity or an acceleration is meant.
+    fn rotary() -> Self;
+
+    /// Copies every datum that acts at this level.
+    fn activate(&mut self, stored: &Self, level: Effect) {
+        for row in Self::rows().iter().filter(|row| row.datum.effect <= level) {
+            (row.copy)(self, stored);
+        }
+    }
+
+    /// Replaces every default of one kind of axis that still stands by the default of the other kind.
+    fn exchange_defaults(&mut self, from: &Self, to: &Self) {
+        for row in Self::rows() {
+            for index in 0..usize::from(row.datum.count) {
+                let (old, new) = ((row.get)(from, index), (row.get)(to, index));
+                if old != new
+                    && (row.get)(self, index) == old
+                    && let Some(new) = new
+                {
+                    // A default fits its own field.
+                    let _ = (row.set)(self, index, &new);
+                }
+            }
+        }
+    }
+}
+
+/// What a datum without an index can be.
+pub(super) trait Scalar: Clone {
+    const KIND: Kind;
+    fn value(&self) -> Value;
+    /// What was expected, where the value does not fit.
+    fn from_value(value: &Value) -> Result<Self, String>;
+}
+
+impl Scalar for bool {
+    const KIND: Kind = Kind::Boolean;
+    fn value(&self) -> Value {
+        Value::Boolean(*self)
+    }
+    fn from_value(value: &Value) -> Result<Self, String> {
+        match value {
+            Value::Boolean(value) => Ok(*value),
+            Value::Text(_) => Err("0 or 1".to_owned()),
+            Value::Integer(_) | Value::Real(_) => match value.whole() {
+                Some(0) => Ok(false),
+                Some(1) => Ok(true),
+                _ => Err("0 or 1".to_owned()),
+            },
+        }
+    }
+}
+
+/// A whole number type with its place in [`Kind`].
+macro_rules! whole_number {
+    ($type:ty, $kind:ident, $expected:literal) => {
+        impl Scalar for $type {
+            const KIND: Kind = Kind::$kind;
+            fn value(&self) -> Value {
+                Value::Integer(i64::from(*self))
+            }
+            fn from_value(value: &Value) -> Result<Self, String> {
+                value
+                    .whole()
+                    .and_then(|whole| Self::try_from(whole).ok())
+                    .ok_or_else(|| $expected.to_owned())
+            }
+        }
+    };
+}
+whole_number!(u8, Byte, "a whole number from 0 to 255");
+whole_number!(i32, Dword, "a whole number of 32 bits");
+whole_number!(u32, Udword, "32 bits such as 'H0F'");
+
+impl Scalar for f64 {
+    const KIND: Kind = Kind::Double;
+    fn value(&self) -> Value {
+        Value::Real(*self)
+    }
+    fn from_value(value: &Value) -> Result<Self, String> {
+        value
+            .number()
+            .filter(|number| number.is_finite())
+            .ok_or_else(|| "a finite number".to_owned())
+    }
+}
+
+impl Scalar for String {
+    const KIND: Kind = Kind::String;
+    fn value(&self) -> Value {
+        Value::Text(self.clone())
+    }
+    fn from_value(value: &Value) -> Result<Self, String> {
+        match value {
+            Value::Text(text) if !text.contains(['"', '\n', '\r']) => Ok(text.clone()),
+            Value::Text(_) | Value::Boolean(_) | Value::Integer(_) | Value::Real(_) => {
+                Err("a text in quotes, without quotes and line ends inside".to_owned())
+            }
+        }
+    }
+}
+
+/// What a datum can be: one scalar, or several with an index.
+pub(super) trait Field: Clone {
+    const KIND: Kind;
+    const COUNT: u8;
+    fn value(&self, index: usize) -> Option<Value>;
+    fn store(&mut self, index: usize, value: &Value) -> Result<(), String>;
+}
+
+impl<T: Scalar> Field for T {
+    const KIND: Kind = T::KIND;
+    const COUNT: u8 = 1;
+    fn value(&self, index: usize) -> Option<Value> {
+        (index == 0).then(|| Scalar::value(self))
+    }
+    fn store(&mut self, index: usize, value: &Value) -> Result<(), String> {
+        if index != 0 {
+            return Err("no index, or index 0".to_owned());
+        }
+        *self = T::from_value(value)?;
+        Ok(())
+    }
+}
+
+impl<T: Scalar, const N: usize> Field for [T; N] {
+    const KIND: Kind = T::KIND;
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "no datum has more than 31 values"
+    )]
+    const COUNT: u8 = N as u8;
+    fn value(&self, index: usize) -> Option<Value> {
+        self.get(index).map(Scalar::value)
+    }
+    fn store(&mut self, index: usize, value: &Value) -> Result<(), String> {
+        let place = self
+            .get_mut(index)
+            .ok_or_else(|| format!("an index from 0 to {}", N - 1))?;
+        *place = T::from_value(value)?;
+        Ok(())
+    }
+}
+
+/// A table of machine data. A row: meaning; number, identifier, field, type, default (and the default of a rotary
+/// axis); unit, range, effect (and `read_only true`).
+macro_rules! machine_data {
+    (
+        $(#[$table_doc:meta])*
+        $table:ident {
+            $(
+                $(#[doc = $doc:literal])+
+                $number:literal $identifier:ident $field:ident: $type:ty = $default:expr $(, rotary $rotary:expr)?;
+                $unit:literal, $range:expr, $effect:ident $(, read_only $read_only:literal)?;
+            )+
+        }
+        scope $scope:ident
+    ) => {
+        $(#[$table_doc])*
+        #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+        pub struct $table {
+            $(
+                #[doc = concat!(
+                    "`", $number, " ", stringify!($identifier), "`:", $($doc,)+
+                    " (unit `", $unit, "`, acts by ", stringify!($effect), ")."
+                )]
+                pub $field: $type,
+            )+
+        }
+
+        impl Default for $table {
+            fn default() -> Self {
+                Self { $($field: $default,)+ }
+            }
+        }
+
+        impl $crate::sinumerik::machine_data::table::Table for $table {
+            fn rotary() -> Self {
+                #[allow(clippy::needless_update, reason = "a table may have a pair in every row")]
+                Self { $($($field: $rotary,)?)+ ..Self::default() }
+            }
+
+            fn rows() -> &'static [$crate::sinumerik::machine_data::table::Row<Self>] {
+                use $crate::sinumerik::machine_data::table::{Datum, Effect, Field, Range, Row, Scope};
+                static ROWS: &[Row<$table>] = &[
+                    $(Row {
+                        datum: Datum {
+                            number: $number,
+                            identifier: stringify!($identifier),
+                            scope: Scope::$scope,
+                            kind: <$type as Field>::KIND,
+                            unit: $unit,
+                            range: $range,
+                            count: <$type as Field>::COUNT,
+                            effect: Effect::$effect,
+                            read_only: false $(|| $read_only)?,
+                            doc: concat!($($doc,)+ "").trim_ascii(),
+                        },
+                        get: |table, index| Field::value(&table.$field, index),
+                        set: |table, index, value| Field::store(&mut table.$field, index, value),
+                        copy: |to, from| to.$field.clone_from(&from.$field),
+                    },)+
+                ];
+                ROWS
+            }
+        }
+    };
+}
+pub(super) use machine_data;

@@ -1,0 +1,771 @@
+//! Facts about machine data: the tables, targets, classes of effect, archives of both kinds, the check.
+
+use proptest::prelude::*;
+
+use crate::source::Place;
+
+use super::*;
+
+fn archive(text: &str) -> Archive {
+    Archive::read([("a.tea", text.as_bytes())]).unwrap()
+}
+
+/// The findings of a refused archive, each in one line.
+fn refused(text: &str) -> Vec<String> {
+    let findings = Archive::read([("a.tea", text.as_bytes())]).unwrap_err();
+    findings
+        .iter()
+        .map(|finding| finding.to_string().replace('\n', " "))
+        .collect()
+}
+
+fn axis(number: u8) -> AxisNumber {
+    AxisNumber::new(number).unwrap()
+}
+
+/// Sets by text, as a scenario does.
+fn set(data: &mut MachineData, target: &str, value: &Value) {
+    let target = data.parse_target(target).unwrap();
+    data.set(&target, value).unwrap();
+}
+
+mod values {
+    use super::*;
+
+    #[test]
+    fn a_field_is_named_as_its_identifier() {
+        let data = serde_json::to_value(MachineData::default()).unwrap();
+        for datum in catalogue() {
+            let table = match datum.scope {
+                Scope::General => &data["general"],
+                Scope::Setting => &data["setting"],
+                Scope::Channel => &data["channels"][0],
+                Scope::Axis => &data["axes"][0],
+            };
+            assert!(
+                !table[datum.identifier.to_ascii_lowercase()].is_null(),
+                "{datum}"
+            );
+        }
+    }
+
+    #[test]
+    fn every_value_of_every_datum_can_be_read_and_written_back() {
+        let mut data = MachineData::default();
+        for datum in catalogue() {
+            let owner = match datum.scope {
+                Scope::General | Scope::Setting => Owner::Nck,
+                Scope::Channel => Owner::Channel(ChannelNumber::FIRST),
+                Scope::Axis => Owner::Axis(axis(31)),
+            };
+            for index in 0..datum.count {
+                let target = Target::new(datum.number, owner, index).unwrap();
+                let value = data.get(&target).unwrap();
+                data.store(&target, &value).unwrap();
+            }
+            assert!(
+                Target::new(datum.number, owner, datum.count).is_err(),
+                "{datum}"
+            );
+        }
+        assert_eq!(data, MachineData::default());
+    }
+
+    #[test]
+    fn thirty_one_axis_names_are_unique() {
+        let data = MachineData::default();
+        for number in AxisNumber::all() {
+            assert_eq!(data.axis(data.axis_name(number)), Some(number));
+            assert_eq!(data.axis(&format!("AX{number}")), Some(number));
+        }
+        assert_eq!(
+            (data.axis_name(axis(9)), data.axis_name(axis(10))),
+            ("W1", "X2")
+        );
+    }
+
+    #[test]
+    fn machine_data_survive_saving() {
+        let mut data = MachineData::default();
+        set(&mut data, "34090[X1]", &Value::Real(-0.941));
+        let bytes = postcard::to_stdvec(&data).unwrap();
+        assert_eq!(postcard::from_bytes::<MachineData>(&bytes).unwrap(), data);
+    }
+
+    #[test]
+    fn an_axis_that_becomes_rotary_takes_rotary_velocities_where_the_default_still_stood() {
+        let mut data = MachineData::default();
+        set(&mut data, "32020[X1]", &Value::Integer(7));
+        set(&mut data, "30300[X1]", &Value::Boolean(true));
+        let x = &data.axes[axis(1)];
+        assert_eq!(
+            (x.max_ax_velo, x.jog_velo, x.refp_velo_search_marker),
+            (27.77, 7.0, [0.833; 2])
+        );
+        set(&mut data, "30300[X1]", &Value::Boolean(false));
+        assert_eq!(
+            (data.axes[axis(1)].max_ax_velo, data.axes[axis(1)].jog_velo),
+            (10_000.0, 7.0)
+        );
+    }
+
+    #[test]
+    fn the_interpolation_cycle_is_md10050_times_md10070() {
+        assert_eq!(
+            MachineData::default().interpolation_cycle(),
+            Time::from_millis(12)
+        );
+    }
+}
+
+mod targets {
+    use super::*;
+
+    #[test]
+    fn every_way_of_writing_means_the_same_value() {
+        let data = archive("N10000 $MN_AXCONF_MACHAX_NAME_TAB[2]=\"XF\"").data;
+        for text in [
+            "34090[XF]",
+            "34090[0,AX3]",
+            "$MA_REFP_MOVE_DIST_CORR[0,AX3]",
+            "REFP_MOVE_DIST_CORR[ 0 , XF ]",
+        ] {
+            let target = data.parse_target(text).unwrap();
+            assert_eq!(
+                target.to_string(),
+                "$MA_REFP_MOVE_DIST_CORR[0,AX3]",
+                "{text}"
+            );
+        }
+        assert_eq!(data.parse_target("34100[2,XF]").unwrap().index(), 2);
+        assert_eq!(data.parse_target("11300").unwrap().owner(), Owner::Nck);
+        assert_eq!(
+            data.parse_target("20700").unwrap(),
+            data.parse_target("20700[CHAN1]").unwrap()
+        );
+        assert_eq!(
+            data.parse_target("41110").unwrap().to_string(),
+            "$SN_JOG_SET_VELO"
+        );
+    }
+
+    #[test]
+    fn a_wrong_target_is_refused_with_the_nearest_name() {
+        let data = MachineData::default();
+        let cases = [
+            ("99999", "99999"),
+            ("REFP_SET_POSS[X1]", "`REFP_SET_POS`"),
+            ("34100[4,X1]", "0 to 3"),
+            ("34100[x1]", "`X1`"),
+            ("34090", "machine axis"),
+            ("11300[1]", "found `1`"),
+            ("11300[X1]", "found `X1`"),
+            ("20700[CHAN11]", "CHAN1 to CHAN10"),
+            ("34090[0,X1,2]", "34090[XF]"),
+            ("34090[X1", "34090[XF]"),
+            ("", "34090[XF]"),
+        ];
+        for (text, part) in cases {
+            let problem = data.parse_target(text).unwrap_err().to_string();
+            assert!(
+                problem.starts_with("expected ") && problem.contains(part),
+                "{text}: {problem}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_value_of_the_wrong_type_or_range_changes_nothing() {
+        let mut data = MachineData::default();
+        let cases = [
+            ("37100[X1]", Value::Integer(256)),
+            ("37100[X1]", Value::Real(1.5)),
+            ("34000[X1]", Value::Integer(2)),
+            ("34020[X1]", Value::Integer(0)),
+            ("34090[X1]", Value::Real(f64::INFINITY)),
+            ("34090[X1]", Value::Real(f64::NAN)),
+            ("34090[X1]", Value::Text("1".to_owned())),
+            ("20000", Value::Integer(1)),
+            ("10240", Value::Boolean(false)),
+            ("34093[X1]", Value::Real(1.0)),
+        ];
+        for (target, value) in cases {
+            let target = data.parse_target(target).unwrap();
+            assert!(data.set(&target, &value).is_err(), "{target} {value:?}");
+        }
+        assert_eq!(data, MachineData::default());
+    }
+
+    proptest! {
+        #[test]
+        fn any_text_is_a_target_or_a_problem(text: String) {
+            let _ = MachineData::default().parse_target(&text);
+        }
+    }
+}
+
+mod effects {
+    use super::*;
+
+    /// One datum of each class for axis X1, changed in the stored set.
+    fn changed() -> MachineData {
+        let mut stored = MachineData::default();
+        set(&mut stored, "34210[X1]", &Value::Integer(2));
+        set(&mut stored, "32000[X1]", &Value::Integer(1));
+        set(&mut stored, "34080[X1]", &Value::Integer(3));
+        set(&mut stored, "34090[X1]", &Value::Integer(4));
+        set(&mut stored, "11300", &Value::Integer(0));
+        stored
+    }
+
+    fn after(level: Effect) -> (u8, f64, f64, f64, bool) {
+        let mut active = MachineData::default();
+        active.activate(&changed(), level);
+        let x = &active.axes[axis(1)];
+        let general = &active.general;
+        (
+            x.enc_refp_state[0],
+            x.max_ax_velo,
+            x.refp_move_dist[0],
+            x.refp_move_dist_corr[0],
+            general.jog_inc_mode_leveltriggrd,
+        )
+    }
+
+    /// REF-22
+    #[test]
+    fn each_class_becomes_active_at_its_level_and_above() {
+        assert_eq!(after(Effect::Immediate), (2, 10_000.0, -2.0, 0.0, true));
+        assert_eq!(after(Effect::NewConf), (2, 1.0, -2.0, 0.0, true));
+        assert_eq!(after(Effect::Reset), (2, 1.0, 3.0, 0.0, true));
+        assert_eq!(after(Effect::PowerOn), (2, 1.0, 3.0, 4.0, false));
+    }
+
+    #[test]
+    fn power_on_makes_everything_active() {
+        let mut active = MachineData::default();
+        active.activate(&changed(), Effect::PowerOn);
+        assert_eq!(active, changed());
+    }
+
+    /// DEF-09
+    #[test]
+    fn definition_and_trip_limits_wait_for_power_on() {
+        for number in [37100, 37120, 37130] {
+            assert_eq!(by_number(number).unwrap().effect, Effect::PowerOn);
+        }
+        assert_eq!(by_number(37110).unwrap().effect, Effect::Reset);
+        assert_eq!(by_number(37140).unwrap().effect, Effect::NewConf);
+    }
+}
+
+mod ascii_archives {
+    use super::*;
+
+    #[test]
+    fn import_is_as_tolerant_as_the_controls() {
+        let text =
+            b"\xEF\xBB\xBF%_N_INITIAL_INI\r\n;$PATH=/_N_DEF_DIR\r\nMETRIC\r\n\r\nCHANDATA( 2 )\r\n\
+            n34100 $MA_REFP_SET_POS [ 1 , AX2 ] = 1EX-05 ; comment = 2\r\n\
+            $MA_GANTRY_AXIS_TYPE[AX2]=11;'\r\n\
+            N37150 $ma_gantry_function_mask[AX2]='B101' 'a3f\r\n\
+            N10 $MC_REFP_NC_START_LOCK=0\r\n\
+            $MC_CHAN_NAME=\"A;B\"\r\n\
+            N34000 $MA_REFP_CAM_IS_ACTIVE[AX2]=FALSE\r\nM17 ; end\r\n\
+            %_N_COMPLETE_TEA_INI\r\n$MC_REFP_NC_START_LOCK=2\r\nM30\r\n";
+        let archive = Archive::read([("x.tea", text.as_slice())]).unwrap();
+        let two = &archive.data.axes[axis(2)];
+        assert_eq!(
+            (
+                two.refp_set_pos[1],
+                two.gantry_axis_type,
+                two.gantry_function_mask
+            ),
+            (1e-5, 11, 5)
+        );
+        assert!(!two.refp_cam_is_active);
+        let channel = |number| &archive.data.channels[ChannelNumber::new(number).unwrap()];
+        assert_eq!(
+            (channel(2).refp_nc_start_lock, channel(1).refp_nc_start_lock),
+            (0, 2)
+        );
+        assert_eq!(channel(2).chan_name, "A;B");
+        assert_eq!(archive.findings, []);
+    }
+
+    #[test]
+    fn latin_1_is_read() {
+        let archive =
+            Archive::read([("x.ini", b"$MC_CHAN_NAME=\"Br\xFCcke\"\n".as_slice())]).unwrap();
+        assert_eq!(
+            archive.data.channels[ChannelNumber::FIRST].chan_name,
+            "Brücke"
+        );
+    }
+
+    #[test]
+    fn an_axis_may_be_named_before_its_name_is_given() {
+        let archive =
+            archive("$MA_GANTRY_AXIS_TYPE[XF]=11\nN10000 $MN_AXCONF_MACHAX_NAME_TAB[2]=\"XF\"\n");
+        assert_eq!(archive.data.axes[axis(3)].gantry_axis_type, 11);
+        assert!(archive.given_axis(axis(3)) && !archive.given_axis(axis(1)));
+        assert!(archive.is_given_for(37100, Owner::Axis(axis(3))));
+        assert!(!archive.is_given(&archive.data.parse_target("37110[XF]").unwrap()));
+    }
+
+    #[test]
+    fn a_later_assignment_replaces_an_earlier_one() {
+        let files = [
+            ("a.tea", b"$MA_REFP_VELO_POS[AX1]=1\n".as_slice()),
+            ("b.tea", b"$MA_REFP_VELO_POS[AX1]=2\n"),
+        ];
+        let archive = Archive::read(files).unwrap();
+        let summary = &archive.summary;
+        assert_eq!(
+            (
+                archive.data.axes[axis(1)].refp_velo_pos,
+                summary.taken,
+                summary.members.len()
+            ),
+            (2.0, 1, 2)
+        );
+    }
+
+    #[test]
+    fn what_a_rotary_axis_was_given_stays_and_the_rest_is_rotary() {
+        let archive = archive("$MA_MAX_AX_VELO[AX1]=10000\n$MA_IS_ROT_AX[AX1]=1\n");
+        let x = &archive.data.axes[axis(1)];
+        assert_eq!(
+            (x.max_ax_velo, x.jog_velo, x.ax_velo_limit),
+            (10_000.0, 5.55, [31.94; 6])
+        );
+    }
+
+    #[test]
+    fn unknown_data_are_kept_and_warned_of() {
+        let text =
+            "N35100 $MA_SPIND_VELO_LIMIT[AX9X]=500\n$TC_DP1[1,1]=120\nN18000 $MN_A=1 \n$MN_A=2\n";
+        let archive = archive(text);
+        assert_eq!(archive.unknown.len(), 3);
+        assert_eq!(archive.unknown[2].value, "2");
+        let warning = archive.findings[0].to_string();
+        assert!(
+            warning.starts_with("a.tea:1: warning: MD35100 $MA_SPIND_VELO_LIMIT: "),
+            "{warning}"
+        );
+        assert!(
+            archive
+                .summary
+                .to_string()
+                .starts_with("0 machine data taken, 3 unknown kept")
+        );
+    }
+
+    #[test]
+    fn every_mistake_names_file_line_number_and_identifier() {
+        let text = "N37110 $MA_GANTRY_AXIS_TYPE[AX1]=1\n$MA_GANTRY_AXIS_TYPE[AX1]=x\nN34100 $MA_REFP_SET_POS[7,AX1]=0\n\
+            N37100 $MA_GANTRY_AXIS_TYPE[XF]=1\nN37100 $MA_GANTRY_AXIS_TPYE[AX1]=1\n$MA_REFP_VELO_POS[AX1]=-1\n";
+        let findings = refused(text);
+        assert_eq!(findings.len(), 6);
+        assert!(
+            findings[0]
+                .starts_with("a.tea:1: error: MD37110 $MA_GANTRY_AXIS_TYPE: expected N37100"),
+            "{findings:?}"
+        );
+        assert!(
+            findings[1].contains("found `x`")
+                && findings[1].starts_with("a.tea:2: error: MD37100 ")
+        );
+        assert!(findings[2].contains("0 to 3") && findings[2].starts_with("a.tea:3: "));
+        assert!(findings[3].contains("found `XF`") && findings[3].starts_with("a.tea:4: "));
+        assert!(findings[4].contains("did you mean `GANTRY_AXIS_TYPE`?"));
+        assert!(findings[5].contains("more than 0") && findings[5].contains("found -1"));
+    }
+
+    #[test]
+    fn inch_a_wrong_channel_and_a_line_that_is_none_are_refused() {
+        assert!(refused("INCH\n")[0].contains("expected METRIC, found INCH"));
+        assert!(refused("CHANDATA(11)\n")[0].contains("CHANDATA(1) to CHANDATA(10)"));
+        assert!(refused("G0 X10\n")[0].contains("found `G0 X10`"));
+        assert!(refused("$MA_REFP_VELO_POS[AX1]=\n")[0].starts_with("a.tea:1: "));
+    }
+
+    #[test]
+    fn the_refusal_tells_the_first_mistake_and_how_many_more() {
+        let findings = Archive::read([("a.tea", b"INCH\nG0\n".as_slice())]).unwrap_err();
+        let problem = refusal(&findings).to_string();
+        assert!(
+            problem.starts_with("a.tea:1: expected METRIC") && problem.contains("1 more"),
+            "{problem}"
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn any_bytes_are_read_or_refused(bytes: Vec<u8>) {
+            let _ = Archive::read([("a.tea", bytes.as_slice())]);
+        }
+
+        #[test]
+        fn any_lines_that_look_right_are_read_or_refused(
+            lines in prop::collection::vec("(N[0-9]{0,6} ?)?\\$M[ANC]_[A-Z_]{1,20}(\\[[0-9AX,]{0,6}\\])? ?=[ -~]{0,9}", 0..8)
+        ) {
+            let _ = Archive::read([("a.tea", lines.join("\n").as_bytes())]);
+        }
+    }
+}
+
+mod writing {
+    use super::*;
+
+    /// What a file says, without where it says it.
+    fn said(
+        archive: &Archive,
+    ) -> (
+        MachineData,
+        Vec<Target>,
+        Vec<(String, ChannelNumber, String)>,
+    ) {
+        let unknown = archive
+            .unknown
+            .iter()
+            .map(|one| (one.name.clone(), one.channel, one.value.clone()));
+        (
+            archive.data.clone(),
+            archive.given.keys().copied().collect(),
+            unknown.collect(),
+        )
+    }
+
+    #[test]
+    fn an_archive_is_written_as_the_control_exports_it() {
+        let text = "N10000 $MN_AXCONF_MACHAX_NAME_TAB[2]=\"XF\"\nCHANDATA(2)\n$MC_REFP_NC_START_LOCK=TRUE0\n";
+        assert_eq!(refused(text).len(), 1);
+        let text = "$MN_AXCONF_MACHAX_NAME_TAB[2]=\"XF\"\n$MA_GANTRY_FUNCTION_MASK[XF]=28\n\
+            $MA_REFP_MOVE_DIST_CORR[XF]=0.00001\n$MA_REFP_CAM_IS_ACTIVE[XF]=TRUE\nCHANDATA(2)\n\
+            $MC_REFP_NC_START_LOCK=0\n$MC_FOREIGN[1]='H1'\n";
+        let expected = "%_N_INITIAL_INI\n;$PATH=/\nMETRIC\n\nCHANDATA(1)\n\
+            N10000 $MN_AXCONF_MACHAX_NAME_TAB[2]=\"XF\"\nN34000 $MA_REFP_CAM_IS_ACTIVE[AX3]=1\n\
+            N34090 $MA_REFP_MOVE_DIST_CORR[0,AX3]=1EX-05\nN37150 $MA_GANTRY_FUNCTION_MASK[AX3]='H1c'\n\
+            CHANDATA(2)\nN20700 $MC_REFP_NC_START_LOCK=0\n$MC_FOREIGN[1]='H1'\nM17\n";
+        assert_eq!(archive(text).write(), expected);
+    }
+
+    #[test]
+    fn what_was_written_is_read_as_the_same() {
+        let text = "$MA_IS_ROT_AX[AX2]=1\n$MA_MAX_AX_VELO[AX2]=10000\n$MN_X=7\nCHANDATA(3)\n$MC_CHAN_NAME=\"Ä\"\n$MC_Y=1\n";
+        let first = archive(text);
+        assert_eq!(said(&archive(&first.write())), said(&first));
+    }
+
+    proptest! {
+        #[test]
+        fn any_values_survive_writing_and_reading(
+            values in prop::collection::vec((0..10_000usize, 0..31u8, 0..31u8, -1e9..1e9f64, any::<bool>()), 1..40)
+        ) {
+            let mut first = archive("");
+            let data: Vec<_> = catalogue().collect();
+            for (row, owner, index, number, small) in values {
+                let datum = data[row % data.len()];
+                let owner = match datum.scope {
+                    Scope::General | Scope::Setting => Owner::Nck,
+                    Scope::Channel => Owner::Channel(ChannelNumber::new(owner % 10 + 1).unwrap()),
+                    Scope::Axis => Owner::Axis(axis(owner + 1)),
+                };
+                let target = Target::new(datum.number, owner, index % datum.count).unwrap();
+                let number = if small { (number / 1e7).round() } else { number / 1e7 };
+                // Names stay as they are: an archive that names two axes alike is another matter.
+                if datum.kind != Kind::String && first.data.store(&target, &Value::Real(number)).is_ok() {
+                    first.given.insert(target, Place::file("a.tea"));
+                }
+            }
+            let text = first.write();
+            let second = archive(&text);
+            for target in first.given.keys() {
+                prop_assert_eq!(second.data.get(target), first.data.get(target), "{} in\n{}", target, text);
+            }
+            prop_assert_eq!(said(&archive(&second.write())), said(&second));
+        }
+    }
+}
+
+mod binary_archives {
+    use super::*;
+
+    /// A member exactly as the table of the format says.
+    fn member(internal: &str, shown: &str, folder: &str, data: &[u8]) -> Vec<u8> {
+        let mut header = [0_u8; 512];
+        let mut put =
+            |at: usize, text: &str| header[at..at + text.len()].copy_from_slice(text.as_bytes());
+        put(0, internal);
+        put(50, shown);
+        put(100, "77777");
+        put(108, if internal.starts_with("@@") { "0" } else { "7" });
+        put(116, "040703");
+        put(124, &data.len().to_string());
+        put(136, "1400000000");
+        put(257, "/");
+        put(384, folder);
+        let sum: u64 = header.iter().map(|&byte| u64::from(byte)).sum();
+        header[148..148 + sum.to_string().len()].copy_from_slice(sum.to_string().as_bytes());
+        let mut bytes = header.to_vec();
+        bytes.extend(data);
+        bytes.resize(bytes.len().next_multiple_of(512), 0);
+        bytes
+    }
+
+    fn small() -> Vec<u8> {
+        let nc = r"\_NC_ACT.DIR\";
+        let mut bytes = member(
+            "@@MMCIBN.002",
+            "",
+            "",
+            b";---creation stamp---\n;---components---\nNCKComp\n",
+        );
+        bytes.extend(member(
+            "_N_CFG_GLOBAL_INI",
+            "CFG_GLOBAL.INI",
+            nc,
+            b"N11300 $MN_JOG_INC_MODE_LEVELTRIGGRD=1\nM17\n",
+        ));
+        bytes.extend(member("_N_INITIAL_INI", "INITIAL.INI", nc, b"METRIC\n\nCHANDATA(1)\nN11300 $MN_JOG_INC_MODE_LEVELTRIGGRD=0\nN37100 $MA_GANTRY_AXIS_TYPE[AX3]=11\nN4 $X=2\nM17\n"));
+        bytes.extend(member("@@_N_ADRV_SINAMICS_1", "", "", b""));
+        bytes.extend(member(
+            "_N_PS000001_TEA",
+            "PS000001.TEA",
+            r"\ADRV.DIR\",
+            b"p10=1\n",
+        ));
+        bytes
+    }
+
+    fn read(bytes: &[u8]) -> Result<Archive, Vec<Finding>> {
+        Archive::read([("m.arc", bytes)])
+    }
+
+    #[test]
+    fn machine_data_are_taken_and_other_members_listed() {
+        let archive = read(&small()).unwrap();
+        assert!(!archive.data.general.jog_inc_mode_leveltriggrd);
+        assert_eq!(archive.data.axes[axis(3)].gantry_axis_type, 11);
+        assert_eq!((archive.summary.taken, archive.summary.unknown), (2, 1));
+        let summary = archive.summary.to_string();
+        assert!(
+            summary.contains("m.arc(INITIAL.INI): 3 assignments"),
+            "{summary}"
+        );
+        assert!(
+            summary.contains(r"left: \ADRV.DIR\PS000001.TEA"),
+            "{summary}"
+        );
+        assert!(
+            archive.findings[0]
+                .to_string()
+                .starts_with("m.arc(INITIAL.INI):6: warning: ")
+        );
+    }
+
+    #[test]
+    fn a_truncated_archive_is_named_with_its_offset() {
+        let bytes = small();
+        let cut = read(&bytes[..2_700]).unwrap_err();
+        assert!(cut[0].what.ends_with("at offset 2560"), "{}", cut[0]);
+        let cut = read(&bytes[..1_540]).unwrap_err();
+        assert!(
+            cut[0]
+                .what
+                .contains("of _N_CFG_GLOBAL_INI and their padding, found 4 bytes at offset 1536"),
+            "{}",
+            cut[0]
+        );
+    }
+
+    #[test]
+    fn a_wrong_checksum_is_named_with_its_offset() {
+        let mut bytes = small();
+        bytes[1_030] ^= 1;
+        let findings = read(&bytes).unwrap_err();
+        assert!(
+            findings[0].what.contains("checksum") && findings[0].what.ends_with("at offset 1024"),
+            "{}",
+            findings[0]
+        );
+    }
+
+    #[test]
+    fn a_large_archive_of_mostly_unknown_data_is_read() {
+        let mut bytes = member("@@MMCIBN.002", "", "", b";---components---\n");
+        for number in 0..298 {
+            bytes.extend(member(
+                &format!("_N_PS{number:06}_TEA"),
+                &format!("PS{number}.TEA"),
+                r"\A.DIR\",
+                &[b'x'; 9_000],
+            ));
+        }
+        let mut text = "METRIC\n\nCHANDATA(1)\n".to_owned();
+        for number in 0..24_000 {
+            text += &format!(
+                "N{} $MA_FOREIGN_{}[{},AX{}]=0.5\n",
+                40_000 + number / 100,
+                number / 100,
+                number % 100,
+                1
+            );
+        }
+        for number in 0..1_000 {
+            text += &format!(
+                "N34100 $MA_REFP_SET_POS[{},AX{}]={number}\n",
+                number % 4,
+                number % 31 + 1
+            );
+        }
+        bytes.extend(member(
+            "_N_INITIAL_INI",
+            "INITIAL.INI",
+            r"\_NC_ACT.DIR\",
+            text.as_bytes(),
+        ));
+        let archive = read(&bytes).unwrap();
+        assert_eq!(
+            (
+                archive.summary.members.len(),
+                archive.summary.unknown,
+                archive.summary.taken
+            ),
+            (299, 24_000, 124)
+        );
+        assert_eq!(archive.findings.len(), 240);
+    }
+
+    proptest! {
+        #[test]
+        fn any_bytes_behind_the_first_name_are_read_or_refused(bytes: Vec<u8>) {
+            let _ = read(&[b"@@MMCIBN.002".as_slice(), &bytes].concat());
+        }
+
+        #[test]
+        fn any_damage_is_read_or_refused(at in 0..3_000_usize, to: u8, keep in 0..5_000_usize) {
+            let mut bytes = small();
+            let last = bytes.len() - 1;
+            bytes[at.min(last)] = to;
+            bytes.truncate(keep);
+            let _ = read(&bytes);
+        }
+
+        #[test]
+        fn any_size_is_read_or_refused(size in "[0-9]{1,12}") {
+            let mut bytes = member("@@MMCIBN.002", "", "", b"");
+            bytes[124..136].fill(0);
+            bytes[124..124 + size.len()].copy_from_slice(size.as_bytes());
+            bytes[148..156].fill(0);
+            let sum: u64 = bytes[..512].iter().map(|&byte| u64::from(byte)).sum();
+            bytes[148..148 + sum.to_string().len()].copy_from_slice(sum.to_string().as_bytes());
+            let _ = read(&bytes);
+        }
+    }
+}
+
+mod checking {
+    use super::*;
+
+    fn found(text: &str) -> Vec<String> {
+        check(&archive(text))
+            .iter()
+            .map(ToString::to_string)
+            .collect()
+    }
+
+    /// MON-16
+    #[test]
+    fn gantry_limits_out_of_order_are_found_where_the_warning_limit_is_in_use() {
+        let text = "$MA_GANTRY_AXIS_TYPE[AX1]=1\n$MA_GANTRY_POS_TOL_WARNING[AX1]=2\n\
+            $MA_GANTRY_POS_TOL_ERROR[AX1]=1\n$MA_GANTRY_POS_TOL_REF[AX1]=1\n";
+        let findings = found(text);
+        assert_eq!(findings.len(), 2, "{findings:?}");
+        assert!(
+            findings[0].starts_with("a.tea:3: warning: MD37120 $MA_GANTRY_POS_TOL_ERROR: MON-16: "),
+            "{findings:?}"
+        );
+        assert!(findings[1].starts_with("a.tea:4: warning: MD37130 "));
+        assert_eq!(
+            found(&text.replace("WARNING[AX1]=2", "WARNING[AX1]=0")),
+            [""; 0]
+        );
+        assert_eq!(found(&text.replace("TYPE[AX1]=1", "TYPE[AX1]=0")), [""; 0]);
+    }
+
+    /// REF-28
+    #[test]
+    fn an_encoder_switch_over_tolerance_not_below_the_warning_limit_is_found_with_two_encoders() {
+        let text = "$MA_GANTRY_AXIS_TYPE[AX1]=1\n$MA_GANTRY_POS_TOL_WARNING[AX1]=0.1\n$MA_NUM_ENCS[AX1]=2\n\
+            $MA_GANTRY_POS_TOL_ERROR[AX1]=1\n$MA_GANTRY_POS_TOL_REF[AX1]=2\n";
+        let findings = found(text);
+        assert!(
+            findings.len() == 1 && findings[0].contains("MD36500 $MA_ENC_CHANGE_TOL: REF-28"),
+            "{findings:?}"
+        );
+        assert_eq!(
+            found(&text.replace("NUM_ENCS[AX1]=2", "NUM_ENCS[AX1]=1")),
+            [""; 0]
+        );
+    }
+
+    #[test]
+    fn a_code_that_the_control_refuses_cycles_and_names_are_found() {
+        assert!(found("$MA_GANTRY_AXIS_TYPE[AX1]=9")[0].contains("10650"));
+        assert!(found("$MN_SYSCLOCK_CYCLE_TIME=4")[0].starts_with("a.tea:1: warning: MD10050 "));
+        assert!(found("$MN_POSCTRL_SYSCLOCK_TIME_RATIO=2")[0].contains("4110"));
+        assert!(found("$MN_AXCONF_MACHAX_NAME_TAB[1]=\"X1\"")[0].contains("which axis 1 has"));
+        assert!(found("$MN_AXCONF_MACHAX_NAME_TAB[0]=\"AX2\"")[0].contains("means axis 2"));
+    }
+}
+
+mod worked_example {
+    use super::*;
+
+    fn example() -> Archive {
+        let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("machine_data/g1_example");
+        Archive::load(&files_of(&file).unwrap()).unwrap()
+    }
+
+    /// EX-01
+    #[test]
+    fn the_example_loads_as_it_stands_and_has_no_findings() {
+        let archive = example();
+        assert_eq!(check(&archive), []);
+        let given = AxisNumber::all().filter(|axis| archive.given_axis(*axis));
+        assert_eq!(given.collect::<Vec<_>>(), [axis(1), axis(2), axis(3)]);
+        assert_eq!(archive.data.interpolation_cycle(), Time::from_millis(2));
+        assert_eq!(archive.data.axis("XF"), Some(axis(3)));
+    }
+
+    #[test]
+    fn the_example_has_the_values_of_the_manual() {
+        let data = example().data;
+        for (number, code) in [(1, 1), (3, 11)] {
+            let axis = &data.axes[axis(number)];
+            assert_eq!(axis.gantry_axis_type, code);
+            let limits = [
+                axis.gantry_pos_tol_warning,
+                axis.gantry_pos_tol_error,
+                axis.gantry_pos_tol_ref,
+            ];
+            assert_eq!((limits, axis.gantry_break_up), ([0.0, 1.0, 100.0], false));
+            assert_eq!(
+                (axis.refp_cam_is_active, axis.refp_cam_dir_is_minus),
+                (true, false)
+            );
+            assert_eq!(
+                (
+                    axis.refp_move_dist[0],
+                    axis.refp_move_dist_corr[0],
+                    axis.refp_cam_shift[0]
+                ),
+                (0.0, 0.0, 0.0)
+            );
+            assert_eq!((axis.refp_set_pos[0], axis.enc_refp_mode[0]), (0.0, 1));
+            assert!(!axis.refp_search_marker_reverse[0]);
+        }
+    }
+}
