@@ -1,2 +1,4 @@
 //! The program `opennck`.
-fn main() {}
+fn main() -> std::process::ExitCode {
+    opennck::cli::main(opennck::plc::Programs::ready())
+}

@@ -1,0 +1,55 @@
+//! `opennck` without arguments: the worked example of the manual (G1 2.7), from data inside the program.
+
+use std::path::Path;
+
+use super::output::Output;
+use super::run::result;
+use crate::plc::Programs;
+use crate::scenario::Scenario;
+use crate::source::Problem;
+
+/// The scenario, as it stands in the project.
+const SCENARIO: &str = include_str!("../../golden/worked_example/gantry_references_and_synchronises.toml");
+
+/// The machine that is built in.
+const MACHINE: &str = "g1_example";
+
+const NEXT: &str = "
+What to try next:
+  opennck signals gantry                  the signals of gantry axes, with addresses
+  opennck signals --format csv            the whole catalogue
+  opennck run SCENARIO                    a scenario of your own; golden/worked_example has some to start from
+  opennck test                            all scenarios below golden, each against its golden trace
+  opennck machine-data check DIRECTORY    your own machine data
+  opennck --help                          everything else
+";
+
+/// The example as a scenario that needs no file.
+///
+/// # Errors
+/// Never, if the program was tested: its own data cannot be used.
+pub fn scenario() -> Result<Scenario, Problem> {
+    let mut scenario = Scenario::parse(SCENARIO, Path::new("gantry_references_and_synchronises.toml"))?;
+    MACHINE.clone_into(&mut scenario.machine.text);
+    Ok(scenario)
+}
+
+pub(super) fn run(programs: &Programs, output: &mut Output) -> u8 {
+    let prepared = scenario().and_then(|scenario| {
+        let profile = scenario.profiles.first().copied().unwrap_or_default();
+        scenario.prepare(profile, programs)
+    });
+    match prepared {
+        Ok(prepared) => {
+            let finished = prepared.run();
+            output.print(&finished.text());
+            let code = result(&finished, output);
+            output.print(NEXT);
+            code
+        }
+        Err(problem) => {
+            output.error(problem);
+            2
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! The program `opennck`: arguments and wiring. Public, so that a user's own binary with own PLC programs has the
+//! same commands:
+//!
+//! ```no_run
+//! fn main() -> std::process::ExitCode {
+//!     opennck::cli::main(opennck::plc::Programs::ready())
+//! }
+//! ```
+//!
+//! Exit codes: 0 all held; 1 an expectation failed, a limit was reached, a trace differs, a golden file is missing,
+//! machine data have findings; 2 unusable input.
+
+pub mod example;
+mod machine_data;
+mod output;
+mod run;
+mod signals;
+mod test;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+use crate::plc::Programs;
+use output::Output;
+
+/// How a list is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Aligned columns.
+    Table,
+    /// A JSON array of objects.
+    Json,
+    /// Comma-separated values with a header.
+    Csv,
+}
+
+/// An open simulator of the NC/PLC interface of SINUMERIK-style controls.
+///
+/// Without a command it runs the worked example of the gantry manual and shows its signal sequence.
+#[derive(Debug, Parser)]
+#[command(name = "opennck", version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Runs scenarios as fast as the machine allows and prints their signal sequences with causes.
+    Run {
+        /// Scenario files.
+        #[arg(required = true, value_name = "SCENARIO")]
+        scenarios: Vec<PathBuf>,
+        /// Writes the trace as JSON lines; one scenario only.
+        #[arg(long, value_name = "F.jsonl")]
+        trace: Option<PathBuf>,
+    },
+    /// Runs every scenario below the paths and compares each trace with the golden one beside it.
+    Test {
+        /// Directories or scenario files.
+        #[arg(default_value = "golden", value_name = "PATH")]
+        paths: Vec<PathBuf>,
+        /// Rewrites the golden files whose traces changed.
+        #[arg(long)]
+        accept: bool,
+        /// Writes a report in JUnit's format.
+        #[arg(long, value_name = "F.xml")]
+        junit: Option<PathBuf>,
+        /// How many scenarios run at once; as many as there are processors unless said.
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+        jobs: Option<u16>,
+    },
+    /// Lists the signal catalogue: address, symbol, writer, name.
+    ///
+    /// Addresses and symbols are those of the first axis (AX1), channel (CHAN1) and mode group; a machine has its own
+    /// names. On 840D sl axis n has DB 30+n and channel n DB 20+n; the second mode group lies 20 bytes above the first.
+    Signals {
+        /// Shows only signals in whose address, symbol or name this text occurs.
+        filter: Option<String>,
+        /// The profile whose addresses are shown: 840d_sl or 828d.
+        #[arg(long, default_value = "840d_sl")]
+        profile: String,
+        /// How the list is printed.
+        #[arg(long, value_enum, default_value = "table")]
+        format: Format,
+    },
+    /// Works with machine data.
+    MachineData {
+        #[command(subcommand)]
+        command: MachineData,
+    },
+}
+
+#[derive(Debug, Subcommand)]
+enum MachineData {
+    /// Reads machine data and reports every finding.
+    Check {
+        /// A directory, an archive file, or the name of a built-in machine.
+        machine: PathBuf,
+    },
+}
+
+/// The program, with these PLC programs by name.
+#[must_use]
+#[expect(clippy::needless_pass_by_value, reason = "the program ends with its programs")]
+pub fn main(programs: Programs) -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Where nobody reads the message there is nobody to tell.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    let mut output = Output::default();
+    let code = match arguments.command {
+        None => example::run(&programs, &mut output),
+        Some(Command::Run { scenarios, trace }) => {
+            run::run(&scenarios, trace.as_deref(), &programs, &mut output)
+        }
+        Some(Command::Test { paths, accept, junit, jobs }) => {
+            let options = test::Options { accept, junit, jobs };
+            test::test(&paths, &options, &programs, &mut output)
+        }
+        Some(Command::Signals { filter, profile, format }) => {
+            signals::signals(filter.as_deref(), &profile, format, &mut output)
+        }
+        Some(Command::MachineData { command: MachineData::Check { machine } }) => {
+            machine_data::check(&machine, &mut output)
+        }
+    };
+    ExitCode::from(code)
+}

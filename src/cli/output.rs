@@ -1,0 +1,38 @@
+//! What the program prints: results on standard output, errors on standard error, and no complaint when nobody reads.
+
+use std::fmt::Display;
+use std::io::Write;
+
+/// Standard output and standard error; a reader who has gone is not an error.
+#[derive(Debug, Default)]
+pub(super) struct Output {
+    /// The reader of standard output has gone.
+    closed: bool,
+}
+
+impl Output {
+    /// Prints a text as it is.
+    pub(super) fn print(&mut self, text: &str) {
+        if !self.closed {
+            let mut out = std::io::stdout().lock();
+            self.closed = out.write_all(text.as_bytes()).and_then(|()| out.flush()).is_err();
+        }
+    }
+
+    /// Prints a line.
+    pub(super) fn line(&mut self, text: impl Display) {
+        self.print(&format!("{text}\n"));
+    }
+
+    /// Prints an error: its cause, and behind it its cure.
+    #[expect(clippy::unused_self, reason = "whoever prints holds the output")]
+    pub(super) fn error(&mut self, error: impl Display) {
+        let _ = writeln!(std::io::stderr().lock(), "error: {error}");
+    }
+
+    /// Prints a warning.
+    #[expect(clippy::unused_self, reason = "whoever prints holds the output")]
+    pub(super) fn warning(&mut self, warning: impl Display) {
+        let _ = writeln!(std::io::stderr().lock(), "warning: {warning}");
+    }
+}

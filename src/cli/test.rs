@@ -1,0 +1,161 @@
+//! `opennck test`: runs all scenarios below some paths, several at once, and compares their traces with the golden ones.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+
+use super::output::Output;
+use crate::golden::{Case, Outcome, Update, cases, scenario_files};
+use crate::plc::Programs;
+use crate::scenario::profile_name;
+use crate::source::{Problem, unreadable};
+
+/// What was said on the command line.
+#[derive(Clone, Debug)]
+pub(super) struct Options {
+    pub(super) accept: bool,
+    pub(super) junit: Option<PathBuf>,
+    pub(super) jobs: Option<u16>,
+}
+
+/// A case, or the reason why a file gives none.
+enum Work {
+    Case(Box<Case>),
+    Unusable(Problem),
+}
+
+pub(super) fn test(paths: &[PathBuf], options: &Options, programs: &Programs, output: &mut Output) -> u8 {
+    let files = match scenario_files(paths) {
+        Ok(files) => files,
+        Err(problem) => {
+            output.error(problem);
+            return 2;
+        }
+    };
+    let mut work = Vec::new();
+    for file in files {
+        let name = file.display().to_string();
+        match cases(&file) {
+            Err(problem) => work.push((name, Work::Unusable(problem))),
+            Ok(cases) => {
+                let several = cases.len() > 1;
+                work.extend(cases.into_iter().map(|case| {
+                    let name = if several { format!("{name} ({})", profile_name(case.profile)) } else { name.clone() };
+                    (name, Work::Case(Box::new(case)))
+                }));
+            }
+        }
+    }
+    let outcomes = all(&work, options, programs);
+    let named: Vec<_> = work.iter().map(|(name, _)| name.as_str()).zip(outcomes).collect();
+    let mut code = report(&named, output);
+    if let Some(junit) = &options.junit
+        && let Err(problem) = write_junit(junit, &named)
+    {
+        output.error(problem);
+        code = 2;
+    }
+    code
+}
+
+/// Runs everything, several at once; the outcomes are in the order of the work, whoever was first.
+fn all(work: &[(String, Work)], options: &Options, programs: &Programs) -> Vec<Outcome> {
+    let update = if options.accept { Update::Accept } else { Update::No };
+    let processors = || std::thread::available_parallelism().map_or(1, usize::from);
+    let jobs = options.jobs.map_or_else(processors, usize::from).min(work.len()).max(1);
+    let bar = bar(work.len());
+    let next = AtomicUsize::new(0);
+    let done: Mutex<Vec<(usize, Outcome)>> = Mutex::new(Vec::with_capacity(work.len()));
+    std::thread::scope(|scope| {
+        for _ in 0..jobs {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some((_, item)) = work.get(index) else { return };
+                    let outcome = match item {
+                        Work::Case(case) => case.run(programs, update),
+                        Work::Unusable(problem) => Outcome::Unusable(problem.clone()),
+                    };
+                    // A poisoned lock means that another thread panicked; the scope passes its panic on.
+                    if let Ok(mut done) = done.lock() {
+                        done.push((index, outcome));
+                    }
+                    bar.inc(1);
+                }
+            });
+        }
+    });
+    bar.finish_and_clear();
+    let mut done = done.into_inner().unwrap_or_default();
+    done.sort_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, outcome)| outcome).collect()
+}
+
+/// A progress bar, on a terminal only.
+fn bar(length: usize) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(length as u64);
+    match ProgressStyle::with_template("{bar:40} {pos}/{len} scenarios") {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
+/// Prints what is not as it should be, and a count of everything; gives the highest exit code.
+fn report(outcomes: &[(&str, Outcome)], output: &mut Output) -> u8 {
+    let mut code = 0;
+    for (name, outcome) in outcomes {
+        code = code.max(outcome.exit_code());
+        match outcome {
+            Outcome::Held => {}
+            Outcome::Accepted => output.line(format!("accepted  {name}")),
+            Outcome::Failed(_) => output.error(outcome),
+            Outcome::Differs(_) | Outcome::Missing(_) => output.error(format!("{name}: {outcome}")),
+            Outcome::Unusable(_) => output.error(outcome),
+        }
+    }
+    let count = |test: fn(&Outcome) -> bool| outcomes.iter().filter(|(_, outcome)| test(outcome)).count();
+    let counts = [
+        (count(|outcome| matches!(outcome, Outcome::Held)), "held"),
+        (count(|outcome| matches!(outcome, Outcome::Accepted)), "accepted"),
+        (count(|outcome| matches!(outcome, Outcome::Failed(_))), "failed"),
+        (count(|outcome| matches!(outcome, Outcome::Differs(_))), "differ"),
+        (count(|outcome| matches!(outcome, Outcome::Missing(_))), "without a golden file"),
+        (count(|outcome| matches!(outcome, Outcome::Unusable(_))), "unusable"),
+    ];
+    let counts: Vec<_> =
+        counts.iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("{count} {word}")).collect();
+    output.line(format!("{} scenarios: {}", outcomes.len(), counts.join(", ")));
+    code
+}
+
+fn write_junit(path: &Path, outcomes: &[(&str, Outcome)]) -> Result<(), Problem> {
+    let mut suite = TestSuite::new("scenarios");
+    for (name, outcome) in outcomes {
+        let status = match outcome {
+            Outcome::Held | Outcome::Accepted => TestCaseStatus::success(),
+            Outcome::Failed(_) | Outcome::Differs(_) | Outcome::Missing(_) => bad(NonSuccessKind::Failure, outcome),
+            Outcome::Unusable(_) => bad(NonSuccessKind::Error, outcome),
+        };
+        suite.add_test_case(TestCase::new(*name, status));
+    }
+    let mut report = Report::new("opennck");
+    report.add_test_suite(suite);
+    let text = report
+        .to_string()
+        .map_err(|error| Problem::new(format!("the report cannot be written: {error}"), "report this as a bug"))?;
+    std::fs::write(path, text).map_err(|error| unreadable(path, &error))
+}
+
+fn bad(kind: NonSuccessKind, outcome: &Outcome) -> TestCaseStatus {
+    let text = outcome.to_string();
+    let mut status = TestCaseStatus::non_success(kind);
+    status.set_message(text.lines().next().unwrap_or_default().to_owned()).set_description(text);
+    status
+}

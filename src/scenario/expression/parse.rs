@@ -1,0 +1,281 @@
+//! From words to terms: operator precedence parsing, and the looking up of names.
+
+use super::tokens::{Token, mistake, tokens};
+use super::{Operator, Scope, Term};
+use crate::source::{Problem, did_you_mean, nearest};
+use crate::trace::AxisValue;
+use crate::units::{AxisNumber, ChannelNumber};
+use crate::variables::{AlarmNumber, Place};
+
+/// How deep parentheses may be nested.
+const DEPTH: usize = 100;
+
+/// The functions there are.
+const FUNCTIONS: [&str; 8] = ["alarm", "alarm_parameter", "alarms", "rose", "fell", "abs", "min", "max"];
+
+struct Parser<'a> {
+    source: &'a str,
+    words: Vec<(usize, Token)>,
+    at: usize,
+    depth: usize,
+    inside_edge: bool,
+    scope: Scope<'a>,
+}
+
+pub(super) fn parse(source: &str, scope: Scope<'_>) -> Result<Term, Problem> {
+    let words = tokens(source)?;
+    let mut parser = Parser { source, words, at: 0, depth: 0, inside_edge: false, scope };
+    let term = parser.expression(0)?;
+    match parser.peek() {
+        Token::End => Ok(term),
+        _ => Err(parser.expected("an operator or the end")),
+    }
+}
+
+impl Parser<'_> {
+    fn peek(&self) -> &Token {
+        &self.words[self.at].1
+    }
+
+    fn next(&mut self) -> Token {
+        let token = self.peek().clone();
+        if self.at + 1 < self.words.len() {
+            self.at += 1;
+        }
+        token
+    }
+
+    fn expected(&self, what: &str) -> Problem {
+        let (column, token) = &self.words[self.at];
+        mistake(self.source, *column, what, &token.shown())
+    }
+
+    fn sign(&mut self, sign: &'static str) -> Result<(), Problem> {
+        if self.peek() == &Token::Sign(sign) {
+            self.next();
+            Ok(())
+        } else {
+            Err(self.expected(&format!("`{sign}`")))
+        }
+    }
+
+    fn expression(&mut self, at_least: u8) -> Result<Term, Problem> {
+        self.depth += 1;
+        if self.depth > DEPTH {
+            return Err(self.expected(&format!("at most {DEPTH} nested parentheses")));
+        }
+        let mut left = self.operand()?;
+        let mut compared = false;
+        while let Token::Sign(sign) = *self.peek()
+            && let Some(operator) = Operator::of(sign)
+            && operator.binding() > at_least
+        {
+            if operator.binding() == Operator::COMPARISON {
+                if compared {
+                    let mut problem = self.expected("one comparison");
+                    "comparisons do not chain: write `a < b && b < c`".clone_into(&mut problem.cure);
+                    return Err(problem);
+                }
+                compared = true;
+            }
+            self.next();
+            let right = self.expression(operator.binding())?;
+            left = Term::Pair(operator, Box::new(left), Box::new(right));
+        }
+        self.depth -= 1;
+        Ok(left)
+    }
+
+    fn operand(&mut self) -> Result<Term, Problem> {
+        match self.peek().clone() {
+            Token::Number(number) => {
+                self.next();
+                Ok(Term::Number(number))
+            }
+            Token::Sign("(") => {
+                self.next();
+                let term = self.expression(0)?;
+                self.sign(")")?;
+                Ok(term)
+            }
+            Token::Sign("!") => {
+                self.next();
+                Ok(Term::Not(Box::new(self.nested_operand()?)))
+            }
+            Token::Sign("-") => {
+                self.next();
+                Ok(Term::Negative(Box::new(self.nested_operand()?)))
+            }
+            Token::Name(name) => {
+                let column = self.words[self.at].0;
+                self.next();
+                if self.peek() == &Token::Sign("(") {
+                    self.next();
+                    self.function(&name, column)
+                } else {
+                    self.name(&name, column)
+                }
+            }
+            Token::Quoted(_) | Token::Sign(_) | Token::End => {
+                Err(self.expected("a number, a name, a function or a parenthesis"))
+            }
+        }
+    }
+
+    fn nested_operand(&mut self) -> Result<Term, Problem> {
+        self.depth += 1;
+        if self.depth > DEPTH {
+            return Err(self.expected(&format!("at most {DEPTH} signs in a row")));
+        }
+        let term = self.operand()?;
+        self.depth -= 1;
+        Ok(term)
+    }
+
+    fn function(&mut self, name: &str, column: usize) -> Result<Term, Problem> {
+        let term = match name {
+            "alarms" => Term::Alarms,
+            "alarm" => {
+                let alarm = self.alarm()?;
+                let place = if self.peek() == &Token::Sign(",") {
+                    self.next();
+                    Some(self.place()?)
+                } else {
+                    None
+                };
+                Term::Alarm(alarm, place)
+            }
+            "alarm_parameter" => {
+                let alarm = self.alarm()?;
+                self.sign(",")?;
+                Term::AlarmParameter(alarm, self.parameter_index()?)
+            }
+            "rose" | "fell" => {
+                if self.inside_edge {
+                    let cure = "rose and fell are not nested: combine them with && or ||";
+                    let mut problem = mistake(self.source, column, "a signal or a condition", &format!("`{name}`"));
+                    cure.clone_into(&mut problem.cure);
+                    return Err(problem);
+                }
+                self.inside_edge = true;
+                let of = Box::new(self.expression(0)?);
+                self.inside_edge = false;
+                Term::Edge { rising: name == "rose", of }
+            }
+            "abs" => Term::Absolute(Box::new(self.expression(0)?)),
+            "min" | "max" => {
+                let operator = if name == "min" { Operator::Minimum } else { Operator::Maximum };
+                let mut left = self.expression(0)?;
+                self.sign(",")?;
+                loop {
+                    let right = self.expression(0)?;
+                    left = Term::Pair(operator, Box::new(left), Box::new(right));
+                    if self.peek() != &Token::Sign(",") {
+                        break;
+                    }
+                    self.next();
+                }
+                left
+            }
+            _ => {
+                let mut problem = mistake(self.source, column, "a function", &format!("`{name}`"));
+                problem.cure =
+                    did_you_mean(name, FUNCTIONS, "functions are alarm, alarm_parameter, alarms, rose, fell, abs, min, max");
+                return Err(problem);
+            }
+        };
+        self.sign(")")?;
+        Ok(term)
+    }
+
+    /// The number of an alarm, or in quotes its name where it has only a name.
+    fn alarm(&mut self) -> Result<AlarmNumber, Problem> {
+        let whole = self.expected("the number of an alarm");
+        match self.next() {
+            Token::Number(number) => whole_number(number, AlarmNumber::OWN - 1).map(AlarmNumber).ok_or(whole),
+            Token::Quoted(name) => self.scope.describe.alarm_number(&name).ok_or_else(|| Problem {
+                cure: "see the alarms of this control, or give a number".to_owned(),
+                ..whole
+            }),
+            Token::Name(name) => Err(Problem { cure: format!("put a name in quotes: alarm('{name}')"), ..whole }),
+            Token::Sign(_) | Token::End => Err(whole),
+        }
+    }
+
+    fn parameter_index(&mut self) -> Result<usize, Problem> {
+        let problem = self.expected("the number of a parameter, 1 to 4");
+        match self.next() {
+            Token::Number(number) => match whole_number(number, 4) {
+                Some(index @ 1..) => Ok(index as usize - 1),
+                _ => Err(problem),
+            },
+            _ => Err(problem),
+        }
+    }
+
+    /// An axis or a channel by its name.
+    fn place(&mut self) -> Result<Place, Problem> {
+        let problem = self.expected("the name of an axis or a channel");
+        let Token::Name(name) = self.next() else { return Err(problem) };
+        let names = self.scope.describe.names();
+        if let Some(axis) = axis_named(&self.scope, &name) {
+            return Ok(Place::Axis(axis));
+        }
+        let channel = ChannelNumber::all().find(|channel| names.channels[*channel].as_deref() == Some(&name));
+        channel.map(Place::Channel).ok_or_else(|| {
+            let axes = AxisNumber::all().filter_map(|axis| names.axes[axis].as_deref());
+            let channels = ChannelNumber::all().filter_map(|channel| names.channels[channel].as_deref());
+            let known: Vec<_> = axes.chain(channels).collect();
+            let fallback = format!("known are {}", known.join(", "));
+            Problem { cure: did_you_mean(&name, known.iter().copied(), &fallback), ..problem }
+        })
+    }
+
+    /// `time`, a captured value, `X.position`, a symbol, an address.
+    fn name(&self, name: &str, column: usize) -> Result<Term, Problem> {
+        if name == "time" {
+            return Ok(Term::Time);
+        }
+        if let Some(index) = self.scope.captured.iter().position(|captured| captured == name) {
+            return Ok(Term::Captured(index, name.to_owned()));
+        }
+        let problem = mistake(self.source, column, "a known name", &format!("`{name}`"));
+        if FUNCTIONS.contains(&name) {
+            return Err(Problem { cure: format!("a function has parentheses: `{name}(…)`"), ..problem });
+        }
+        let axis_and_value = name.rsplit_once('.').and_then(|(head, tail)| {
+            axis_named(&self.scope, head).map(|axis| (axis, head, tail))
+        });
+        if let Some((axis, _, tail)) = axis_and_value
+            && let Some(value) = AxisValue::named(tail)
+        {
+            return Ok(Term::Value(axis, value));
+        }
+        match self.scope.describe.names().resolve(self.scope.memory, name) {
+            Ok(location) => Ok(Term::Signal(location)),
+            Err(unknown) => {
+                let values = AxisValue::ALL.map(AxisValue::name);
+                let near_value = axis_and_value
+                    .and_then(|(_, head, tail)| nearest(tail, values).map(|value| format!("{head}.{value}")));
+                let own = self.scope.captured.iter().map(String::as_str).chain(["time"]);
+                let cure = match (near_value, nearest(name, own)) {
+                    (Some(near), _) => format!("did you mean `{near}`?"),
+                    (None, Some(near)) if !name.contains('.') => format!("did you mean `{near}`?"),
+                    _ => unknown.cure,
+                };
+                let what = format!("{} (at character {column} of `{}`)", unknown.what, self.source);
+                Err(Problem { place: None, what, cure })
+            }
+        }
+    }
+}
+
+fn axis_named(scope: &Scope<'_>, name: &str) -> Option<AxisNumber> {
+    AxisNumber::all().find(|axis| scope.describe.names().axes[*axis].as_deref() == Some(name))
+}
+
+/// A number that is whole, not negative and not above `largest`.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested before the cast")]
+fn whole_number(number: f64, largest: u32) -> Option<u32> {
+    (number.fract() == 0.0 && (0.0..=f64::from(largest)).contains(&number)).then_some(number as u32)
+}

@@ -1,0 +1,116 @@
+//! The words of an expression: numbers, names, operators.
+
+use crate::source::Problem;
+
+/// One word of an expression.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Token {
+    /// `1.5`, `2#1101_0000`.
+    Number(f64),
+    /// `X.position`, `DB31.DBX101.5`, `DB1000.DBD4:REAL`, `abs`.
+    Name(String),
+    /// `'gantry-stage-1'`.
+    Quoted(String),
+    /// `&&`, `<=`, `(`, `,`.
+    Sign(&'static str),
+    /// After the last word.
+    End,
+}
+
+impl Token {
+    /// The word as a message shows it.
+    pub(super) fn shown(&self) -> String {
+        match self {
+            Self::Number(number) => format!("the number {number}"),
+            Self::Name(name) => format!("`{name}`"),
+            Self::Quoted(name) => format!("'{name}'"),
+            Self::Sign(sign) => format!("`{sign}`"),
+            Self::End => "the end".to_owned(),
+        }
+    }
+}
+
+/// The signs, longer ones before their beginnings.
+const SIGNS: [&str; 15] =
+    ["==", "!=", "<=", ">=", "&&", "||", "<", ">", "!", "+", "-", "*", "/", "(", ")"];
+
+/// Cuts an expression into words, each with its column from one.
+pub(super) fn tokens(source: &str) -> Result<Vec<(usize, Token)>, Problem> {
+    let mut found = Vec::new();
+    let mut rest = source;
+    while let Some(first) = rest.chars().next() {
+        let column = source[..source.len() - rest.len()].chars().count() + 1;
+        if first.is_whitespace() {
+            rest = &rest[first.len_utf8()..];
+        } else if first.is_ascii_digit() {
+            let length = rest.find(|c: char| !(c.is_ascii_alphanumeric() || "_.#".contains(c)));
+            let (word, after) = rest.split_at(length.unwrap_or(rest.len()));
+            found.push((column, Token::Number(number(word, source, column)?)));
+            rest = after;
+        } else if first.is_alphabetic() || first == '_' {
+            let length = rest.find(|c: char| !(c.is_alphanumeric() || "_.:".contains(c)));
+            let (word, after) = rest.split_at(length.unwrap_or(rest.len()));
+            found.push((column, Token::Name(word.to_owned())));
+            rest = after;
+        } else if first == '\'' {
+            let Some(length) = rest[1..].find('\'') else {
+                return Err(mistake(source, column, "a closing quote", "the end"));
+            };
+            found.push((column, Token::Quoted(rest[1..=length].to_owned())));
+            rest = &rest[length + 2..];
+        } else if first == ',' {
+            found.push((column, Token::Sign(",")));
+            rest = &rest[1..];
+        } else if let Some(sign) = SIGNS.iter().find(|sign| rest.starts_with(**sign)) {
+            found.push((column, Token::Sign(sign)));
+            rest = &rest[sign.len()..];
+        } else {
+            let mut problem =
+                mistake(source, column, "a number, a name or an operator", &format!("`{first}`"));
+            match first {
+                '&' => problem.cure = "`and` is written `&&`".to_owned(),
+                '|' => problem.cure = "`or` is written `||`".to_owned(),
+                '=' => problem.cure = "`equal` is written `==`".to_owned(),
+                _ => {}
+            }
+            return Err(problem);
+        }
+    }
+    found.push((source.chars().count() + 1, Token::End));
+    Ok(found)
+}
+
+/// The problem "expected this, found that", with the expression and the column.
+pub(super) fn mistake(source: &str, column: usize, expected: &str, found: &str) -> Problem {
+    Problem::new(
+        format!("expected {expected}, found {found} at character {column} of `{source}`"),
+        "operators are == != < <= > >= && || ! + - * /, with parentheses",
+    )
+}
+
+/// A number as a program writes it: `1.5`, `1_000`, or with its base, `16#D0`.
+fn parse_number(word: &str) -> Option<f64> {
+    if let Some((base, digits)) = word.split_once('#') {
+        let base = base.parse().ok().filter(|base| (2..=16).contains(base))?;
+        let digits = without_separators(digits)?;
+        return u64::from_str_radix(&digits, base).ok().map(|number| number as f64);
+    }
+    let digits = without_separators(word)?;
+    let well_formed = digits.split('.').count() <= 2
+        && digits.split('.').all(|part| !part.is_empty() && part.bytes().all(|c| c.is_ascii_digit()));
+    if well_formed { digits.parse().ok() } else { None }
+}
+
+/// Digits without the `_` between them; an underscore stands between two digits or it is a mistake.
+fn without_separators(word: &str) -> Option<String> {
+    let misplaced = word.starts_with('_') || word.ends_with('_') || word.contains("__");
+    (!misplaced && !word.is_empty()).then(|| word.replace('_', ""))
+}
+
+fn number(word: &str, source: &str, column: usize) -> Result<f64, Problem> {
+    parse_number(word).ok_or_else(|| {
+        let mut problem = mistake(source, column, "a number", &format!("`{word}`"));
+        problem.cure = "numbers are written 12, 1.5, 1_000, 2#1101_0000 or 16#D0".to_owned();
+        problem
+    })
+}

@@ -1,0 +1,93 @@
+//! Why a scenario did not hold: what was expected, what every signal in it was then, and which alarms were pending.
+
+use std::fmt;
+
+use crate::source::{Place, Problem};
+use crate::units::Time;
+
+/// A step that did not succeed.
+#[derive(Clone, PartialEq)]
+pub enum Failure {
+    /// The input cannot be used; nothing was run for it.
+    Unusable(Problem),
+    /// The machine did something else than expected.
+    Missed(Box<Missed>),
+}
+
+/// An expectation that was not met.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Missed {
+    /// The step, if it is in a file.
+    pub place: Option<Place>,
+    /// Since the start of the scenario.
+    pub time: Time,
+    /// What was expected, and for how long.
+    pub what: String,
+    /// Each signal and value in the expression, with what it was then.
+    pub operands: Vec<String>,
+    /// Each pending alarm with its text.
+    pub alarms: Vec<String>,
+}
+
+impl Failure {
+    /// The same failure, at this place unless it already has one.
+    #[must_use]
+    pub(super) fn at(self, place: &Place) -> Self {
+        match self {
+            Self::Unusable(problem) => Self::Unusable(problem.at(place)),
+            Self::Missed(mut missed) => {
+                missed.place.get_or_insert_with(|| place.clone());
+                Self::Missed(missed)
+            }
+        }
+    }
+}
+
+impl From<Problem> for Failure {
+    fn from(problem: Problem) -> Self {
+        Self::Unusable(problem)
+    }
+}
+
+impl From<Missed> for Failure {
+    fn from(missed: Missed) -> Self {
+        Self::Missed(Box::new(missed))
+    }
+}
+
+impl fmt::Display for Missed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(place) = &self.place {
+            write!(f, "{place}: ")?;
+        }
+        write!(f, "{} (at {} s)", self.what, self.time)?;
+        for operand in &self.operands {
+            write!(f, "\n  {operand}")?;
+        }
+        if self.alarms.is_empty() {
+            write!(f, "\n  no alarm is pending")?;
+        }
+        for alarm in &self.alarms {
+            write!(f, "\n  pending: {alarm}")?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unusable(problem) => problem.fmt(f),
+            Self::Missed(missed) => missed.fmt(f),
+        }
+    }
+}
+
+/// As it is displayed, so that a test that unwraps a failure shows it readably.
+impl fmt::Debug for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl std::error::Error for Failure {}

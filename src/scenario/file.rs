@@ -1,0 +1,229 @@
+//! The scenario file: its head read and checked, its steps still as they stand in the file.
+//!
+//! Nothing of the machine is known here. The names and values in the steps are looked up when the scenario is
+//! prepared for a machine, before anything runs.
+
+use std::path::{Path, PathBuf};
+
+use super::duration::Duration;
+use crate::image::Profile;
+use crate::source::{Node, Place, Problem, Table, Value, did_you_mean, read_text};
+use crate::units::Time;
+
+/// A scenario as its file says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// The file.
+    pub path: PathBuf,
+    /// What it shows, in one sentence.
+    pub title: String,
+    /// The machine as the file names it.
+    pub machine: Named,
+    /// Requirement IDs that it shows.
+    pub covers: Vec<String>,
+    /// The interface profiles under which it runs.
+    pub profiles: Vec<Profile>,
+    /// The PLC program, by name.
+    pub plc: Option<Named>,
+    /// The PLC memory image, by name or file.
+    pub plc_image: Option<Named>,
+    /// The bound on simulated time.
+    pub limit: Duration,
+    /// What the trace shows; nothing means the default.
+    pub watch: Option<Vec<Named>>,
+    /// Whether golden rows show causes.
+    pub causes: bool,
+    /// What must be false in every cycle.
+    pub never: Vec<Named>,
+    /// What must be true in every cycle.
+    pub always: Vec<Named>,
+    /// How its trace is compared.
+    pub compare: Compare,
+    /// What is merged into `plant.toml`.
+    pub plant: Option<Table>,
+    pub(super) steps: Vec<Table>,
+}
+
+/// A text in a file, with its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Named {
+    /// The text.
+    pub text: String,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// How a trace is compared with the golden one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Compare {
+    /// Every character.
+    #[default]
+    Exact,
+    /// The order of the rows, whatever their times.
+    Sequence,
+    /// The order of the rows, and their times within this much.
+    Within(Time),
+}
+
+/// Bound on simulated time where a scenario names none.
+const DEFAULT_LIMIT: Time = Time::from_millis(300_000);
+
+impl Scenario {
+    /// Reads a scenario file.
+    ///
+    /// # Errors
+    /// The file cannot be read or is no scenario; the problem names file and line.
+    pub fn read(path: &Path) -> Result<Self, Problem> {
+        Self::parse(&read_text(path)?, path)
+    }
+
+    /// Reads a scenario from its text; `path` names it and is what its relative paths start from.
+    ///
+    /// # Errors
+    /// It is no scenario; the problem names file and line.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, Problem> {
+        let file = path.display().to_string();
+        let mut table = Table::parse(text, &file)?;
+        let whole = Place::file(&file);
+        let required = |node: Option<Node>, key: &str, example: &str| {
+            node.ok_or_else(|| {
+                whole.problem(format!("expected the key `{key}`, found none"), format!("write {key} = {example}"))
+            })
+        };
+        let title = required(table.take("title"), "title", "\"what the scenario shows\"")?;
+        let title = title.text("a title")?.to_owned();
+        let machine = required(table.take("machine"), "machine", "\"g1_example\"")?;
+        let machine = named(&machine, "the name or directory of a machine")?;
+        let scenario = Self {
+            path: path.to_owned(),
+            title,
+            machine,
+            covers: texts(table.take("covers"), "requirement IDs")?.into_iter().map(|id| id.text).collect(),
+            profiles: profiles(table.take("profile"))?,
+            plc: table.take("plc").map(|node| named(&node, "the name of a PLC program")).transpose()?,
+            plc_image: table.take("plc_image").map(|node| named(&node, "the name of a PLC image")).transpose()?,
+            limit: table
+                .take("limit")
+                .map_or(Ok(Duration::Time(DEFAULT_LIMIT)), |node| duration(&node, "the bound on simulated time"))?,
+            watch: table.take("watch").map(|node| texts(Some(node), "signals to watch")).transpose()?,
+            causes: table.take("causes").map_or(Ok(false), |node| node.boolean("true or false"))?,
+            never: texts(table.take("never"), "expressions")?,
+            always: texts(table.take("always"), "expressions")?,
+            compare: table.take("compare").map_or(Ok(Compare::Exact), compare)?,
+            plant: table.take("plant").map(|node| node.into_table("a table of plant data")).transpose()?,
+            steps: steps(table.take("step"), &whole)?,
+        };
+        refuse_later_keys(&mut table)?;
+        table.finish()?;
+        Ok(scenario)
+    }
+
+    /// The directory that the file's relative paths start from.
+    #[must_use]
+    pub fn directory(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
+    }
+}
+
+/// The words for a profile in files and on the command line.
+///
+/// # Errors
+/// It is no profile.
+pub fn profile_named(name: &str) -> Result<Profile, Problem> {
+    match name {
+        "840d_sl" => Ok(Profile::Sinumerik840dSl),
+        "828d" => Ok(Profile::Sinumerik828d),
+        _ => Err(Problem::new(
+            format!("expected a profile, found `{name}`"),
+            did_you_mean(name, ["840d_sl", "828d"], "profiles are 840d_sl and 828d"),
+        )),
+    }
+}
+
+/// The word for a profile.
+#[must_use]
+pub fn profile_name(profile: Profile) -> &'static str {
+    match profile {
+        Profile::Sinumerik840dSl => "840d_sl",
+        Profile::Sinumerik828d => "828d",
+    }
+}
+
+pub(super) fn named(node: &Node, what: &str) -> Result<Named, Problem> {
+    Ok(Named { text: node.text(what)?.to_owned(), place: node.place.clone() })
+}
+
+/// A text or a list of texts.
+pub(super) fn texts(node: Option<Node>, what: &str) -> Result<Vec<Named>, Problem> {
+    node.map_or_else(Vec::new, Node::into_list).iter().map(|node| named(node, what)).collect()
+}
+
+pub(super) fn duration(node: &Node, what: &str) -> Result<Duration, Problem> {
+    Duration::parse(node.text(what)?).map_err(|problem| problem.at(&node.place))
+}
+
+fn profiles(node: Option<Node>) -> Result<Vec<Profile>, Problem> {
+    let Some(node) = node else { return Ok(vec![Profile::Sinumerik840dSl]) };
+    let place = node.place.clone();
+    let mut profiles = Vec::new();
+    for name in texts(Some(node), "a profile")? {
+        let profile = profile_named(&name.text).map_err(|problem| problem.at(&name.place))?;
+        if profiles.contains(&profile) {
+            return Err(name.place.problem(format!("the profile `{}` stands here twice", name.text), "remove one"));
+        }
+        profiles.push(profile);
+    }
+    if profiles.is_empty() {
+        return Err(place.problem("expected at least one profile, found none", "write profile = \"840d_sl\""));
+    }
+    Ok(profiles)
+}
+
+fn compare(node: Node) -> Result<Compare, Problem> {
+    let cure = "write \"exact\", \"sequence\" or { time = \"50ms\" }";
+    match &node.value {
+        Value::Text(text) if text == "exact" => Ok(Compare::Exact),
+        Value::Text(text) if text == "sequence" => Ok(Compare::Sequence),
+        Value::Table(_) => {
+            let place = node.place.clone();
+            let mut table = node.into_table("a comparison")?;
+            let time = table.take("time");
+            table.finish()?;
+            let time = time.ok_or_else(|| place.problem("expected the key `time`, found none", cure))?;
+            match duration(&time, "a duration")? {
+                Duration::Time(time) => Ok(Compare::Within(time)),
+                Duration::Cycles(_) => Err(time.expected("a time with a unit", "write { time = \"50ms\" }")),
+            }
+        }
+        _ => Err(node.expected("a way to compare traces", cure)),
+    }
+}
+
+fn steps(node: Option<Node>, whole: &Place) -> Result<Vec<Table>, Problem> {
+    let none = || whole.problem("expected at least one `[[step]]`, found none", "add [[step]] with a verb");
+    let node = node.ok_or_else(none)?;
+    if !matches!(node.value, Value::Array(_)) {
+        return Err(node.expected("a list of steps", "write [[step]] with two brackets"));
+    }
+    let steps: Vec<_> = node
+        .into_list()
+        .into_iter()
+        .map(|step| step.into_table("a step with one verb"))
+        .collect::<Result<_, _>>()?;
+    if steps.is_empty() { Err(none()) } else { Ok(steps) }
+}
+
+/// What the format names and this version does not do.
+fn refuse_later_keys(table: &mut Table) -> Result<(), Problem> {
+    if let Some(node) = table.take("program") {
+        return Err(not_available(&node.place, "the key `program`"));
+    }
+    Ok(())
+}
+
+pub(super) fn not_available(place: &Place, what: &str) -> Problem {
+    place.problem(
+        format!("{what} is not available in this version"),
+        "remove it, or use a version that has it",
+    )
+}

@@ -1,0 +1,26 @@
+//! Files that act: scenarios with their steps and expressions, and the session in which they and a user's tests run.
+//!
+//! A scenario is read ([`Scenario::read`]), prepared for a profile ([`Scenario::prepare`]: here the machine is opened,
+//! every name looked up and every value checked), and run ([`Prepared::run`]). What can be wrong with a
+//! file is a [`Problem`](crate::source::Problem) with its line; what the machine did other than expected is a
+//! [`Failure`] that shows every signal of the expression.
+
+mod duration;
+mod expression;
+mod failure;
+mod file;
+mod run;
+mod session;
+mod steps;
+mod values;
+
+pub use duration::Duration;
+pub use expression::{Expression, Moment, Scope, View};
+pub use failure::{Failure, Missed};
+pub use file::{Compare, Named, Scenario, profile_name, profile_named};
+pub use run::{Finished, Prepared};
+pub use session::Session;
+pub use values::Setting;
+
+#[cfg(test)]
+mod tests;

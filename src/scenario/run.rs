@@ -1,0 +1,207 @@
+//! The scenario runner: prepares a scenario for a machine, so that every mistake is found before anything runs, and runs it.
+
+use std::path::{Path, PathBuf};
+
+use super::failure::Failure;
+use super::file::{Named, Scenario, profile_name};
+use super::session::{Condition, Session};
+use super::steps::{Action, Reader, Step};
+use crate::image::{Preset, Profile};
+use crate::machine::{Machine, OpenOptions};
+use crate::plc::Programs;
+use crate::source::Problem;
+use crate::trace::{Head, Watch};
+
+/// A scenario that is ready to run: machine opened, names looked up, values checked.
+pub struct Prepared {
+    session: Session,
+    steps: Vec<Step>,
+    head: Head,
+    causes: bool,
+}
+
+/// A scenario that has run.
+pub struct Finished {
+    session: Session,
+    head: Head,
+    causes: bool,
+    /// Why it ended early, if it did.
+    pub failure: Option<Failure>,
+}
+
+impl Scenario {
+    /// Opens the machine under a profile, and looks up and checks everything that the steps name.
+    ///
+    /// # Errors
+    /// Something cannot be used; the problem names file and line.
+    pub fn prepare(&self, profile: Profile, programs: &Programs) -> Result<Prepared, Problem> {
+        let machine = self.open(profile, programs)?;
+        let watch = self.watch(&machine)?;
+        let mut reader = Reader::new(&machine);
+        let steps: Vec<Step> =
+            self.steps.iter().map(|step| reader.step(step.clone())).collect::<Result<_, _>>()?;
+        let captured = std::mem::take(&mut reader.captured);
+        // What must hold from the first cycle on cannot wait for a value that a step captures.
+        let conditions = self.conditions(&reader, &captured)?;
+        let looks_back = conditions.iter().any(|condition| condition.expression.looks_back())
+            || steps.iter().any(Step::looks_back);
+        let limit = self.limit.cycles(machine.cycle_time());
+        let head = Head {
+            title: self.title.clone(),
+            machine: self.machine.text.clone(),
+            profile: (profile != Profile::default()).then(|| profile_name(profile).to_owned()),
+            cycle_time: machine.cycle_time(),
+        };
+        let mut session = Session::new(machine);
+        session.bound(Some(limit));
+        session.set_watch(watch);
+        session.look_back(looks_back);
+        for condition in conditions {
+            session.add_condition(condition);
+        }
+        Ok(Prepared { session, steps, head, causes: self.causes })
+    }
+
+    fn open(&self, profile: Profile, programs: &Programs) -> Result<Machine, Problem> {
+        let preset = self.plc_image.as_ref().map(|image| self.preset(image)).transpose()?;
+        let options = OpenOptions { plant_over: self.plant.clone(), profile, preset };
+        let mut machine = Machine::open_with(self.directory().join(&self.machine.text), options)
+            .map_err(|problem| problem.at(&self.machine.place))?;
+        if let Some(name) = &self.plc {
+            let program = programs.program(&name.text, machine.names());
+            machine.load_program(program.map_err(|problem| problem.at(&name.place))?);
+        }
+        Ok(machine)
+    }
+
+    /// A PLC image: a file, or a name that is looked for in `plc_images` beside the scenario or above it.
+    fn preset(&self, image: &Named) -> Result<Preset, Problem> {
+        let file = if image.text.ends_with(".toml") {
+            self.directory().join(&image.text)
+        } else {
+            let name = Path::new("plc_images").join(format!("{}.toml", image.text));
+            let above = self.directory().ancestors().map(|directory| directory.join(&name));
+            let here = Some(PathBuf::from(&name));
+            above.chain(here).find(|file| file.is_file()).ok_or_else(|| {
+                image.place.problem(
+                    format!("expected a PLC image, found no plc_images/{}.toml here or above", image.text),
+                    "name a file that ends in .toml, relative to the scenario",
+                )
+            })?
+        };
+        Preset::read(&file).map_err(|problem| problem.at(&image.place))
+    }
+
+    fn watch(&self, machine: &Machine) -> Result<Watch, Problem> {
+        let Some(entries) = &self.watch else { return Ok(Watch::default()) };
+        let texts: Vec<_> = entries.iter().map(|entry| entry.text.as_str()).collect();
+        Watch::parse(&texts, machine.names(), machine.memory())
+            .map_err(|(index, problem)| problem.at(&entries[index].place))
+    }
+
+    fn conditions(&self, reader: &Reader<'_>, captured: &[String]) -> Result<Vec<Condition>, Problem> {
+        let never = self.never.iter().map(|text| (text, false));
+        let always = self.always.iter().map(|text| (text, true));
+        never
+            .chain(always)
+            .map(|(text, wanted)| {
+                let expression = reader.expression(&text.text, &text.place).map_err(|mut problem| {
+                    if captured.iter().any(|name| problem.what.contains(&format!("`{name}`"))) {
+                        "a captured value is known from its step on; `never` and `always` hold from the start"
+                            .clone_into(&mut problem.cure);
+                    }
+                    problem
+                })?;
+                Ok(Condition { expression, wanted, place: Some(text.place.clone()) })
+            })
+            .collect()
+    }
+}
+
+impl Step {
+    fn looks_back(&self) -> bool {
+        match &self.action {
+            Action::Wait(expression, _) | Action::Hold(expression, _) => expression.looks_back(),
+            Action::Expect(expressions) => expressions.iter().any(|(_, expression)| expression.looks_back()),
+            Action::Capture(captures) => captures.iter().any(|(_, expression)| expression.looks_back()),
+            Action::Queue(_) | Action::Pulse(..) | Action::Run(_) | Action::Image(_) => false,
+        }
+    }
+
+    fn run(&self, session: &mut Session) -> Result<(), Failure> {
+        match &self.action {
+            Action::Queue(commands) => commands.iter().try_for_each(|command| session.queue(command.clone())),
+            Action::Pulse(locations, cycles) => session.pulse_locations(locations, *cycles),
+            Action::Run(cycles) => session.run_cycles(*cycles),
+            Action::Wait(expression, within) => session.wait_for(expression, *within),
+            Action::Hold(expression, during) => session.hold_for(expression, *during),
+            Action::Expect(expressions) => expressions
+                .iter()
+                .try_for_each(|(place, expression)| session.expect_now(expression).map_err(|f| f.at(place))),
+            Action::Capture(captures) => {
+                for (index, expression) in captures {
+                    session.keep(*index, expression);
+                }
+                Ok(())
+            }
+            Action::Image(bytes) => bytes
+                .iter()
+                .try_for_each(|(place, location, bits)| session.expect_bits(*location, *bits).map_err(|f| f.at(place))),
+        }
+    }
+}
+
+impl Prepared {
+    /// Runs the steps in order, up to the first that fails.
+    #[must_use]
+    pub fn run(mut self) -> Finished {
+        let mut failure = None;
+        for step in &self.steps {
+            if let Some(note) = &step.note {
+                self.session.note(note);
+            }
+            if let Err(failed) = step.run(&mut self.session) {
+                failure = Some(failed.at(&step.place));
+                break;
+            }
+        }
+        Finished { session: self.session, head: self.head, causes: self.causes, failure }
+    }
+
+    /// What the machine's files made it warn of.
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        self.session.machine().warnings()
+    }
+}
+
+impl Finished {
+    /// The body of the golden file: head and rows, with causes only where the scenario asks for them.
+    #[must_use]
+    pub fn golden(&self) -> String {
+        self.with_head(self.causes)
+    }
+
+    /// Head and rows with causes, for people.
+    #[must_use]
+    pub fn text(&self) -> String {
+        self.with_head(true)
+    }
+
+    fn with_head(&self, causes: bool) -> String {
+        let rows = self.session.rows(causes);
+        format!("{}\n{rows}", self.head)
+    }
+
+    /// The trace as JSON lines.
+    #[must_use]
+    pub fn json_lines(&self) -> String {
+        self.session.json_lines()
+    }
+
+    /// The machine as it ended, with its trace.
+    #[must_use]
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+}

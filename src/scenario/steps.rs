@@ -1,0 +1,406 @@
+//! The steps of a scenario, looked up and checked for one machine, before anything runs.
+
+use super::expression::{Expression, Scope};
+use super::file::{duration, not_available, texts};
+use crate::image::{Location, Writer, raw_value};
+use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine, Switch};
+use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
+use crate::units::{AxisNumber, Position, Time};
+
+/// A step, ready to run.
+#[derive(Debug)]
+pub(super) struct Step {
+    pub(super) place: Place,
+    pub(super) note: Option<String>,
+    pub(super) action: Action,
+}
+
+/// What a step does.
+#[derive(Debug)]
+pub(super) enum Action {
+    /// Queues commands for the next cycle.
+    Queue(Vec<Command>),
+    /// Sets bits, lets time pass, resets them.
+    Pulse(Vec<Location>, u64),
+    /// Lets cycles pass.
+    Run(u64),
+    /// Lets cycles pass until the expression is true, at most this many.
+    Wait(Expression, Option<u64>),
+    /// Lets cycles pass, in each of which the expression must be true.
+    Hold(Expression, u64),
+    /// Must all be true now.
+    Expect(Vec<(Place, Expression)>),
+    /// Keeps values.
+    Capture(Vec<(usize, Expression)>),
+    /// Must be these bits now.
+    Image(Vec<(Place, Location, u64)>),
+}
+
+/// The verbs of a step.
+const VERBS: [&str; 17] = [
+    "set",
+    "force",
+    "release",
+    "pulse",
+    "run",
+    "wait",
+    "hold",
+    "expect",
+    "capture",
+    "machine_data",
+    "new_conf",
+    "power_on",
+    "plc",
+    "cancel",
+    "fault",
+    "clear_fault",
+    "image",
+];
+
+/// Verbs of the format that later versions have.
+const LATER_VERBS: [&str; 2] = ["handwheel", "program"];
+
+/// How long a pulse is unless said.
+const PULSE: Time = Time::from_millis(100);
+
+/// Reads steps for one machine, one after the other, because a captured name is known only after its step.
+pub(super) struct Reader<'a> {
+    machine: &'a Machine,
+    /// The names of captured values so far.
+    pub(super) captured: Vec<String>,
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(machine: &'a Machine) -> Self {
+        Self { machine, captured: Vec::new() }
+    }
+
+    /// An expression with all names known so far.
+    pub(super) fn expression(&self, source: &str, place: &Place) -> Result<Expression, Problem> {
+        let scope =
+            Scope { memory: self.machine.memory(), describe: self.machine, captured: &self.captured };
+        Expression::parse(source, scope).map_err(|problem| problem.at(place))
+    }
+
+    pub(super) fn step(&mut self, mut table: Table) -> Result<Step, Problem> {
+        let place = table.place.clone();
+        let note = table.take("note").map(|node| node.text("a note").map(str::to_owned)).transpose()?;
+        let mut verbs = Vec::new();
+        for verb in VERBS {
+            if let Some(node) = table.take(verb) {
+                verbs.push((verb, node));
+            }
+        }
+        for verb in LATER_VERBS {
+            if let Some(node) = table.take(verb) {
+                return Err(not_available(&node.place, &format!("the verb `{verb}`")));
+            }
+        }
+        let mut verbs = verbs.into_iter();
+        let Some((verb, node)) = verbs.next() else {
+            // A misspelt verb is the likeliest reason for having none, and modifiers are no verbs.
+            for modifier in ["within", "for", "during"] {
+                if let Some(node) = table.take(modifier) {
+                    return Err(node.place.problem(
+                        format!("expected a verb beside `{modifier}`, found none"),
+                        "`within` belongs to `wait`, `for` to `pulse`, `during` to `hold`",
+                    ));
+                }
+            }
+            table.finish()?;
+            return Err(place.problem("expected a step with one verb, found none", verbs_in_words()));
+        };
+        if let Some((second, node)) = verbs.next() {
+            return Err(node.place.problem(
+                format!("expected one verb in a step, found `{verb}` and `{second}`"),
+                "give each its own [[step]]; time stands still between them",
+            ));
+        }
+        let action = self.action(verb, node, &mut table)?;
+        self.refuse_foreign_modifiers(verb, &mut table)?;
+        table.finish()?;
+        Ok(Step { place, note, action })
+    }
+
+    fn refuse_foreign_modifiers(&self, verb: &str, table: &mut Table) -> Result<(), Problem> {
+        for (modifier, owner) in [("within", "wait"), ("for", "pulse"), ("during", "hold")] {
+            if let Some(node) = table.take(modifier) {
+                return Err(node.place.problem(
+                    format!("expected no `{modifier}` beside `{verb}`, found one"),
+                    format!("`{modifier}` belongs to `{owner}`"),
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn action(&mut self, verb: &str, node: Node, table: &mut Table) -> Result<Action, Problem> {
+        let cycle = self.machine.cycle_time();
+        let place = node.place.clone();
+        let command = |command: Command| Action::Queue(vec![command]);
+        let action = match verb {
+            "set" => Action::Queue(self.writes(node, |location, value| Command::Write { location, value })?),
+            "force" => Action::Queue(self.writes(node, |location, value| Command::Force { location, value })?),
+            "release" => {
+                let places = self.locations(node)?;
+                Action::Queue(places.into_iter().map(|(_, location)| Command::Release { location }).collect())
+            }
+            "pulse" => {
+                let time = table.take("for").map(|node| duration(&node, "how long the pulse is")).transpose()?;
+                let cycles = time.map_or_else(|| PULSE.in_cycles(cycle), |time| time.cycles(cycle));
+                let mut locations = Vec::new();
+                for (named, location) in self.locations(node)? {
+                    if location.width != 1 {
+                        return Err(named.place.problem(
+                            format!("expected a single bit to pulse, found `{}`", named.text),
+                            "use `set` for numbers",
+                        ));
+                    }
+                    locations.push(location);
+                }
+                Action::Pulse(locations, cycles)
+            }
+            "run" => Action::Run(duration(&node, "how much time passes")?.cycles(cycle)),
+            "wait" => {
+                let within = table.take("within").map(|node| duration(&node, "how long to wait")).transpose()?;
+                Action::Wait(self.one_expression(&node)?, within.map(|within| within.cycles(cycle)))
+            }
+            "hold" => {
+                let during = table.take("during").ok_or_else(|| {
+                    place.problem("expected `during` beside `hold`, found none", "write during = \"2s\"")
+                })?;
+                let during = duration(&during, "how long it holds")?;
+                Action::Hold(self.one_expression(&node)?, during.cycles(cycle))
+            }
+            "expect" => {
+                let texts = texts(Some(node), "an expression or a list of them")?;
+                let read = |text: &super::file::Named| {
+                    Ok((text.place.clone(), self.expression(&text.text, &text.place)?))
+                };
+                Action::Expect(texts.iter().map(read).collect::<Result<_, _>>()?)
+            }
+            "capture" => Action::Capture(self.captures(node)?),
+            "machine_data" => Action::Queue(self.machine_data(node)?),
+            "new_conf" => self.flag(&node, verb).map(|()| command(Command::NewConf))?,
+            "power_on" => self.flag(&node, verb).map(|()| command(Command::PowerOn))?,
+            "cancel" => self.flag(&node, verb).map(|()| command(Command::Cancel))?,
+            "plc" => match node.text("\"stop\" or \"run\"")? {
+                "stop" => command(Command::PlcStop),
+                "run" => command(Command::PlcRun),
+                other => {
+                    return Err(node.expected(
+                        "\"stop\" or \"run\"",
+                        &did_you_mean(other, ["stop", "run"], "a PLC program is chosen at the head of the file"),
+                    ));
+                }
+            },
+            "fault" => command(Command::Fault(self.fault(node)?)),
+            "clear_fault" => command(Command::ClearFault(self.fault(node)?)),
+            "image" => Action::Image(self.image(node)?),
+            _ => return Err(place.problem(format!("expected a verb, found `{verb}`"), verbs_in_words())),
+        };
+        Ok(action)
+    }
+
+    fn one_expression(&self, node: &Node) -> Result<Expression, Problem> {
+        self.expression(node.text("an expression")?, &node.place)
+    }
+
+    fn flag(&self, node: &Node, verb: &str) -> Result<(), Problem> {
+        if node.boolean("true")? {
+            Ok(())
+        } else {
+            Err(node.expected("true", &format!("write {verb} = true, or remove the step")))
+        }
+    }
+
+    /// A list of places that the PLC or the operator panel may write.
+    fn locations(&self, node: Node) -> Result<Vec<(super::file::Named, Location)>, Problem> {
+        let texts = texts(Some(node), "an address or a list of them")?;
+        texts
+            .into_iter()
+            .map(|named| {
+                let location = writable(self.machine, &named.text).map_err(|problem| problem.at(&named.place))?;
+                Ok((named, location))
+            })
+            .collect()
+    }
+
+    fn writes(
+        &self,
+        node: Node,
+        command: impl Fn(Location, u64) -> Command,
+    ) -> Result<Vec<Command>, Problem> {
+        let mut table = node.into_table("signals with their values")?;
+        let mut commands = Vec::new();
+        for (name, place, node) in table.take_rest() {
+            let location = writable(self.machine, &name).map_err(|problem| problem.at(&place))?;
+            let bits = raw_value(&node, location, self.machine.override_coding())?;
+            commands.push(command(location, bits));
+        }
+        Ok(commands)
+    }
+
+    fn captures(&mut self, node: Node) -> Result<Vec<(usize, Expression)>, Problem> {
+        let mut table = node.into_table("names with their expressions")?;
+        let mut captures = Vec::new();
+        let mut names = Vec::new();
+        for (name, place, node) in table.take_rest() {
+            let expression = self.one_expression(&node)?;
+            check_captured_name(&name).map_err(|problem| problem.at(&place))?;
+            let known = self.captured.iter().chain(&names).position(|known| *known == name);
+            let index = known.unwrap_or(self.captured.len() + names.len());
+            if known.is_none() {
+                names.push(name);
+            }
+            captures.push((index, expression));
+        }
+        self.captured.extend(names);
+        Ok(captures)
+    }
+
+    fn machine_data(&self, node: Node) -> Result<Vec<Command>, Problem> {
+        let mut table = node.into_table("machine data with their values")?;
+        let mut commands = Vec::new();
+        // Each is tried on a copy of the machine, so that what it refuses is refused before anything runs.
+        let mut trial = self.machine.fork()?;
+        for (target, place, node) in table.take_rest() {
+            let value = match &node.value {
+                Value::Integer(number) => DatumValue::Integer(*number),
+                Value::Float(number) => DatumValue::Real(*number),
+                Value::Boolean(value) => DatumValue::Boolean(*value),
+                Value::Text(text) => DatumValue::Text(text.clone()),
+                Value::Array(_) | Value::Table(_) => {
+                    return Err(node.expected("a value of a machine datum", "one value per index: \"34100[2,XF]\" = 5.0"));
+                }
+            };
+            let command = Command::MachineDatum { target, value };
+            trial.queue(command.clone()).map_err(|problem| problem.at(&place))?;
+            commands.push(command);
+        }
+        Ok(commands)
+    }
+
+    fn fault(&self, node: Node) -> Result<Fault, Problem> {
+        let place = node.place.clone();
+        let mut table = node.into_table("a fault, as { axis = \"XF\", kind = \"block\" }")?;
+        let mut required = |key: &'static str| {
+            table.take(key).ok_or_else(|| {
+                place.problem(format!("expected the key `{key}`, found none"), "write { axis = \"XF\", kind = \"block\" }")
+            })
+        };
+        let axis = required("axis")?;
+        let kind = required("kind")?;
+        let axis = axis_named(self.machine, axis.text("the name of a machine axis")?)
+            .map_err(|problem| problem.at(&axis.place))?;
+        let mut distance = || {
+            let by = table.take("by").ok_or_else(|| place.problem("expected the key `by`, found none", "write by = 0.05"))?;
+            Ok::<_, Problem>(Position::from_user(by.number("a distance in mm or degrees")?))
+        };
+        let kind = match kind.text("the kind of a fault")? {
+            "block" => FaultKind::Block,
+            "push" => FaultKind::Push { by: distance()? },
+            "encoder_slip" => FaultKind::EncoderSlip { by: distance()? },
+            "zero_mark_missing" => FaultKind::ZeroMarkMissing,
+            "switch_stuck" => {
+                let mut required = |key: &'static str, example: &str| {
+                    table.take(key).ok_or_else(|| {
+                        place.problem(format!("expected the key `{key}`, found none"), format!("write {example}"))
+                    })
+                };
+                let which = required("which", "which = \"cam\"")?;
+                let at = required("at", "at = 1")?;
+                FaultKind::SwitchStuck { which: switch(&which)?, at: one_or_zero(&at)? }
+            }
+            "drive_fault" | "encoder_fault" | "friction" | "drift" => {
+                let name = kind.text("the kind of a fault")?;
+                return Err(not_available(&kind.place, &format!("the fault `{name}`")));
+            }
+            other => {
+                let known = ["block", "push", "encoder_slip", "zero_mark_missing", "switch_stuck"];
+                let fallback = format!("kinds are {}", known.join(", "));
+                return Err(kind.expected("a kind of fault", &did_you_mean(other, known, &fallback)));
+            }
+        };
+        table.finish()?;
+        Ok(Fault { axis, kind })
+    }
+
+    fn image(&self, node: Node) -> Result<Vec<(Place, Location, u64)>, Problem> {
+        let mut table = node.into_table("addresses with their bits")?;
+        let mut expected = Vec::new();
+        for (name, place, node) in table.take_rest() {
+            let names = self.machine.names();
+            let location =
+                names.resolve(self.machine.memory(), &name).map_err(|problem| problem.at(&place))?;
+            let bits = raw_value(&node, location, self.machine.override_coding())?;
+            expected.push((node.place, location, bits));
+        }
+        Ok(expected)
+    }
+}
+
+fn verbs_in_words() -> String {
+    format!("verbs are {}", VERBS.join(", "))
+}
+
+fn switch(node: &Node) -> Result<Switch, Problem> {
+    match node.text("the name of a switch")? {
+        "cam" => Ok(Switch::Cam),
+        "limit_plus" => Ok(Switch::LimitPlus),
+        "limit_minus" => Ok(Switch::LimitMinus),
+        other => {
+            let cure = did_you_mean(other, ["cam", "limit_plus", "limit_minus"], "switches are cam, limit_plus, limit_minus");
+            Err(node.expected("the name of a switch", &cure))
+        }
+    }
+}
+
+fn one_or_zero(node: &Node) -> Result<bool, Problem> {
+    match node.value {
+        Value::Integer(0) | Value::Boolean(false) => Ok(false),
+        Value::Integer(1) | Value::Boolean(true) => Ok(true),
+        _ => Err(node.expected("0 or 1", "write at = 1")),
+    }
+}
+
+/// The axis of this name.
+pub(super) fn axis_named(machine: &Machine, name: &str) -> Result<AxisNumber, Problem> {
+    let axes = &machine.names().axes;
+    AxisNumber::all().find(|axis| axes[*axis].as_deref() == Some(name)).ok_or_else(|| {
+        let known: Vec<_> = AxisNumber::all().filter_map(|axis| axes[axis].as_deref()).collect();
+        let fallback = format!("machine axes are {}", known.join(", "));
+        Problem::new(
+            format!("expected a machine axis, found `{name}`"),
+            did_you_mean(name, known.iter().copied(), &fallback),
+        )
+    })
+}
+
+/// A captured value has a plain name that means nothing else.
+pub(super) fn check_captured_name(name: &str) -> Result<(), Problem> {
+    let plain = name.starts_with(|c: char| c.is_alphabetic() || c == '_')
+        && name.chars().all(|c| c.is_alphanumeric() || c == '_');
+    if plain && name != "time" {
+        Ok(())
+    } else {
+        Err(Problem::new(
+            format!("expected a plain name for a captured value, found `{name}`"),
+            "use letters, digits and underscores, and not `time`",
+        ))
+    }
+}
+
+/// The place of a signal that something other than the NCK writes.
+pub(super) fn writable(machine: &Machine, name: &str) -> Result<Location, Problem> {
+    let names = machine.names();
+    let location = names.resolve(machine.memory(), name)?;
+    if names.writer(location) == Some(Writer::Nck) {
+        let what = names.symbol(location).map_or_else(|| name.to_owned(), |symbol| format!("{symbol} ({name})"));
+        return Err(Problem::new(
+            format!("expected a signal that the PLC or the operator panel writes, found {what}, which the NCK writes"),
+            "the NCK would write it anew in the same cycle; `expect` it instead",
+        ));
+    }
+    Ok(location)
+}

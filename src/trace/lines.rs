@@ -1,0 +1,183 @@
+//! From rows to lines: bytes become signals, numbers become names, in the order that a trace promises.
+//!
+//! Within one time: notes, writes by address, bits of the NCK by address, alarms by number, values.
+
+use std::collections::BTreeMap;
+
+use super::because::because;
+use super::places::{Order, Places, Printable, Shown, mask_in_byte, shown};
+use super::{By, Change, Row, Trace, Watch, decimals, place_name};
+use crate::image::{Format, Location, Memory};
+use crate::units::Time;
+use crate::variables::{AlarmNumber, Describe, EventId, Parameter, RaisedAlarm};
+
+/// One line of a trace.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Since the start of the trace, a whole number of cycles.
+    pub time: Time,
+    /// What it says.
+    pub kind: LineKind,
+}
+
+/// What a line says.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LineKind {
+    /// A note of the scenario, or a notice of the simulator.
+    Note(String),
+    /// A signal changed.
+    Signal(SignalLine),
+    /// An alarm came or went.
+    Alarm(AlarmLine),
+    /// A watched value changed: its name, what it was, what it is, with six decimals.
+    Value(String, Option<String>, String),
+}
+
+/// A signal changed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SignalLine {
+    /// Its name, if the catalogue has one.
+    pub symbol: Option<String>,
+    /// Its address.
+    pub address: String,
+    /// Before.
+    pub old: Shown,
+    /// After.
+    pub new: Shown,
+    /// Who changed it.
+    pub by: By,
+    /// Why, where that is known.
+    pub because: Option<String>,
+}
+
+/// An alarm came or went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AlarmLine {
+    /// Its number, or its own name.
+    pub name: String,
+    /// Whether it has a number.
+    pub numbered: bool,
+    /// Came or went.
+    pub raised: bool,
+    /// The axis or channel.
+    pub place: String,
+    /// Its parameters, as text or number.
+    pub parameters: Vec<Result<i64, String>>,
+    /// Its text.
+    pub text: String,
+    /// Why, where that is known.
+    pub because: Option<String>,
+}
+
+/// A signal that changed in the cycle that is being read.
+struct Draft {
+    printable: Printable,
+    old: Shown,
+    by: By,
+    cause: EventId,
+}
+
+impl Trace {
+    /// The lines of the trace, in order.
+    #[must_use]
+    pub fn lines(&self, describe: &dyn Describe, watch: &Watch) -> Vec<Line> {
+        let names = describe.names();
+        let mut places = Places::new(names, watch);
+        let mut memory = self.start.clone();
+        // Ordered by cycle and by kind; lines of equal rank stay in the order in which they came.
+        let mut ranked: Vec<(u64, u8, Line)> = Vec::new();
+        let mut push = |cycle, rank, kind| ranked.push((cycle, rank, Line { time: self.time(cycle), kind }));
+        for (cycle, text) in &self.notes {
+            push(*cycle, 0, LineKind::Note(text.clone()));
+        }
+        for rows in self.rows.chunk_by(|one, next| one.cycle == next.cycle) {
+            let cycle = rows[0].cycle;
+            let mut drafts: BTreeMap<(bool, Order, u8), Draft> = BTreeMap::new();
+            for row in rows {
+                draft(row, &memory, &mut places, &mut drafts);
+                if let Change::Overwritten { part, offset, bits } = row.change {
+                    let what = places.call(part, offset, bits);
+                    push(cycle, 0, LineKind::Note(format!("the PLC program overwrote what was set: {what}")));
+                }
+            }
+            for row in rows {
+                if let Change::Byte { part, offset, new, .. } = row.change {
+                    let byte = Location { part, offset, bit: 0, width: 8, format: Format::Unsigned };
+                    memory.write(byte, new.into());
+                }
+            }
+            for Draft { printable, old, by, cause } in drafts.into_values() {
+                let new = shown(&memory, printable.location);
+                if old != new {
+                    let because = self.event(cause).map(|event| because(event, describe));
+                    let Printable { symbol, address, .. } = printable;
+                    let rank = if by == By::Nck { 2 } else { 1 };
+                    push(cycle, rank, LineKind::Signal(SignalLine { symbol, address, old, new, by, because }));
+                }
+            }
+            let mut alarms: Vec<_> = rows
+                .iter()
+                .filter_map(|row| match row.change {
+                    Change::Alarm { alarm, raised, cause } => Some((alarm, raised, cause)),
+                    Change::Byte { .. } | Change::Overwritten { .. } => None,
+                })
+                .collect();
+            alarms.sort_by_key(|(alarm, ..)| (alarm.number, alarm.place));
+            for (alarm, raised, cause) in alarms {
+                push(cycle, 3, LineKind::Alarm(self.alarm(&alarm, raised, cause, describe)));
+            }
+        }
+        for row in &self.values {
+            let watched = &self.watched[row.index];
+            let axis = place_name(crate::variables::Place::Axis(watched.axis), names);
+            let name = format!("{axis}.{}", watched.value);
+            push(row.cycle, 4, LineKind::Value(name, row.old.map(decimals), decimals(row.new)));
+        }
+        ranked.sort_by_key(|(cycle, rank, _)| (*cycle, *rank));
+        ranked.into_iter().map(|(_, _, line)| line).collect()
+    }
+
+    fn alarm(&self, alarm: &RaisedAlarm, raised: bool, cause: EventId, describe: &dyn Describe) -> AlarmLine {
+        let names = describe.names();
+        let parameter = |parameter: &Parameter| match *parameter {
+            Parameter::None => None,
+            Parameter::Channel(channel) => Some(Err(place_name(crate::variables::Place::Channel(channel), names))),
+            Parameter::Axis(axis) => Some(Err(place_name(crate::variables::Place::Axis(axis), names))),
+            Parameter::Number(number) => Some(Ok(number)),
+        };
+        AlarmLine {
+            name: describe.alarm_name(alarm.number),
+            numbered: alarm.number.0 < AlarmNumber::OWN,
+            raised,
+            place: place_name(alarm.place, names),
+            parameters: alarm.parameters.iter().filter_map(parameter).collect(),
+            text: describe.alarm_text(alarm),
+            because: self.event(cause).map(|event| because(event, describe)),
+        }
+    }
+}
+
+/// Notes which printable things a row changes; a number across several bytes is noted once.
+fn draft(
+    row: &Row,
+    before: &Memory,
+    places: &mut Places<'_>,
+    drafts: &mut BTreeMap<(bool, Order, u8), Draft>,
+) {
+    let Change::Byte { part, offset, old, new, by, causes } = row.change else { return };
+    let changed = old ^ new;
+    for printable in places.at(part, offset) {
+        let mask = mask_in_byte(printable.location, offset) & changed;
+        if mask == 0 {
+            continue;
+        }
+        let bit = mask.trailing_zeros() as usize;
+        let key = (by[bit] == By::Nck, printable.order, printable.location.width);
+        drafts.entry(key).or_insert_with(|| Draft {
+            printable: printable.clone(),
+            old: shown(before, printable.location),
+            by: by[bit],
+            cause: causes[bit],
+        });
+    }
+}

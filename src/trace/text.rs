@@ -1,0 +1,198 @@
+//! The trace for people: a head, then one row a change, in aligned columns; and the first difference of two traces, in words.
+
+use super::{By, Line, LineKind};
+use crate::units::Time;
+
+/// The lines above the rows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Head {
+    /// The scenario's title.
+    pub title: String,
+    /// The machine, as the scenario names it.
+    pub machine: String,
+    /// The profile, where it is not the default one.
+    pub profile: Option<String>,
+    /// One cycle.
+    pub cycle_time: Time,
+}
+
+impl std::fmt::Display for Head {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        writeln!(f, "scenario  {}", self.title)?;
+        writeln!(f, "machine   {}", self.machine)?;
+        if let Some(profile) = &self.profile {
+            writeln!(f, "profile   {profile}")?;
+        }
+        writeln!(f, "cycle     {} ms", self.cycle_time.seconds() * 1e3)
+    }
+}
+
+/// Who, in one word.
+pub(super) fn by_in_words(by: By) -> &'static str {
+    match by {
+        By::Nck => "nck",
+        By::Plc => "plc",
+        By::Outside => "outside",
+        By::Force => "force",
+        By::Plant => "plant",
+    }
+}
+
+/// The columns of one row.
+struct Columns {
+    time: String,
+    what: String,
+    address: String,
+    change: String,
+    by: String,
+    rest: String,
+}
+
+impl Columns {
+    fn widths(&self) -> [usize; 5] {
+        [&self.time, &self.what, &self.address, &self.change, &self.by].map(|column| column.chars().count())
+    }
+}
+
+/// All rows, with the names of the columns above them.
+pub(super) fn rows(lines: &[Line], causes: bool) -> String {
+    let head = Columns {
+        time: "time".to_owned(),
+        what: "what".to_owned(),
+        address: "address".to_owned(),
+        change: "change".to_owned(),
+        by: "by".to_owned(),
+        rest: if causes { "because".to_owned() } else { String::new() },
+    };
+    let rows: Vec<Result<Columns, &Line>> = lines.iter().map(|line| columns(line, causes)).collect();
+    let mut widths = head.widths();
+    for row in &rows {
+        match row {
+            Ok(row) => {
+                for (width, own) in widths.iter_mut().zip(row.widths()) {
+                    *width = own.max(*width);
+                }
+            }
+            Err(note) => widths[0] = widths[0].max(note.time.to_string().len()),
+        }
+    }
+    // Rounded up, so that one longer name in a changed trace seldom moves every row.
+    for width in &mut widths[..4] {
+        *width = width.next_multiple_of(4);
+    }
+    let mut text = String::new();
+    for row in std::iter::once(Ok(head)).chain(rows) {
+        let line = match row {
+            Ok(row) => format!(
+                "{:>1$}  {2:<3$}  {4:<5$}  {6:<7$}  {8:<9$}  {10}",
+                row.time, widths[0], row.what, widths[1], row.address, widths[2], row.change, widths[3], row.by,
+                widths[4], row.rest
+            ),
+            Err(Line { time, kind: LineKind::Note(note) }) => {
+                // A note of several lines stays one row.
+                format!("{:>1$}  # {2}", time.to_string(), widths[0], note.lines().collect::<Vec<_>>().join(" / "))
+            }
+            Err(_) => continue,
+        };
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+/// The columns of a line; a note has none.
+fn columns(line: &Line, causes: bool) -> Result<Columns, &Line> {
+    let time = line.time.to_string();
+    let row = match &line.kind {
+        LineKind::Note(_) => return Err(line),
+        LineKind::Signal(signal) => {
+            let (what, address) = match &signal.symbol {
+                Some(symbol) => (symbol.clone(), signal.address.clone()),
+                None => (signal.address.clone(), String::new()),
+            };
+            let because = signal.because.clone().filter(|_| causes);
+            Columns {
+                time,
+                what,
+                address,
+                change: format!("{} -> {}", signal.old, signal.new),
+                by: by_in_words(signal.by).to_owned(),
+                rest: because.unwrap_or_default(),
+            }
+        }
+        LineKind::Alarm(alarm) => {
+            let because = alarm.because.as_ref().filter(|_| causes);
+            let because = because.map(|because| format!("  ({because})")).unwrap_or_default();
+            Columns {
+                time,
+                what: format!("alarm {}", alarm.name),
+                address: alarm.place.clone(),
+                change: if alarm.raised { "raised" } else { "cleared" }.to_owned(),
+                by: "nck".to_owned(),
+                rest: format!("{}{because}", alarm.text),
+            }
+        }
+        LineKind::Value(name, old, new) => Columns {
+            time,
+            what: name.clone(),
+            address: String::new(),
+            change: old.as_ref().map_or_else(|| new.clone(), |old| format!("{old} -> {new}")),
+            by: String::new(),
+            rest: String::new(),
+        },
+    };
+    Ok(row)
+}
+
+/// The first difference of two texts, in words; nothing if they are equal.
+#[must_use]
+pub fn difference(expected: &str, found: &str) -> Option<String> {
+    let mut expected = expected.lines();
+    let mut found = found.lines();
+    let mut line = 0;
+    loop {
+        line += 1;
+        match (expected.next(), found.next()) {
+            (None, None) => return None,
+            (one, other) if one == other => {}
+            (one, other) => return Some(in_words(line, one, other)),
+        }
+    }
+}
+
+/// The first difference of two traces in the order of their rows; times may differ by `tolerance`, or by anything without one.
+#[must_use]
+pub fn difference_in_sequence(expected: &str, found: &str, tolerance: Option<Time>) -> Option<String> {
+    let mut expected = expected.lines();
+    let mut found = found.lines();
+    let mut line = 0;
+    loop {
+        line += 1;
+        let (one, other) = (expected.next(), found.next());
+        let (Some(expected), Some(found)) = (one, other) else {
+            return (one != other).then(|| in_words(line, one, other));
+        };
+        let equal = match (timed(expected), timed(found)) {
+            (Some((one, expected)), Some((other, found))) => {
+                let apart = Time::from_nanos((one - other).nanos().abs());
+                expected.eq(found) && tolerance.is_none_or(|tolerance| apart <= tolerance)
+            }
+            _ => expected.split_whitespace().eq(found.split_whitespace()),
+        };
+        if !equal {
+            return Some(in_words(line, one, other));
+        }
+    }
+}
+
+/// A row as its time and the words after it.
+fn timed(row: &str) -> Option<(Time, std::str::SplitWhitespace<'_>)> {
+    let mut words = row.split_whitespace();
+    let time = words.next()?.parse().ok()?;
+    Some((Time::from_seconds(time), words))
+}
+
+fn in_words(line: usize, expected: Option<&str>, found: Option<&str>) -> String {
+    let shown = |text: Option<&str>| text.map_or_else(|| "(the end)".to_owned(), str::to_owned);
+    format!("first difference in line {line}\n  expected  {}\n  found     {}", shown(expected), shown(found))
+}

@@ -1,0 +1,194 @@
+//! What a trace shows: patterns over symbols and addresses, and the names of values.
+
+use super::AxisValue;
+use super::places::Printable;
+use crate::image::{Location, Memory, Names, Part, signals};
+use crate::source::{Problem, did_you_mean};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
+use crate::variables::Place;
+
+/// What a trace shows; by default every signal of the catalogue and every input and output that changed, and no values.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Watch {
+    /// Nothing means the default.
+    chosen: Option<Chosen>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Chosen {
+    /// With `*`, over symbols and addresses.
+    patterns: Vec<String>,
+    /// Places named one by one.
+    locations: Vec<Location>,
+    values: Vec<(AxisNumber, AxisValue)>,
+}
+
+impl Watch {
+    /// Reads names, addresses and patterns, as `X.*`, `DB33.DBX101.*`, `M10.3`, `X.position`.
+    ///
+    /// # Errors
+    /// One of them, given with its index, names nothing.
+    pub fn parse(entries: &[&str], names: &Names, memory: &Memory) -> Result<Self, (usize, Problem)> {
+        let mut chosen = Chosen::default();
+        for (index, entry) in entries.iter().enumerate() {
+            chosen.add(entry, names, memory).map_err(|problem| (index, problem))?;
+        }
+        chosen.values.sort_unstable();
+        chosen.values.dedup();
+        Ok(Self { chosen: Some(chosen) })
+    }
+
+    /// The values that it names.
+    pub fn values(&self) -> impl Iterator<Item = (AxisNumber, AxisValue)> {
+        self.chosen.iter().flat_map(|chosen| chosen.values.iter().copied())
+    }
+
+    pub(super) fn locations(&self) -> &[Location] {
+        self.chosen.as_ref().map_or(&[], |chosen| &chosen.locations)
+    }
+
+    pub(super) fn shows_signal(&self, signal: &Printable) -> bool {
+        self.chosen.as_ref().is_none_or(|chosen| chosen.shows(signal))
+    }
+
+    pub(super) fn shows_unnamed_bit(&self, bit: &Printable) -> bool {
+        match &self.chosen {
+            None => matches!(bit.location.part, Part::Inputs | Part::Outputs),
+            Some(chosen) => chosen.shows(bit),
+        }
+    }
+
+    pub(super) fn shows_unnamed_byte(&self, byte: &Printable) -> bool {
+        self.chosen.as_ref().is_some_and(|chosen| chosen.shows(byte))
+    }
+}
+
+impl Chosen {
+    fn add(&mut self, entry: &str, names: &Names, memory: &Memory) -> Result<(), Problem> {
+        if let Some((head, tail)) = entry.rsplit_once('.')
+            && let Some(value) = AxisValue::named(tail)
+        {
+            let axes: Vec<_> = axes(names).filter(|(_, name)| matches(head, name)).collect();
+            if axes.is_empty() {
+                let known = || names_of_axes(names);
+                let fallback = format!("machine axes are {}", known().collect::<Vec<_>>().join(", "));
+                return Err(Problem::new(
+                    format!("expected the value of a machine axis, found `{entry}`"),
+                    did_you_mean(head, known(), &fallback),
+                ));
+            }
+            self.values.extend(axes.into_iter().map(|(axis, _)| (axis, value)));
+            return Ok(());
+        }
+        if !entry.contains('*') {
+            self.locations.push(names.resolve(memory, entry)?);
+            return Ok(());
+        }
+        if !looks_like_addresses(entry) {
+            let owners = owners(names);
+            let matching = signals().any(|signal| {
+                owners.iter().any(|(block, owner)| {
+                    *block == signal.block && matches(entry, &format!("{owner}.{}", signal.name))
+                })
+            });
+            if !matching {
+                let head = entry.split('.').next().unwrap_or(entry);
+                return Err(Problem::new(
+                    format!("expected a pattern that fits a signal, found `{entry}`"),
+                    did_you_mean(
+                        head,
+                        owners.iter().map(|(_, owner)| owner.as_str()),
+                        "patterns are like `X.*` or `DB31.DBX101.*`",
+                    ),
+                ));
+            }
+        }
+        self.patterns.push(entry.to_owned());
+        Ok(())
+    }
+
+    fn shows(&self, printable: &Printable) -> bool {
+        self.locations.contains(&printable.location)
+            || self.patterns.iter().any(|pattern| {
+                matches(pattern, &printable.address)
+                    || printable.symbol.as_ref().is_some_and(|symbol| matches(pattern, symbol))
+            })
+    }
+}
+
+fn axes(names: &Names) -> impl Iterator<Item = (AxisNumber, &str)> {
+    AxisNumber::all().filter_map(|axis| names.axes[axis].as_deref().map(|name| (axis, name)))
+}
+
+fn names_of_axes(names: &Names) -> impl Iterator<Item = &str> {
+    axes(names).map(|(_, name)| name)
+}
+
+/// Everything that can stand before the point of a symbol.
+fn owners(names: &Names) -> Vec<(crate::image::Block, String)> {
+    use crate::image::Block;
+    let place = |block, place| (block, super::place_name(place, names));
+    let mut owners = vec![place(Block::Nck, Place::Nck)];
+    owners.extend(ModeGroupNumber::all().map(|group| place(Block::ModeGroup, Place::ModeGroup(group))));
+    let channels = ChannelNumber::all().filter(|channel| names.channels[*channel].is_some());
+    owners.extend(channels.map(|channel| place(Block::Channel, Place::Channel(channel))));
+    owners.extend(axes(names).map(|(axis, _)| place(Block::Axis, Place::Axis(axis))));
+    owners
+}
+
+/// Whether a pattern is about addresses: `DB33.…`, `M10.*`, `IB*`, `*`.
+fn looks_like_addresses(pattern: &str) -> bool {
+    let area = pattern.strip_prefix("DB").or_else(|| pattern.strip_prefix(['I', 'Q', 'M', 'T', 'C']));
+    let area = area.map(|rest| rest.strip_prefix(['B', 'W', 'D']).unwrap_or(rest));
+    pattern == "*" || area.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '*'))
+}
+
+/// Whether a text fits a pattern in which `*` stands for anything.
+fn matches(pattern: &str, text: &str) -> bool {
+    let mut parts = pattern.split('*');
+    let first = parts.next().unwrap_or_default();
+    let Some(mut rest) = text.strip_prefix(first) else { return false };
+    let mut last = None;
+    for part in parts {
+        // All but the last part take their first place; the last one must be the end.
+        if let Some(middle) = last.replace(part) {
+            match rest.find(middle) {
+                Some(at) => rest = &rest[at + middle.len()..],
+                None => return false,
+            }
+        }
+    }
+    last.map_or(rest.is_empty(), |last| rest.ends_with(last))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_star_stands_for_anything() {
+        for (pattern, text, fits) in [
+            ("X.*", "X.controller_enable", true),
+            ("X.*", "XF.controller_enable", false),
+            ("X*.controller_enable", "XF.controller_enable", true),
+            ("DB33.DBX101.*", "DB33.DBX101.4", true),
+            ("DB33.DBX101.*", "DB33.DBX10.4", false),
+            ("*gantry*start*", "X.gantry_synchronization_ready_to_start", true),
+            ("*ab", "ab", true),
+            ("a*a", "a", false),
+            ("X.a", "X.ab", false),
+        ] {
+            assert_eq!(matches(pattern, text), fits, "{pattern} {text}");
+        }
+    }
+
+    #[test]
+    fn patterns_of_addresses_are_told_from_those_of_symbols() {
+        for pattern in ["DB33.*", "M10.*", "IB*", "QW1*", "*"] {
+            assert!(looks_like_addresses(pattern), "{pattern}");
+        }
+        for pattern in ["X.*", "CHAN1.*", "MX.*", "DX*", "*.controller_enable"] {
+            assert!(!looks_like_addresses(pattern), "{pattern}");
+        }
+    }
+}
