@@ -181,6 +181,14 @@ impl Plant {
         signals
     }
 
+    /// The counts of both encoders of an axis at the moment.
+    #[must_use]
+    pub fn values(&self, axis: AxisNumber) -> [Position; 2] {
+        self.slides[axis].map_or([Position::ZERO; 2], |slide| {
+            slide.encoders.map(|encoder| encoder.signal(slide.position, slide.position).value)
+        })
+    }
+
     /// The drives run up.
     pub fn run_up(&mut self, cycle: Time) {
         for (_, slide) in self.slides.iter_mut() {

@@ -91,6 +91,8 @@ pub struct Causes {
 pub struct Axis {
     /// Where it is to be.
     pub setpoint: Setpoint,
+    /// The setpoint before this cycle, from which it is finely interpolated.
+    pub before: Position,
     /// What this cycle commands.
     pub motion: Motion,
     /// The target of a [`Motion::GoTo`] is reached, and the setpoint rests on it.
@@ -139,6 +141,7 @@ impl Default for Axis {
     fn default() -> Self {
         Self {
             setpoint: Setpoint::default(),
+            before: Position::ZERO,
             motion: Motion::Hold,
             arrived: false,
             offset: [Position::ZERO; 2],

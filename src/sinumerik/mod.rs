@@ -48,9 +48,9 @@ use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
 use crate::image::ToNck;
-use crate::motion::Coupling;
+use crate::motion::{Coupling, velocity_command};
 use crate::source::Problem;
-use crate::units::{AxisNumber, PerAxis};
+use crate::units::{AxisNumber, PerAxis, Position};
 use crate::variables::{EventId, Place};
 
 use axis::{Axis, Motion};
@@ -206,6 +206,30 @@ impl Control {
             self.state.plc_missing = true;
             self.state.plc_cause = self.state.log.note_plain(Place::Nck, Rule::PlcMissing, EventId::NONE);
         }
+    }
+
+    /// The PLC program runs again; alarm 2000 stays until power off.
+    pub fn plc_restarted(&mut self) {
+        self.state.plc_missing = false;
+    }
+
+    /// The active measuring system of an axis, 0 or 1.
+    #[must_use]
+    pub fn measuring_system(&self, axis: AxisNumber) -> Option<u8> {
+        self.state.axes[axis].measuring_system
+    }
+
+    /// Position control of an axis in part `part` of `count` of the interpolation cycle, the setpoint finely interpolated: the
+    /// velocity that its drive is to have; `None` for a drive without power.
+    #[must_use]
+    pub fn velocity_command(&self, axis: AxisNumber, encoders: [Position; 2], part: u32, count: u32) -> Option<f64> {
+        let state = &self.state.axes[axis];
+        let active = usize::from(state.measuring_system.filter(|_| state.enabling.is_powered())?);
+        let actual = encoders[active] + state.offset[active];
+        let way = (state.setpoint.position - state.before).increments();
+        let setpoint = state.before + Position::new(way * i64::from(part) / i64::from(count));
+        let gain = self.parameters.axes[axis].gain;
+        Some(velocity_command(setpoint - actual, gain, state.half_count, state.setpoint.velocity(), 0.0))
     }
 
     /// Somebody else wrote into the NCK's half.

@@ -15,6 +15,7 @@ impl State {
             .map(|axis| parameters.axes[axis].emergency_deceleration)
             .fold(f64::INFINITY, f64::min);
         for axis in unit.members() {
+            self.axes[axis].before = self.axes[axis].setpoint.position;
             if let Some(motion) = self.axes[axis].motion_without_control(emergency) {
                 self.axes[axis].motion = motion;
             }

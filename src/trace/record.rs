@@ -84,9 +84,9 @@ impl Default for Recorder {
 
 impl Recorder {
     /// How many rows fit between two drains; one step writes far fewer.
-    pub const ROWS: usize = 8192;
+    pub const ROWS: usize = 2048;
     /// How many events fit between two drains.
-    pub const EVENTS: usize = 2048;
+    pub const EVENTS: usize = 1024;
 
     /// Notes a change; counts it as lost where nobody drains.
     pub fn push(&mut self, row: Row) {

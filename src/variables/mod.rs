@@ -78,15 +78,18 @@ pub struct RaisedAlarm {
     pub parameters: [Parameter; 4],
 }
 
+/// How many alarms can be pending at once.
+const ALARMS: usize = 64;
+
 /// The alarms that are pending, in order of number and place; bounded, because a list on a control is.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Alarms {
-    raised: ArrayVec<RaisedAlarm, { Self::CAPACITY }>,
+    raised: ArrayVec<RaisedAlarm, ALARMS>,
 }
 
 impl Alarms {
     /// How many alarms can be pending at once.
-    pub const CAPACITY: usize = 64;
+    pub const CAPACITY: usize = ALARMS;
 
     /// Takes over what is pending now, in order of number and place.
     pub fn publish(&mut self, pending: impl Iterator<Item = RaisedAlarm>) {

@@ -165,6 +165,8 @@ Axis {
     34330 REFP_STOP_AT_ABS_MARKER refp_stop_at_abs_marker: [bool; 2] = [false; 2]; "", Range::ANY, PowerOn;
     /// WAITENC takes the axis into account
     34800 WAIT_ENC_VALID wait_enc_valid: i32 = 0; "", Range::between(0.0, 1.0), Reset;
+    /// spindle that is assigned to the machine axis; 0 for an axis
+    35000 SPIND_ASSIGN_TO_MACHAX spind_assign_to_machax: u8 = 0; "", Range::between(0.0, 31.0), PowerOn;
     /// tolerance of the creep velocity in the zero mark search
     35150 SPIND_DES_VELO_TOL spind_des_velo_tol: f64 = 0.1; "factor", Range::NOT_NEGATIVE, Reset;
     /// window of exact stop coarse, DBX60.6
