@@ -129,7 +129,8 @@ impl Machine {
                 )
             })?),
         };
-        let mut plc = Plc { program, ..Plc::default() };
+        let mut plc = Plc::default();
+        plc.program = program;
         plc.stopped = self.plc.stopped;
         plc.started = self.plc.started;
         plc.wait = self.plc.wait;
