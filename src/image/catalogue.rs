@@ -156,7 +156,10 @@ pub(super) fn usual_format(location: Location) -> Format {
 static NAMED: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let mut named = vec![0; size_of::<FromNck>()];
     for (offset, mask) in named.iter_mut().enumerate() {
-        let Some(found) = u32::try_from(offset).ok().and_then(|offset| signals_at(Part::FromNck, offset)) else {
+        let Some(found) = u32::try_from(offset)
+            .ok()
+            .and_then(|offset| signals_at(Part::FromNck, offset))
+        else {
             continue;
         };
         for bit in 0..8_u8 {

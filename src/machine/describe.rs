@@ -11,7 +11,9 @@ impl Describe for Machine {
     }
 
     fn alarm_text(&self, alarm: &RaisedAlarm) -> String {
-        let Some(row) = Alarm::find(alarm.number) else { return String::new() };
+        let Some(row) = Alarm::find(alarm.number) else {
+            return String::new();
+        };
         let mut text = row.text.to_owned();
         for (index, parameter) in alarm.parameters.iter().enumerate() {
             text = text.replace(&format!("%{}", index + 1), &shown(self, *parameter));
@@ -27,7 +29,10 @@ impl Describe for Machine {
     }
 
     fn alarm_number(&self, name: &str) -> Option<AlarmNumber> {
-        ALARMS.iter().find(|alarm| alarm.name == name).map(|alarm| alarm.number)
+        ALARMS
+            .iter()
+            .find(|alarm| alarm.name == name)
+            .map(|alarm| alarm.number)
     }
 
     fn rule(&self, rule: RuleNumber) -> Rule {
@@ -39,8 +44,12 @@ fn shown(machine: &Machine, parameter: Parameter) -> String {
     let names = &machine.definition.names;
     match parameter {
         Parameter::None => String::new(),
-        Parameter::Channel(number) => names.channels[number].clone().unwrap_or_else(|| format!("CHAN{number}")),
-        Parameter::Axis(number) => names.axes[number].clone().unwrap_or_else(|| format!("AX{number}")),
+        Parameter::Channel(number) => names.channels[number]
+            .clone()
+            .unwrap_or_else(|| format!("CHAN{number}")),
+        Parameter::Axis(number) => names.axes[number]
+            .clone()
+            .unwrap_or_else(|| format!("AX{number}")),
         Parameter::Number(number) => number.to_string(),
     }
 }

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::Machine;
 use super::changes::Before;
 use super::command::{Command, Force};
 use super::step::Plc;
-use super::Machine;
 use crate::image::{Memory, Names};
 use crate::plant::Plant;
 use crate::sinumerik::{Feedback, SavedControl};
@@ -62,7 +62,11 @@ impl Machine {
             cycle: self.cycle,
             time: self.time,
             plc: SavedPlc {
-                program: self.plc.program.as_ref().map(|program| (program.name().to_owned(), program.save())),
+                program: self
+                    .plc
+                    .program
+                    .as_ref()
+                    .map(|program| (program.name().to_owned(), program.save())),
                 stopped: self.plc.stopped,
                 started: self.plc.started,
                 wait: self.plc.wait,
@@ -77,23 +81,42 @@ impl Machine {
     /// # Errors
     /// The bytes are no saved machine, or one of other axes or another PLC program; nothing has changed then.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Problem> {
-        let damaged = |what: String| Problem::new(what, "restore what `save` of this version gave, on the same machine");
-        let saved: SavedV1 = postcard::from_bytes(bytes)
-            .map_err(|error| damaged(format!("expected a saved machine, found damaged bytes: {error}")))?;
+        let damaged = |what: String| {
+            Problem::new(
+                what,
+                "restore what `save` of this version gave, on the same machine",
+            )
+        };
+        let saved: SavedV1 = postcard::from_bytes(bytes).map_err(|error| {
+            damaged(format!(
+                "expected a saved machine, found damaged bytes: {error}"
+            ))
+        })?;
         if saved.version != VERSION {
-            return Err(damaged(format!("expected a saved machine of version {VERSION}, found version {}", saved.version)));
+            return Err(damaged(format!(
+                "expected a saved machine of version {VERSION}, found version {}",
+                saved.version
+            )));
         }
         if saved.names != self.definition.names {
-            return Err(damaged("expected a saved machine with the same axes and channels, found others".to_owned()));
+            return Err(damaged(
+                "expected a saved machine with the same axes and channels, found others".to_owned(),
+            ));
         }
         match (&mut self.plc.program, &saved.plc.program) {
             (None, None) => {}
-            (Some(program), Some((name, state))) if program.name() == name => program.restore(state)?,
+            (Some(program), Some((name, state))) if program.name() == name => {
+                program.restore(state)?
+            }
             (mine, theirs) => {
-                let name = |program: Option<&str>| program.map_or("none".to_owned(), |name| format!("`{name}`"));
+                let name = |program: Option<&str>| {
+                    program.map_or("none".to_owned(), |name| format!("`{name}`"))
+                };
                 let mine = name(mine.as_ref().map(|program| program.name()));
                 let theirs = name(theirs.as_ref().map(|(name, _)| name.as_str()));
-                return Err(damaged(format!("expected the PLC program {mine}, found {theirs}")));
+                return Err(damaged(format!(
+                    "expected the PLC program {mine}, found {theirs}"
+                )));
             }
         }
         self.control.restore(saved.control);
@@ -124,7 +147,10 @@ impl Machine {
             None => None,
             Some(program) => Some(program.fork().ok_or_else(|| {
                 Problem::new(
-                    format!("expected a PLC program that can be forked, found `{}`", program.name()),
+                    format!(
+                        "expected a PLC program that can be forked, found `{}`",
+                        program.name()
+                    ),
                     "write it as a closure over its own state: opennck::plc::program",
                 )
             })?),

@@ -80,10 +80,18 @@ impl Layout {
                 let offset = |axis: AxisNumber| {
                     let name = names[axis].as_deref().unwrap_or_default();
                     // An offset that is not said is the one that the slides have at first power on.
-                    bridge.offset.get(name).copied().unwrap_or_else(|| start(&axes, axis) - start(&axes, first))
+                    bridge
+                        .offset
+                        .get(name)
+                        .copied()
+                        .unwrap_or_else(|| start(&axes, axis) - start(&axes, first))
                 };
                 let others = others.iter().map(|&axis| (axis, offset(axis))).collect();
-                Some(RigidOrSoft { first, others, stiffness: bridge.stiffness })
+                Some(RigidOrSoft {
+                    first,
+                    others,
+                    stiffness: bridge.stiffness,
+                })
             })
             .collect();
         Self { axes, bridges }
@@ -91,7 +99,9 @@ impl Layout {
 }
 
 fn start(axes: &PerAxis<Option<Iron>>, axis: AxisNumber) -> Position {
-    axes[axis].as_ref().map_or(Position::ZERO, |iron| iron.start)
+    axes[axis]
+        .as_ref()
+        .map_or(Position::ZERO, |iron| iron.start)
 }
 
 fn iron(definition: &PlantDefinition, name: &str, hints: Hints) -> Iron {
@@ -130,7 +140,15 @@ fn default_cam(start: Position, direction: i8) -> Option<Cam> {
     let far = Position::from_user(DEFAULT_CAM_DISTANCE + DEFAULT_CAM_LENGTH);
     match direction {
         0 => None,
-        1.. => Some(Cam { from: start + near, to: start + far, input: None }),
-        _ => Some(Cam { from: start - far, to: start - near, input: None }),
+        1.. => Some(Cam {
+            from: start + near,
+            to: start + far,
+            input: None,
+        }),
+        _ => Some(Cam {
+            from: start - far,
+            to: start - near,
+            input: None,
+        }),
     }
 }

@@ -17,7 +17,7 @@ use super::machine_data::Effect;
 
 /// The state of the channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Channel {
+pub(super) struct Channel {
     /// RESET is pressed.
     pub reset: bool,
     /// The latest RESET.
@@ -29,13 +29,13 @@ pub struct Channel {
 impl Channel {
     /// 33.0.
     #[must_use]
-    pub const fn is_referencing(&self) -> bool {
+    pub(super) const fn is_referencing(&self) -> bool {
         self.referencing.is_active()
     }
 
     /// Channel-specific referencing started this axis.
     #[must_use]
-    pub const fn started(&self, axis: AxisNumber) -> bool {
+    pub(super) const fn started(&self, axis: AxisNumber) -> bool {
         self.referencing.started(axis)
     }
 }
@@ -55,12 +55,25 @@ impl Control {
             return;
         }
         let bit = if by_mode_group {
-            SignalBit { place: Place::ModeGroup(ModeGroupNumber::FIRST), byte: 0, bit: 7 }
+            SignalBit {
+                place: Place::ModeGroup(ModeGroupNumber::FIRST),
+                byte: 0,
+                bit: 7,
+            }
         } else {
-            SignalBit { place: Place::Channel(ChannelNumber::FIRST), byte: 7, bit: 7 }
+            SignalBit {
+                place: Place::Channel(ChannelNumber::FIRST),
+                byte: 7,
+                bit: 7,
+            }
         };
         let channel = Place::Channel(ChannelNumber::FIRST);
-        let event = self.state.log.note_one(channel, Rule::ResetDone, Input::Bit(bit, true), EventId::NONE);
+        let event = self.state.log.note_one(
+            channel,
+            Rule::ResetDone,
+            Input::Bit(bit, true),
+            EventId::NONE,
+        );
         self.state.channel.reset_cause = event;
         self.state.alarms.cancel(Cancel::ModeGroupReset);
         self.activate(Effect::Reset);

@@ -62,27 +62,111 @@ const fn row(from: Phase, by: Rule, to: Phase) -> Transition {
 
 /// Every step that a grouping can take.
 pub const TRANSITIONS: &[Transition] = &[
-    row(Phase::NotSynchronised, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
-    row(Phase::WaitingForStart, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
-    row(Phase::Synchronised, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
-    row(Phase::ReferencingLeadingAxis, Rule::LeadingAxisReferenced, Phase::ReferencingSynchronousAxis),
-    row(Phase::ReferencingLeadingAxis, Rule::ReferencingAborted, Phase::NotSynchronised),
-    row(Phase::ReferencingSynchronousAxis, Rule::NextSynchronousAxis, Phase::ReferencingSynchronousAxis),
-    row(Phase::ReferencingSynchronousAxis, Rule::ReferencingAborted, Phase::NotSynchronised),
-    row(Phase::ReferencingSynchronousAxis, Rule::AutomaticStart, Phase::Synchronising),
-    row(Phase::ReferencingSynchronousAxis, Rule::WaitWarningLimitZero, Phase::WaitingForStart),
-    row(Phase::ReferencingSynchronousAxis, Rule::WaitDifference, Phase::WaitingForStart),
-    row(Phase::ReferencingSynchronousAxis, Rule::WaitLocked, Phase::WaitingForStart),
-    row(Phase::WaitingForStart, Rule::StartByPlc, Phase::Synchronising),
-    row(Phase::WaitingForStart, Rule::ReadyNoMore, Phase::NotSynchronised),
-    row(Phase::WaitingForStart, Rule::SynchronismRestored, Phase::Synchronised),
-    row(Phase::Synchronising, Rule::Synchronised, Phase::Synchronised),
-    row(Phase::Synchronising, Rule::SynchronisationAborted, Phase::WaitingForStart),
-    row(Phase::Synchronising, Rule::ReadyNoMore, Phase::NotSynchronised),
-    row(Phase::Synchronised, Rule::SynchronismLostFollowUp, Phase::NotSynchronised),
-    row(Phase::Synchronised, Rule::SynchronismLostReference, Phase::NotSynchronised),
-    row(Phase::NotSynchronised, Rule::SynchronismRestored, Phase::Synchronised),
-    row(Phase::NotSynchronised, Rule::ReadyAgain, Phase::WaitingForStart),
+    row(
+        Phase::NotSynchronised,
+        Rule::LeadingAxisApproach,
+        Phase::ReferencingLeadingAxis,
+    ),
+    row(
+        Phase::WaitingForStart,
+        Rule::LeadingAxisApproach,
+        Phase::ReferencingLeadingAxis,
+    ),
+    row(
+        Phase::Synchronised,
+        Rule::LeadingAxisApproach,
+        Phase::ReferencingLeadingAxis,
+    ),
+    row(
+        Phase::ReferencingLeadingAxis,
+        Rule::LeadingAxisReferenced,
+        Phase::ReferencingSynchronousAxis,
+    ),
+    row(
+        Phase::ReferencingLeadingAxis,
+        Rule::ReferencingAborted,
+        Phase::NotSynchronised,
+    ),
+    row(
+        Phase::ReferencingSynchronousAxis,
+        Rule::NextSynchronousAxis,
+        Phase::ReferencingSynchronousAxis,
+    ),
+    row(
+        Phase::ReferencingSynchronousAxis,
+        Rule::ReferencingAborted,
+        Phase::NotSynchronised,
+    ),
+    row(
+        Phase::ReferencingSynchronousAxis,
+        Rule::AutomaticStart,
+        Phase::Synchronising,
+    ),
+    row(
+        Phase::ReferencingSynchronousAxis,
+        Rule::WaitWarningLimitZero,
+        Phase::WaitingForStart,
+    ),
+    row(
+        Phase::ReferencingSynchronousAxis,
+        Rule::WaitDifference,
+        Phase::WaitingForStart,
+    ),
+    row(
+        Phase::ReferencingSynchronousAxis,
+        Rule::WaitLocked,
+        Phase::WaitingForStart,
+    ),
+    row(
+        Phase::WaitingForStart,
+        Rule::StartByPlc,
+        Phase::Synchronising,
+    ),
+    row(
+        Phase::WaitingForStart,
+        Rule::ReadyNoMore,
+        Phase::NotSynchronised,
+    ),
+    row(
+        Phase::WaitingForStart,
+        Rule::SynchronismRestored,
+        Phase::Synchronised,
+    ),
+    row(
+        Phase::Synchronising,
+        Rule::Synchronised,
+        Phase::Synchronised,
+    ),
+    row(
+        Phase::Synchronising,
+        Rule::SynchronisationAborted,
+        Phase::WaitingForStart,
+    ),
+    row(
+        Phase::Synchronising,
+        Rule::ReadyNoMore,
+        Phase::NotSynchronised,
+    ),
+    row(
+        Phase::Synchronised,
+        Rule::SynchronismLostFollowUp,
+        Phase::NotSynchronised,
+    ),
+    row(
+        Phase::Synchronised,
+        Rule::SynchronismLostReference,
+        Phase::NotSynchronised,
+    ),
+    row(
+        Phase::NotSynchronised,
+        Rule::SynchronismRestored,
+        Phase::Synchronised,
+    ),
+    row(
+        Phase::NotSynchronised,
+        Rule::ReadyAgain,
+        Phase::WaitingForStart,
+    ),
     row(Phase::NotSynchronised, Rule::Opened, Phase::Open),
     row(Phase::ReferencingLeadingAxis, Rule::Opened, Phase::Open),
     row(Phase::ReferencingSynchronousAxis, Rule::Opened, Phase::Open),
@@ -94,7 +178,7 @@ pub const TRANSITIONS: &[Transition] = &[
 
 /// What monitoring found on one synchronous axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Monitored {
+pub(super) struct Monitored {
     /// The synchronism difference.
     pub difference: Position,
     /// Beyond MD37110: 101.3.
@@ -109,7 +193,7 @@ pub struct Monitored {
 
 /// One grouping.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Grouping {
+pub(super) struct Grouping {
     /// Its number, 1 to 8.
     pub number: u8,
     /// Leading and synchronous axes, who leads now, and the base of each difference.
@@ -147,7 +231,7 @@ pub struct Grouping {
 impl Grouping {
     /// As after power on: no difference, nothing referenced.
     #[must_use]
-    pub fn new(definition: &Definition) -> Self {
+    pub(super) fn new(definition: &Definition) -> Self {
         Self {
             number: definition.number,
             coupling: definition.coupling.clone(),
@@ -172,21 +256,29 @@ impl Grouping {
     fn referencing(&self) -> Option<AxisNumber> {
         match self.phase {
             Phase::ReferencingLeadingAxis => Some(self.coupling.leader()),
-            Phase::ReferencingSynchronousAxis => self.coupling.followers().nth(usize::from(self.turn)),
+            Phase::ReferencingSynchronousAxis => {
+                self.coupling.followers().nth(usize::from(self.turn))
+            }
             _ => None,
         }
     }
 
     /// Sections 1 and 2 are on the way.
     #[must_use]
-    pub fn is_referencing(&self) -> bool {
+    pub(super) fn is_referencing(&self) -> bool {
         self.referencing().is_some()
     }
 }
 
 impl State {
     /// One cycle of a grouping.
-    pub(super) fn run_grouping(&mut self, index: usize, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
+    pub(super) fn run_grouping(
+        &mut self,
+        index: usize,
+        unit: &Unit,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) {
         let leader = self.groupings[index].coupling.leader();
         let start = to_nck.axes[leader].start_gantry_synchronization();
         let start_rises = start && !self.groupings[index].start_was;
@@ -194,7 +286,9 @@ impl State {
         self.brake(unit, parameters);
         self.watch_synchronism(index, unit, parameters, to_nck);
         if !self.groupings[index].coupled {
-            let rest = unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest());
+            let rest = unit
+                .members()
+                .all(|axis| self.axes[axis].setpoint.is_at_rest());
             let synchronising = self.groupings[index].phase == Phase::Synchronising;
             self.groupings[index].coupled = rest && !synchronising;
         }
@@ -214,7 +308,8 @@ impl State {
                 self.start_synchronising(index, parameters);
             }
             Phase::Synchronising => self.synchronise(index, unit, parameters),
-            Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {}
+            Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {
+            }
         }
         let idle = !self.groupings[index].is_referencing() && self.groupings[index].coupled;
         if idle && self.is_jogging() {
@@ -227,10 +322,15 @@ impl State {
     /// Takes a step of the table.
     fn step_grouping(&mut self, index: usize, by: Rule, inputs: [Input; 3], parent: EventId) {
         let grouping = &mut self.groupings[index];
-        let to = TRANSITIONS.iter().find(|row| row.from == grouping.phase && row.by == by).map(|row| row.to);
+        let to = TRANSITIONS
+            .iter()
+            .find(|row| row.from == grouping.phase && row.by == by)
+            .map(|row| row.to);
         debug_assert!(to.is_some(), "no step from {:?} by {by:?}", grouping.phase);
         grouping.phase = to.unwrap_or_default();
-        grouping.cause = self.log.note(Place::Axis(grouping.coupling.leader()), by, inputs, parent);
+        grouping.cause = self
+            .log
+            .note(Place::Axis(grouping.coupling.leader()), by, inputs, parent);
         match grouping.phase {
             Phase::WaitingForStart => (grouping.message, grouping.waited_for) = (true, true),
             Phase::Synchronising => grouping.coupled = false,
@@ -241,7 +341,10 @@ impl State {
 
     fn may_start_approach(&self, index: usize, unit: &Unit) -> bool {
         let grouping = &self.groupings[index];
-        let phase = matches!(grouping.phase, Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised);
+        let phase = matches!(
+            grouping.phase,
+            Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised
+        );
         phase && grouping.coupled && self.unit_can_move(unit)
     }
 
@@ -253,7 +356,11 @@ impl State {
     fn start_grouping_approach(&mut self, index: usize, direction: i8, event: EventId) {
         let leader = self.groupings[index].coupling.leader();
         self.step_grouping(index, Rule::LeadingAxisApproach, [Input::None; 3], event);
-        let key = if self.channel.started(leader) { 0 } else { direction };
+        let key = if self.channel.started(leader) {
+            0
+        } else {
+            direction
+        };
         let grouping = &mut self.groupings[index];
         grouping.key = key;
         grouping.coupling.lead_with(leader);
@@ -262,10 +369,19 @@ impl State {
     }
 
     /// Sections 1 and 2.
-    fn reference_grouping(&mut self, index: usize, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
-        let Some(number) = self.groupings[index].referencing() else { return };
+    fn reference_grouping(
+        &mut self,
+        index: usize,
+        unit: &Unit,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) {
+        let Some(number) = self.groupings[index].referencing() else {
+            return;
+        };
         let leader = self.groupings[index].coupling.leader();
-        if let Some((alarm, event)) = self.approach_interrupted(leader, self.groupings[index].key, unit, parameters, to_nck)
+        if let Some((alarm, event)) =
+            self.approach_interrupted(leader, self.groupings[index].key, unit, parameters, to_nck)
         {
             self.abort_grouping(index, number, alarm, event);
             return;
@@ -280,7 +396,13 @@ impl State {
         }
     }
 
-    fn abort_grouping(&mut self, index: usize, number: AxisNumber, alarm: Option<AlarmNumber>, event: EventId) {
+    fn abort_grouping(
+        &mut self,
+        index: usize,
+        number: AxisNumber,
+        alarm: Option<AlarmNumber>,
+        event: EventId,
+    ) {
         self.axes[number].approach.abort();
         if let Some(alarm) = alarm {
             self.raise_axis_alarm(alarm, number, event);
@@ -294,13 +416,23 @@ impl State {
     }
 
     /// After a reference point of sections 1 and 2: the next synchronous axis (O-10: ascending), or section 3.
-    fn next_section(&mut self, index: usize, event: EventId, parameters: &Parameters, to_nck: &ToNck) {
+    fn next_section(
+        &mut self,
+        index: usize,
+        event: EventId,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) {
         let (by, turn) = match self.groupings[index].phase {
             Phase::ReferencingLeadingAxis => (Rule::LeadingAxisReferenced, 0),
             _ => (Rule::NextSynchronousAxis, self.groupings[index].turn + 1),
         };
         let leader = self.groupings[index].coupling.leader();
-        let Some(next) = self.groupings[index].coupling.followers().nth(usize::from(turn)) else {
+        let Some(next) = self.groupings[index]
+            .coupling
+            .followers()
+            .nth(usize::from(turn))
+        else {
             self.groupings[index].coupling.lead_with(leader);
             self.compare_positions(index, event, parameters, to_nck);
             return;
@@ -310,33 +442,51 @@ impl State {
         self.groupings[index].coupling.lead_with(next);
         // MD37150 bit 1: direction by its own MD34010, or the leading axis'.
         let own = !parameters.axes[next].gantry.direction_of_leading_axis;
-        let direction = parameters.axes[if own { next } else { leader }].reference.cam_direction;
-        let cause = self.log.note_plain(Place::Axis(next), Rule::ApproachStartedInGrouping, event);
+        let direction = parameters.axes[if own { next } else { leader }]
+            .reference
+            .cam_direction;
+        let cause = self
+            .log
+            .note_plain(Place::Axis(next), Rule::ApproachStartedInGrouping, event);
         self.start_approach(next, direction, cause);
         self.command(leader, 0, 0, [Input::None; 3]);
     }
 
     /// Section 3: start by itself, or wait (REF-06, REF-07, REF-11).
-    fn compare_positions(&mut self, index: usize, event: EventId, parameters: &Parameters, to_nck: &ToNck) {
+    fn compare_positions(
+        &mut self,
+        index: usize,
+        event: EventId,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) {
         let coupling = self.groupings[index].coupling.clone();
         let leader = coupling.leader();
         self.groupings[index].from_referencing = true;
         self.groupings[index].waited = 0;
-        let all = self.log.note_plain(Place::Axis(leader), Rule::AllReferenced, event);
+        let all = self
+            .log
+            .note_plain(Place::Axis(leader), Rule::AllReferenced, event);
         let mut wait = None;
         for follower in coupling.followers() {
             let limit = parameters.axes[follower].gantry.warning_limit;
             let difference = self.axes[follower].actual - self.axes[leader].actual;
             let datum = Input::Datum(37110, Some(follower), limit.user());
             if limit == Position::ZERO {
-                wait = wait.or(Some((Rule::WaitWarningLimitZero, [datum, Input::None, Input::None])));
+                wait = wait.or(Some((
+                    Rule::WaitWarningLimitZero,
+                    [datum, Input::None, Input::None],
+                )));
             } else if difference.abs() >= limit {
                 let measured = Input::Length(Quantity::SynchronismDifference, follower, difference);
                 wait = wait.or(Some((Rule::WaitDifference, [measured, datum, Input::None])));
             }
         }
         if to_nck.axes[leader].no_automatic_synchronization() {
-            wait = wait.or(Some((Rule::WaitLocked, [axis_bit(leader, 29, 5, true), Input::None, Input::None])));
+            wait = wait.or(Some((
+                Rule::WaitLocked,
+                [axis_bit(leader, 29, 5, true), Input::None, Input::None],
+            )));
         }
         if let Some((rule, inputs)) = wait {
             self.step_grouping(index, rule, inputs, all);
@@ -382,7 +532,10 @@ impl State {
             return;
         }
         let leader = self.groupings[index].coupling.leader();
-        let (target, leading_axis_moves) = (self.groupings[index].target, self.groupings[index].leading_axis_moves);
+        let (target, leading_axis_moves) = (
+            self.groupings[index].target,
+            self.groupings[index].leading_axis_moves,
+        );
         let (mut arrived, mut late) = (true, None);
         for number in unit.members() {
             let axis_parameters = &parameters.axes[number];
@@ -391,8 +544,13 @@ impl State {
                 continue;
             }
             let encoder = usize::from(axis.measuring_system.unwrap_or(0));
-            let factor = if axis.feed_held { 0.0 } else { axis.feed_factor };
-            let velocity = (axis_parameters.reference.marker_velocity[encoder] * factor).min(axis_parameters.maximum_velocity);
+            let factor = if axis.feed_held {
+                0.0
+            } else {
+                axis.feed_factor
+            };
+            let velocity = (axis_parameters.reference.marker_velocity[encoder] * factor)
+                .min(axis_parameters.maximum_velocity);
             let at_rest = axis.setpoint.is_at_rest() && axis.setpoint.position == target;
             axis.motion = Motion::GoTo { target, velocity };
             let direction = axis.motion.direction(axis.setpoint.position);
@@ -403,7 +561,9 @@ impl State {
                     late = late.or(Some(number));
                 }
             }
-            let wanted = (target - self.axes[number].setpoint.position).increments().signum();
+            let wanted = (target - self.axes[number].setpoint.position)
+                .increments()
+                .signum();
             let request = i8::try_from(wanted).unwrap_or(0);
             let cause = self.groupings[index].cause;
             self.axes[number].causes.motion = cause;
@@ -425,8 +585,17 @@ impl State {
     /// All axes are at their target: synchronised, and the coupling acts again (REF-10).
     fn close_synchronised(&mut self, index: usize, unit: &Unit, parameters: &Parameters) {
         let parent = self.groupings[index].cause;
-        let target = Input::Length(Quantity::Position, unit.leader(), self.groupings[index].target);
-        self.step_grouping(index, Rule::Synchronised, [target, Input::None, Input::None], parent);
+        let target = Input::Length(
+            Quantity::Position,
+            unit.leader(),
+            self.groupings[index].target,
+        );
+        self.step_grouping(
+            index,
+            Rule::Synchronised,
+            [target, Input::None, Input::None],
+            parent,
+        );
         self.groupings[index].coupled = true;
         for axis in unit.members() {
             let deceleration = parameters.axes[axis].maximum_acceleration;
@@ -436,28 +605,59 @@ impl State {
     }
 
     /// What takes synchronism or readiness away, and what gives it back outside of section 3.
-    fn watch_synchronism(&mut self, index: usize, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
+    fn watch_synchronism(
+        &mut self,
+        index: usize,
+        unit: &Unit,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) {
         self.open_or_close(index, unit, parameters);
         let phase = self.groupings[index].phase;
-        let follower = unit.members().find(|&axis| self.axes[axis].enabling.follow_up);
-        let unreferenced = unit.members().find(|&axis| !self.axes[axis].is_referenced());
-        let followed_up = std::mem::replace(&mut self.groupings[index].followed_up, follower.is_some());
+        let follower = unit
+            .members()
+            .find(|&axis| self.axes[axis].enabling.follow_up);
+        let unreferenced = unit
+            .members()
+            .find(|&axis| !self.axes[axis].is_referenced());
+        let followed_up =
+            std::mem::replace(&mut self.groupings[index].followed_up, follower.is_some());
         let lost = follower
-            .map(|axis| (Rule::SynchronismLostFollowUp, axis_bit(axis, 61, 3, true), self.axes[axis].causes.enabling))
+            .map(|axis| {
+                (
+                    Rule::SynchronismLostFollowUp,
+                    axis_bit(axis, 61, 3, true),
+                    self.axes[axis].causes.enabling,
+                )
+            })
             .or_else(|| {
                 let axis = unreferenced?;
                 let cause = self.axes[axis].causes.reference[0];
-                Some((Rule::SynchronismLostReference, axis_bit(axis, 60, 4, false), cause))
+                Some((
+                    Rule::SynchronismLostReference,
+                    axis_bit(axis, 60, 4, false),
+                    cause,
+                ))
             });
         match (phase, lost) {
             (Phase::Synchronised, Some((rule, input, cause))) => {
                 self.step_grouping(index, rule, [input, Input::None, Input::None], cause);
             }
             (Phase::WaitingForStart | Phase::Synchronising, Some((_, input, cause))) => {
-                self.step_grouping(index, Rule::ReadyNoMore, [input, Input::None, Input::None], cause);
+                self.step_grouping(
+                    index,
+                    Rule::ReadyNoMore,
+                    [input, Input::None, Input::None],
+                    cause,
+                );
             }
             (Phase::WaitingForStart, None) if self.is_tripped(index) => {
-                self.step_grouping(index, Rule::ReadyNoMore, [Input::None; 3], self.groupings[index].cause);
+                self.step_grouping(
+                    index,
+                    Rule::ReadyNoMore,
+                    [Input::None; 3],
+                    self.groupings[index].cause,
+                );
             }
             (Phase::NotSynchronised, None) => self.make_ready(index, unit, parameters),
             _ => {}
@@ -469,7 +669,10 @@ impl State {
     }
 
     fn is_tripped(&self, index: usize) -> bool {
-        self.groupings[index].monitored.iter().any(|monitored| monitored.trip)
+        self.groupings[index]
+            .monitored
+            .iter()
+            .any(|monitored| monitored.trip)
     }
 
     /// E-13: all referenced, not synchronised, difference within MD37130.
@@ -491,8 +694,11 @@ impl State {
     fn end_follow_up(&mut self, index: usize, unit: &Unit, parameters: &Parameters, locked: bool) {
         let axes = &self.axes;
         let leader = unit.leader();
-        let absolute = |axis: AxisNumber| axes[axis].is_referenced() && axes[leader].is_referenced();
-        self.groupings[index].coupling.close(|axis| axes[axis].actual, absolute);
+        let absolute =
+            |axis: AxisNumber| axes[axis].is_referenced() && axes[leader].is_referenced();
+        self.groupings[index]
+            .coupling
+            .close(|axis| axes[axis].actual, absolute);
         if self.groupings[index].phase != Phase::WaitingForStart || locked {
             return;
         }
@@ -511,7 +717,9 @@ impl State {
     }
 
     fn open_or_close(&mut self, index: usize, unit: &Unit, parameters: &Parameters) {
-        let open = unit.members().find(|&axis| parameters.axes[axis].gantry.broken_up);
+        let open = unit
+            .members()
+            .find(|&axis| parameters.axes[axis].gantry.broken_up);
         let is_open = self.groupings[index].phase == Phase::Open;
         if let Some(axis) = open
             && !is_open
@@ -520,16 +728,29 @@ impl State {
                 self.axes[running].approach.abort();
             }
             let input = Input::Datum(37140, Some(axis), 1.0);
-            self.step_grouping(index, Rule::Opened, [input, Input::None, Input::None], EventId::NONE);
+            self.step_grouping(
+                index,
+                Rule::Opened,
+                [input, Input::None, Input::None],
+                EventId::NONE,
+            );
             let leader = unit.leader();
             self.groupings[index].coupling.lead_with(leader);
             self.groupings[index].coupled = false;
         } else if open.is_none() && is_open {
             let input = Input::Datum(37140, Some(unit.leader()), 0.0);
-            self.step_grouping(index, Rule::Closed, [input, Input::None, Input::None], EventId::NONE);
+            self.step_grouping(
+                index,
+                Rule::Closed,
+                [input, Input::None, Input::None],
+                EventId::NONE,
+            );
             let (axes, leader) = (&self.axes, unit.leader());
-            let absolute = |axis: AxisNumber| axes[axis].is_referenced() && axes[leader].is_referenced();
-            self.groupings[index].coupling.close(|axis| axes[axis].actual, absolute);
+            let absolute =
+                |axis: AxisNumber| axes[axis].is_referenced() && axes[leader].is_referenced();
+            self.groupings[index]
+                .coupling
+                .close(|axis| axes[axis].actual, absolute);
         }
     }
 
@@ -547,7 +768,8 @@ impl State {
                     self.command(axis, 0, 0, [Input::None; 3]);
                 }
             }
-            Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {}
+            Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {
+            }
         }
         self.groupings[index].from_referencing = false;
         self.groupings[index].message = false;
@@ -558,7 +780,12 @@ impl State {
         let grouping = &self.groupings[index];
         let leader = grouping.coupling.leader();
         let unit = Parameter::Number(i64::from(grouping.number));
-        let shown = [Parameter::Channel(ChannelNumber::FIRST), unit, Parameter::None, Parameter::None];
+        let shown = [
+            Parameter::Channel(ChannelNumber::FIRST),
+            unit,
+            Parameter::None,
+            Parameter::None,
+        ];
         let suppressed = parameters.axes[leader].gantry.suppress_message;
         let number = match grouping.phase {
             Phase::WaitingForStart if grouping.message => alarms::GANTRY_WAITING,

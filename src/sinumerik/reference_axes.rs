@@ -20,7 +20,7 @@ const CHANNEL: Place = Place::Channel(ChannelNumber::FIRST);
 
 /// Channel-specific referencing (REF-23): which order number is on, and who has been started.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ChannelReferencing {
+pub(super) struct ChannelReferencing {
     /// The order number of MD34110 that is being referenced; 0 when none is.
     number: i32,
     /// Axes that were started, as bits.
@@ -34,13 +34,13 @@ pub struct ChannelReferencing {
 impl ChannelReferencing {
     /// 33.0.
     #[must_use]
-    pub const fn is_active(&self) -> bool {
+    pub(super) const fn is_active(&self) -> bool {
         self.number != 0
     }
 
     /// It started this axis.
     #[must_use]
-    pub const fn started(&self, axis: AxisNumber) -> bool {
+    pub(super) const fn started(&self, axis: AxisNumber) -> bool {
         self.is_active() && self.started >> axis.index() & 1 == 1
     }
 }
@@ -60,7 +60,11 @@ impl State {
                 && !self.is_gantry_axis(number)
                 && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
             {
-                self.axes[number].approach_key = if self.channel.started(number) { 0 } else { direction };
+                self.axes[number].approach_key = if self.channel.started(number) {
+                    0
+                } else {
+                    direction
+                };
                 self.start_approach(number, f64::from(direction), event);
                 self.reference_single(unit, parameters, to_nck);
             }
@@ -70,7 +74,9 @@ impl State {
     fn reference_single(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let number = unit.leader();
         let key = self.axes[number].approach_key;
-        if let Some((alarm, event)) = self.approach_interrupted(number, key, unit, parameters, to_nck) {
+        if let Some((alarm, event)) =
+            self.approach_interrupted(number, key, unit, parameters, to_nck)
+        {
             self.axes[number].approach.abort();
             self.command(number, 0, 0, [Input::None; 3]);
             if let Some(alarm) = alarm {
@@ -105,16 +111,26 @@ impl State {
         if key == 0 {
             self.axes[number].key_used = false;
         }
-        let has_zero_mark = self.axes[number].measuring_system.is_some_and(|active| reference.mode[usize::from(active)] == 1);
+        let has_zero_mark = self.axes[number]
+            .measuring_system
+            .is_some_and(|active| reference.mode[usize::from(active)] == 1);
         let disabled = signals.axis_spindle_disable() || self.axes[number].feed_disabled;
         if !self.mode_group.reference || !has_zero_mark || disabled {
             return None;
         }
         let forward = if reference.cam_direction > 0.0 { 1 } else { -1 };
-        if self.channel.referencing.wants(number, reference.cycle_number) {
+        if self
+            .channel
+            .referencing
+            .wants(number, reference.cycle_number)
+        {
             self.channel.referencing.started |= 1 << number.index();
             let cause = self.channel.referencing.cause;
-            return Some((forward, self.log.note_plain(Place::Axis(number), Rule::ApproachStartedByChannel, cause)));
+            return Some((
+                forward,
+                self.log
+                    .note_plain(Place::Axis(number), Rule::ApproachStartedByChannel, cause),
+            ));
         }
         // The other key: no start, no alarm. Without a cam both directions are right.
         let right = key != 0 && (key == forward || !reference.cam_is_active);
@@ -123,13 +139,22 @@ impl State {
         }
         self.axes[number].key_used = true;
         let bit = if key > 0 { 7 } else { 6 };
-        let active = SignalBit { place: Place::ModeGroup(crate::units::ModeGroupNumber::FIRST), byte: 7, bit: 2 };
+        let active = SignalBit {
+            place: Place::ModeGroup(crate::units::ModeGroupNumber::FIRST),
+            byte: 7,
+            bit: 2,
+        };
         let inputs = [
             axis_bit(number, 4, bit, true),
             Input::Datum(34010, Some(number), f64::from(u8::from(forward < 0))),
             Input::Bit(active, true),
         ];
-        let event = self.log.note(Place::Axis(number), Rule::KeyStartsApproach, inputs, self.mode_group.function_cause);
+        let event = self.log.note(
+            Place::Axis(number),
+            Rule::KeyStartsApproach,
+            inputs,
+            self.mode_group.function_cause,
+        );
         Some((key, event))
     }
 
@@ -139,22 +164,40 @@ impl State {
         let encoder = usize::from(axis.measuring_system.unwrap_or(0));
         if axis.referenced[encoder] {
             axis.referenced[encoder] = false;
-            axis.causes.reference[encoder] = self.log.note_plain(Place::Axis(number), Rule::NewApproach, cause);
+            axis.causes.reference[encoder] =
+                self.log
+                    .note_plain(Place::Axis(number), Rule::NewApproach, cause);
         }
-        axis.approach.start(&mut self.log, number, direction, axis.actual, cause);
+        axis.approach
+            .start(&mut self.log, number, direction, axis.actual, cause);
     }
 
     /// One cycle of an approach; the motion of its axis is commanded.
-    pub(super) fn run_approach(&mut self, number: AxisNumber, parameters: &Parameters, to_nck: &ToNck) -> Outcome {
+    pub(super) fn run_approach(
+        &mut self,
+        number: AxisNumber,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> Outcome {
         let mut approach = self.axes[number].approach;
         let axis = &self.axes[number];
         let signals = &to_nck.axes[number];
-        let (motion, outcome) = approach.run(&mut self.log, number, axis, &parameters.axes[number], signals);
+        let (motion, outcome) = approach.run(
+            &mut self.log,
+            number,
+            axis,
+            &parameters.axes[number],
+            signals,
+        );
         let axis = &mut self.axes[number];
         axis.approach = approach;
         axis.motion = motion;
         let direction = motion.direction(axis.setpoint.position);
-        let request = if direction == 0 && axis.feed_held { axis.traverse_request } else { direction };
+        let request = if direction == 0 && axis.feed_held {
+            axis.traverse_request
+        } else {
+            direction
+        };
         if (axis.traverse_request, axis.traverse_command) != (request, direction) {
             axis.causes.motion = approach.cause();
             axis.traverse_request = request;
@@ -178,26 +221,44 @@ impl State {
         }
         if !self.mode_group.reference {
             let cause = self.mode_group.function_cause;
-            return Some((None, self.log.note_plain(Place::Axis(number), Rule::ApproachAborted, cause)));
+            return Some((
+                None,
+                self.log
+                    .note_plain(Place::Axis(number), Rule::ApproachAborted, cause),
+            ));
         }
         let pressed = key_direction(&to_nck.axes[number]);
-        let (alarm, input) = if let Some(off) = unit.members().find(|&axis| !self.axes[axis].enabling.is_on()) {
+        let (alarm, input) = if let Some(off) = unit
+            .members()
+            .find(|&axis| !self.axes[axis].enabling.is_on())
+        {
             (Some(alarms::APPROACH_ABORTED), axis_bit(off, 61, 5, false))
         } else if key != 0 && parameters.jog_mode && pressed != key {
-            (Some(alarms::APPROACH_ABORTED), axis_bit(number, 4, if key > 0 { 7 } else { 6 }, false))
+            (
+                Some(alarms::APPROACH_ABORTED),
+                axis_bit(number, 4, if key > 0 { 7 } else { 6 }, false),
+            )
         } else if key != 0 && !parameters.jog_mode && pressed == -key {
             (None, axis_bit(number, 4, if key > 0 { 6 } else { 7 }, true))
         } else {
             return None;
         };
-        Some((alarm, self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, parent)))
+        Some((
+            alarm,
+            self.log
+                .note_one(Place::Axis(number), Rule::ApproachAborted, input, parent),
+        ))
     }
 
     /// The measuring system was switched, or lost, under a running approach (REF-33).
     pub(super) fn abort_approach(&mut self, number: AxisNumber, event: EventId) {
         self.axes[number].approach.abort();
         self.raise_axis_alarm(alarms::APPROACH_ABORTED, number, event);
-        if let Some(index) = self.groupings.iter().position(|g| g.is_referencing() && g.coupling.members().any(|m| m == number)) {
+        if let Some(index) = self
+            .groupings
+            .iter()
+            .position(|g| g.is_referencing() && g.coupling.members().any(|m| m == number))
+        {
             self.reset_grouping(index, event);
         }
     }
@@ -213,20 +274,34 @@ impl State {
         let axes = &self.axes;
         for grouping in &mut self.groupings {
             let leader = grouping.coupling.leader();
-            let absolute = |follower: AxisNumber| axes[follower].is_referenced() && axes[leader].is_referenced();
+            let absolute = |follower: AxisNumber| {
+                axes[follower].is_referenced() && axes[leader].is_referenced()
+            };
             grouping.coupling.value_shifted(number, shift, absolute);
         }
     }
 
     /// Raises an alarm of an axis: `%1` channel, `%2` axis.
-    pub(super) fn raise_axis_alarm(&mut self, alarm: AlarmNumber, number: AxisNumber, event: EventId) {
-        let parameters =
-            [Parameter::Channel(ChannelNumber::FIRST), Parameter::Axis(number), Parameter::None, Parameter::None];
-        self.alarms.raise(alarm, Place::Axis(number), parameters, event);
+    pub(super) fn raise_axis_alarm(
+        &mut self,
+        alarm: AlarmNumber,
+        number: AxisNumber,
+        event: EventId,
+    ) {
+        let parameters = [
+            Parameter::Channel(ChannelNumber::FIRST),
+            Parameter::Axis(number),
+            Parameter::None,
+            Parameter::None,
+        ];
+        self.alarms
+            .raise(alarm, Place::Axis(number), parameters, event);
     }
 
     fn is_gantry_axis(&self, number: AxisNumber) -> bool {
-        self.groupings.iter().any(|grouping| grouping.coupling.members().any(|member| member == number))
+        self.groupings
+            .iter()
+            .any(|grouping| grouping.coupling.members().any(|member| member == number))
     }
 
     /// Starts, orders and ends channel-specific referencing: MD34110 = 1 first, together; n after all of n − 1.
@@ -245,8 +320,20 @@ impl State {
             }
         } else if rises && !stopped {
             self.channel.referencing.started = 0;
-            let input = Input::Bit(SignalBit { place: CHANNEL, byte: 1, bit: 0 }, true);
-            let event = self.log.note_one(CHANNEL, Rule::ApproachStartedByChannel, input, EventId::NONE);
+            let input = Input::Bit(
+                SignalBit {
+                    place: CHANNEL,
+                    byte: 1,
+                    bit: 0,
+                },
+                true,
+            );
+            let event = self.log.note_one(
+                CHANNEL,
+                Rule::ApproachStartedByChannel,
+                input,
+                EventId::NONE,
+            );
             self.channel.referencing.cause = event;
             self.channel.referencing.number = self.next_cycle_number(0, parameters);
         }
@@ -256,7 +343,9 @@ impl State {
         let referencing = &mut self.channel.referencing;
         referencing.number = next;
         if next == 0 {
-            referencing.cause = self.log.note_plain(CHANNEL, Rule::ChannelReferencingEnds, referencing.cause);
+            referencing.cause =
+                self.log
+                    .note_plain(CHANNEL, Rule::ChannelReferencingEnds, referencing.cause);
         }
     }
 
@@ -276,13 +365,19 @@ impl State {
         let (mut finished, mut failed) = (true, false);
         for unit in &self.units {
             let axis = unit.leader();
-            if parameters.axes[axis].reference.cycle_number != number || unit.grouping.is_none() && self.is_gantry_axis(axis) {
+            if parameters.axes[axis].reference.cycle_number != number
+                || unit.grouping.is_none() && self.is_gantry_axis(axis)
+            {
                 continue;
             }
             let running = self.axes[axis].approach.is_running()
-                || unit.grouping.is_some_and(|index| self.groupings[usize::from(index)].is_referencing());
+                || unit
+                    .grouping
+                    .is_some_and(|index| self.groupings[usize::from(index)].is_referencing());
             let started = self.channel.started(axis);
-            let referenced = unit.members().all(|member| self.axes[member].is_referenced());
+            let referenced = unit
+                .members()
+                .all(|member| self.axes[member].is_referenced());
             finished &= started && !running && referenced;
             failed |= started && !running && !referenced;
         }

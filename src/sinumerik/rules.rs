@@ -115,6 +115,9 @@ impl Rule {
     /// The rule behind a number.
     #[must_use]
     pub fn text(number: RuleNumber) -> Text {
-        TEXTS.get(usize::from(number.0)).copied().unwrap_or(Text { id: "?", text: "unknown rule" })
+        TEXTS.get(usize::from(number.0)).copied().unwrap_or(Text {
+            id: "?",
+            text: "unknown rule",
+        })
     }
 }

@@ -13,7 +13,7 @@ const STEP: u8 = 2;
 
 /// How far the control has run up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct RunUp {
+pub(super) struct RunUp {
     cycles: u8,
     drives_ready: bool,
     /// The event behind the latest step.
@@ -23,25 +23,25 @@ pub struct RunUp {
 impl RunUp {
     /// 104.7.
     #[must_use]
-    pub const fn is_cpu_ready(&self) -> bool {
+    pub(super) const fn is_cpu_ready(&self) -> bool {
         self.cycles >= STEP
     }
 
     /// 108.5.
     #[must_use]
-    pub const fn are_drives_cyclic(&self) -> bool {
+    pub(super) const fn are_drives_cyclic(&self) -> bool {
         self.cycles >= 2 * STEP
     }
 
     /// 108.6.
     #[must_use]
-    pub const fn are_drives_ready(&self) -> bool {
+    pub(super) const fn are_drives_ready(&self) -> bool {
         self.are_drives_cyclic() && self.drives_ready
     }
 
     /// The run-up is over; 108.7 is this without alarms that say NC not ready.
     #[must_use]
-    pub const fn is_nc_ready(&self) -> bool {
+    pub(super) const fn is_nc_ready(&self) -> bool {
         self.cycles >= 3 * STEP
     }
 }
@@ -49,7 +49,9 @@ impl RunUp {
 impl State {
     /// One cycle of the run-up.
     pub(super) fn run_up(&mut self, parameters: &Parameters) {
-        let ready = parameters.existing().all(|(number, _)| self.feedback[number].drive_ready);
+        let ready = parameters
+            .existing()
+            .all(|(number, _)| self.feedback[number].drive_ready);
         let run_up = &mut self.run_up;
         let before = *run_up;
         run_up.drives_ready = ready;
@@ -57,7 +59,14 @@ impl State {
         if run_up.cycles < 2 * STEP || run_up.cycles < 3 * STEP && ready {
             run_up.cycles += 1;
         }
-        let steps = |r: &RunUp| (r.is_cpu_ready(), r.are_drives_cyclic(), r.are_drives_ready(), r.is_nc_ready());
+        let steps = |r: &RunUp| {
+            (
+                r.is_cpu_ready(),
+                r.are_drives_cyclic(),
+                r.are_drives_ready(),
+                r.is_nc_ready(),
+            )
+        };
         if steps(&before) != steps(run_up) {
             run_up.cause = self.log.note_plain(Place::Nck, Rule::RunUp, EventId::NONE);
         }
@@ -65,6 +74,10 @@ impl State {
 
     /// 108.7.
     pub(super) fn is_nc_ready(&self) -> bool {
-        self.run_up.is_nc_ready() && self.alarms.with_reaction(Reaction::NC_NOT_READY, None).is_none()
+        self.run_up.is_nc_ready()
+            && self
+                .alarms
+                .with_reaction(Reaction::NC_NOT_READY, None)
+                .is_none()
     }
 }
