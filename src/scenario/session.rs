@@ -153,8 +153,7 @@ impl Session {
     }
 
     pub(super) fn set_watch(&mut self, watch: Watch) {
-        self.trace
-            .watch_values(&watch, self.machine.cycle(), self.machine.variables());
+        self.trace.watch_values(&watch, self.machine.cycle(), self.machine.variables());
         self.watch = watch;
     }
 
@@ -177,10 +176,7 @@ impl Session {
     /// There is no such signal, the NCK writes it, or the value does not fit.
     pub fn set(&mut self, signal: &str, value: impl Into<Setting>) -> Result<(), Failure> {
         let (location, bits) = self.resolved(signal, value.into())?;
-        self.queue(Command::Write {
-            location,
-            value: bits,
-        })
+        self.queue(Command::Write { location, value: bits })
     }
 
     /// Holds a signal after every scan of the PLC program, until it is released.
@@ -189,10 +185,7 @@ impl Session {
     /// As [`Session::set`].
     pub fn force(&mut self, signal: &str, value: impl Into<Setting>) -> Result<(), Failure> {
         let (location, bits) = self.resolved(signal, value.into())?;
-        self.queue(Command::Force {
-            location,
-            value: bits,
-        })
+        self.queue(Command::Force { location, value: bits })
     }
 
     /// Ends the forcing of a signal.
@@ -206,10 +199,7 @@ impl Session {
 
     fn resolved(&self, signal: &str, value: Setting) -> Result<(Location, u64), Problem> {
         let location = writable(&self.machine, signal)?;
-        Ok((
-            location,
-            value.bits(signal, location, self.machine.override_coding())?,
-        ))
+        Ok((location, value.bits(signal, location, self.machine.override_coding())?))
     }
 
     /// Sets a bit for 100 ms and resets it; ends one cycle after that, in which the bit is 0 again.
@@ -230,11 +220,7 @@ impl Session {
         self.pulse_locations(&[location], cycles)
     }
 
-    pub(super) fn pulse_locations(
-        &mut self,
-        locations: &[Location],
-        cycles: u64,
-    ) -> Result<(), Failure> {
+    pub(super) fn pulse_locations(&mut self, locations: &[Location], cycles: u64) -> Result<(), Failure> {
         for &location in locations {
             self.queue(Command::Write { location, value: 1 })?;
         }
@@ -274,27 +260,18 @@ impl Session {
         self.wait_for(&expression, Some(within))
     }
 
-    pub(super) fn wait_for(
-        &mut self,
-        expression: &Expression,
-        within: Option<u64>,
-    ) -> Result<(), Failure> {
+    pub(super) fn wait_for(&mut self, expression: &Expression, within: Option<u64>) -> Result<(), Failure> {
         if self.holds(expression) {
             return Ok(());
         }
         let mut waited = 0;
         loop {
             if within.is_some_and(|within| waited >= within) {
-                let what = format!(
-                    "{}, and it did not become true",
-                    self.waited(waited, expression)
-                );
+                let what = format!("{}, and it did not become true", self.waited(waited, expression));
                 return Err(self.missed(what, Some(expression)));
             }
             let before = self.pass_cycle();
-            before.map_err(|stopped| {
-                self.stopped(&stopped, &self.waited(waited, expression), Some(expression))
-            })?;
+            before.map_err(|stopped| self.stopped(&stopped, &self.waited(waited, expression), Some(expression)))?;
             waited += 1;
             if self.holds(expression) {
                 return Ok(());
@@ -303,11 +280,7 @@ impl Session {
     }
 
     fn waited(&self, cycles: u64, expression: &Expression) -> String {
-        format!(
-            "waited {} s for `{}`",
-            self.machine.cycle_time().times(cycles),
-            expression.source()
-        )
+        format!("waited {} s for `{}`", self.machine.cycle_time().times(cycles), expression.source())
     }
 
     /// Lets time pass, in every cycle of which an expression must be true; it must be true now, too.
@@ -324,19 +297,12 @@ impl Session {
         for held in 0..=during {
             if !self.holds(expression) {
                 let held = self.machine.cycle_time().times(held);
-                let what = format!(
-                    "expected `{}` to hold, found it false after {held} s",
-                    expression.source()
-                );
+                let what = format!("expected `{}` to hold, found it false after {held} s", expression.source());
                 return Err(self.missed(what, Some(expression)));
             }
             if held < during {
                 self.pass_cycle().map_err(|stopped| {
-                    self.stopped(
-                        &stopped,
-                        &format!("while `{}` held", expression.source()),
-                        Some(expression),
-                    )
+                    self.stopped(&stopped, &format!("while `{}` held", expression.source()), Some(expression))
                 })?;
             }
         }
@@ -356,10 +322,7 @@ impl Session {
         if self.holds(expression) {
             Ok(())
         } else {
-            Err(self.missed(
-                format!("expected `{}`, found it false", expression.source()),
-                Some(expression),
-            ))
+            Err(self.missed(format!("expected `{}`, found it false", expression.source()), Some(expression)))
         }
     }
 
@@ -420,10 +383,7 @@ impl Session {
             Setting::Boolean(value) => DatumValue::Boolean(value),
             Setting::Text(text) => DatumValue::Text(text),
         };
-        self.queue(Command::MachineDatum {
-            target: target.to_owned(),
-            value,
-        })
+        self.queue(Command::MachineDatum { target: target.to_owned(), value })
     }
 
     /// "Set machine data active".
@@ -524,11 +484,7 @@ impl Session {
     }
 
     fn expression(&self, source: &str) -> Result<Expression, Problem> {
-        let scope = Scope {
-            memory: self.machine.memory(),
-            describe: &self.machine,
-            captured: &self.captured_names,
-        };
+        let scope = Scope { memory: self.machine.memory(), describe: &self.machine, captured: &self.captured_names };
         Expression::parse(source, scope)
     }
 
@@ -545,8 +501,7 @@ impl Session {
         self.pending.clear();
         self.trace.extend(self.machine.recorder());
         self.machine.drain();
-        self.trace
-            .note_values(self.machine.cycle(), self.machine.variables());
+        self.trace.note_values(self.machine.cycle(), self.machine.variables());
         let broken = self.conditions.iter().position(|condition| {
             self.with_view(self.last(), |view| condition.expression.holds(view)) != condition.wanted
         });
@@ -589,13 +544,7 @@ impl Session {
 
     fn looked_at<T>(&self, look: impl FnOnce(&View<'_>) -> T) -> T {
         let now = self.now();
-        self.with_view(
-            Moment {
-                memory: &now,
-                ..self.last()
-            },
-            look,
-        )
+        self.with_view(Moment { memory: &now, ..self.last() }, look)
     }
 
     fn holds(&self, expression: &Expression) -> bool {
@@ -607,28 +556,14 @@ impl Session {
     }
 
     fn missed(&self, what: String, expression: Option<&Expression>) -> Failure {
-        let operands = expression.map_or_else(Vec::new, |expression| {
-            self.looked_at(|view| expression.operands(view, &self.machine))
-        });
+        let operands = expression
+            .map_or_else(Vec::new, |expression| self.looked_at(|view| expression.operands(view, &self.machine)));
         let names = self.machine.names();
         let alarms = self.machine.variables().alarms.iter().map(|alarm| {
-            let (name, text) = (
-                self.machine.alarm_name(alarm.number),
-                self.machine.alarm_text(alarm),
-            );
-            format!(
-                "{name} [{}] {text}",
-                crate::trace::place_name(alarm.place, names)
-            )
+            let (name, text) = (self.machine.alarm_name(alarm.number), self.machine.alarm_text(alarm));
+            format!("{name} [{}] {text}", crate::trace::place_name(alarm.place, names))
         });
-        Missed {
-            place: None,
-            time: self.time(),
-            what,
-            operands,
-            alarms: alarms.collect(),
-        }
-        .into()
+        Missed { place: None, time: self.time(), what, operands, alarms: alarms.collect() }.into()
     }
 
     /// The failure of a cycle that was the last one.
@@ -636,18 +571,11 @@ impl Session {
         match stopped {
             Stopped::Limit => {
                 let limit = self.machine.cycle_time().times(self.limit.unwrap_or(0));
-                self.missed(
-                    format!("reached the limit of {limit} s: {doing}"),
-                    expression,
-                )
+                self.missed(format!("reached the limit of {limit} s: {doing}"), expression)
             }
             Stopped::Condition(index) => {
                 let condition = &self.conditions[*index];
-                let (word, found) = if condition.wanted {
-                    ("always", "false")
-                } else {
-                    ("never", "true")
-                };
+                let (word, found) = if condition.wanted { ("always", "false") } else { ("never", "true") };
                 let source = condition.expression.source();
                 let what = format!("expected {word} `{source}`, found it {found}");
                 let failure = self.missed(what, Some(&condition.expression));
@@ -662,10 +590,6 @@ impl Session {
 
 impl Shown {
     fn of(machine: &Machine, time: Time) -> Self {
-        Self {
-            memory: machine.memory().clone(),
-            variables: machine.variables().clone(),
-            time,
-        }
+        Self { memory: machine.memory().clone(), variables: machine.variables().clone(), time }
     }
 }
