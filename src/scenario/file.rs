@@ -87,7 +87,10 @@ impl Scenario {
         let whole = Place::file(&file);
         let required = |node: Option<Node>, key: &str, example: &str| {
             node.ok_or_else(|| {
-                whole.problem(format!("expected the key `{key}`, found none"), format!("write {key} = {example}"))
+                whole.problem(
+                    format!("expected the key `{key}`, found none"),
+                    format!("write {key} = {example}"),
+                )
             })
         };
         let title = required(table.take("title"), "title", "\"what the scenario shows\"")?;
@@ -98,19 +101,38 @@ impl Scenario {
             path: path.to_owned(),
             title,
             machine,
-            covers: texts(table.take("covers"), "requirement IDs")?.into_iter().map(|id| id.text).collect(),
+            covers: texts(table.take("covers"), "requirement IDs")?
+                .into_iter()
+                .map(|id| id.text)
+                .collect(),
             profiles: profiles(table.take("profile"))?,
-            plc: table.take("plc").map(|node| named(&node, "the name of a PLC program")).transpose()?,
-            plc_image: table.take("plc_image").map(|node| named(&node, "the name of a PLC image")).transpose()?,
+            plc: table
+                .take("plc")
+                .map(|node| named(&node, "the name of a PLC program"))
+                .transpose()?,
+            plc_image: table
+                .take("plc_image")
+                .map(|node| named(&node, "the name of a PLC image"))
+                .transpose()?,
             limit: table
                 .take("limit")
-                .map_or(Ok(Duration::Time(DEFAULT_LIMIT)), |node| duration(&node, "the bound on simulated time"))?,
-            watch: table.take("watch").map(|node| texts(Some(node), "signals to watch")).transpose()?,
-            causes: table.take("causes").map_or(Ok(false), |node| node.boolean("true or false"))?,
+                .map_or(Ok(Duration::Time(DEFAULT_LIMIT)), |node| {
+                    duration(&node, "the bound on simulated time")
+                })?,
+            watch: table
+                .take("watch")
+                .map(|node| texts(Some(node), "signals to watch"))
+                .transpose()?,
+            causes: table
+                .take("causes")
+                .map_or(Ok(false), |node| node.boolean("true or false"))?,
             never: texts(table.take("never"), "expressions")?,
             always: texts(table.take("always"), "expressions")?,
             compare: table.take("compare").map_or(Ok(Compare::Exact), compare)?,
-            plant: table.take("plant").map(|node| node.into_table("a table of plant data")).transpose()?,
+            plant: table
+                .take("plant")
+                .map(|node| node.into_table("a table of plant data"))
+                .transpose()?,
             steps: steps(table.take("step"), &whole)?,
         };
         refuse_later_keys(&mut table)?;
@@ -121,7 +143,7 @@ impl Scenario {
     /// The directory that the file's relative paths start from.
     #[must_use]
     pub fn directory(&self) -> &Path {
-        self.path.parent().unwrap_or(Path::new(""))
+        self.path.parent().unwrap_or_else(|| Path::new(""))
     }
 }
 
@@ -133,10 +155,18 @@ pub fn profile_named(name: &str) -> Result<Profile, Problem> {
     match name {
         "840d_sl" => Ok(Profile::Sinumerik840dSl),
         "828d" => Ok(Profile::Sinumerik828d),
-        _ => Err(Problem::new(
-            format!("expected a profile, found `{name}`"),
-            did_you_mean(name, ["840d_sl", "828d"], "profiles are 840d_sl and 828d"),
-        )),
+        _ => {
+            // A shortened name is nearer to the name it begins than any count of letters says.
+            let cure = if name.starts_with("840") || name.is_empty() {
+                "profiles are 840d_sl and 828d".to_owned()
+            } else {
+                did_you_mean(name, ["840d_sl", "828d"], "profiles are 840d_sl and 828d")
+            };
+            Err(Problem::new(
+                format!("expected a profile, found `{name}`"),
+                cure,
+            ))
+        }
     }
 }
 
@@ -150,12 +180,18 @@ pub fn profile_name(profile: Profile) -> &'static str {
 }
 
 pub(super) fn named(node: &Node, what: &str) -> Result<Named, Problem> {
-    Ok(Named { text: node.text(what)?.to_owned(), place: node.place.clone() })
+    Ok(Named {
+        text: node.text(what)?.to_owned(),
+        place: node.place.clone(),
+    })
 }
 
 /// A text or a list of texts.
 pub(super) fn texts(node: Option<Node>, what: &str) -> Result<Vec<Named>, Problem> {
-    node.map_or_else(Vec::new, Node::into_list).iter().map(|node| named(node, what)).collect()
+    node.map_or_else(Vec::new, Node::into_list)
+        .iter()
+        .map(|node| named(node, what))
+        .collect()
 }
 
 pub(super) fn duration(node: &Node, what: &str) -> Result<Duration, Problem> {
@@ -163,18 +199,26 @@ pub(super) fn duration(node: &Node, what: &str) -> Result<Duration, Problem> {
 }
 
 fn profiles(node: Option<Node>) -> Result<Vec<Profile>, Problem> {
-    let Some(node) = node else { return Ok(vec![Profile::Sinumerik840dSl]) };
+    let Some(node) = node else {
+        return Ok(vec![Profile::Sinumerik840dSl]);
+    };
     let place = node.place.clone();
     let mut profiles = Vec::new();
     for name in texts(Some(node), "a profile")? {
         let profile = profile_named(&name.text).map_err(|problem| problem.at(&name.place))?;
         if profiles.contains(&profile) {
-            return Err(name.place.problem(format!("the profile `{}` stands here twice", name.text), "remove one"));
+            return Err(name.place.problem(
+                format!("the profile `{}` stands here twice", name.text),
+                "remove one",
+            ));
         }
         profiles.push(profile);
     }
     if profiles.is_empty() {
-        return Err(place.problem("expected at least one profile, found none", "write profile = \"840d_sl\""));
+        return Err(place.problem(
+            "expected at least one profile, found none",
+            "write profile = \"840d_sl\"",
+        ));
     }
     Ok(profiles)
 }
@@ -189,10 +233,13 @@ fn compare(node: Node) -> Result<Compare, Problem> {
             let mut table = node.into_table("a comparison")?;
             let time = table.take("time");
             table.finish()?;
-            let time = time.ok_or_else(|| place.problem("expected the key `time`, found none", cure))?;
+            let time =
+                time.ok_or_else(|| place.problem("expected the key `time`, found none", cure))?;
             match duration(&time, "a duration")? {
                 Duration::Time(time) => Ok(Compare::Within(time)),
-                Duration::Cycles(_) => Err(time.expected("a time with a unit", "write { time = \"50ms\" }")),
+                Duration::Cycles(_) => {
+                    Err(time.expected("a time with a unit", "write { time = \"50ms\" }"))
+                }
             }
         }
         _ => Err(node.expected("a way to compare traces", cure)),
@@ -200,7 +247,12 @@ fn compare(node: Node) -> Result<Compare, Problem> {
 }
 
 fn steps(node: Option<Node>, whole: &Place) -> Result<Vec<Table>, Problem> {
-    let none = || whole.problem("expected at least one `[[step]]`, found none", "add [[step]] with a verb");
+    let none = || {
+        whole.problem(
+            "expected at least one `[[step]]`, found none",
+            "add [[step]] with a verb",
+        )
+    };
     let node = node.ok_or_else(none)?;
     if !matches!(node.value, Value::Array(_)) {
         return Err(node.expected("a list of steps", "write [[step]] with two brackets"));
@@ -210,7 +262,11 @@ fn steps(node: Option<Node>, whole: &Place) -> Result<Vec<Table>, Problem> {
         .into_iter()
         .map(|step| step.into_table("a step with one verb"))
         .collect::<Result<_, _>>()?;
-    if steps.is_empty() { Err(none()) } else { Ok(steps) }
+    if steps.is_empty() {
+        Err(none())
+    } else {
+        Ok(steps)
+    }
 }
 
 /// What the format names and this version does not do.

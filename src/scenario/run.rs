@@ -35,15 +35,20 @@ impl Scenario {
     /// # Errors
     /// Something cannot be used; the problem names file and line.
     pub fn prepare(&self, profile: Profile, programs: &Programs) -> Result<Prepared, Problem> {
-        let machine = self.open(profile, programs)?;
+        let mut machine = self.open(profile)?;
         let watch = self.watch(&machine)?;
         let mut reader = Reader::new(&machine);
-        let steps: Vec<Step> =
-            self.steps.iter().map(|step| reader.step(step.clone())).collect::<Result<_, _>>()?;
+        let steps: Vec<Step> = self
+            .steps
+            .iter()
+            .map(|step| reader.step(step.clone()))
+            .collect::<Result<_, _>>()?;
         let captured = std::mem::take(&mut reader.captured);
         // What must hold from the first cycle on cannot wait for a value that a step captures.
         let conditions = self.conditions(&reader, &captured)?;
-        let looks_back = conditions.iter().any(|condition| condition.expression.looks_back())
+        let looks_back = conditions
+            .iter()
+            .any(|condition| condition.expression.looks_back())
             || steps.iter().any(Step::looks_back);
         let limit = self.limit.cycles(machine.cycle_time());
         let head = Head {
@@ -52,6 +57,12 @@ impl Scenario {
             profile: (profile != Profile::default()).then(|| profile_name(profile).to_owned()),
             cycle_time: machine.cycle_time(),
         };
+        // Only now, because what was tried out above was tried on copies of the machine, and a program need not
+        // have copies.
+        if let Some(name) = &self.plc {
+            let program = programs.program(&name.text, machine.names());
+            machine.load_program(program.map_err(|problem| problem.at(&name.place))?);
+        }
         let mut session = Session::new(machine);
         session.bound(Some(limit));
         session.set_watch(watch);
@@ -59,19 +70,27 @@ impl Scenario {
         for condition in conditions {
             session.add_condition(condition);
         }
-        Ok(Prepared { session, steps, head, causes: self.causes })
+        Ok(Prepared {
+            session,
+            steps,
+            head,
+            causes: self.causes,
+        })
     }
 
-    fn open(&self, profile: Profile, programs: &Programs) -> Result<Machine, Problem> {
-        let preset = self.plc_image.as_ref().map(|image| self.preset(image)).transpose()?;
-        let options = OpenOptions { plant_over: self.plant.clone(), profile, preset };
-        let mut machine = Machine::open_with(self.directory().join(&self.machine.text), options)
-            .map_err(|problem| problem.at(&self.machine.place))?;
-        if let Some(name) = &self.plc {
-            let program = programs.program(&name.text, machine.names());
-            machine.load_program(program.map_err(|problem| problem.at(&name.place))?);
-        }
-        Ok(machine)
+    fn open(&self, profile: Profile) -> Result<Machine, Problem> {
+        let preset = self
+            .plc_image
+            .as_ref()
+            .map(|image| self.preset(image))
+            .transpose()?;
+        let options = OpenOptions {
+            plant_over: self.plant.clone(),
+            profile,
+            preset,
+        };
+        Machine::open_with(self.directory().join(&self.machine.text), options)
+            .map_err(|problem| problem.at(&self.machine.place))
     }
 
     /// A PLC image: a file, or a name that is looked for in `plc_images` beside the scenario or above it.
@@ -80,26 +99,41 @@ impl Scenario {
             self.directory().join(&image.text)
         } else {
             let name = Path::new("plc_images").join(format!("{}.toml", image.text));
-            let above = self.directory().ancestors().map(|directory| directory.join(&name));
+            let above = self
+                .directory()
+                .ancestors()
+                .map(|directory| directory.join(&name));
             let here = Some(PathBuf::from(&name));
-            above.chain(here).find(|file| file.is_file()).ok_or_else(|| {
-                image.place.problem(
-                    format!("expected a PLC image, found no plc_images/{}.toml here or above", image.text),
-                    "name a file that ends in .toml, relative to the scenario",
-                )
-            })?
+            above
+                .chain(here)
+                .find(|file| file.is_file())
+                .ok_or_else(|| {
+                    image.place.problem(
+                        format!(
+                            "expected a PLC image, found no plc_images/{}.toml here or above",
+                            image.text
+                        ),
+                        "name a file that ends in .toml, relative to the scenario",
+                    )
+                })?
         };
         Preset::read(&file).map_err(|problem| problem.at(&image.place))
     }
 
     fn watch(&self, machine: &Machine) -> Result<Watch, Problem> {
-        let Some(entries) = &self.watch else { return Ok(Watch::default()) };
+        let Some(entries) = &self.watch else {
+            return Ok(Watch::default());
+        };
         let texts: Vec<_> = entries.iter().map(|entry| entry.text.as_str()).collect();
         Watch::parse(&texts, machine.names(), machine.memory())
             .map_err(|(index, problem)| problem.at(&entries[index].place))
     }
 
-    fn conditions(&self, reader: &Reader<'_>, captured: &[String]) -> Result<Vec<Condition>, Problem> {
+    fn conditions(
+        &self,
+        reader: &Reader<'_>,
+        captured: &[String],
+    ) -> Result<Vec<Condition>, Problem> {
         let never = self.never.iter().map(|text| (text, false));
         let always = self.always.iter().map(|text| (text, true));
         never
@@ -122,31 +156,41 @@ impl Step {
     fn looks_back(&self) -> bool {
         match &self.action {
             Action::Wait(expression, _) | Action::Hold(expression, _) => expression.looks_back(),
-            Action::Expect(expressions) => expressions.iter().any(|(_, expression)| expression.looks_back()),
-            Action::Capture(captures) => captures.iter().any(|(_, expression)| expression.looks_back()),
+            Action::Expect(expressions) => expressions
+                .iter()
+                .any(|(_, expression)| expression.looks_back()),
+            Action::Capture(captures) => captures
+                .iter()
+                .any(|(_, expression)| expression.looks_back()),
             Action::Queue(_) | Action::Pulse(..) | Action::Run(_) | Action::Image(_) => false,
         }
     }
 
     fn run(&self, session: &mut Session) -> Result<(), Failure> {
         match &self.action {
-            Action::Queue(commands) => commands.iter().try_for_each(|command| session.queue(command.clone())),
+            Action::Queue(commands) => commands
+                .iter()
+                .try_for_each(|command| session.queue(command.clone())),
             Action::Pulse(locations, cycles) => session.pulse_locations(locations, *cycles),
             Action::Run(cycles) => session.run_cycles(*cycles),
             Action::Wait(expression, within) => session.wait_for(expression, *within),
             Action::Hold(expression, during) => session.hold_for(expression, *during),
-            Action::Expect(expressions) => expressions
-                .iter()
-                .try_for_each(|(place, expression)| session.expect_now(expression).map_err(|f| f.at(place))),
+            Action::Expect(expressions) => {
+                expressions.iter().try_for_each(|(place, expression)| {
+                    session.expect_now(expression).map_err(|f| f.at(place))
+                })
+            }
             Action::Capture(captures) => {
                 for (index, expression) in captures {
                     session.keep(*index, expression);
                 }
                 Ok(())
             }
-            Action::Image(bytes) => bytes
-                .iter()
-                .try_for_each(|(place, location, bits)| session.expect_bits(*location, *bits).map_err(|f| f.at(place))),
+            Action::Image(bytes) => bytes.iter().try_for_each(|(place, location, bits)| {
+                session
+                    .expect_bits(*location, *bits)
+                    .map_err(|f| f.at(place))
+            }),
         }
     }
 }
@@ -165,7 +209,12 @@ impl Prepared {
                 break;
             }
         }
-        Finished { session: self.session, head: self.head, causes: self.causes, failure }
+        Finished {
+            session: self.session,
+            head: self.head,
+            causes: self.causes,
+            failure,
+        }
     }
 
     /// What the machine's files made it warn of.

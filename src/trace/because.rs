@@ -4,7 +4,7 @@ use super::places::signal_at;
 use super::{AxisValue, six_decimals};
 use crate::image::Names;
 use crate::units::AxisNumber;
-use crate::variables::{Describe, Event, Input, Place, Quantity};
+use crate::variables::{AlarmNumber, Describe, Event, Input, Place, Quantity};
 
 /// Whose it is, by name: `X`, `CHAN1`, `mode_group_1`, `nck`.
 #[must_use]
@@ -12,22 +12,32 @@ pub fn place_name(place: Place, names: &Names) -> String {
     match place {
         Place::Nck => "nck".to_owned(),
         Place::ModeGroup(group) => format!("mode_group_{group}"),
-        Place::Channel(channel) => {
-            names.channels[channel].clone().unwrap_or_else(|| format!("CHAN{channel}"))
-        }
+        Place::Channel(channel) => names.channels[channel]
+            .clone()
+            .unwrap_or_else(|| format!("CHAN{channel}")),
         Place::Axis(axis) => axis_name(axis, names),
     }
 }
 
 fn axis_name(axis: AxisNumber, names: &Names) -> String {
-    names.axes[axis].clone().unwrap_or_else(|| format!("AX{axis}"))
+    names.axes[axis]
+        .clone()
+        .unwrap_or_else(|| format!("AX{axis}"))
 }
 
 /// `REF-11: MD37110[XF] = 0`, or the rule's own text where it tested nothing.
 pub(super) fn because(event: &Event, describe: &dyn Describe) -> String {
     let rule = describe.rule(event.rule);
-    let inputs: Vec<_> = event.inputs.iter().filter_map(|input| shown(input, describe)).collect();
-    let inputs = if inputs.is_empty() { rule.text.to_owned() } else { inputs.join(", ") };
+    let inputs: Vec<_> = event
+        .inputs
+        .iter()
+        .filter_map(|input| shown(input, describe))
+        .collect();
+    let inputs = if inputs.is_empty() {
+        rule.text.to_owned()
+    } else {
+        inputs.join(", ")
+    };
     format!("{}: {inputs}", rule.id)
 }
 
@@ -50,7 +60,9 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
         Input::Length(quantity, axis, length) => {
             let axis = axis_name(axis, names);
             let (name, value) = match quantity {
-                Quantity::SynchronismDifference => (AxisValue::SynchronismDifference.name(), length.user()),
+                Quantity::SynchronismDifference => {
+                    (AxisValue::SynchronismDifference.name(), length.user())
+                }
                 Quantity::Position => (AxisValue::Position.name(), length.user()),
                 Quantity::Deviation => ("deviation", length.user()),
                 Quantity::Distance => ("distance", length.user()),
@@ -59,8 +71,9 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
             };
             Some(format!("{axis}.{name} = {}", six_decimals(value)))
         }
-        Input::Alarm(number) => {
-            Some(format!("alarm {}", describe.alarm_name(crate::variables::AlarmNumber(number))))
-        }
+        Input::Alarm(number) => Some(format!(
+            "alarm {}",
+            describe.alarm_name(AlarmNumber(number))
+        )),
     }
 }

@@ -76,7 +76,14 @@ impl Trace {
 
     /// Notes these values from now on, in every cycle in which they change.
     pub fn watch_values(&mut self, watch: &Watch, cycle: u64, variables: &Variables) {
-        self.watched = watch.values().map(|(axis, value)| WatchedValue { axis, value, last: None }).collect();
+        self.watched = watch
+            .values()
+            .map(|(axis, value)| WatchedValue {
+                axis,
+                value,
+                last: None,
+            })
+            .collect();
         self.values.clear();
         self.note_values(cycle, variables);
     }
@@ -93,7 +100,12 @@ impl Trace {
         for (index, watched) in self.watched.iter_mut().enumerate() {
             let new = millionths(watched.value.of(watched.axis, variables));
             if watched.last != Some(new) {
-                self.values.push(ValueRow { cycle, index, old: watched.last, new });
+                self.values.push(ValueRow {
+                    cycle,
+                    index,
+                    old: watched.last,
+                    new,
+                });
                 watched.last = Some(new);
             }
         }
@@ -110,11 +122,17 @@ impl Trace {
         &self.rows
     }
 
-    /// An event of this record.
+    /// The event of this number that was there at the end of a cycle; numbers may begin anew at a power on.
     #[must_use]
-    pub fn event(&self, id: EventId) -> Option<&Event> {
-        let index = self.events.binary_search_by_key(&id, |event| event.id).ok()?;
-        self.events.get(index)
+    pub fn event(&self, id: EventId, cycle: u64) -> Option<&Event> {
+        let so_far = self.events.partition_point(|event| event.cycle <= cycle);
+        if !id.is_some() {
+            return None;
+        }
+        self.events[..so_far]
+            .iter()
+            .rev()
+            .find(|event| event.id == id)
     }
 
     /// How many rows the recorder lost because nobody drained it.
@@ -125,7 +143,8 @@ impl Trace {
 
     /// The time at the end of a cycle.
     fn time(&self, cycle: u64) -> Time {
-        self.cycle_time.times(cycle.saturating_sub(self.first_cycle))
+        self.cycle_time
+            .times(cycle.saturating_sub(self.first_cycle))
     }
 
     /// The trace for people: one row a change, aligned columns, with causes or without.
@@ -142,7 +161,10 @@ impl Trace {
 }
 
 /// A value in millionths, as six decimals show it.
-#[expect(clippy::cast_possible_truncation, reason = "float to integer casts saturate")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "float to integer casts saturate"
+)]
 fn millionths(value: f64) -> i64 {
     (value * 1e6).round() as i64
 }

@@ -50,7 +50,14 @@ struct Columns {
 
 impl Columns {
     fn widths(&self) -> [usize; 5] {
-        [&self.time, &self.what, &self.address, &self.change, &self.by].map(|column| column.chars().count())
+        [
+            &self.time,
+            &self.what,
+            &self.address,
+            &self.change,
+            &self.by,
+        ]
+        .map(|column| column.chars().count())
     }
 }
 
@@ -62,9 +69,14 @@ pub(super) fn rows(lines: &[Line], causes: bool) -> String {
         address: "address".to_owned(),
         change: "change".to_owned(),
         by: "by".to_owned(),
-        rest: if causes { "because".to_owned() } else { String::new() },
+        rest: if causes {
+            "because".to_owned()
+        } else {
+            String::new()
+        },
     };
-    let rows: Vec<Result<Columns, &Line>> = lines.iter().map(|line| columns(line, causes)).collect();
+    let rows: Vec<Result<Columns, &Line>> =
+        lines.iter().map(|line| columns(line, causes)).collect();
     let mut widths = head.widths();
     for row in &rows {
         match row {
@@ -85,12 +97,29 @@ pub(super) fn rows(lines: &[Line], causes: bool) -> String {
         let line = match row {
             Ok(row) => format!(
                 "{:>1$}  {2:<3$}  {4:<5$}  {6:<7$}  {8:<9$}  {10}",
-                row.time, widths[0], row.what, widths[1], row.address, widths[2], row.change, widths[3], row.by,
-                widths[4], row.rest
+                row.time,
+                widths[0],
+                row.what,
+                widths[1],
+                row.address,
+                widths[2],
+                row.change,
+                widths[3],
+                row.by,
+                widths[4],
+                row.rest
             ),
-            Err(Line { time, kind: LineKind::Note(note) }) => {
+            Err(Line {
+                time,
+                kind: LineKind::Note(note),
+            }) => {
                 // A note of several lines stays one row.
-                format!("{:>1$}  # {2}", time.to_string(), widths[0], note.lines().collect::<Vec<_>>().join(" / "))
+                format!(
+                    "{:>1$}  # {2}",
+                    time.to_string(),
+                    widths[0],
+                    note.lines().collect::<Vec<_>>().join(" / ")
+                )
             }
             Err(_) => continue,
         };
@@ -122,7 +151,9 @@ fn columns(line: &Line, causes: bool) -> Result<Columns, &Line> {
         }
         LineKind::Alarm(alarm) => {
             let because = alarm.because.as_ref().filter(|_| causes);
-            let because = because.map(|because| format!("  ({because})")).unwrap_or_default();
+            let because = because
+                .map(|because| format!("  ({because})"))
+                .unwrap_or_default();
             Columns {
                 time,
                 what: format!("alarm {}", alarm.name),
@@ -136,7 +167,9 @@ fn columns(line: &Line, causes: bool) -> Result<Columns, &Line> {
             time,
             what: name.clone(),
             address: String::new(),
-            change: old.as_ref().map_or_else(|| new.clone(), |old| format!("{old} -> {new}")),
+            change: old
+                .as_ref()
+                .map_or_else(|| new.clone(), |old| format!("{old} -> {new}")),
             by: String::new(),
             rest: String::new(),
         },
@@ -162,7 +195,11 @@ pub fn difference(expected: &str, found: &str) -> Option<String> {
 
 /// The first difference of two traces in the order of their rows; times may differ by `tolerance`, or by anything without one.
 #[must_use]
-pub fn difference_in_sequence(expected: &str, found: &str, tolerance: Option<Time>) -> Option<String> {
+pub fn difference_in_sequence(
+    expected: &str,
+    found: &str,
+    tolerance: Option<Time>,
+) -> Option<String> {
     let mut expected = expected.lines();
     let mut found = found.lines();
     let mut line = 0;
@@ -194,5 +231,9 @@ fn timed(row: &str) -> Option<(Time, std::str::SplitWhitespace<'_>)> {
 
 fn in_words(line: usize, expected: Option<&str>, found: Option<&str>) -> String {
     let shown = |text: Option<&str>| text.map_or_else(|| "(the end)".to_owned(), str::to_owned);
-    format!("first difference in line {line}\n  expected  {}\n  found     {}", shown(expected), shown(found))
+    format!(
+        "first difference in line {line}\n  expected  {}\n  found     {}",
+        shown(expected),
+        shown(found)
+    )
 }

@@ -2,8 +2,8 @@
 
 use super::AxisValue;
 use super::places::Printable;
-use crate::image::{Location, Memory, Names, Part, signals};
-use crate::source::{Problem, did_you_mean};
+use crate::image::{Block, Location, Memory, Names, Part, signals};
+use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 use crate::variables::Place;
 
@@ -28,19 +28,29 @@ impl Watch {
     ///
     /// # Errors
     /// One of them, given with its index, names nothing.
-    pub fn parse(entries: &[&str], names: &Names, memory: &Memory) -> Result<Self, (usize, Problem)> {
+    pub fn parse(
+        entries: &[&str],
+        names: &Names,
+        memory: &Memory,
+    ) -> Result<Self, (usize, Problem)> {
         let mut chosen = Chosen::default();
         for (index, entry) in entries.iter().enumerate() {
-            chosen.add(entry, names, memory).map_err(|problem| (index, problem))?;
+            chosen
+                .add(entry, names, memory)
+                .map_err(|problem| (index, problem))?;
         }
         chosen.values.sort_unstable();
         chosen.values.dedup();
-        Ok(Self { chosen: Some(chosen) })
+        Ok(Self {
+            chosen: Some(chosen),
+        })
     }
 
     /// The values that it names.
     pub fn values(&self) -> impl Iterator<Item = (AxisNumber, AxisValue)> {
-        self.chosen.iter().flat_map(|chosen| chosen.values.iter().copied())
+        self.chosen
+            .iter()
+            .flat_map(|chosen| chosen.values.iter().copied())
     }
 
     pub(super) fn locations(&self) -> &[Location] {
@@ -48,7 +58,9 @@ impl Watch {
     }
 
     pub(super) fn shows_signal(&self, signal: &Printable) -> bool {
-        self.chosen.as_ref().is_none_or(|chosen| chosen.shows(signal))
+        self.chosen
+            .as_ref()
+            .is_none_or(|chosen| chosen.shows(signal))
     }
 
     pub(super) fn shows_unnamed_bit(&self, bit: &Printable) -> bool {
@@ -59,7 +71,9 @@ impl Watch {
     }
 
     pub(super) fn shows_unnamed_byte(&self, byte: &Printable) -> bool {
-        self.chosen.as_ref().is_some_and(|chosen| chosen.shows(byte))
+        self.chosen
+            .as_ref()
+            .is_some_and(|chosen| chosen.shows(byte))
     }
 }
 
@@ -68,20 +82,29 @@ impl Chosen {
         if let Some((head, tail)) = entry.rsplit_once('.')
             && let Some(value) = AxisValue::named(tail)
         {
-            let axes: Vec<_> = axes(names).filter(|(_, name)| matches(head, name)).collect();
+            let axes: Vec<_> = axes(names)
+                .filter(|(_, name)| matches(head, name))
+                .collect();
             if axes.is_empty() {
                 let known = || names_of_axes(names);
-                let fallback = format!("machine axes are {}", known().collect::<Vec<_>>().join(", "));
+                let fallback = format!(
+                    "machine axes are {}",
+                    known().collect::<Vec<_>>().join(", ")
+                );
                 return Err(Problem::new(
                     format!("expected the value of a machine axis, found `{entry}`"),
                     did_you_mean(head, known(), &fallback),
                 ));
             }
-            self.values.extend(axes.into_iter().map(|(axis, _)| (axis, value)));
+            self.values
+                .extend(axes.into_iter().map(|(axis, _)| (axis, value)));
             return Ok(());
         }
         if !entry.contains('*') {
-            self.locations.push(names.resolve(memory, entry)?);
+            let location = names
+                .resolve(memory, entry)
+                .map_err(|problem| nearest_value(problem, entry, names));
+            self.locations.push(location?);
             return Ok(());
         }
         if !looks_like_addresses(entry) {
@@ -93,13 +116,14 @@ impl Chosen {
             });
             if !matching {
                 let head = entry.split('.').next().unwrap_or(entry);
+                let known = owners.iter().map(|(_, owner)| owner.as_str());
+                let fallback = "patterns are like `X.*` or `DB31.DBX101.*`";
                 return Err(Problem::new(
                     format!("expected a pattern that fits a signal, found `{entry}`"),
-                    did_you_mean(
-                        head,
-                        owners.iter().map(|(_, owner)| owner.as_str()),
-                        "patterns are like `X.*` or `DB31.DBX101.*`",
-                    ),
+                    match known.clone().any(|owner| owner == head) {
+                        true => fallback.to_owned(),
+                        false => did_you_mean(head, known, fallback),
+                    },
                 ));
             }
         }
@@ -111,8 +135,27 @@ impl Chosen {
         self.locations.contains(&printable.location)
             || self.patterns.iter().any(|pattern| {
                 matches(pattern, &printable.address)
-                    || printable.symbol.as_ref().is_some_and(|symbol| matches(pattern, symbol))
+                    || printable
+                        .symbol
+                        .as_ref()
+                        .is_some_and(|symbol| matches(pattern, symbol))
             })
+    }
+}
+
+/// The problem of an unknown name, with the nearest value of an axis in its cure if one is near.
+fn nearest_value(problem: Problem, entry: &str, names: &Names) -> Problem {
+    let near = entry
+        .rsplit_once('.')
+        .filter(|(head, _)| axes(names).any(|(_, name)| name == *head));
+    match near
+        .and_then(|(head, tail)| Some((head, nearest(tail, AxisValue::ALL.map(AxisValue::name))?)))
+    {
+        Some((head, value)) => Problem {
+            cure: format!("did you mean `{head}.{value}`?"),
+            ..problem
+        },
+        None => problem,
     }
 }
 
@@ -125,11 +168,12 @@ fn names_of_axes(names: &Names) -> impl Iterator<Item = &str> {
 }
 
 /// Everything that can stand before the point of a symbol.
-fn owners(names: &Names) -> Vec<(crate::image::Block, String)> {
-    use crate::image::Block;
+fn owners(names: &Names) -> Vec<(Block, String)> {
     let place = |block, place| (block, super::place_name(place, names));
     let mut owners = vec![place(Block::Nck, Place::Nck)];
-    owners.extend(ModeGroupNumber::all().map(|group| place(Block::ModeGroup, Place::ModeGroup(group))));
+    owners.extend(
+        ModeGroupNumber::all().map(|group| place(Block::ModeGroup, Place::ModeGroup(group))),
+    );
     let channels = ChannelNumber::all().filter(|channel| names.channels[*channel].is_some());
     owners.extend(channels.map(|channel| place(Block::Channel, Place::Channel(channel))));
     owners.extend(axes(names).map(|(axis, _)| place(Block::Axis, Place::Axis(axis))));
@@ -138,16 +182,21 @@ fn owners(names: &Names) -> Vec<(crate::image::Block, String)> {
 
 /// Whether a pattern is about addresses: `DB33.…`, `M10.*`, `IB*`, `*`.
 fn looks_like_addresses(pattern: &str) -> bool {
-    let area = pattern.strip_prefix("DB").or_else(|| pattern.strip_prefix(['I', 'Q', 'M', 'T', 'C']));
+    let area = pattern
+        .strip_prefix("DB")
+        .or_else(|| pattern.strip_prefix(['I', 'Q', 'M', 'T', 'C']));
     let area = area.map(|rest| rest.strip_prefix(['B', 'W', 'D']).unwrap_or(rest));
-    pattern == "*" || area.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '*'))
+    pattern == "*"
+        || area.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '*'))
 }
 
 /// Whether a text fits a pattern in which `*` stands for anything.
 fn matches(pattern: &str, text: &str) -> bool {
     let mut parts = pattern.split('*');
     let first = parts.next().unwrap_or_default();
-    let Some(mut rest) = text.strip_prefix(first) else { return false };
+    let Some(mut rest) = text.strip_prefix(first) else {
+        return false;
+    };
     let mut last = None;
     for part in parts {
         // All but the last part take their first place; the last one must be the end.
@@ -173,7 +222,11 @@ mod tests {
             ("X*.controller_enable", "XF.controller_enable", true),
             ("DB33.DBX101.*", "DB33.DBX101.4", true),
             ("DB33.DBX101.*", "DB33.DBX10.4", false),
-            ("*gantry*start*", "X.gantry_synchronization_ready_to_start", true),
+            (
+                "*gantry*start*",
+                "X.gantry_synchronization_ready_to_start",
+                true,
+            ),
             ("*ab", "ab", true),
             ("a*a", "a", false),
             ("X.a", "X.ab", false),

@@ -9,7 +9,7 @@ mod tokens;
 
 use crate::image::{Location, Memory, Names};
 use crate::source::Problem;
-use crate::trace::{AxisValue, six_decimals};
+use crate::trace::{AxisValue, place_name, six_decimals};
 use crate::units::{AxisNumber, Time};
 use crate::variables::{AlarmNumber, Describe, Parameter, Place, Variables};
 
@@ -96,7 +96,10 @@ impl Expression {
     /// # Errors
     /// It is not one, or a name in it is unknown; the problem names the nearest known one.
     pub fn parse(source: &str, scope: Scope<'_>) -> Result<Self, Problem> {
-        Ok(Self { source: source.trim().to_owned(), root: parse::parse(source.trim(), scope)? })
+        Ok(Self {
+            source: source.trim().to_owned(),
+            root: parse::parse(source.trim(), scope)?,
+        })
     }
 
     /// The expression as it was written.
@@ -164,27 +167,39 @@ impl Term {
             Self::Value(axis, value) => value.of(*axis, now.variables),
             Self::Time => now.time.seconds(),
             Self::Captured(index, _) => captured(now, *index),
-            Self::Alarm(alarm, place) => number(now.variables.alarms.find(*alarm, *place).is_some()),
+            Self::Alarm(alarm, place) => {
+                number(now.variables.alarms.find(*alarm, *place).is_some())
+            }
             Self::AlarmParameter(alarm, index) => {
                 let raised = now.variables.alarms.find(*alarm, None);
                 raised.map_or(0.0, |raised| parameter(raised.parameters[*index]))
             }
             Self::Alarms => now.variables.alarms.count() as f64,
             Self::Edge { rising, of } => {
-                let last = truth(of.value(&View { now: view.last, ..*view }));
-                let before = truth(of.value(&View { now: view.before, ..*view }));
+                let last = truth(of.value(&View {
+                    now: view.last,
+                    ..*view
+                }));
+                let before = truth(of.value(&View {
+                    now: view.before,
+                    ..*view
+                }));
                 number(last != before && last == *rising)
             }
             Self::Not(of) => number(!truth(of.value(view))),
             Self::Negative(of) => -of.value(view),
             Self::Absolute(of) => of.value(view).abs(),
-            Self::Pair(operator, left, right) => operator.apply(left.value(view), || right.value(view)),
+            Self::Pair(operator, left, right) => {
+                operator.apply(left.value(view), || right.value(view))
+            }
         }
     }
 
     fn children(&self) -> [Option<&Self>; 2] {
         match self {
-            Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) => [Some(of), None],
+            Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) => {
+                [Some(of), None]
+            }
             Self::Pair(_, left, right) => [Some(left), Some(right)],
             Self::Number(_)
             | Self::Signal(_)
@@ -198,12 +213,20 @@ impl Term {
     }
 
     fn any(&self, test: &dyn Fn(&Self) -> bool) -> bool {
-        test(self) || self.children().into_iter().flatten().any(|child| child.any(test))
+        test(self)
+            || self
+                .children()
+                .into_iter()
+                .flatten()
+                .any(|child| child.any(test))
     }
 
     fn operands(&self, view: &View<'_>, describe: &dyn Describe, lines: &mut Vec<String>) {
         if let Some(name) = self.name(describe) {
-            let line = format!("{name} = {}", shown(self.value(view), matches!(self, Self::Value(..))));
+            let line = format!(
+                "{name} = {}",
+                shown(self.value(view), matches!(self, Self::Value(..)))
+            );
             if !lines.contains(&line) {
                 lines.push(line);
             }
@@ -219,17 +242,28 @@ impl Term {
         let name = match self {
             Self::Signal(location) => {
                 let address = names.address(*location);
-                names.symbol(*location).map_or_else(|| address.to_string(), |symbol| format!("{symbol} ({address})"))
+                names.symbol(*location).map_or_else(
+                    || address.to_string(),
+                    |symbol| format!("{symbol} ({address})"),
+                )
             }
             Self::Value(axis, value) => format!("{}.{value}", axis_name(names, *axis)),
             Self::Time => "time".to_owned(),
             Self::Captured(_, name) => name.clone(),
             Self::Alarm(alarm, None) => format!("alarm({})", describe.alarm_name(*alarm)),
             Self::Alarm(alarm, Some(place)) => {
-                format!("alarm({}, {})", describe.alarm_name(*alarm), crate::trace::place_name(*place, names))
+                format!(
+                    "alarm({}, {})",
+                    describe.alarm_name(*alarm),
+                    place_name(*place, names)
+                )
             }
             Self::AlarmParameter(alarm, index) => {
-                format!("alarm_parameter({}, {})", describe.alarm_name(*alarm), index + 1)
+                format!(
+                    "alarm_parameter({}, {})",
+                    describe.alarm_name(*alarm),
+                    index + 1
+                )
             }
             Self::Alarms => "alarms()".to_owned(),
             Self::Number(_)
@@ -245,11 +279,15 @@ impl Term {
 
 /// A value for a message: six decimals for what is measured, as short as possible for the rest.
 fn shown(value: f64, measured: bool) -> String {
-    if measured { six_decimals(value) } else { format!("{value}") }
+    if measured {
+        six_decimals(value)
+    } else {
+        format!("{value}")
+    }
 }
 
 fn axis_name(names: &Names, axis: AxisNumber) -> String {
-    crate::trace::place_name(Place::Axis(axis), names)
+    place_name(Place::Axis(axis), names)
 }
 
 impl Operator {
@@ -290,7 +328,10 @@ impl Operator {
         })
     }
 
-    #[expect(clippy::float_cmp, reason = "`==` in a scenario means equal; the writer of a scenario takes `abs` where not")]
+    #[expect(
+        clippy::float_cmp,
+        reason = "`==` in a scenario means equal; the writer of a scenario takes `abs` where not"
+    )]
     fn apply(self, left: f64, right: impl FnOnce() -> f64) -> f64 {
         match self {
             Self::Or => number(truth(left) || truth(right())),
