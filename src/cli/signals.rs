@@ -54,7 +54,10 @@ impl Entry {
 
 /// The catalogue for the first axis, channel and mode group, which get names that stand for any.
 fn entries(profile: Profile) -> Vec<Entry> {
-    let mut names = Names::from(profile);
+    let mut names = Names {
+        profile,
+        ..Names::default()
+    };
     names.axes[AxisNumber::FIRST] = Some("AX1".to_owned());
     names.channels[ChannelNumber::FIRST] = Some("CHAN1".to_owned());
     let memory = Memory::new();
