@@ -2,6 +2,8 @@
 
 use std::sync::LazyLock;
 
+use zerocopy::IntoBytes;
+
 use super::places::{length, place};
 use super::{
     AxisFromNck, AxisToNck, Block, ChannelFromNck, ChannelHmi, ChannelToNck, Format, FromNck, Hmi,
@@ -147,5 +149,33 @@ pub(super) fn usual_format(location: Location) -> Format {
         Format::Real
     } else {
         Format::Unsigned
+    }
+}
+
+/// Which bits of each byte of [`FromNck`] have a name.
+static NAMED: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let mut named = vec![0; size_of::<FromNck>()];
+    for (offset, mask) in named.iter_mut().enumerate() {
+        let Some(found) = u32::try_from(offset)
+            .ok()
+            .and_then(|offset| signals_at(Part::FromNck, offset))
+        else {
+            continue;
+        };
+        for bit in 0..8_u8 {
+            let here = |signal: &&Signal| match signal.kind.width() {
+                width @ 1..=7 => (signal.bit..signal.bit + width).contains(&bit),
+                _ => true,
+            };
+            *mask |= u8::from(found.signals.iter().any(here)) << bit;
+        }
+    }
+    named
+});
+
+/// Sets every signal of the NCK to 0 and leaves plain memory alone: the control publishes anew what somebody else overwrote.
+pub fn clear_signals(from_nck: &mut FromNck) {
+    for (byte, named) in from_nck.as_mut_bytes().iter_mut().zip(NAMED.iter()) {
+        *byte &= !named;
     }
 }

@@ -34,13 +34,13 @@ signals! {
     bool, delete_distance_to_go_spindle_reset, set_delete_distance_to_go_spindle_reset: 2, 2;
     /// Clamping in progress: 1 = clamping monitoring (MD36050) instead of zero-speed monitoring.
     bool, clamping_in_progress, set_clamping_in_progress: 2, 3;
-    /// Reference point value 1: 1 selects MD34100[0]; none set means value 1.
+    /// Reference point value 1: 1 selects MD34100 index 0; none set means value 1.
     bool, reference_point_value_1, set_reference_point_value_1: 2, 4;
-    /// Reference point value 2: 1 selects MD34100[1]; none set means value 1.
+    /// Reference point value 2: 1 selects MD34100 index 1; none set means value 1.
     bool, reference_point_value_2, set_reference_point_value_2: 2, 5;
-    /// Reference point value 3: 1 selects MD34100[2]; none set means value 1.
+    /// Reference point value 3: 1 selects MD34100 index 2; none set means value 1.
     bool, reference_point_value_3, set_reference_point_value_3: 2, 6;
-    /// Reference point value 4: 1 selects MD34100[3]; none set means value 1.
+    /// Reference point value 4: 1 selects MD34100 index 3; none set means value 1.
     bool, reference_point_value_4, set_reference_point_value_4: 2, 7;
     /// Accept external work offset: 1 = accept.
     bool, accept_external_work_offset, set_accept_external_work_offset: 3, 0;

@@ -45,7 +45,7 @@ mod tests;
 
 pub use address::{Address, Area, Format, Width};
 pub use bytes::Bytes;
-pub use catalogue::{ByteSignals, signals, signals_at};
+pub use catalogue::{ByteSignals, clear_signals, signals, signals_at};
 pub use db10::{NckFromNck, NckHmi, NckToNck};
 pub use db11::{ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck};
 pub use db21::{ChannelFromNck, ChannelHmi, ChannelToNck};

@@ -7,8 +7,8 @@ use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel};
 
 use super::catalogue::{touching, usual_format};
 use super::{
-    Address, Area, Block, Format, Location, Memory, Part, Profile, Signal, Width, Writer,
-    profile_828d, signals, signals_at,
+    Address, Area, Block, Location, Memory, Part, Profile, Signal, Width, Writer, profile_828d,
+    signals, signals_at,
 };
 
 /// What a machine calls its axes (MD10000) and channels (MD20000).
@@ -234,23 +234,5 @@ fn described(block: Block, number: u8) -> String {
         Block::ModeGroup => format!("mode group {number}"),
         Block::Channel => format!("channel {number}"),
         Block::Axis => format!("axis {number}"),
-    }
-}
-
-/// Used where only the profile matters.
-impl From<Profile> for Names {
-    fn from(profile: Profile) -> Self {
-        Self {
-            profile,
-            ..Self::default()
-        }
-    }
-}
-
-impl Location {
-    /// The same place, read as another kind of number.
-    #[must_use]
-    pub const fn with_format(self, format: Format) -> Self {
-        Self { format, ..self }
     }
 }

@@ -245,6 +245,12 @@ impl Writes<'_> {
         place: &Place,
         node: &Node,
     ) -> Result<(), Problem> {
+        if let Value::Table(_) = node.value {
+            return Err(node.expected(
+                "one value",
+                "put the key in quotes: \"X.feed_override\" = \"100%\"",
+            ));
+        }
         let location = self
             .names
             .resolve(memory, key)
@@ -255,12 +261,6 @@ impl Writes<'_> {
                     "expected a signal of the PLC or the HMI, found `{key}`, which the NCK writes"
                 ),
                 "remove it: the NCK sets its signals itself",
-            ));
-        }
-        if let Value::Table(_) = node.value {
-            return Err(node.expected(
-                "one value",
-                "put the key in quotes: \"X.feed_override\" = \"100%\"",
             ));
         }
         if let Some((_, other, at)) = self

@@ -65,7 +65,7 @@ macro_rules! signals {
             /// The last byte of the run in its data block.
             pub const LAST: u16 = $last;
             /// The signals of the run: bits in address order, then numbers in address order.
-            pub const SIGNALS: &'static [crate::image::Signal] = &[
+            pub const SIGNALS: &'static [$crate::image::Signal] = &[
                 $($crate::image::table::bits(
                     stringify!($get), $crate::image::Block::$block, $crate::image::Writer::$writer,
                     stringify!($kind), $byte, &[$high $(, $low)?], concat!($($doc),+),
@@ -77,7 +77,29 @@ macro_rules! signals {
             ];
         }
 
+        impl Default for $name {
+            fn default() -> Self {
+                Self([0; $last - $first + 1])
+            }
+        }
+
         const _: () = $crate::image::table::check($name::SIGNALS, $first, $last);
+
+        #[cfg(test)]
+        impl $crate::image::table::Accessors for $name {
+            #[rustfmt::skip]
+            fn accessors() -> Vec<$crate::image::table::Accessor<Self>> {
+                use $crate::image::table::Raw;
+                vec![
+                    $((stringify!($get), |run| run.$get().raw(), |run, raw| run.$set(Raw::of(raw))),)*
+                    $($((
+                        stringify!($number_get),
+                        |run| run.$number_get().raw(),
+                        |run, raw| run.$number_set(Raw::of(raw)),
+                    ),)*)?
+                ]
+            }
+        }
 
         impl bitfield::BitRange<u8> for $name {
             #[inline]
@@ -200,5 +222,62 @@ pub(super) const fn check(rows: &[Signal], first: u16, last: u16) {
             }
         }
         index += 1;
+    }
+}
+
+/// One row as a test calls it: name, getter, setter.
+#[cfg(test)]
+pub(super) type Accessor<T> = (&'static str, fn(&T) -> u64, fn(&mut T, u64));
+
+/// The rows of a run as a test calls them.
+#[cfg(test)]
+pub(super) trait Accessors: Sized {
+    fn accessors() -> Vec<Accessor<Self>>;
+}
+
+/// The value of a row as raw bits.
+#[cfg(test)]
+pub(super) trait Raw {
+    fn raw(self) -> u64;
+    fn of(raw: u64) -> Self;
+}
+
+#[cfg(test)]
+impl Raw for bool {
+    fn raw(self) -> u64 {
+        self.into()
+    }
+    fn of(raw: u64) -> Self {
+        raw != 0
+    }
+}
+
+#[cfg(test)]
+impl Raw for f32 {
+    fn raw(self) -> u64 {
+        self.to_bits().into()
+    }
+    fn of(raw: u64) -> Self {
+        Self::from_bits(raw.try_into().unwrap())
+    }
+}
+
+#[cfg(test)]
+impl Raw for u8 {
+    fn raw(self) -> u64 {
+        self.into()
+    }
+    fn of(raw: u64) -> Self {
+        raw.try_into().unwrap()
+    }
+}
+
+#[cfg(test)]
+impl Raw for u16 {
+    fn raw(self) -> u64 {
+        self.into()
+    }
+    fn of(raw: u64) -> Self {
+        raw.try_into().unwrap()
     }
 }

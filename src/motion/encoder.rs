@@ -33,9 +33,20 @@ impl Encoder {
     ///
     /// Resolution and spacing are taken as at least one increment.
     #[must_use]
-    pub fn new(resolution: Position, zero_mark: Position, spacing: Position, slide: Position) -> Self {
+    pub fn new(
+        resolution: Position,
+        zero_mark: Position,
+        spacing: Position,
+        slide: Position,
+    ) -> Self {
         let one = Position::new(1);
-        Self { resolution: resolution.max(one), zero_mark, spacing: spacing.max(one), origin: slide, slip: Position::ZERO }
+        Self {
+            resolution: resolution.max(one),
+            zero_mark,
+            spacing: spacing.max(one),
+            origin: slide,
+            slip: Position::ZERO,
+        }
     }
 
     /// Half a count: the largest deviation that it cannot see.
@@ -58,8 +69,15 @@ impl Encoder {
     /// What it tells after the slide moved.
     #[must_use]
     pub fn signal(&self, before: Position, after: Position) -> EncoderSignal {
-        let passed = if before == after { None } else { self.mark_between(before, after) };
-        EncoderSignal { value: self.value(after), zero_mark: passed.map(|mark| self.value(mark)) }
+        let passed = if before == after {
+            None
+        } else {
+            self.mark_between(before, after)
+        };
+        EncoderSignal {
+            value: self.value(after),
+            zero_mark: passed.map(|mark| self.value(mark)),
+        }
     }
 
     fn value(&self, slide: Position) -> Position {
@@ -79,7 +97,11 @@ impl Encoder {
             phase + (before_index - i64::from(on_mark)) * spacing
         };
         let mark = Position::new(mark);
-        let reached = if after > before { mark <= after } else { mark >= after };
+        let reached = if after > before {
+            mark <= after
+        } else {
+            mark >= after
+        };
         reached.then_some(mark)
     }
 }
@@ -112,7 +134,10 @@ mod tests {
         assert_eq!(encoder.signal(mm(10.2), mm(10.3)).zero_mark, Some(mm(5.3)));
         assert_eq!(encoder.signal(mm(10.3), mm(10.4)).zero_mark, None);
         assert_eq!(encoder.signal(mm(10.3), mm(10.2)).zero_mark, None);
-        assert_eq!(encoder.signal(mm(-9.6), mm(-9.8)).zero_mark, Some(mm(-14.7)));
+        assert_eq!(
+            encoder.signal(mm(-9.6), mm(-9.8)).zero_mark,
+            Some(mm(-14.7))
+        );
     }
 
     #[test]

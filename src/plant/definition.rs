@@ -194,7 +194,7 @@ impl PlantDefinition {
             let mut machine = node.into_table("the table [machine]")?;
             plant.plc_cycle = machine
                 .take("plc_cycle")
-                .map(|node| time(&node))
+                .map(|node| plc_cycle(&node))
                 .transpose()?;
             plant.db11_5_2 = machine
                 .take("db11_5_2")
@@ -432,16 +432,29 @@ fn distance(node: &Node, what: &str) -> Result<Position, Problem> {
 }
 
 fn time(node: &Node) -> Result<Time, Problem> {
-    let what = "a time such as \"10ms\"";
+    let what = "a time such as \"10ms\", at most 1h";
     let cure = "write a number and us, ms, s, min or h, in quotes";
-    match &node.value {
-        Value::Text(text) => Time::parse(text).ok_or_else(|| node.expected(what, cure)),
+    let time = match &node.value {
+        Value::Text(text) => Time::parse(text),
         Value::Integer(_)
         | Value::Float(_)
         | Value::Boolean(_)
         | Value::Array(_)
-        | Value::Table(_) => Err(node.expected(what, cure)),
+        | Value::Table(_) => None,
+    };
+    time.filter(|time| *time <= Time::from_millis(3_600_000))
+        .ok_or_else(|| node.expected(what, cure))
+}
+
+fn plc_cycle(node: &Node) -> Result<Time, Problem> {
+    let cycle = time(node)?;
+    if cycle == Time::ZERO {
+        return Err(node.expected(
+            "a PLC cycle of more than 0",
+            "a whole multiple of the NC cycle",
+        ));
     }
+    Ok(cycle)
 }
 
 fn db11_5_2(node: &Node) -> Result<Db11Byte5Bit2, Problem> {
@@ -570,6 +583,8 @@ stiffness = 0.25
             "[X.encoder1]\nkind = \"abs\"",
             "[X.drive]\ntime_constant = 3",
             "[X.drive]\ntime_constant = \"3\"",
+            "[X.drive]\nready_after = \"2h\"",
+            "[machine]\nplc_cycle = \"0ms\"",
             "[X.limit_plus]\nat = inf",
             "[X.limit_plus]\nat = 1e12",
             "[bridge.1]\nstiffness = 2",

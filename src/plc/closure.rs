@@ -44,7 +44,13 @@ pub fn program_with_fault<S>(
 where
     S: Clone,
 {
-    ClosureProgram { name: name.into(), initial: state.clone(), state, startup: None, scan: Arc::new(scan) }
+    ClosureProgram {
+        name: name.into(),
+        initial: state.clone(),
+        state,
+        startup: None,
+        scan: Arc::new(scan),
+    }
 }
 
 impl<S> ClosureProgram<S>
@@ -53,7 +59,10 @@ where
 {
     /// Runs this closure after power on, before the first scan (OB100).
     #[must_use]
-    pub fn on_startup(mut self, startup: impl Fn(&mut S, &mut PlcIo<'_>) + Send + Sync + 'static) -> Self {
+    pub fn on_startup(
+        mut self,
+        startup: impl Fn(&mut S, &mut PlcIo<'_>) + Send + Sync + 'static,
+    ) -> Self {
         self.startup = Some(Arc::new(move |state, io| {
             startup(state, io);
             Ok(())
@@ -94,7 +103,11 @@ where
     fn restore(&mut self, saved: &[u8]) -> Result<(), Problem> {
         let foreign = || {
             Problem::new(
-                format!("expected the saved state of the PLC program `{}`, found {} bytes of another", self.name, saved.len()),
+                format!(
+                    "expected the saved state of the PLC program `{}`, found {} bytes of another",
+                    self.name,
+                    saved.len()
+                ),
                 "restore it with the program that was saved",
             )
         };

@@ -32,7 +32,7 @@ pub struct PlcIo<'a> {
     pub names: &'a Names,
 }
 
-impl PlcIo<'_> {
+impl<'a> PlcIo<'a> {
     /// The number of the machine axis of this name.
     #[must_use]
     pub fn axis(&self, name: &str) -> Option<AxisNumber> {
@@ -45,8 +45,13 @@ impl PlcIo<'_> {
         self.names.channel(name)
     }
 
-    /// The numbers of all axes that the machine has, ascending.
-    pub fn axes(&self) -> impl Iterator<Item = AxisNumber> + use<'_> {
-        self.names.axes.iter().filter(|(_, name)| name.is_some()).map(|(number, _)| number)
+    /// The numbers of all axes that the machine has, ascending; a loop over them may write.
+    pub fn axes(&self) -> impl Iterator<Item = AxisNumber> + use<'a> {
+        let names = self.names;
+        names
+            .axes
+            .iter()
+            .filter(|(_, name)| name.is_some())
+            .map(|(number, _)| number)
     }
 }

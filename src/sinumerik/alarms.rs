@@ -144,7 +144,10 @@ impl Alarm {
     /// The row of a number.
     #[must_use]
     pub fn find(number: AlarmNumber) -> Option<&'static Self> {
-        CATALOGUE.binary_search_by_key(&number, |alarm| alarm.number).ok().map(|index| &CATALOGUE[index])
+        CATALOGUE
+            .binary_search_by_key(&number, |alarm| alarm.number)
+            .ok()
+            .map(|index| &CATALOGUE[index])
     }
 }
 
@@ -159,41 +162,66 @@ struct Entry {
 
 /// The alarms that are pending; bounded, as the list of a control is. What does not fit is the least of the troubles.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Pending {
+pub(super) struct Pending {
     entries: ArrayVec<Entry, { Alarms::CAPACITY }>,
     changed: bool,
 }
 
 impl Pending {
     /// Raises an alarm, or keeps it raised.
-    pub fn raise(&mut self, number: AlarmNumber, place: Place, parameters: [Parameter; 4], cause: EventId) {
-        let alarm = RaisedAlarm { number, place, parameters };
+    pub(super) fn raise(
+        &mut self,
+        number: AlarmNumber,
+        place: Place,
+        parameters: [Parameter; 4],
+        cause: EventId,
+    ) {
+        let alarm = RaisedAlarm {
+            number,
+            place,
+            parameters,
+        };
         if let Some(entry) = self.entries.iter_mut().find(|entry| entry.alarm == alarm) {
             entry.fresh = true;
             return;
         }
-        let index = self.entries.partition_point(|entry| (entry.alarm.number, entry.alarm.place) < (number, place));
-        if self.entries.try_insert(index, Entry { alarm, cause, fresh: true }).is_ok() {
+        let index = self
+            .entries
+            .partition_point(|entry| (entry.alarm.number, entry.alarm.place) < (number, place));
+        if self
+            .entries
+            .try_insert(
+                index,
+                Entry {
+                    alarm,
+                    cause,
+                    fresh: true,
+                },
+            )
+            .is_ok()
+        {
             self.changed = true;
         }
     }
 
     /// Removes what this way of cancelling removes.
-    pub fn cancel(&mut self, by: Cancel) {
+    pub(super) fn cancel(&mut self, by: Cancel) {
         let before = self.entries.len();
         self.entries.retain(|entry| {
-            let class = Alarm::find(entry.alarm.number).map_or(Cancel::PowerOn, |alarm| alarm.cancel);
+            let class =
+                Alarm::find(entry.alarm.number).map_or(Cancel::PowerOn, |alarm| alarm.cancel);
             class == Cancel::ByItself || class > by
         });
         self.changed |= self.entries.len() != before;
     }
 
     /// Ends a cycle: what goes by itself and was not raised in it goes.
-    pub fn settle(&mut self) {
+    pub(super) fn settle(&mut self) {
         let before = self.entries.len();
         self.entries.retain(|entry| {
             let stays = entry.fresh
-                || Alarm::find(entry.alarm.number).is_none_or(|alarm| alarm.cancel != Cancel::ByItself);
+                || Alarm::find(entry.alarm.number)
+                    .is_none_or(|alarm| alarm.cancel != Cancel::ByItself);
             entry.fresh = false;
             stays
         });
@@ -201,35 +229,42 @@ impl Pending {
     }
 
     /// Whether the list changed since it was last asked.
-    pub fn take_changed(&mut self) -> bool {
+    pub(super) fn take_changed(&mut self) -> bool {
         std::mem::take(&mut self.changed)
     }
 
     /// Whether nothing is pending.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }
 
     /// All that are pending with the events behind them, in order of number and place.
-    pub fn iter(&self) -> impl Iterator<Item = (&RaisedAlarm, EventId)> {
+    pub(super) fn iter(&self) -> impl Iterator<Item = (&RaisedAlarm, EventId)> {
         self.entries.iter().map(|entry| (&entry.alarm, entry.cause))
     }
 
     /// Whether this one is pending.
     #[must_use]
-    pub fn contains(&self, number: AlarmNumber, place: Place) -> bool {
-        self.entries.iter().any(|entry| entry.alarm.number == number && entry.alarm.place == place)
+    pub(super) fn contains(&self, number: AlarmNumber, place: Place) -> bool {
+        self.entries
+            .iter()
+            .any(|entry| entry.alarm.number == number && entry.alarm.place == place)
     }
 
     /// The event behind the first pending alarm with this reaction that concerns this place (or all).
     #[must_use]
-    pub fn with_reaction(&self, reaction: Reaction, place: Option<Place>) -> Option<EventId> {
+    pub(super) fn with_reaction(
+        &self,
+        reaction: Reaction,
+        place: Option<Place>,
+    ) -> Option<EventId> {
         self.entries
             .iter()
             .find(|entry| {
                 place.is_none_or(|place| entry.alarm.place == place)
-                    && Alarm::find(entry.alarm.number).is_some_and(|alarm| alarm.reaction.has(reaction))
+                    && Alarm::find(entry.alarm.number)
+                        .is_some_and(|alarm| alarm.reaction.has(reaction))
             })
             .map(|entry| entry.cause)
     }
@@ -245,22 +280,40 @@ mod tests {
 
     #[test]
     fn the_catalogue_ascends_so_that_a_number_is_found() {
-        assert!(CATALOGUE.windows(2).all(|pair| pair[0].number < pair[1].number));
-        assert_eq!(Alarm::find(GANTRY_WAITING).map(|alarm| alarm.cancel), Some(Cancel::ByItself));
+        assert!(
+            CATALOGUE
+                .windows(2)
+                .all(|pair| pair[0].number < pair[1].number)
+        );
+        assert_eq!(
+            Alarm::find(GANTRY_WAITING).map(|alarm| alarm.cancel),
+            Some(Cancel::ByItself)
+        );
         assert_eq!(Alarm::find(AlarmNumber(1)), None);
     }
 
     #[test]
     fn a_stronger_reset_removes_what_a_weaker_one_does_and_no_more() {
         let mut pending = Pending::default();
-        for number in [ENABLE_RESET, GANTRY_TRIP_LIMIT, GANTRY_CONFIGURATION, GANTRY_WAITING] {
+        for number in [
+            ENABLE_RESET,
+            GANTRY_TRIP_LIMIT,
+            GANTRY_CONFIGURATION,
+            GANTRY_WAITING,
+        ] {
             raise(&mut pending, number);
         }
         pending.cancel(Cancel::CancelKey);
-        assert!(!pending.contains(ENABLE_RESET, Place::Nck) && pending.contains(GANTRY_TRIP_LIMIT, Place::Nck));
+        assert!(
+            !pending.contains(ENABLE_RESET, Place::Nck)
+                && pending.contains(GANTRY_TRIP_LIMIT, Place::Nck)
+        );
         pending.cancel(Cancel::ModeGroupReset);
         assert!(!pending.contains(GANTRY_TRIP_LIMIT, Place::Nck));
-        assert!(pending.contains(GANTRY_CONFIGURATION, Place::Nck) && pending.contains(GANTRY_WAITING, Place::Nck));
+        assert!(
+            pending.contains(GANTRY_CONFIGURATION, Place::Nck)
+                && pending.contains(GANTRY_WAITING, Place::Nck)
+        );
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub struct Feedback {
 
 /// What an axis is commanded to do in a cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Motion {
+pub(super) enum Motion {
     /// Brake to rest.
     Brake {
         /// In increments per second squared.
@@ -55,10 +55,12 @@ pub enum Motion {
 impl Motion {
     /// The direction that is commanded: +1, −1, or 0.
     #[must_use]
-    pub fn direction(&self, from: Position) -> i8 {
+    pub(super) fn direction(&self, from: Position) -> i8 {
         let sign = match *self {
             Self::Run { velocity, .. } => velocity,
-            Self::GoTo { target, velocity } if velocity > 0.0 => (target - from).increments() as f64,
+            Self::GoTo { target, velocity } if velocity > 0.0 => {
+                (target - from).increments() as f64
+            }
             Self::GoTo { .. } | Self::Brake { .. } | Self::Track | Self::Hold => 0.0,
         };
         if sign > 0.0 {
@@ -73,7 +75,7 @@ impl Motion {
 
 /// The events behind the signals of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Causes {
+pub(super) struct Causes {
     /// 93.5, 93.7.
     pub drive: EventId,
     /// 61.3, 61.5 to 61.7.
@@ -88,9 +90,11 @@ pub struct Causes {
 
 /// One machine axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Axis {
+pub(super) struct Axis {
     /// Where it is to be.
     pub setpoint: Setpoint,
+    /// The setpoint before this cycle, from which it is finely interpolated.
+    pub before: Position,
     /// What this cycle commands.
     pub motion: Motion,
     /// The target of a [`Motion::GoTo`] is reached, and the setpoint rests on it.
@@ -119,6 +123,8 @@ pub struct Axis {
     pub approach: Approach,
     /// A traversing key started an approach and has not been released since.
     pub key_used: bool,
+    /// Direction of the key that started the approach; 0 for channel-specific referencing.
+    pub approach_key: i8,
     /// Motion wanted, 64.4 and 64.5: +1, −1 or 0.
     pub traverse_request: i8,
     /// Motion commanded, 64.6 and 64.7: +1, −1 or 0.
@@ -137,6 +143,7 @@ impl Default for Axis {
     fn default() -> Self {
         Self {
             setpoint: Setpoint::default(),
+            before: Position::ZERO,
             motion: Motion::Hold,
             arrived: false,
             offset: [Position::ZERO; 2],
@@ -151,6 +158,7 @@ impl Default for Axis {
             enabling: Enabling::default(),
             approach: Approach::default(),
             key_used: false,
+            approach_key: 0,
             traverse_request: 0,
             traverse_command: 0,
             feed_factor: 1.0,
@@ -163,7 +171,7 @@ impl Default for Axis {
 
 impl Axis {
     /// Takes what drive and encoders tell.
-    pub fn sense(&mut self, feedback: &Feedback) {
+    pub(super) fn sense(&mut self, feedback: &Feedback) {
         self.velocity = feedback.velocity;
         self.slide = feedback.slide;
         self.drive_ready = feedback.drive_ready;
@@ -178,30 +186,31 @@ impl Axis {
 
     /// The active measuring system is referenced.
     #[must_use]
-    pub fn is_referenced(&self) -> bool {
-        self.measuring_system.is_some_and(|active| self.referenced[usize::from(active)])
+    pub(super) fn is_referenced(&self) -> bool {
+        self.measuring_system
+            .is_some_and(|active| self.referenced[usize::from(active)])
     }
 
     /// Setpoint minus actual value.
     #[must_use]
-    pub fn deviation(&self) -> Position {
+    pub(super) fn deviation(&self) -> Position {
         self.setpoint.position - self.actual
     }
 
     /// The setpoint rests and the velocity is below MD36060.
     #[must_use]
-    pub fn stands(&self, parameters: &AxisParameters) -> bool {
+    pub(super) fn stands(&self, parameters: &AxisParameters) -> bool {
         self.setpoint.is_at_rest() && self.velocity.abs() < parameters.standstill_velocity
     }
 
     /// The axis moves or is to move.
     #[must_use]
-    pub fn is_in_motion(&self) -> bool {
+    pub(super) fn is_in_motion(&self) -> bool {
         self.traverse_command != 0 || !self.setpoint.is_at_rest()
     }
 
     /// Gives the place where it is another actual value: nothing moves.
-    pub fn shift(&mut self, by: Position) {
+    pub(super) fn shift(&mut self, by: Position) {
         if let Some(active) = self.measuring_system {
             self.offset[usize::from(active)] += by;
             self.actual += by;
@@ -210,16 +219,24 @@ impl Axis {
     }
 
     /// Executes what the cycle commands.
-    pub fn execute(&mut self, parameters: &AxisParameters, cycle: f64) {
+    pub(super) fn execute(&mut self, parameters: &AxisParameters, cycle: f64) {
         self.arrived = false;
         match self.motion {
             Motion::Brake { deceleration } => self.setpoint.run(0.0, deceleration, cycle),
-            Motion::Run { velocity, acceleration } => self.setpoint.run(velocity, acceleration, cycle),
+            Motion::Run {
+                velocity,
+                acceleration,
+            } => self.setpoint.run(velocity, acceleration, cycle),
             Motion::GoTo { target, velocity } if velocity > 0.0 => {
-                let limits = Limits { velocity, acceleration: parameters.maximum_acceleration };
+                let limits = Limits {
+                    velocity,
+                    acceleration: parameters.maximum_acceleration,
+                };
                 self.arrived = self.setpoint.go_to(target, limits, cycle);
             }
-            Motion::GoTo { .. } => self.setpoint.run(0.0, parameters.maximum_acceleration, cycle),
+            Motion::GoTo { .. } => self
+                .setpoint
+                .run(0.0, parameters.maximum_acceleration, cycle),
             Motion::Track => self.setpoint = Setpoint::at(self.actual),
             Motion::Hold => self.setpoint = Setpoint::at(self.setpoint.position),
         }

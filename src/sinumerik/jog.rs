@@ -15,7 +15,10 @@ use crate::variables::{Input, Place};
 /// The direction of the traversing keys: +1, −1, or 0 for none, both, or keys that are disabled (4.4).
 #[must_use]
 pub(super) fn key_direction(signals: &AxisToNck) -> i8 {
-    let (plus, minus) = (signals.traversing_key_plus(), signals.traversing_key_minus());
+    let (plus, minus) = (
+        signals.traversing_key_plus(),
+        signals.traversing_key_minus(),
+    );
     match (plus, minus, signals.traversing_key_disable()) {
         (true, false, false) => 1,
         (false, true, false) => -1,
@@ -31,8 +34,11 @@ impl State {
         for axis in unit.members() {
             let signals = &to_nck.axes[axis];
             // O-21: the axial override acts while 1.7 = 1, else 100 %.
-            let factor =
-                if signals.override_active() { parameters.axis_override(signals.feed_override()) } else { 1.0 };
+            let factor = if signals.override_active() {
+                parameters.axis_override(signals.feed_override())
+            } else {
+                1.0
+            };
             self.axes[axis].feed_factor = factor;
             self.axes[axis].feed_held = stopped || disabled;
             self.axes[axis].feed_disabled = disabled;
@@ -55,10 +61,14 @@ impl State {
         let velocity = (velocity * axis.feed_factor).min(axis_parameters.maximum_velocity);
         let held = axis.feed_held || blocked || velocity <= 0.0;
         if direction != 0 && !held && axis.enabling.is_on() {
-            axis.motion =
-                Motion::Run { velocity: velocity * f64::from(direction), acceleration: axis_parameters.jog_acceleration };
+            axis.motion = Motion::Run {
+                velocity: velocity * f64::from(direction),
+                acceleration: axis_parameters.jog_acceleration,
+            };
         } else {
-            axis.motion = Motion::Brake { deceleration: axis_parameters.jog_acceleration };
+            axis.motion = Motion::Brake {
+                deceleration: axis_parameters.jog_acceleration,
+            };
         }
         // Without controller enable the command stays pending and runs when the enable returns.
         let command = if held { 0 } else { direction };
@@ -66,7 +76,13 @@ impl State {
     }
 
     /// Notes what is wanted (64.4, 64.5) and commanded (64.6, 64.7), with the event behind a change.
-    pub(super) fn command(&mut self, number: AxisNumber, request: i8, command: i8, inputs: [Input; 3]) {
+    pub(super) fn command(
+        &mut self,
+        number: AxisNumber,
+        request: i8,
+        command: i8,
+        inputs: [Input; 3],
+    ) {
         let axis = &mut self.axes[number];
         if (axis.traverse_request, axis.traverse_command) == (request, command) {
             return;
@@ -80,7 +96,9 @@ impl State {
         };
         axis.traverse_request = request;
         axis.traverse_command = command;
-        axis.causes.motion = self.log.note(Place::Axis(number), rule, inputs, axis.causes.motion);
+        axis.causes.motion = self
+            .log
+            .note(Place::Axis(number), rule, inputs, axis.causes.motion);
     }
 }
 
@@ -88,6 +106,10 @@ fn key_inputs(number: AxisNumber, signals: &AxisToNck) -> [Input; 3] {
     [
         axis_bit(number, 4, 7, signals.traversing_key_plus()),
         axis_bit(number, 4, 6, signals.traversing_key_minus()),
-        if signals.feed_stop() { axis_bit(number, 4, 3, true) } else { Input::None },
+        if signals.feed_stop() {
+            axis_bit(number, 4, 3, true)
+        } else {
+            Input::None
+        },
     ]
 }

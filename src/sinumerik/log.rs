@@ -8,7 +8,7 @@ use crate::variables::{EventId, Events, Input, Place, SignalBit};
 
 /// The events and the cycle they belong to.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Log {
+pub(super) struct Log {
     /// Number of the cycle that runs.
     pub cycle: u64,
     /// The latest events.
@@ -17,23 +17,43 @@ pub struct Log {
 
 impl Log {
     /// Notes that a rule allowed something.
-    pub fn note(&mut self, place: Place, rule: Rule, inputs: [Input; 3], parent: EventId) -> EventId {
-        self.events.push(self.cycle, place, rule.number(), inputs, parent)
+    pub(super) fn note(
+        &mut self,
+        place: Place,
+        rule: Rule,
+        inputs: [Input; 3],
+        parent: EventId,
+    ) -> EventId {
+        self.events
+            .push(self.cycle, place, rule.number(), inputs, parent)
     }
 
     /// Notes it with one input.
-    pub fn note_one(&mut self, place: Place, rule: Rule, input: Input, parent: EventId) -> EventId {
+    pub(super) fn note_one(
+        &mut self,
+        place: Place,
+        rule: Rule,
+        input: Input,
+        parent: EventId,
+    ) -> EventId {
         self.note(place, rule, [input, Input::None, Input::None], parent)
     }
 
     /// Notes it without inputs.
-    pub fn note_plain(&mut self, place: Place, rule: Rule, parent: EventId) -> EventId {
+    pub(super) fn note_plain(&mut self, place: Place, rule: Rule, parent: EventId) -> EventId {
         self.note(place, rule, [Input::None; 3], parent)
     }
 }
 
 /// A signal of an axis as an input.
 #[must_use]
-pub const fn axis_bit(axis: AxisNumber, byte: u16, bit: u8, value: bool) -> Input {
-    Input::Bit(SignalBit { place: Place::Axis(axis), byte, bit }, value)
+pub(super) const fn axis_bit(axis: AxisNumber, byte: u16, bit: u8, value: bool) -> Input {
+    Input::Bit(
+        SignalBit {
+            place: Place::Axis(axis),
+            byte,
+            bit,
+        },
+        value,
+    )
 }

@@ -1,3 +1,409 @@
-//! The control of the SINUMERIK manuals: its machine data, and what it does with them.
+//! THE CONTROL of the gantry manual (G1): machine data, mode group, channel, enabling, JOG, reference point approach,
+//! gantry groupings, alarms.
+//!
+//! The machine calls [`Control`] in this order, once per interpolation cycle, and that order is the specification:
+//! [`Control::decide`] takes what the PLC wrote and commands setpoints (modes, RESET, measuring systems, enabling,
+//! referencing and gantry or JOG, setpoints, coupling); position control, drives and mechanics move;
+//! [`Control::observe`] takes what encoders and drives tell and monitors it; [`Control::publish`] writes the
+//! NCK's half of the interface and the variables. The control reads [`ToNck`] and nothing else of the PLC.
+//!
+//! | I want to add | I do |
+//! |---|---|
+//! | a machine datum | a row in `machine_data/`, a field in `parameters.rs` where the model needs it |
+//! | an alarm | a row in `alarms.rs`, a `raise` where it happens |
+//! | a rule that causes an edge | a row in `rules.rs`, a `note` where it is decided |
+//! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `referencing.rs` or `gantry.rs` |
+//! | a signal that the control shows | a line in `publish.rs`, and its cause in `causes.rs` |
 
+mod alarms;
+mod axis;
+mod causes;
+mod channel;
+mod enabling;
+mod gantry;
+mod gantry_definition;
+mod jog;
+mod log;
 pub mod machine_data;
+mod mode_group;
+mod monitoring;
+mod parameters;
+mod publish;
+mod reference_axes;
+mod referencing;
+mod rules;
+mod run_up;
+mod setpoints;
+
+pub use alarms::{Alarm, CATALOGUE as ALARMS, Cancel, Reaction};
+pub use axis::Feedback;
+pub use gantry::{Phase as GroupingPhase, TRANSITIONS as GROUPING_TRANSITIONS};
+pub use parameters::{AxisPresence, Parameters};
+pub use referencing::{Phase as ApproachPhase, TRANSITIONS as APPROACH_TRANSITIONS};
+pub use rules::Rule;
+
+use std::sync::Arc;
+
+use arrayvec::ArrayVec;
+use serde::{Deserialize, Serialize};
+
+use crate::image::ToNck;
+use crate::motion::{Coupling, velocity_command};
+use crate::source::Problem;
+use crate::units::{AxisNumber, PerAxis, Position};
+use crate::variables::{EventId, Place};
+
+use axis::{Axis, Motion};
+use channel::Channel;
+use gantry::Grouping;
+use gantry_definition::GROUPINGS;
+use log::Log;
+use machine_data::{Effect, MachineData, Target, Value};
+use mode_group::{Mode, ModeGroup};
+use run_up::RunUp;
+
+/// Axes that are enabled, stopped and held together: a closed grouping with its leading axis first, or one axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct Unit {
+    axes: [AxisNumber; 3],
+    count: u8,
+    /// Which grouping it is.
+    grouping: Option<u8>,
+}
+
+impl Unit {
+    const fn single(axis: AxisNumber) -> Self {
+        Self {
+            axes: [axis; 3],
+            count: 1,
+            grouping: None,
+        }
+    }
+
+    fn of(coupling: &Coupling, index: usize) -> Self {
+        let mut unit = Self::single(coupling.leader());
+        for (place, axis) in unit.axes.iter_mut().zip(coupling.members()) {
+            *place = axis;
+        }
+        unit.count = u8::try_from(coupling.members().count()).unwrap_or(3);
+        unit.grouping = u8::try_from(index).ok();
+        unit
+    }
+
+    const fn leader(&self) -> AxisNumber {
+        self.axes[0]
+    }
+
+    fn members(&self) -> impl Iterator<Item = AxisNumber> + use<> {
+        self.axes.into_iter().take(usize::from(self.count))
+    }
+}
+
+/// All that the control remembers from one cycle to the next: plain data, without machine data.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct State {
+    log: Log,
+    run_up: RunUp,
+    mode_group: ModeGroup,
+    channel: Channel,
+    axes: PerAxis<Axis>,
+    groupings: ArrayVec<Grouping, GROUPINGS>,
+    units: ArrayVec<Unit, { AxisNumber::MAX as usize }>,
+    alarms: alarms::Pending,
+    feedback: PerAxis<Feedback>,
+    definition_cause: EventId,
+    plc_missing: bool,
+    plc_cause: EventId,
+    /// Somebody else wrote into the NCK's half; the next publication overwrites all of it (SIG-11).
+    overwritten: bool,
+}
+
+/// The control.
+///
+/// Machine data have a stored and an active set (DEF-09, REF-22): a file or an operator changes the stored one, and
+/// the class of a datum says when it begins to act.
+#[derive(Clone, Debug)]
+pub struct Control {
+    stored: Arc<MachineData>,
+    active: Arc<MachineData>,
+    presence: Arc<PerAxis<AxisPresence>>,
+    parameters: Arc<Parameters>,
+    state: Box<State>,
+}
+
+/// A saved control.
+#[derive(Serialize, Deserialize)]
+pub struct SavedControl {
+    stored: MachineData,
+    active: MachineData,
+    state: State,
+}
+
+impl Control {
+    /// A control that has just been switched on.
+    #[must_use]
+    pub fn new(data: MachineData, presence: PerAxis<AxisPresence>) -> Self {
+        let stored = Arc::new(data);
+        let parameters = Arc::new(Parameters::new(&stored, &presence));
+        let state = Box::new(State::new(&parameters));
+        Self {
+            active: Arc::clone(&stored),
+            stored,
+            presence: Arc::new(presence),
+            parameters,
+            state,
+        }
+    }
+
+    /// Power off and on: stored machine data become active, everything else starts anew.
+    pub fn power_on(&mut self) {
+        let cycle = self.state.log.cycle;
+        self.active = Arc::clone(&self.stored);
+        self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
+        let events = std::mem::take(&mut self.state.log.events);
+        *self.state = State::new(&self.parameters);
+        self.state.log = Log { cycle, events };
+        self.state.definition_cause =
+            self.state
+                .log
+                .note_plain(Place::Nck, Rule::GroupingDefined, EventId::NONE);
+    }
+
+    /// What the stages work with.
+    #[must_use]
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// The machine data that act.
+    #[must_use]
+    pub fn active(&self) -> &MachineData {
+        &self.active
+    }
+
+    /// The machine data as they are stored.
+    #[must_use]
+    pub fn stored(&self) -> &MachineData {
+        &self.stored
+    }
+
+    /// Stores a machine datum; it acts when its class says.
+    ///
+    /// # Errors
+    /// The value does not fit the datum, or only the control writes it; nothing has changed then.
+    pub fn store(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
+        Arc::make_mut(&mut self.stored).set(target, value)?;
+        if target.datum().effect == Effect::Immediate {
+            self.activate(Effect::Immediate);
+        }
+        Ok(())
+    }
+
+    /// "Set machine data active".
+    pub fn new_conf(&mut self) {
+        self.activate(Effect::NewConf);
+    }
+
+    /// Makes the stored data of a class and of those below it active.
+    fn activate(&mut self, level: Effect) {
+        if Arc::ptr_eq(&self.stored, &self.active) {
+            return;
+        }
+        Arc::make_mut(&mut self.active).activate(&self.stored, level);
+        self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
+    }
+
+    /// The PLC program does not run, or runs again after power on.
+    pub fn plc_missing(&mut self) {
+        if !self.state.plc_missing {
+            self.state.plc_missing = true;
+            self.state.plc_cause =
+                self.state
+                    .log
+                    .note_plain(Place::Nck, Rule::PlcMissing, EventId::NONE);
+        }
+    }
+
+    /// The PLC program runs again; alarm 2000 stays until power off.
+    pub fn plc_restarted(&mut self) {
+        self.state.plc_missing = false;
+    }
+
+    /// The active measuring system of an axis, 0 or 1.
+    #[must_use]
+    pub fn measuring_system(&self, axis: AxisNumber) -> Option<u8> {
+        self.state.axes[axis].measuring_system
+    }
+
+    /// Position control of an axis in part `part` of `count` of the interpolation cycle, the setpoint finely interpolated: the
+    /// velocity that its drive is to have; `None` for a drive without power.
+    #[must_use]
+    pub fn velocity_command(
+        &self,
+        axis: AxisNumber,
+        encoders: [Position; 2],
+        part: u32,
+        count: u32,
+    ) -> Option<f64> {
+        let state = &self.state.axes[axis];
+        let active = usize::from(
+            state
+                .measuring_system
+                .filter(|_| state.enabling.is_powered())?,
+        );
+        let actual = encoders[active] + state.offset[active];
+        let way = (state.setpoint.position - state.before).increments();
+        let setpoint = state.before + Position::new(way * i64::from(part) / i64::from(count));
+        let gain = self.parameters.axes[axis].gain;
+        Some(velocity_command(
+            setpoint - actual,
+            gain,
+            state.half_count,
+            state.setpoint.velocity(),
+            0.0,
+        ))
+    }
+
+    /// Somebody else wrote into the NCK's half.
+    pub fn half_overwritten(&mut self) {
+        self.state.overwritten = true;
+    }
+
+    /// Somebody else wrote DB11.DBB5 (E-01).
+    pub fn strobe_written(&mut self) {
+        self.state.strobe_written();
+    }
+
+    /// Takes what the PLC wrote and commands setpoints.
+    pub fn decide(&mut self, cycle: u64, to_nck: &ToNck, cancel_key: bool) {
+        self.state.log.cycle = cycle;
+        self.state.run_up(&Arc::clone(&self.parameters));
+        self.state.select_mode(to_nck);
+        self.reset_and_cancel(to_nck, cancel_key);
+        let parameters = Arc::clone(&self.parameters);
+        let state = &mut *self.state;
+        state.form_units(&parameters);
+        state.select_measuring_systems(&parameters, to_nck);
+        state.enable(&parameters, to_nck);
+        state.reference_by_channel(&parameters, to_nck);
+        for unit in state.units.clone() {
+            state.take_feed(&unit, &parameters, to_nck);
+            match unit.grouping {
+                Some(index) => state.run_grouping(usize::from(index), &unit, &parameters, to_nck),
+                None => state.run_single(&unit, &parameters, to_nck),
+            }
+            state.set_setpoints(&unit, &parameters);
+        }
+    }
+
+    /// Takes what encoders and drives tell, and monitors it.
+    pub fn observe(&mut self, feedback: &PerAxis<Feedback>) {
+        self.state.feedback = *feedback;
+        for (number, _) in self.parameters.existing() {
+            self.state.axes[number].sense(&feedback[number]);
+        }
+        self.monitor();
+    }
+
+    /// For save and restore.
+    #[must_use]
+    pub fn save(&self) -> SavedControl {
+        SavedControl {
+            stored: MachineData::clone(&self.stored),
+            active: MachineData::clone(&self.active),
+            state: State::clone(&self.state),
+        }
+    }
+
+    /// Takes back what [`Control::save`] gave.
+    pub fn restore(&mut self, saved: SavedControl) {
+        let same = saved.stored == saved.active;
+        self.stored = Arc::new(saved.stored);
+        self.active = if same {
+            Arc::clone(&self.stored)
+        } else {
+            Arc::new(saved.active)
+        };
+        self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
+        *self.state = saved.state;
+    }
+}
+
+impl State {
+    fn new(parameters: &Parameters) -> Self {
+        let mut state = Self {
+            log: Log::default(),
+            run_up: RunUp::default(),
+            mode_group: ModeGroup::default(),
+            channel: Channel::default(),
+            axes: PerAxis::default(),
+            groupings: parameters
+                .groupings
+                .groupings
+                .iter()
+                .map(Grouping::new)
+                .collect(),
+            units: ArrayVec::new(),
+            alarms: alarms::Pending::default(),
+            feedback: PerAxis::default(),
+            definition_cause: EventId::NONE,
+            plc_missing: false,
+            plc_cause: EventId::NONE,
+            overwritten: true,
+        };
+        state.definition_cause =
+            state
+                .log
+                .note_plain(Place::Nck, Rule::GroupingDefined, EventId::NONE);
+        state.form_units(parameters);
+        state
+    }
+
+    /// Closed groupings and single axes; an open grouping is single axes that are still run as a grouping.
+    fn form_units(&mut self, parameters: &Parameters) {
+        self.units.clear();
+        let mut taken = 0_u32;
+        for (index, grouping) in self.groupings.iter().enumerate() {
+            let unit = Unit::of(&grouping.coupling, index);
+            let broken_up = unit
+                .members()
+                .any(|axis| parameters.axes[axis].gantry.broken_up);
+            if broken_up && grouping.phase == gantry::Phase::Open {
+                continue;
+            }
+            for axis in unit.members() {
+                taken |= 1 << axis.index();
+            }
+            self.units.push(unit);
+        }
+        for (axis, _) in parameters
+            .existing()
+            .filter(|(axis, _)| taken >> axis.index() & 1 == 0)
+        {
+            self.units.push(Unit::single(axis));
+        }
+    }
+
+    /// JOG without a machine function.
+    fn is_jogging(&self) -> bool {
+        self.mode_group.mode == Mode::Jog && !self.mode_group.reference
+    }
+
+    /// Every axis is in position control, and nothing stops.
+    fn unit_can_move(&self, unit: &Unit) -> bool {
+        self.stop_cause().is_none() && unit.members().all(|axis| self.axes[axis].enabling.is_on())
+    }
+
+    /// Every axis of the unit brakes at the slowest rate (O-04), unless a later stage commands something else.
+    fn brake(&mut self, unit: &Unit, parameters: &Parameters) {
+        let slowest = unit
+            .members()
+            .map(|axis| parameters.axes[axis].maximum_acceleration)
+            .fold(f64::INFINITY, f64::min);
+        for axis in unit.members() {
+            self.axes[axis].motion = Motion::Brake {
+                deceleration: slowest,
+            };
+        }
+    }
+}

@@ -14,7 +14,7 @@ use crate::variables::{EventId, Input, Place, SignalBit};
 
 /// An operating mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Mode {
+pub(super) enum Mode {
     /// Automatic.
     Automatic,
     /// Manual data input, automatic.
@@ -26,7 +26,7 @@ pub enum Mode {
 
 /// The state of the mode group.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ModeGroup {
+pub(super) struct ModeGroup {
     /// The active mode.
     pub mode: Mode,
     /// Machine function REF is active within JOG.
@@ -44,7 +44,14 @@ pub struct ModeGroup {
 const FIRST: ModeGroupNumber = ModeGroupNumber::FIRST;
 
 fn bit(byte: u16, bit: u8, value: bool) -> Input {
-    Input::Bit(SignalBit { place: Place::ModeGroup(FIRST), byte, bit }, value)
+    Input::Bit(
+        SignalBit {
+            place: Place::ModeGroup(FIRST),
+            byte,
+            bit,
+        },
+        value,
+    )
 }
 
 impl State {
@@ -67,21 +74,33 @@ impl State {
             && mode != self.mode_group.mode
         {
             self.mode_group.mode = mode;
-            self.mode_group.mode_cause = self.log.note_one(place, Rule::ModeSelected, input, EventId::NONE);
+            self.mode_group.mode_cause =
+                self.log
+                    .note_one(place, Rule::ModeSelected, input, EventId::NONE);
         }
         let reference = self.mode_group.mode == Mode::Jog && signals.machine_function_ref();
         if reference != self.mode_group.reference {
             self.mode_group.reference = reference;
-            let inputs = [bit(1, 2, signals.machine_function_ref()), bit(6, 2, self.mode_group.mode == Mode::Jog), Input::None];
-            self.mode_group.function_cause = self.log.note(place, Rule::MachineFunction, inputs, EventId::NONE);
+            let inputs = [
+                bit(1, 2, signals.machine_function_ref()),
+                bit(6, 2, self.mode_group.mode == Mode::Jog),
+                Input::None,
+            ];
+            self.mode_group.function_cause =
+                self.log
+                    .note(place, Rule::MachineFunction, inputs, EventId::NONE);
         }
     }
 
     /// Somebody else wrote DB11.DBB5: it is the HMI's from now on (E-01).
-    pub fn strobe_written(&mut self) {
+    pub(super) fn strobe_written(&mut self) {
         if !self.mode_group.strobe_is_the_hmi_s {
             self.mode_group.strobe_is_the_hmi_s = true;
-            self.log.note_plain(Place::ModeGroup(FIRST), Rule::StrobeOwnedByHmi, EventId::NONE);
+            self.log.note_plain(
+                Place::ModeGroup(FIRST),
+                Rule::StrobeOwnedByHmi,
+                EventId::NONE,
+            );
         }
     }
 }

@@ -74,17 +74,25 @@ pub const TRANSITIONS: &[Transition] = &[
     row(Phase::BrakeOnCam, Rule::LeaveCamFirst, Phase::LeaveCam),
     row(Phase::LeaveCam, Rule::CamLeft, Phase::BrakeOffCam),
     row(Phase::BrakeOffCam, Rule::StoppedOffCam, Phase::SearchEdge),
-    row(Phase::SearchEdge, Rule::CreepVelocityMissed, Phase::SearchCam),
+    row(
+        Phase::SearchEdge,
+        Rule::CreepVelocityMissed,
+        Phase::SearchCam,
+    ),
     row(Phase::SearchEdge, Rule::CamEdge, Phase::PassShift),
     row(Phase::PassShift, Rule::CamShiftPassed, Phase::SearchMark),
     row(Phase::SearchMark, Rule::ZeroMark, Phase::GoToReferencePoint),
-    row(Phase::GoToReferencePoint, Rule::ReferencePointReached, Phase::ExactStop),
+    row(
+        Phase::GoToReferencePoint,
+        Rule::ReferencePointReached,
+        Phase::ExactStop,
+    ),
     row(Phase::ExactStop, Rule::Referenced, Phase::Idle),
 ];
 
 /// How an approach went on in this cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
+pub(super) enum Outcome {
     /// It goes on.
     Running,
     /// The reference point is reached: the place where the axis is gets another value by this much.
@@ -95,7 +103,7 @@ pub enum Outcome {
 
 /// The approach of one axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Approach {
+pub(super) struct Approach {
     phase: Phase,
     /// Direction of the cam search as a sign.
     cam_direction: f64,
@@ -127,42 +135,64 @@ struct View<'a> {
 impl Approach {
     /// Where it is.
     #[must_use]
-    pub const fn phase(&self) -> Phase {
+    pub(super) const fn phase(&self) -> Phase {
         self.phase
     }
 
     /// Whether one is running.
     #[must_use]
-    pub fn is_running(&self) -> bool {
+    pub(super) fn is_running(&self) -> bool {
         self.phase != Phase::Idle
     }
 
     /// The latest event of it.
     #[must_use]
-    pub const fn cause(&self) -> EventId {
+    pub(super) const fn cause(&self) -> EventId {
         self.cause
     }
 
+    /// MD34100 as it was selected for the latest approach.
+    #[must_use]
+    pub(super) const fn set_position(&self) -> Position {
+        self.set_position
+    }
+
     /// Ends it, from wherever it is.
-    pub fn abort(&mut self) {
+    pub(super) fn abort(&mut self) {
         self.phase = Phase::Idle;
     }
 
     fn step(&mut self, log: &mut Log, number: AxisNumber, by: Rule, inputs: [Input; 3]) {
-        let to = TRANSITIONS.iter().find(|row| row.from == self.phase && row.by == by).map(|row| row.to);
+        let to = TRANSITIONS
+            .iter()
+            .find(|row| row.from == self.phase && row.by == by)
+            .map(|row| row.to);
         debug_assert!(to.is_some(), "no step from {:?} by {by:?}", self.phase);
         self.phase = to.unwrap_or(Phase::Idle);
         self.cause = log.note(Place::Axis(number), by, inputs, self.cause);
     }
 
     /// Starts towards the cam, in the direction of a sign; `cause` is the event that asked for it.
-    pub fn start(&mut self, log: &mut Log, number: AxisNumber, direction: f64, actual: Position, cause: EventId) {
-        *self = Self { cam_direction: direction, marker_direction: direction, origin: actual, cause, ..Self::default() };
+    pub(super) fn start(
+        &mut self,
+        log: &mut Log,
+        number: AxisNumber,
+        direction: f64,
+        actual: Position,
+        cause: EventId,
+    ) {
+        *self = Self {
+            cam_direction: direction,
+            marker_direction: direction,
+            origin: actual,
+            cause,
+            ..Self::default()
+        };
         self.step(log, number, Rule::ApproachStarted, [Input::None; 3]);
     }
 
     /// One cycle: the motion that the axis is to make, and how it went on.
-    pub fn run(
+    pub(super) fn run(
         &mut self,
         log: &mut Log,
         number: AxisNumber,
@@ -171,7 +201,13 @@ impl Approach {
         signals: &AxisToNck,
     ) -> (Motion, Outcome) {
         let encoder = usize::from(axis.measuring_system.unwrap_or(0));
-        let view = View { number, axis, parameters, signals, encoder };
+        let view = View {
+            number,
+            axis,
+            parameters,
+            signals,
+            encoder,
+        };
         let outcome = self.decide(log, &view);
         (self.motion(&view), outcome)
     }
@@ -182,14 +218,27 @@ impl Approach {
         }
         let (axis, reference) = (view.axis, &view.parameters.reference);
         let on_cam = view.signals.deceleration_reference_point_approach();
-        let cam = [axis_bit(view.number, 12, 7, on_cam), Input::None, Input::None];
+        let cam = [
+            axis_bit(view.number, 12, 7, on_cam),
+            Input::None,
+            Input::None,
+        ];
         let creep_from_rising_edge = reference.marker_reverse[view.encoder];
         match self.phase {
             Phase::Idle | Phase::PassShift => {}
             Phase::SearchCam if !reference.cam_is_active => {
                 self.origin = axis.actual;
                 self.set_position = selected(view);
-                self.step(log, view.number, Rule::WithoutCam, [Input::Datum(34000, Some(view.number), 0.0), Input::None, Input::None]);
+                self.step(
+                    log,
+                    view.number,
+                    Rule::WithoutCam,
+                    [
+                        Input::Datum(34000, Some(view.number), 0.0),
+                        Input::None,
+                        Input::None,
+                    ],
+                );
             }
             Phase::SearchCam if on_cam && self.set_off_on_cam(axis) => {
                 self.set_position = selected(view);
@@ -200,7 +249,15 @@ impl Approach {
                 self.set_position = selected(view);
                 self.step(log, view.number, Rule::CamReached, cam);
             }
-            Phase::SearchCam => return self.too_far(log, view, reference.maximum_cam_distance, alarms::CAM_NOT_REACHED, 34030),
+            Phase::SearchCam => {
+                return self.too_far(
+                    log,
+                    view,
+                    reference.maximum_cam_distance,
+                    alarms::CAM_NOT_REACHED,
+                    34030,
+                );
+            }
             Phase::BrakeOnCam if axis.stands(view.parameters) => {
                 if !on_cam {
                     return self.fail(log, view, alarms::CAM_SIGNAL_MISSING, cam);
@@ -213,22 +270,44 @@ impl Approach {
                 self.origin = axis.actual;
                 self.step(log, view.number, Rule::StoppedOffCam, cam);
             }
-            Phase::SearchEdge if on_cam == creep_from_rising_edge => return self.edge(log, view, cam),
+            Phase::SearchEdge if on_cam == creep_from_rising_edge => {
+                return self.edge(log, view, cam);
+            }
             Phase::LeaveCam | Phase::SearchEdge => {
-                return self.too_far(log, view, reference.maximum_cam_distance, alarms::CAM_NOT_REACHED, 34030);
+                return self.too_far(
+                    log,
+                    view,
+                    reference.maximum_cam_distance,
+                    alarms::CAM_NOT_REACHED,
+                    34030,
+                );
             }
             Phase::BrakeOnCam | Phase::BrakeOffCam => {}
             Phase::SearchMark => {
                 let Some(mark) = axis.zero_mark else {
                     let maximum = reference.maximum_marker_distance[view.encoder];
-                    return self.too_far(log, view, maximum, alarms::REFERENCE_MARK_NOT_FOUND, 34060);
+                    return self.too_far(
+                        log,
+                        view,
+                        maximum,
+                        alarms::REFERENCE_MARK_NOT_FOUND,
+                        34060,
+                    );
                 };
                 self.target = mark + reference.move_distance[view.encoder];
-                let inputs = [Input::Length(Quantity::Position, view.number, mark), Input::None, Input::None];
+                let inputs = [
+                    Input::Length(Quantity::Position, view.number, mark),
+                    Input::None,
+                    Input::None,
+                ];
                 self.step(log, view.number, Rule::ZeroMark, inputs);
             }
             Phase::GoToReferencePoint if axis.arrived => {
-                let inputs = [Input::Length(Quantity::Position, view.number, self.target), Input::None, Input::None];
+                let inputs = [
+                    Input::Length(Quantity::Position, view.number, self.target),
+                    Input::None,
+                    Input::None,
+                ];
                 self.step(log, view.number, Rule::ReferencePointReached, inputs);
                 self.waited = 0;
             }
@@ -243,7 +322,11 @@ impl Approach {
     fn turn(&mut self, log: &mut Log, view: &View<'_>, falling: Rule, cam: [Input; 3]) {
         if view.parameters.reference.marker_reverse[view.encoder] {
             self.marker_direction = self.cam_direction;
-            let inputs = [cam[0], Input::Datum(34050, Some(view.number), 1.0), Input::None];
+            let inputs = [
+                cam[0],
+                Input::Datum(34050, Some(view.number), 1.0),
+                Input::None,
+            ];
             self.step(log, view.number, Rule::LeaveCamFirst, inputs);
         } else {
             self.marker_direction = -self.cam_direction;
@@ -253,15 +336,30 @@ impl Approach {
 
     /// What ends an approach in any phase: feed disable; 0 % while the override does not act (phase 2).
     fn interrupted(&mut self, log: &mut Log, view: &View<'_>) -> Option<Outcome> {
-        let creeping = matches!(self.phase, Phase::LeaveCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark);
+        let creeping = matches!(
+            self.phase,
+            Phase::LeaveCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark
+        );
         let input = if view.axis.feed_disabled {
-            Input::Bit(SignalBit { place: Place::Channel(ChannelNumber::FIRST), byte: 6, bit: 0 }, true)
+            Input::Bit(
+                SignalBit {
+                    place: Place::Channel(ChannelNumber::FIRST),
+                    byte: 6,
+                    bit: 0,
+                },
+                true,
+            )
         } else if creeping && view.axis.feed_factor <= 0.0 {
             axis_bit(view.number, 1, 7, true)
         } else {
             return None;
         };
-        Some(self.fail(log, view, alarms::APPROACH_ABORTED, [input, Input::None, Input::None]))
+        Some(self.fail(
+            log,
+            view,
+            alarms::APPROACH_ABORTED,
+            [input, Input::None, Input::None],
+        ))
     }
 
     /// The axis was on the cam when the approach began: it has not moved yet.
@@ -294,11 +392,23 @@ impl Approach {
         let shift = view.parameters.reference.cam_shift[view.encoder];
         if self.phase == Phase::PassShift && (view.axis.actual - self.origin).abs() >= shift {
             let input = Input::Datum(34092, Some(view.number), shift.user());
-            self.step(log, view.number, Rule::CamShiftPassed, [input, Input::None, Input::None]);
+            self.step(
+                log,
+                view.number,
+                Rule::CamShiftPassed,
+                [input, Input::None, Input::None],
+            );
         }
     }
 
-    fn too_far(&mut self, log: &mut Log, view: &View<'_>, maximum: Position, alarm: AlarmNumber, datum: u32) -> Outcome {
+    fn too_far(
+        &mut self,
+        log: &mut Log,
+        view: &View<'_>,
+        maximum: Position,
+        alarm: AlarmNumber,
+        datum: u32,
+    ) -> Outcome {
         let travelled = (view.axis.actual - self.origin).abs();
         if travelled <= maximum {
             return Outcome::Running;
@@ -315,7 +425,11 @@ impl Approach {
         let deviation = view.axis.deviation().abs();
         let inputs = [
             Input::Length(Quantity::Deviation, view.number, deviation),
-            Input::Datum(36010, Some(view.number), view.parameters.exact_stop_fine.user()),
+            Input::Datum(
+                36010,
+                Some(view.number),
+                view.parameters.exact_stop_fine.user(),
+            ),
             Input::None,
         ];
         if deviation <= view.parameters.exact_stop_fine {
@@ -329,8 +443,19 @@ impl Approach {
         Outcome::Running
     }
 
-    fn fail(&mut self, log: &mut Log, view: &View<'_>, alarm: AlarmNumber, inputs: [Input; 3]) -> Outcome {
-        self.cause = log.note(Place::Axis(view.number), Rule::ApproachAborted, inputs, self.cause);
+    fn fail(
+        &mut self,
+        log: &mut Log,
+        view: &View<'_>,
+        alarm: AlarmNumber,
+        inputs: [Input; 3],
+    ) -> Outcome {
+        self.cause = log.note(
+            Place::Axis(view.number),
+            Rule::ApproachAborted,
+            inputs,
+            self.cause,
+        );
         self.phase = Phase::Idle;
         Outcome::Failed(alarm, self.cause)
     }
@@ -339,22 +464,39 @@ impl Approach {
     fn motion(&self, view: &View<'_>) -> Motion {
         let (parameters, reference) = (view.parameters, &view.parameters.reference);
         let acceleration = parameters.maximum_acceleration;
-        let brake = Motion::Brake { deceleration: acceleration };
+        let brake = Motion::Brake {
+            deceleration: acceleration,
+        };
         let creep = reference.marker_velocity[view.encoder];
         let velocity = match self.phase {
             Phase::Idle | Phase::BrakeOnCam | Phase::BrakeOffCam => return brake,
             Phase::SearchCam if reference.cam_is_active => {
-                self.cam_direction * (reference.cam_velocity * view.axis.feed_factor).min(parameters.maximum_velocity)
+                self.cam_direction
+                    * (reference.cam_velocity * view.axis.feed_factor)
+                        .min(parameters.maximum_velocity)
             }
             Phase::LeaveCam => -self.cam_direction * reference.cam_velocity,
-            Phase::SearchCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark => self.marker_direction * creep,
+            Phase::SearchCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark => {
+                self.marker_direction * creep
+            }
             Phase::GoToReferencePoint | Phase::ExactStop => {
                 let held = view.axis.feed_held;
-                let velocity = (reference.position_velocity * view.axis.feed_factor).min(parameters.maximum_velocity);
-                return Motion::GoTo { target: self.target, velocity: if held { 0.0 } else { velocity } };
+                let velocity = (reference.position_velocity * view.axis.feed_factor)
+                    .min(parameters.maximum_velocity);
+                return Motion::GoTo {
+                    target: self.target,
+                    velocity: if held { 0.0 } else { velocity },
+                };
             }
         };
-        if view.axis.feed_held { brake } else { Motion::Run { velocity, acceleration } }
+        if view.axis.feed_held {
+            brake
+        } else {
+            Motion::Run {
+                velocity,
+                acceleration,
+            }
+        }
     }
 }
 

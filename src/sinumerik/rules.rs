@@ -44,7 +44,9 @@ rules! {
     KeyReleased "JOG" "no traversing key any more";
     MotionBlocked "JOG" "motion blocked";
     // Reference point approach.
-    ApproachStarted "REF-02" "traversing key in the direction of MD34010 with REF active";
+    KeyStartsApproach "REF-02" "traversing key in the direction of MD34010 with REF active";
+    ApproachStarted "REF-31" "reference point approach begins";
+    ChannelReferencingEnds "REF-23" "channel-specific referencing ended";
     ApproachStartedByChannel "REF-23" "channel-specific referencing";
     ApproachStartedInGrouping "REF-04" "synchronous axis referenced after the leading axis";
     OnCamAtStart "REF-31" "on the cam at the start: section 1 of the approach is done";
@@ -113,6 +115,9 @@ impl Rule {
     /// The rule behind a number.
     #[must_use]
     pub fn text(number: RuleNumber) -> Text {
-        TEXTS.get(usize::from(number.0)).copied().unwrap_or(Text { id: "?", text: "unknown rule" })
+        TEXTS.get(usize::from(number.0)).copied().unwrap_or(Text {
+            id: "?",
+            text: "unknown rule",
+        })
     }
 }

@@ -78,15 +78,19 @@ pub struct Recorder {
 
 impl Default for Recorder {
     fn default() -> Self {
-        Self { rows: Vec::with_capacity(Self::ROWS), events: Vec::with_capacity(Self::EVENTS), lost: 0 }
+        Self {
+            rows: Vec::with_capacity(Self::ROWS),
+            events: Vec::with_capacity(Self::EVENTS),
+            lost: 0,
+        }
     }
 }
 
 impl Recorder {
     /// How many rows fit between two drains; one step writes far fewer.
-    pub const ROWS: usize = 8192;
+    pub const ROWS: usize = 2048;
     /// How many events fit between two drains.
-    pub const EVENTS: usize = 2048;
+    pub const EVENTS: usize = 1024;
 
     /// Notes a change; counts it as lost where nobody drains.
     pub fn push(&mut self, row: Row) {

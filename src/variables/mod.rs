@@ -78,15 +78,18 @@ pub struct RaisedAlarm {
     pub parameters: [Parameter; 4],
 }
 
+/// How many alarms can be pending at once.
+const ALARMS: usize = 64;
+
 /// The alarms that are pending, in order of number and place; bounded, because a list on a control is.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Alarms {
-    raised: ArrayVec<RaisedAlarm, { Self::CAPACITY }>,
+    raised: ArrayVec<RaisedAlarm, ALARMS>,
 }
 
 impl Alarms {
     /// How many alarms can be pending at once.
-    pub const CAPACITY: usize = 64;
+    pub const CAPACITY: usize = ALARMS;
 
     /// Takes over what is pending now, in order of number and place.
     pub fn publish(&mut self, pending: impl Iterator<Item = RaisedAlarm>) {
@@ -108,7 +111,9 @@ impl Alarms {
     /// The pending alarm of this number, at this place if one is named.
     #[must_use]
     pub fn find(&self, number: AlarmNumber, place: Option<Place>) -> Option<&RaisedAlarm> {
-        self.raised.iter().find(|alarm| alarm.number == number && place.is_none_or(|place| alarm.place == place))
+        self.raised
+            .iter()
+            .find(|alarm| alarm.number == number && place.is_none_or(|place| alarm.place == place))
     }
 }
 

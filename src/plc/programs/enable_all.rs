@@ -13,8 +13,7 @@ pub fn enable_all() -> ClosureProgram<()> {
 
 /// What every ready program does first.
 pub(super) fn enable(io: &mut PlcIo<'_>) {
-    let names = io.names;
-    for (number, _) in names.axes.iter().filter(|(_, name)| name.is_some()) {
+    for number in io.axes() {
         let axis = io.to_nck.axis(number);
         axis.set_position_measuring_system_1(true);
         axis.set_controller_enable(true);
@@ -36,7 +35,9 @@ mod tests {
         let mut expected = Memory::new();
         for number in [AxisNumber::new(1).unwrap(), AxisNumber::new(2).unwrap()] {
             for address in ["DBX1.5", "DBX2.1", "DBX21.7"] {
-                let address = format!("DB{}.{address}", 30 + u16::from(number.number())).parse().unwrap();
+                let address = format!("DB{}.{address}", 30 + u16::from(number.number()))
+                    .parse()
+                    .unwrap();
                 let bit = expected.locate(&address, bench.names.profile).unwrap();
                 expected.write(bit, 1);
             }

@@ -20,9 +20,9 @@ Axis {
     /// position shown modulo 360 degrees
     30320 DISPLAY_IS_MODULO display_is_modulo: bool = false; "", Range::ANY, PowerOn;
     /// size of the modulo range
-    30330 MODULO_RANGE modulo_range: f64 = 360.0; "deg", Range::POSITIVE, Reset;
+    30330 MODULO_RANGE modulo_range: f64 = 360.0; "deg", Range::INCREMENT, Reset;
     /// start of the modulo range
-    30340 MODULO_RANGE_START modulo_range_start: f64 = 0.0; "deg", Range::ANY, Reset;
+    30340 MODULO_RANGE_START modulo_range_start: f64 = 0.0; "deg", Range::POSITION, Reset;
     /// a simulated axis outputs its interface signals (E-26)
     30350 SIMU_AX_VDI_OUTPUT simu_ax_vdi_output: bool = false; "", Range::ANY, PowerOn;
     /// concurrent positioning axis; ignored with alarm 4300 on a synchronous axis
@@ -32,11 +32,11 @@ Axis {
     /// the encoder is a linear scale
     31000 ENC_IS_LINEAR enc_is_linear: [bool; 2] = [false; 2]; "", Range::ANY, PowerOn;
     /// grating period of a linear scale
-    31010 ENC_GRID_POINT_DIST enc_grid_point_dist: [f64; 2] = [0.01; 2]; "mm", Range::POSITIVE, PowerOn;
+    31010 ENC_GRID_POINT_DIST enc_grid_point_dist: [f64; 2] = [0.01; 2]; "mm", Range::INCREMENT, PowerOn;
     /// lines per revolution
     31020 ENC_RESOL enc_resol: [i32; 2] = [2048; 2]; "1/rev", Range::ANY, PowerOn;
     /// pitch of the leadscrew
-    31030 LEADSCREW_PITCH leadscrew_pitch: f64 = 10.0; "mm/rev", Range::POSITIVE, PowerOn;
+    31030 LEADSCREW_PITCH leadscrew_pitch: f64 = 10.0; "mm/rev", Range::INCREMENT, PowerOn;
     /// the encoder sits at the machine, not at the motor
     31040 ENC_IS_DIRECT enc_is_direct: [bool; 2] = [false; 2]; "", Range::ANY, PowerOn;
     /// denominator of the load gear
@@ -48,7 +48,7 @@ Axis {
     /// numerator of the measuring gear
     31080 DRIVE_ENC_RATIO_NUMERA drive_enc_ratio_numera: [i32; 2] = [1; 2]; "", Range::ANY, PowerOn;
     /// one increment in the metric and in the inch system
-    31090 JOG_INCR_WEIGHT jog_incr_weight: [f64; 2] = [0.001, 0.00254]; "mm, deg", Range::ANY, Reset;
+    31090 JOG_INCR_WEIGHT jog_incr_weight: [f64; 2] = [0.001, 0.00254]; "mm, deg", Range::POSITION, Reset;
     /// largest velocity of the axis
     32000 MAX_AX_VELO max_ax_velo: f64 = 10_000.0, rotary 27.77; "mm/min", Range::POSITIVE, NewConf;
     /// velocity of keys with rapid traverse override
@@ -90,7 +90,7 @@ Axis {
     /// largest jerk in JOG and of positioning axes
     32430 JOG_AND_POS_MAX_JERK jog_and_pos_max_jerk: f64 = 100.0; "m/s3", Range::NOT_NEGATIVE, Reset;
     /// backlash, active once referenced
-    32450 BACKLASH backlash: [f64; 2] = [0.0; 2]; "mm, deg", Range::ANY, NewConf;
+    32450 BACKLASH backlash: [f64; 2] = [0.0; 2]; "mm, deg", Range::POSITION, NewConf;
     /// share of the speed feedforward
     32610 VELO_FFW_WEIGHT velo_ffw_weight: [f64; 6] = [1.0; 6]; "factor", Range::NOT_NEGATIVE, NewConf;
     /// feedforward: 0 off, 1 speed PT1, 2 torque PT1, 3 speed Tt, 4 torque Tt
@@ -130,15 +130,15 @@ Axis {
     /// velocity of the way from the zero mark to the reference point
     34070 REFP_VELO_POS refp_velo_pos: f64 = 10_000.0, rotary 27.77; "mm/min", Range::POSITIVE, Reset;
     /// way from the zero mark to the reference point
-    34080 REFP_MOVE_DIST refp_move_dist: [f64; 2] = [-2.0; 2]; "mm, deg", Range::ANY, Reset;
+    34080 REFP_MOVE_DIST refp_move_dist: [f64; 2] = [-2.0; 2]; "mm, deg", Range::POSITION, Reset;
     /// added to MD34080; offset of absolute and distance-coded encoders, written by the control on calibration
-    34090 REFP_MOVE_DIST_CORR refp_move_dist_corr: [f64; 2] = [0.0; 2]; "mm, deg", Range::ANY, PowerOn;
+    34090 REFP_MOVE_DIST_CORR refp_move_dist_corr: [f64; 2] = [0.0; 2]; "mm, deg", Range::POSITION, PowerOn;
     /// delays the zero mark search behind the edge of the cam
     34092 REFP_CAM_SHIFT refp_cam_shift: [f64; 2] = [0.0; 2]; "mm, deg", Range::NOT_NEGATIVE, Reset;
     /// way from the edge of the cam to the zero mark, shown by the control
-    34093 REFP_CAM_MARKER_DIST refp_cam_marker_dist: [f64; 2] = [0.0; 2]; "mm, deg", Range::ANY, Immediate, read_only true;
+    34093 REFP_CAM_MARKER_DIST refp_cam_marker_dist: [f64; 2] = [0.0; 2]; "mm, deg", Range::POSITION, Immediate, read_only true;
     /// reference point value 1 to 4, chosen by DBX2.4 to 2.7
-    34100 REFP_SET_POS refp_set_pos: [f64; 4] = [0.0; 4]; "mm, deg", Range::ANY, Reset;
+    34100 REFP_SET_POS refp_set_pos: [f64; 4] = [0.0; 4]; "mm, deg", Range::POSITION, Reset;
     /// 1: all encoders are aligned to the one that was referenced
     34102 REFP_SYNC_ENCS refp_sync_encs: u8 = 0; "", Range::between(0.0, 1.0), Reset;
     /// referencing by external motion in follow-up
@@ -156,15 +156,17 @@ Axis {
     /// 0 ignores the serial number 0
     34232 EVERY_ENC_SERIAL_NUMBER every_enc_serial_number: [bool; 2] = [true; 2]; "", Range::ANY, PowerOn;
     /// basic distance of the fixed marks
-    34300 ENC_REFP_MARKER_DIST enc_refp_marker_dist: [f64; 2] = [10.0; 2]; "mm, deg", Range::POSITIVE, PowerOn;
+    34300 ENC_REFP_MARKER_DIST enc_refp_marker_dist: [f64; 2] = [10.0; 2]; "mm, deg", Range::INCREMENT, PowerOn;
     /// difference of two distances of marks
-    34310 ENC_MARKER_INC enc_marker_inc: [f64; 2] = [0.02; 2]; "mm, deg", Range::POSITIVE, PowerOn;
+    34310 ENC_MARKER_INC enc_marker_inc: [f64; 2] = [0.02; 2]; "mm, deg", Range::INCREMENT, PowerOn;
     /// the scale counts against the machine axis
     34320 ENC_INVERS enc_invers: [bool; 2] = [false; 2]; "", Range::ANY, PowerOn;
     /// absolute and distance-coded: 0 travels to MD34100, 1 stops where the position is known
     34330 REFP_STOP_AT_ABS_MARKER refp_stop_at_abs_marker: [bool; 2] = [false; 2]; "", Range::ANY, PowerOn;
     /// WAITENC takes the axis into account
     34800 WAIT_ENC_VALID wait_enc_valid: i32 = 0; "", Range::between(0.0, 1.0), Reset;
+    /// spindle that is assigned to the machine axis; 0 for an axis
+    35000 SPIND_ASSIGN_TO_MACHAX spind_assign_to_machax: u8 = 0; "", Range::between(0.0, 31.0), PowerOn;
     /// tolerance of the creep velocity in the zero mark search
     35150 SPIND_DES_VELO_TOL spind_des_velo_tol: f64 = 0.1; "factor", Range::NOT_NEGATIVE, Reset;
     /// window of exact stop coarse, DBX60.6
@@ -188,13 +190,13 @@ Axis {
     /// below it the axis counts as stationary, DBX61.4
     36060 STANDSTILL_VELO_TOL standstill_velo_tol: f64 = 5.0, rotary 0.0138; "mm/min", Range::NOT_NEGATIVE, NewConf;
     /// first software limit switch minus
-    36100 POS_LIMIT_MINUS pos_limit_minus: f64 = -1e8; "mm, deg", Range::ANY, NewConf;
+    36100 POS_LIMIT_MINUS pos_limit_minus: f64 = -1e8; "mm, deg", Range::POSITION, NewConf;
     /// first software limit switch plus
-    36110 POS_LIMIT_PLUS pos_limit_plus: f64 = 1e8; "mm, deg", Range::ANY, NewConf;
+    36110 POS_LIMIT_PLUS pos_limit_plus: f64 = 1e8; "mm, deg", Range::POSITION, NewConf;
     /// second software limit switch minus, chosen by DBX12.2
-    36120 POS_LIMIT_MINUS2 pos_limit_minus2: f64 = -1e8; "mm, deg", Range::ANY, NewConf;
+    36120 POS_LIMIT_MINUS2 pos_limit_minus2: f64 = -1e8; "mm, deg", Range::POSITION, NewConf;
     /// second software limit switch plus, chosen by DBX12.3
-    36130 POS_LIMIT_PLUS2 pos_limit_plus2: f64 = 1e8; "mm, deg", Range::ANY, NewConf;
+    36130 POS_LIMIT_PLUS2 pos_limit_plus2: f64 = 1e8; "mm, deg", Range::POSITION, NewConf;
     /// velocity monitoring, alarm 25030; 10 to 15 % above MD32000
     36200 AX_VELO_LIMIT ax_velo_limit: [f64; 6] = [11_500.0; 6], rotary [31.94; 6]; "mm/min", Range::NOT_NEGATIVE, NewConf;
     /// largest speed setpoint
@@ -232,7 +234,7 @@ Axis {
     /// trip limit while not synchronised
     37130 GANTRY_POS_TOL_REF gantry_pos_tol_ref: f64 = 0.0; "mm, deg", Range::NOT_NEGATIVE, PowerOn;
     /// difference at alarm 10653 with extended monitoring; not 0 after power on: alarm 10657; cleared by writing 0
-    37135 GANTRY_ACT_POS_TOL_ERROR gantry_act_pos_tol_error: f64 = 0.0; "mm, deg", Range::ANY, Reset;
+    37135 GANTRY_ACT_POS_TOL_ERROR gantry_act_pos_tol_error: f64 = 0.0; "mm, deg", Range::POSITION, Reset;
     /// 1 opens the coupling (E-07)
     37140 GANTRY_BREAK_UP gantry_break_up: bool = false; "", Range::ANY, NewConf;
     /// bit 0 extended monitoring, bit 1 zero mark search of the synchronous axis in the direction of the leading one, bit 2 no alarm 10655

@@ -12,7 +12,7 @@ General {
     /// mode group of each channel; 0 the channel does not exist
     10010 ASSIGN_CHAN_TO_MODE_GROUP assign_chan_to_mode_group: [i32; 10] = [1, 0, 0, 0, 0, 0, 0, 0, 0, 0]; "", Range::between(0.0, 10.0), PowerOn;
     /// basic system cycle
-    10050 SYSCLOCK_CYCLE_TIME sysclock_cycle_time: f64 = 0.004; "s", Range::POSITIVE, PowerOn;
+    10050 SYSCLOCK_CYCLE_TIME sysclock_cycle_time: f64 = 0.004; "s", Range::between(0.000_01, 1.0), PowerOn;
     /// position control cycle in basic system cycles
     10060 POSCTRL_SYSCLOCK_TIME_RATIO posctrl_sysclock_time_ratio: i32 = 1; "", Range::between(1.0, 31.0), PowerOn, read_only true;
     /// interpolation cycle in basic system cycles; one step of the simulator (O-22)
@@ -28,7 +28,7 @@ General {
     /// incremental JOG and reference point approach: 1 while the key is held, 0 from a press of the key on
     11300 JOG_INC_MODE_LEVELTRIGGRD jog_inc_mode_leveltriggrd: bool = true; "", Range::ANY, PowerOn;
     /// pulses of a handwheel per detent
-    11320 HANDWH_IMP_PER_LATCH handwh_imp_per_latch: [f64; 6] = [1.0; 6]; "", Range::ANY, PowerOn;
+    11320 HANDWH_IMP_PER_LATCH handwh_imp_per_latch: [f64; 6] = [1.0; 6]; "", Range::POSITION, PowerOn;
     /// sizes of the fixed increments
     11330 JOG_INCR_SIZE_TAB jog_incr_size_tab: [f64; 5] = [1.0, 10.0, 100.0, 1_000.0, 10_000.0]; "", Range::NOT_NEGATIVE, Reset;
     /// handwheel gives 1 the way, 0 the velocity

@@ -108,17 +108,19 @@ impl Range {
         maximum: None,
         above_minimum: false,
     };
+    /// Larger than any value of a real machine, and small enough that sums of positions in nanometres stay exact.
+    const LARGEST: f64 = 1e9;
+    /// A position or a way of either sign.
+    pub const POSITION: Self = Self::between(-Self::LARGEST, Self::LARGEST);
     /// Zero or more.
-    pub const NOT_NEGATIVE: Self = Self {
-        minimum: Some(0.0),
-        ..Self::ANY
-    };
+    pub const NOT_NEGATIVE: Self = Self::between(0.0, Self::LARGEST);
     /// More than zero.
     pub const POSITIVE: Self = Self {
-        minimum: Some(0.0),
         above_minimum: true,
-        ..Self::ANY
+        ..Self::NOT_NEGATIVE
     };
+    /// A distance that is at least one increment.
+    pub const INCREMENT: Self = Self::between(0.000_001, Self::LARGEST);
 
     /// From one value to another, both allowed.
     #[must_use]
@@ -151,6 +153,9 @@ impl fmt::Display for Range {
             (Some(minimum), None) if self.above_minimum => write!(f, "more than {minimum}"),
             (Some(minimum), None) => write!(f, "{minimum} or more"),
             (None, Some(maximum)) => write!(f, "{maximum} or less"),
+            (Some(minimum), Some(maximum)) if self.above_minimum => {
+                write!(f, "more than {minimum} and at most {maximum}")
+            }
             (Some(minimum), Some(maximum)) => write!(f, "{minimum} to {maximum}"),
         }
     }

@@ -184,6 +184,9 @@ mod targets {
             ("34020[X1]", Value::Integer(0)),
             ("34090[X1]", Value::Real(f64::INFINITY)),
             ("34090[X1]", Value::Real(f64::NAN)),
+            ("34090[X1]", Value::Real(1e300)),
+            ("34300[X1]", Value::Real(1e-9)),
+            ("10050", Value::Real(1e-12)),
             ("34090[X1]", Value::Text("1".to_owned())),
             ("20000", Value::Integer(1)),
             ("10240", Value::Boolean(false)),
@@ -714,7 +717,7 @@ mod checking {
     #[test]
     fn a_code_that_the_control_refuses_cycles_and_names_are_found() {
         assert!(found("$MA_GANTRY_AXIS_TYPE[AX1]=9")[0].contains("10650"));
-        assert!(found("$MN_SYSCLOCK_CYCLE_TIME=4")[0].starts_with("a.tea:1: warning: MD10050 "));
+        assert!(found("$MN_SYSCLOCK_CYCLE_TIME=0.4")[0].starts_with("a.tea:1: warning: MD10050 "));
         assert!(found("$MN_POSCTRL_SYSCLOCK_TIME_RATIO=2")[0].contains("4110"));
         assert!(found("$MN_AXCONF_MACHAX_NAME_TAB[1]=\"X1\"")[0].contains("which axis 1 has"));
         assert!(found("$MN_AXCONF_MACHAX_NAME_TAB[0]=\"AX2\"")[0].contains("means axis 2"));

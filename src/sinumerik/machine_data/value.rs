@@ -7,7 +7,7 @@ use crate::source::{self, Node, Problem};
 use super::table::Kind;
 
 /// A value before it is fitted to the type of a datum, and as it is read back.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(serde::Serialize, serde::Deserialize, Clone, Debug, PartialEq)]
 pub enum Value {
     /// `TRUE`, `true`.
     Boolean(bool),

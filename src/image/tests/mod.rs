@@ -1,0 +1,65 @@
+//! Tests of the interface. They write the manual's own bytes and bits, not the constants of the tables.
+
+mod addresses;
+mod memories;
+mod naming;
+mod presets;
+mod profile_828d;
+mod signals;
+
+use crate::units::{AxisNumber, ChannelNumber};
+
+use super::{Area, Memory, Names, Part, Profile};
+
+const SL: Profile = Profile::Sinumerik840dSl;
+const D828: Profile = Profile::Sinumerik828d;
+const PARTS: [Part; 3] = [Part::ToNck, Part::FromNck, Part::Hmi];
+
+/// Axes X, Y, XF and channels CHAN1, CHAN2.
+fn names() -> Names {
+    let mut names = Names::default();
+    for (number, name) in AxisNumber::all().zip(["X", "Y", "XF"]) {
+        names.axes[number] = Some(name.to_owned());
+    }
+    for (number, name) in ChannelNumber::all().zip(["CHAN1", "CHAN2"]) {
+        names.channels[number] = Some(name.to_owned());
+    }
+    names
+}
+
+fn names_828d() -> Names {
+    Names {
+        profile: D828,
+        ..names()
+    }
+}
+
+/// Every axis and channel named, A1 to A31 and K1 to K10.
+fn all_names() -> Names {
+    let mut names = Names::default();
+    for (number, name) in names.axes.iter_mut() {
+        *name = Some(format!("A{number}"));
+    }
+    for (number, name) in names.channels.iter_mut() {
+        *name = Some(format!("K{number}"));
+    }
+    names
+}
+
+/// A memory whose interface is full of this byte.
+fn full_of(byte: u8) -> Memory {
+    let mut memory = Memory::new();
+    for part in PARTS {
+        memory.part_mut(part).fill(byte);
+    }
+    memory
+}
+
+/// All bytes of a data block of the 840D sl.
+fn data_block(memory: &Memory, number: u16, length: usize) -> Vec<u8> {
+    let mut bytes = vec![0; length];
+    memory
+        .read_bytes(Area::DataBlock(number), 0, &mut bytes, SL)
+        .unwrap();
+    bytes
+}

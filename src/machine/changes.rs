@@ -1,0 +1,271 @@
+//! What changed in a step, for the record: whole parts are compared first, then their bytes.
+
+use super::Machine;
+use super::command::Force;
+use crate::image::{Memory, Part, signals_at};
+use crate::trace::{By, Change, Row};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
+use crate::variables::{EventId, Place};
+
+/// The memory as the last record saw it, and what was written from outside since.
+#[derive(Debug)]
+pub(super) struct Before {
+    parts: Vec<(Part, Vec<u8>)>,
+    pub(super) written: Vec<Force>,
+    last_event: EventId,
+}
+
+/// Room for writes from outside in one step before the list has to grow.
+const WRITES: usize = 256;
+
+impl Before {
+    /// The memory as it is now.
+    pub(super) fn new(memory: &Memory, last_event: EventId) -> Self {
+        let fixed = [
+            Part::ToNck,
+            Part::FromNck,
+            Part::Hmi,
+            Part::Inputs,
+            Part::Outputs,
+            Part::Flags,
+            Part::Timers,
+            Part::Counters,
+        ];
+        let own = memory.blocks.iter().map(|block| Part::Block(block.number));
+        let parts = fixed
+            .into_iter()
+            .chain(own)
+            .map(|part| (part, memory.part(part).to_vec()))
+            .collect();
+        Self {
+            parts,
+            written: Vec::with_capacity(WRITES),
+            last_event,
+        }
+    }
+}
+
+impl Machine {
+    /// Writes from outside that the PLC program overwrote in this step.
+    pub(super) fn note_overwritten(&mut self) {
+        for &Force { location, value } in &self.before.written {
+            if self.memory.read(location) == value & location.mask() {
+                continue;
+            }
+            let bits = if location.width < 8 {
+                location.mask() << location.bit
+            } else {
+                0xFF
+            };
+            let bits = u8::try_from(bits & 0xFF).unwrap_or(0xFF);
+            let change = Change::Overwritten {
+                part: location.part,
+                offset: location.offset,
+                bits,
+            };
+            self.recorder.push(Row {
+                cycle: self.cycle,
+                change,
+            });
+        }
+    }
+
+    /// Writes the record of a step.
+    pub(super) fn record(&mut self) {
+        let mut parts = std::mem::take(&mut self.before.parts);
+        for (part, old) in &mut parts {
+            self.record_part(*part, old);
+        }
+        self.before.parts = parts;
+        self.record_alarms();
+        let last = self.before.last_event;
+        self.recorder.events(self.control.events_since(last));
+        self.before.last_event = self.control.last_event();
+    }
+
+    fn record_part(&mut self, part: Part, old: &mut [u8]) {
+        if self.memory.part(part) == old {
+            return;
+        }
+        for piece in (0..old.len()).step_by(64) {
+            let end = (piece + 64).min(old.len());
+            if self.memory.part(part)[piece..end] == old[piece..end] {
+                continue;
+            }
+            for (place, old) in old.iter_mut().enumerate().take(end).skip(piece) {
+                let new = self.memory.part(part)[place];
+                if new != *old {
+                    let offset = u32::try_from(place).unwrap_or(u32::MAX);
+                    self.record_byte(part, offset, *old, new);
+                    *old = new;
+                }
+            }
+        }
+    }
+
+    fn record_byte(&mut self, part: Part, offset: u32, old: u8, new: u8) {
+        let owner = (part == Part::FromNck || part == Part::Hmi)
+            .then(|| place_of(part, offset))
+            .flatten();
+        let (mut by, mut causes) = ([By::Plc; 8], [EventId::NONE; 8]);
+        for bit in 0..8_u8 {
+            if (old ^ new) >> bit & 1 == 0 {
+                continue;
+            }
+            let who = self.who(part, offset, bit, new >> bit & 1 == 1);
+            by[usize::from(bit)] = who;
+            if let (By::Nck, Some((place, byte))) = (who, owner) {
+                causes[usize::from(bit)] = self.control.cause(place, byte, bit);
+            }
+        }
+        self.recorder.push(Row {
+            cycle: self.cycle,
+            change: Change::Byte {
+                part,
+                offset,
+                old,
+                new,
+                by,
+                causes,
+            },
+        });
+    }
+
+    fn who(&self, part: Part, offset: u32, bit: u8, value: bool) -> By {
+        let meant = |write: &&Force| {
+            let first = u64::from(write.location.offset) * 8 + u64::from(write.location.bit);
+            let this = u64::from(offset) * 8 + u64::from(bit);
+            write.location.part == part
+                && (first..first + u64::from(write.location.width)).contains(&this)
+        };
+        let written = |write: &Force| {
+            let place = if write.location.width < 8 {
+                u32::from(bit - write.location.bit)
+            } else {
+                // Most significant byte first.
+                (write.location.bytes() - 1 - (offset - write.location.offset)) * 8 + u32::from(bit)
+            };
+            (write.value >> place & 1 == 1) == value
+        };
+        if self.forces.iter().any(|force| meant(&force)) {
+            return By::Force;
+        }
+        match part {
+            Part::FromNck => {
+                return if self.before.written.iter().any(|w| meant(&w))
+                    && !is_signal(part, offset, bit)
+                {
+                    By::Outside
+                } else {
+                    By::Nck
+                };
+            }
+            Part::ToNck if self.is_switch(offset, bit) => return By::Plant,
+            _ => {}
+        }
+        if self
+            .before
+            .written
+            .iter()
+            .rev()
+            .find(meant)
+            .is_some_and(written)
+        {
+            return By::Outside;
+        }
+        match part {
+            Part::Hmi => By::Nck,
+            Part::Inputs => By::Plant,
+            _ => By::Plc,
+        }
+    }
+
+    /// 12.7, 12.0 or 12.1 of an axis whose switch is not wired.
+    fn is_switch(&self, offset: u32, bit: u8) -> bool {
+        let Some((Place::Axis(axis), 12)) = place_of(Part::ToNck, offset) else {
+            return false;
+        };
+        let Some(iron) = &self.definition.layout.axes[axis] else {
+            return false;
+        };
+        match bit {
+            7 => iron.cam.as_ref().is_some_and(|cam| cam.input.is_none()),
+            1 => iron
+                .limit_plus
+                .as_ref()
+                .is_some_and(|limit| limit.input.is_none()),
+            0 => iron
+                .limit_minus
+                .as_ref()
+                .is_some_and(|limit| limit.input.is_none()),
+            _ => false,
+        }
+    }
+
+    fn record_alarms(&mut self) {
+        let same = self.alarms_before.len() == self.variables.alarms.count()
+            && self
+                .alarms_before
+                .iter()
+                .zip(self.variables.alarms.iter())
+                .all(|(old, new)| old == new);
+        if same {
+            return;
+        }
+        let cycle = self.cycle;
+        for &alarm in &self.alarms_before {
+            if !self.variables.alarms.iter().any(|other| *other == alarm) {
+                self.recorder.push(Row {
+                    cycle,
+                    change: Change::Alarm {
+                        alarm,
+                        raised: false,
+                        cause: EventId::NONE,
+                    },
+                });
+            }
+        }
+        for &alarm in self.variables.alarms.iter() {
+            if !self.alarms_before.contains(&alarm) {
+                let cause = self.control.alarm_cause(alarm.number, alarm.place);
+                self.recorder.push(Row {
+                    cycle,
+                    change: Change::Alarm {
+                        alarm,
+                        raised: true,
+                        cause,
+                    },
+                });
+            }
+        }
+        self.alarms_before.clear();
+        self.alarms_before.extend(self.variables.alarms.iter());
+    }
+}
+
+/// Whose block a byte is in, and which byte of the block it is; of the second mode group, counted from its own start.
+fn place_of(part: Part, offset: u32) -> Option<(Place, u16)> {
+    use crate::image::Block;
+    let found = signals_at(part, offset)?;
+    let place = match found.block {
+        Block::Nck => Place::Nck,
+        Block::ModeGroup => Place::ModeGroup(ModeGroupNumber::new(found.number)?),
+        Block::Channel => Place::Channel(ChannelNumber::new(found.number)?),
+        Block::Axis => Place::Axis(AxisNumber::new(found.number)?),
+    };
+    let own = if found.block == Block::ModeGroup && found.number == 2 {
+        found.byte - 20
+    } else {
+        found.byte
+    };
+    Some((place, own))
+}
+
+fn is_signal(part: Part, offset: u32, bit: u8) -> bool {
+    signals_at(part, offset).is_some_and(|found| {
+        found.signals.iter().any(|signal| {
+            let width = signal.kind.width();
+            width >= 8 || (signal.bit..signal.bit + width).contains(&bit)
+        })
+    })
+}

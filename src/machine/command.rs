@@ -1,0 +1,149 @@
+//! What can be done to a machine from outside. A command is checked when it is queued and acts at the edge of the next step.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Fault, Machine};
+use crate::image::{Location, Part};
+use crate::sinumerik::machine_data::{MachineData, Value};
+use crate::source::Problem;
+
+/// Something that is done to a machine from outside.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Command {
+    /// Writes bits once.
+    Write {
+        /// Which.
+        location: Location,
+        /// Raw value.
+        value: u64,
+    },
+    /// Writes bits after every PLC scan, until released.
+    Force {
+        /// Which.
+        location: Location,
+        /// Raw value.
+        value: u64,
+    },
+    /// Ends every force that shares a bit with this place.
+    Release {
+        /// Where.
+        location: Location,
+    },
+    /// Stores a machine datum, which acts when its class says.
+    MachineDatum {
+        /// `34090[XF]`, `34100[2,XF]`, `11300`, an identifier.
+        target: String,
+        /// Its value.
+        value: Value,
+    },
+    /// "Set machine data active".
+    NewConf,
+    /// Power off and on.
+    PowerOn,
+    /// The PLC stops.
+    PlcStop,
+    /// The PLC restarts: OB100, then OB1.
+    PlcRun,
+    /// The operator's alarm-cancel key.
+    Cancel,
+    /// Something breaks.
+    Fault(Fault),
+    /// Something is repaired.
+    ClearFault(Fault),
+}
+
+/// A forced place.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Force {
+    pub(super) location: Location,
+    pub(super) value: u64,
+}
+
+/// What the commands of one step mean for the rest of it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Taken {
+    pub(super) cancel: bool,
+}
+
+impl Machine {
+    /// Queues a command for the edge of the next step.
+    ///
+    /// # Errors
+    /// A machine datum that does not exist or a value that does not fit it; nothing is queued then.
+    pub fn queue(&mut self, command: Command) -> Result<(), Problem> {
+        if let Command::MachineDatum { target, value } = &command {
+            let stored = self.control.stored();
+            let target = stored.parse_target(target)?;
+            MachineData::clone(stored).set(&target, value)?;
+        }
+        self.queue.push(command);
+        Ok(())
+    }
+
+    /// Does what was queued.
+    pub(super) fn take_commands(&mut self) -> Taken {
+        let mut taken = Taken::default();
+        self.before.written.clear();
+        let mut queue = std::mem::take(&mut self.queue);
+        for command in queue.drain(..) {
+            match command {
+                Command::Write { location, value } => self.write(location, value),
+                Command::Force { location, value } => {
+                    self.forces.retain(|force| force.location != location);
+                    self.forces.push(Force { location, value });
+                }
+                Command::Release { location } => self
+                    .forces
+                    .retain(|force| !force.location.overlaps(location)),
+                Command::MachineDatum { target, value } => {
+                    // Checked when it was queued; a later command of the same step may have renamed its axis.
+                    if let Ok(target) = self.control.stored().parse_target(&target) {
+                        let _ = self.control.store(&target, &value);
+                    }
+                }
+                Command::NewConf => self.control.new_conf(),
+                Command::PowerOn => self.power_on(),
+                Command::PlcStop => self.plc.stop(),
+                Command::PlcRun => {
+                    self.plc.restart();
+                    self.control.plc_restarted();
+                }
+                Command::Cancel => taken.cancel = true,
+                Command::Fault(fault) => self.break_something(fault),
+                Command::ClearFault(fault) => self.plant.clear_fault(fault),
+            }
+        }
+        self.queue = queue;
+        taken
+    }
+
+    fn write(&mut self, location: Location, value: u64) {
+        self.memory.write(location, value);
+        self.before.written.push(Force { location, value });
+        match location.part {
+            Part::FromNck => self.control.half_overwritten(),
+            Part::Hmi if self.definition.strobe.is_touched_by(location) => {
+                self.control.strobe_written()
+            }
+            _ => {}
+        }
+    }
+
+    fn break_something(&mut self, fault: Fault) {
+        let active = self.control.measuring_system(fault.axis);
+        self.plant.fault(fault, active);
+    }
+
+    /// Power off and on: interface, PLC memory and forces start anew; plant, faults and stored machine data stay.
+    fn power_on(&mut self) {
+        self.control.power_on();
+        self.plant.power_on(&self.definition.layout);
+        self.memory = self.definition.memory.clone();
+        self.variables = crate::variables::Variables::default();
+        self.forces.clear();
+        self.before.written.clear();
+        self.plc.power_on();
+        self.definition.strobe.apply(&mut self.control);
+        self.sense();
+    }
+}

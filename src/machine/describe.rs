@@ -1,0 +1,55 @@
+//! The texts behind the numbers of this machine's control.
+
+use super::Machine;
+use crate::image::Names;
+use crate::sinumerik::{ALARMS, Alarm, Rule as ControlRule};
+use crate::variables::{AlarmNumber, Describe, Parameter, RaisedAlarm, Rule, RuleNumber};
+
+impl Describe for Machine {
+    fn names(&self) -> &Names {
+        &self.definition.names
+    }
+
+    fn alarm_text(&self, alarm: &RaisedAlarm) -> String {
+        let Some(row) = Alarm::find(alarm.number) else {
+            return String::new();
+        };
+        let mut text = row.text.to_owned();
+        for (index, parameter) in alarm.parameters.iter().enumerate() {
+            text = text.replace(&format!("%{}", index + 1), &shown(self, *parameter));
+        }
+        text
+    }
+
+    fn alarm_name(&self, number: AlarmNumber) -> String {
+        match Alarm::find(number) {
+            Some(row) if number.0 >= AlarmNumber::OWN => row.name.to_owned(),
+            _ => number.0.to_string(),
+        }
+    }
+
+    fn alarm_number(&self, name: &str) -> Option<AlarmNumber> {
+        ALARMS
+            .iter()
+            .find(|alarm| alarm.name == name)
+            .map(|alarm| alarm.number)
+    }
+
+    fn rule(&self, rule: RuleNumber) -> Rule {
+        ControlRule::text(rule)
+    }
+}
+
+fn shown(machine: &Machine, parameter: Parameter) -> String {
+    let names = &machine.definition.names;
+    match parameter {
+        Parameter::None => String::new(),
+        Parameter::Channel(number) => names.channels[number]
+            .clone()
+            .unwrap_or_else(|| format!("CHAN{number}")),
+        Parameter::Axis(number) => names.axes[number]
+            .clone()
+            .unwrap_or_else(|| format!("AX{number}")),
+        Parameter::Number(number) => number.to_string(),
+    }
+}

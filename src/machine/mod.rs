@@ -1,0 +1,189 @@
+//! ONE STEP of a machine: control, iron and PLC program in a fixed order; and what goes with it: open, queue, power, save,
+//! restore, fork.
+//!
+//! ```
+//! use opennck::machine::Machine;
+//!
+//! let mut machine = Machine::open("g1_example")?;
+//! for _ in 0..100 {
+//!     machine.step();
+//! }
+//! let x = machine.axis("X").ok_or("the example has an axis X")?;
+//! assert!(machine.memory().from_nck.axes[x].gantry_leading_axis()); // DB31.DBX101.6
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! `step.rs` holds the order of a step, `open.rs` reads machines, `command.rs` says what can be done to a machine from
+//! outside (it is queued and acts at the edge of the next step), `changes.rs` finds what changed for the record.
+
+mod changes;
+mod command;
+mod describe;
+mod open;
+mod saved;
+mod step;
+
+pub use crate::plant::{Fault, FaultKind, Switch};
+pub use crate::sinumerik::machine_data::Value as DatumValue;
+pub use command::Command;
+pub use open::OpenOptions;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::image::{Memory, Names, OverrideCoding};
+use crate::plant::{Layout, Plant};
+use crate::plc::PlcProgram;
+use crate::sinumerik::machine_data::MachineData;
+use crate::sinumerik::{Control, Feedback};
+use crate::source::Problem;
+use crate::trace::Recorder;
+use crate::units::{AxisNumber, PerAxis, Time};
+use crate::variables::{RaisedAlarm, Variables};
+
+use changes::Before;
+use command::Force;
+use step::Plc;
+
+/// What the files say of a machine; it never changes after opening and is shared by all forks.
+#[derive(Debug)]
+struct Definition {
+    names: Names,
+    layout: Layout,
+    /// The memory after power on: presets.
+    memory: Memory,
+    /// How often the PLC program runs; in every cycle where it is not said.
+    plc_cycle: Option<Time>,
+    strobe: open::Strobe,
+    warnings: Vec<String>,
+}
+
+/// A machine: a control, its iron and its PLC program.
+pub struct Machine {
+    definition: Arc<Definition>,
+    control: Control,
+    plant: Plant,
+    memory: Memory,
+    variables: Variables,
+    plc: Plc,
+    forces: Vec<Force>,
+    queue: Vec<Command>,
+    cycle: u64,
+    time: Time,
+    feedback: PerAxis<Feedback>,
+    before: Before,
+    alarms_before: Vec<RaisedAlarm>,
+    recorder: Recorder,
+}
+
+impl Machine {
+    /// Opens a machine: a directory, a single archive file, or the name of a built-in one.
+    ///
+    /// # Errors
+    /// Anything in its files that cannot be used, with file and line.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Problem> {
+        Self::open_with(path, OpenOptions::default())
+    }
+
+    /// Opens a machine with a changed plant, another profile or presets for its memory.
+    ///
+    /// # Errors
+    /// As [`Machine::open`].
+    pub fn open_with(path: impl AsRef<Path>, options: OpenOptions) -> Result<Self, Problem> {
+        open::open(path.as_ref(), options)
+    }
+
+    /// What was odd in its files but did not hinder, for people.
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        &self.definition.warnings
+    }
+
+    /// Gives the machine a PLC program; its OB100 runs in the next step.
+    pub fn load_program(&mut self, program: Box<dyn PlcProgram>) {
+        self.plc.load(program);
+    }
+
+    /// How many cycles have been run.
+    #[must_use]
+    pub fn cycle(&self) -> u64 {
+        self.cycle
+    }
+
+    /// The interpolation cycle.
+    #[must_use]
+    pub fn cycle_time(&self) -> Time {
+        self.control.parameters().cycle
+    }
+
+    /// Simulated time since the machine was opened.
+    #[must_use]
+    pub fn time(&self) -> Time {
+        self.time
+    }
+
+    /// The bytes of the interface and of the PLC.
+    #[must_use]
+    pub fn memory(&self) -> &Memory {
+        &self.memory
+    }
+
+    /// What the control shows beside bits.
+    #[must_use]
+    pub fn variables(&self) -> &Variables {
+        &self.variables
+    }
+
+    /// What axes and channels are called.
+    #[must_use]
+    pub fn names(&self) -> &Names {
+        &self.definition.names
+    }
+
+    /// The machine axis of this name.
+    #[must_use]
+    pub fn axis(&self, name: &str) -> Option<AxisNumber> {
+        self.definition.names.axis(name)
+    }
+
+    /// The machine data that act.
+    #[must_use]
+    pub fn machine_data(&self) -> &MachineData {
+        self.control.active()
+    }
+
+    /// Why the PLC program stopped by itself, if it did.
+    #[must_use]
+    pub fn plc_fault(&self) -> Option<&str> {
+        self.plc.fault()
+    }
+
+    /// How overrides are coded, for values such as `"100%"`.
+    #[must_use]
+    pub fn override_coding(&self) -> OverrideCoding {
+        open::override_coding(self.control.active())
+    }
+
+    /// The record since it was last drained.
+    #[must_use]
+    pub fn recorder(&self) -> &Recorder {
+        &self.recorder
+    }
+
+    /// Forgets the record that has been read.
+    pub fn drain(&mut self) {
+        self.recorder.clear();
+    }
+}
+
+impl std::fmt::Debug for Machine {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Machine")
+            .field("cycle", &self.cycle)
+            .field("time", &self.time)
+            .finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,289 @@
+//! Reading a machine: machine data, `plant.toml`, presets; every default filled in.
+//!
+//! Which axes exist: those that MD20070 of channel 1 names where the archive says it, those with machine data of their own
+//! where it does not, and those of `plant.toml`; without any of these, the default of MD20070.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::changes::Before;
+use super::step::{Plc, first_variables};
+use super::{Definition, Machine};
+use crate::image::{Location, Memory, Names, OverrideCoding, Part, Preset, Profile};
+use crate::plant::{Db11Byte5Bit2, Hints, Layout, Plant, PlantDefinition};
+use crate::sinumerik::machine_data::{
+    Archive, Finding, MachineData, Owner, Target, files_of, refusal,
+};
+use crate::sinumerik::{AxisPresence, Control};
+use crate::source::{Place, Problem, Table, did_you_mean, read_text};
+use crate::trace::Recorder;
+use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel, Position, Time};
+
+/// How to open a machine other than as its files say.
+#[derive(Debug, Default)]
+pub struct OpenOptions {
+    /// Tables to merge over `plant.toml`, as a scenario's `[plant.XF]`: keys are axis names.
+    pub plant_over: Option<Table>,
+    /// Under which numbers the interface blocks are known.
+    pub profile: Profile,
+    /// Memory of the PLC beside the interface, and starting values.
+    pub preset: Option<Preset>,
+}
+
+/// Whose DB11.DBX5.2 is (E-01).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Strobe {
+    fixed: Option<Db11Byte5Bit2>,
+    /// Where DB11.DBB5 lies in the HMI's part.
+    byte: u32,
+}
+
+impl Strobe {
+    /// A write there makes the byte the HMI's.
+    pub(super) fn is_touched_by(&self, location: Location) -> bool {
+        let touched =
+            location.offset <= self.byte && self.byte < location.offset + location.bytes();
+        location.part == Part::Hmi && self.fixed.is_none() && touched
+    }
+
+    /// `hmi_strobe` fixes it from the start.
+    pub(super) fn apply(&self, control: &mut Control) {
+        if self.fixed == Some(Db11Byte5Bit2::HmiStrobe) {
+            control.strobe_written();
+        }
+    }
+}
+
+/// A machine in the program itself: file names and contents.
+struct BuiltIn {
+    name: &'static str,
+    archives: &'static [(&'static str, &'static [u8])],
+    plant: (&'static str, &'static str),
+}
+
+static BUILT_IN: &[BuiltIn] = &[BuiltIn {
+    name: "g1_example",
+    archives: &[(
+        "g1_example.tea",
+        include_bytes!("../../machine_data/g1_example/g1_example.tea"),
+    )],
+    plant: (
+        "plant.toml",
+        include_str!("../../machine_data/g1_example/plant.toml"),
+    ),
+}];
+
+pub(super) fn override_coding(data: &MachineData) -> OverrideCoding {
+    OverrideCoding {
+        axis_is_gray: data.general.ovr_ax_is_gray_code,
+        feed_is_gray: data.general.ovr_feed_is_gray_code,
+        rapid_traverse_is_gray: data.general.ovr_rapid_is_gray_code,
+    }
+}
+
+pub(super) fn open(path: &Path, options: OpenOptions) -> Result<Machine, Problem> {
+    let (archive, mut plant) = read(path)?;
+    if let Some(over) = options.plant_over {
+        plant.merge(over);
+    }
+    let plant_place = plant.place.clone();
+    let plant = PlantDefinition::read(plant)?;
+    let all: Vec<&str> = AxisNumber::all()
+        .map(|axis| archive.data.axis_name(axis))
+        .collect();
+    plant.check_names(&all)?;
+    let presence = presence(&archive, &plant);
+    let control = Control::new(archive.data.clone(), presence);
+    let names = Names {
+        axes: PerAxis::from_fn(|axis| {
+            presence[axis]
+                .exists
+                .then(|| archive.data.axis_name(axis).to_owned())
+        }),
+        channels: PerChannel::from_fn(|channel| {
+            Some(archive.data.channels[channel].chan_name.clone())
+        }),
+        profile: options.profile,
+    };
+    names.check()?;
+    let memory = match &options.preset {
+        Some(preset) => Memory::from_preset(preset, &names, override_coding(&archive.data))?,
+        None => Memory::new(),
+    };
+    check_plc_cycle(plant.plc_cycle, control.parameters().cycle, &plant_place)?;
+    let layout = layout(&plant, &archive, &control, &names);
+    let mut warnings: Vec<String> = archive.findings.iter().map(Finding::to_string).collect();
+    warnings.extend(not_modelled(&control, &names));
+    let strobe = Strobe {
+        fixed: plant.db11_5_2,
+        byte: strobe_byte(&memory),
+    };
+    let definition = Definition {
+        plc_cycle: plant.plc_cycle,
+        layout,
+        names,
+        memory: memory.clone(),
+        strobe,
+        warnings,
+    };
+    Ok(assemble(definition, control, memory))
+}
+
+fn assemble(definition: Definition, mut control: Control, memory: Memory) -> Machine {
+    let plant = Plant::new(&definition.layout);
+    definition.strobe.apply(&mut control);
+    let before = Before::new(&memory, control.last_event());
+    let mut machine = Machine {
+        plant,
+        memory,
+        before,
+        control,
+        definition: Arc::new(definition),
+        variables: crate::variables::Variables::default(),
+        plc: Plc::default(),
+        forces: Vec::new(),
+        queue: Vec::new(),
+        cycle: 0,
+        time: Time::ZERO,
+        feedback: PerAxis::default(),
+        alarms_before: Vec::with_capacity(crate::variables::Alarms::CAPACITY),
+        recorder: Recorder::default(),
+    };
+    machine.sense();
+    machine.variables = first_variables(&machine.feedback);
+    machine
+}
+
+/// Machine data and `plant.toml` as they stand, or those of a built-in machine.
+fn read(path: &Path) -> Result<(Archive, Table), Problem> {
+    if !path.exists() {
+        return read_built_in(path);
+    }
+    let files = files_of(path)?;
+    let plant = if path.is_dir() {
+        path.join("plant.toml")
+    } else {
+        path.with_file_name("plant.toml")
+    };
+    let plant = Some(plant).filter(|plant| path.is_dir() && plant.exists());
+    if files.is_empty() && plant.is_none() {
+        return Err(Place::file(&path.display().to_string()).problem(
+            "expected machine data (*.tea, *.ini, *.mpf or one *.arc) or plant.toml, found neither",
+            "export the machine data of your control into this directory",
+        ));
+    }
+    let archive = Archive::load(&files).map_err(|findings| refusal(&findings))?;
+    let plant = match plant {
+        Some(plant) => Table::parse(&read_text(&plant)?, &plant.display().to_string())?,
+        None => Table::empty(Place::file(&path.display().to_string())),
+    };
+    Ok((archive, plant))
+}
+
+fn read_built_in(path: &Path) -> Result<(Archive, Table), Problem> {
+    let name = path
+        .file_name()
+        .and_then(|name| name.to_str())
+        .unwrap_or_default();
+    let names: Vec<&str> = BUILT_IN.iter().map(|machine| machine.name).collect();
+    let Some(machine) = BUILT_IN.iter().find(|machine| machine.name == name) else {
+        let built_in = format!(
+            "a directory, an archive file, or a built-in machine: {}",
+            names.join(", ")
+        );
+        return Err(Problem::new(
+            format!("expected a machine, found nothing at {}", path.display()),
+            did_you_mean(name, names.iter().copied(), &built_in),
+        ));
+    };
+    let archive =
+        Archive::read(machine.archives.iter().copied()).map_err(|findings| refusal(&findings))?;
+    let (file, text) = machine.plant;
+    Ok((archive, Table::parse(text, file)?))
+}
+
+fn presence(archive: &Archive, plant: &PlantDefinition) -> PerAxis<AxisPresence> {
+    let channel = ChannelNumber::FIRST;
+    let data = &archive.data;
+    let in_channel = |axis: AxisNumber| {
+        data.channels[channel]
+            .axconf_machax_used
+            .contains(&axis.number())
+    };
+    let in_plant = |axis: AxisNumber| plant.axes.contains_key(data.axis_name(axis));
+    let said = archive.is_given_for(20070, Owner::Channel(channel));
+    let named = |axis: AxisNumber| {
+        in_plant(axis)
+            || if said {
+                in_channel(axis)
+            } else {
+                archive.given_axis(axis)
+            }
+    };
+    let any = AxisNumber::all().any(named);
+    PerAxis::from_fn(|axis| {
+        let simulated = data.axes[axis].ctrlout_type == 0 && !data.axes[axis].simu_ax_vdi_output;
+        let says_so =
+            Target::new(30350, Owner::Axis(axis), 0).is_ok_and(|target| archive.is_given(&target));
+        AxisPresence {
+            exists: if any { named(axis) } else { in_channel(axis) },
+            // E-26: an axis is a real one unless the archive itself says that it shows nothing.
+            silent: simulated && says_so,
+        }
+    })
+}
+
+fn layout(plant: &PlantDefinition, archive: &Archive, control: &Control, names: &Names) -> Layout {
+    let parameters = control.parameters();
+    let hints = PerAxis::from_fn(|axis| {
+        let reference = &parameters.axes[axis].reference;
+        Hints {
+            exists: parameters.axes[axis].exists,
+            cam_direction: match (reference.cam_is_active, reference.cam_direction > 0.0) {
+                (false, _) => 0,
+                (true, true) => 1,
+                (true, false) => -1,
+            },
+            zero_mark_spacing: Position::from_user(archive.data.axes[axis].enc_refp_marker_dist[0]),
+        }
+    });
+    let groupings: Vec<_> = parameters
+        .groupings
+        .groupings
+        .iter()
+        .map(|grouping| (grouping.number, grouping.coupling.members().collect()))
+        .collect();
+    Layout::new(plant, &names.axes, &hints, &groupings)
+}
+
+fn check_plc_cycle(plc_cycle: Option<Time>, cycle: Time, place: &Place) -> Result<(), Problem> {
+    match plc_cycle {
+        Some(plc) if plc.nanos() % cycle.nanos() != 0 || plc < cycle => Err(place.problem(
+            format!("expected plc_cycle to be a whole multiple of the NC cycle of {cycle} s, found {plc} s"),
+            "change [machine] plc_cycle, or MD10050 and MD10070",
+        )),
+        _ => Ok(()),
+    }
+}
+
+fn strobe_byte(memory: &Memory) -> u32 {
+    let address = "DB11.DBB5".parse().ok();
+    let location =
+        address.and_then(|address| memory.locate(&address, Profile::Sinumerik840dSl).ok());
+    location.map_or(u32::MAX, |location| location.offset)
+}
+
+/// What the machine data ask for and this version does not do, so that nobody waits for it in vain.
+fn not_modelled(control: &Control, names: &Names) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (number, axis) in control.parameters().existing() {
+        let name = names.axes[number].as_deref().unwrap_or_default();
+        let mode = axis.reference.mode[0];
+        if mode != 1 && axis.encoders > 0 {
+            warnings.push(format!(
+                "axis {name}: MD34200 = {mode} is not modelled; incremental encoders with zero marks (1) are referenced"
+            ));
+        }
+    }
+    warnings
+}

@@ -1,0 +1,181 @@
+//! Save, restore and fork: a machine goes on from where it was, byte for byte.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::Machine;
+use super::changes::Before;
+use super::command::{Command, Force};
+use super::step::Plc;
+use crate::image::{Memory, Names};
+use crate::plant::Plant;
+use crate::sinumerik::{Feedback, SavedControl};
+use crate::source::Problem;
+use crate::trace::Recorder;
+use crate::units::{PerAxis, Time};
+use crate::variables::Variables;
+
+/// Which form of saved machine this is.
+const VERSION: u32 = 1;
+
+#[derive(Serialize, Deserialize)]
+struct SavedV1 {
+    version: u32,
+    names: Names,
+    control: SavedControl,
+    plant: Plant,
+    memory: Memory,
+    variables: Variables,
+    feedback: PerAxis<Feedback>,
+    forces: Vec<Force>,
+    queue: Vec<Command>,
+    cycle: u64,
+    time: Time,
+    plc: SavedPlc,
+}
+
+#[derive(Serialize, Deserialize)]
+struct SavedPlc {
+    program: Option<(String, Vec<u8>)>,
+    stopped: bool,
+    started: bool,
+    wait: u64,
+    last_scan: Time,
+}
+
+impl Machine {
+    /// Everything that a machine remembers, as bytes; what its files said is not among it.
+    #[must_use]
+    #[expect(clippy::missing_panics_doc, reason = "plain data is always written")]
+    pub fn save(&self) -> Vec<u8> {
+        let saved = SavedV1 {
+            version: VERSION,
+            names: self.definition.names.clone(),
+            control: self.control.save(),
+            plant: self.plant.clone(),
+            memory: self.memory.clone(),
+            variables: self.variables.clone(),
+            feedback: self.feedback,
+            forces: self.forces.clone(),
+            queue: self.queue.clone(),
+            cycle: self.cycle,
+            time: self.time,
+            plc: SavedPlc {
+                program: self
+                    .plc
+                    .program
+                    .as_ref()
+                    .map(|program| (program.name().to_owned(), program.save())),
+                stopped: self.plc.stopped,
+                started: self.plc.started,
+                wait: self.plc.wait,
+                last_scan: self.plc.last_scan,
+            },
+        };
+        postcard::to_stdvec(&saved).expect("plain data can always be written")
+    }
+
+    /// Goes on from where [`Machine::save`] was called, on a machine of the same files with the same PLC program.
+    ///
+    /// # Errors
+    /// The bytes are no saved machine, or one of other axes or another PLC program; nothing has changed then.
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Problem> {
+        let damaged = |what: String| {
+            Problem::new(
+                what,
+                "restore what `save` of this version gave, on the same machine",
+            )
+        };
+        let saved: SavedV1 = postcard::from_bytes(bytes).map_err(|error| {
+            damaged(format!(
+                "expected a saved machine, found damaged bytes: {error}"
+            ))
+        })?;
+        if saved.version != VERSION {
+            return Err(damaged(format!(
+                "expected a saved machine of version {VERSION}, found version {}",
+                saved.version
+            )));
+        }
+        if saved.names != self.definition.names {
+            return Err(damaged(
+                "expected a saved machine with the same axes and channels, found others".to_owned(),
+            ));
+        }
+        match (&mut self.plc.program, &saved.plc.program) {
+            (None, None) => {}
+            (Some(program), Some((name, state))) if program.name() == name => {
+                program.restore(state)?
+            }
+            (mine, theirs) => {
+                let name = |program: Option<&str>| {
+                    program.map_or("none".to_owned(), |name| format!("`{name}`"))
+                };
+                let mine = name(mine.as_ref().map(|program| program.name()));
+                let theirs = name(theirs.as_ref().map(|(name, _)| name.as_str()));
+                return Err(damaged(format!(
+                    "expected the PLC program {mine}, found {theirs}"
+                )));
+            }
+        }
+        self.control.restore(saved.control);
+        self.plant = saved.plant;
+        self.memory = saved.memory;
+        self.variables = saved.variables;
+        self.feedback = saved.feedback;
+        self.forces = saved.forces;
+        self.queue = saved.queue;
+        (self.cycle, self.time) = (saved.cycle, saved.time);
+        self.plc.stopped = saved.plc.stopped;
+        self.plc.started = saved.plc.started;
+        self.plc.wait = saved.plc.wait;
+        self.plc.last_scan = saved.plc.last_scan;
+        self.before = Before::new(&self.memory, self.control.last_event());
+        self.alarms_before.clear();
+        self.alarms_before.extend(self.variables.alarms.iter());
+        self.recorder.clear();
+        Ok(())
+    }
+
+    /// A second machine that goes on from here by itself, with a record that begins here.
+    ///
+    /// # Errors
+    /// The PLC program cannot be forked.
+    pub fn fork(&self) -> Result<Self, Problem> {
+        let program = match &self.plc.program {
+            None => None,
+            Some(program) => Some(program.fork().ok_or_else(|| {
+                Problem::new(
+                    format!(
+                        "expected a PLC program that can be forked, found `{}`",
+                        program.name()
+                    ),
+                    "write it as a closure over its own state: opennck::plc::program",
+                )
+            })?),
+        };
+        let mut plc = Plc::default();
+        plc.program = program;
+        plc.stopped = self.plc.stopped;
+        plc.started = self.plc.started;
+        plc.wait = self.plc.wait;
+        plc.last_scan = self.plc.last_scan;
+        Ok(Self {
+            definition: Arc::clone(&self.definition),
+            control: self.control.clone(),
+            plant: self.plant.clone(),
+            memory: self.memory.clone(),
+            variables: self.variables.clone(),
+            plc,
+            forces: self.forces.clone(),
+            queue: self.queue.clone(),
+            cycle: self.cycle,
+            time: self.time,
+            feedback: self.feedback,
+            before: Before::new(&self.memory, self.control.last_event()),
+            alarms_before: self.alarms_before.clone(),
+            recorder: Recorder::default(),
+        })
+    }
+}

@@ -1,0 +1,225 @@
+//! One step, and the PLC in it.
+
+use super::command::Force;
+use super::{Machine, Switch};
+use crate::plc::{PlcIo, PlcProgram};
+use crate::sinumerik::Feedback;
+use crate::units::{PerAxis, Time};
+use crate::variables::{AxisValues, Variables};
+
+/// The PLC: its program, and whether it runs.
+#[derive(Default)]
+pub(super) struct Plc {
+    pub(super) program: Option<Box<dyn PlcProgram>>,
+    pub(super) stopped: bool,
+    /// OB100 has run since the last start.
+    pub(super) started: bool,
+    /// NC cycles until the next scan.
+    pub(super) wait: u64,
+    pub(super) last_scan: Time,
+    fault: Option<String>,
+}
+
+impl Plc {
+    pub(super) fn load(&mut self, program: Box<dyn PlcProgram>) {
+        self.program = Some(program);
+        self.restart();
+    }
+
+    pub(super) fn stop(&mut self) {
+        self.stopped = true;
+    }
+
+    pub(super) fn restart(&mut self) {
+        self.stopped = false;
+        self.started = false;
+        self.wait = 0;
+        self.fault = None;
+    }
+
+    pub(super) fn power_on(&mut self) {
+        if let Some(program) = &mut self.program {
+            program.reset();
+        }
+        self.restart();
+    }
+
+    pub(super) fn fault(&self) -> Option<&str> {
+        self.fault.as_deref()
+    }
+}
+
+impl Machine {
+    /// One interpolation cycle. The order of the stages is the specification of who sees whom when.
+    pub fn step(&mut self) {
+        self.cycle += 1;
+        self.time += self.cycle_time();
+        // What waited outside.
+        let taken = self.take_commands();
+        // Plant senses: wired switches are inputs of the PLC.
+        self.sense_wired_switches();
+        // PLC scan, when its time has come; cams that are not wired; forces.
+        self.scan();
+        self.note_overwritten();
+        self.sense_unwired_switches();
+        self.apply_forces();
+        // Mode group, channel, enabling, referencing and gantry, setpoints, coupling.
+        self.control
+            .decide(self.cycle, &self.memory.to_nck, taken.cancel);
+        // Position control, drives and mechanics.
+        self.move_axes();
+        self.sense();
+        // Monitoring and alarms, publication, record.
+        self.control.observe(&self.feedback);
+        self.control.publish(
+            &mut self.memory.from_nck,
+            &mut self.memory.hmi,
+            &mut self.variables,
+        );
+        self.record();
+    }
+
+    fn scan(&mut self) {
+        if self.plc.stopped {
+            self.control.plc_missing();
+            return;
+        }
+        if self.plc.wait > 0 {
+            self.plc.wait -= 1;
+            return;
+        }
+        let cycle = self.cycle_time();
+        self.plc.wait = self
+            .definition
+            .plc_cycle
+            .map_or(0, |every| every.in_cycles(cycle) - 1);
+        let Some(program) = &mut self.plc.program else {
+            return;
+        };
+        let memory = &mut self.memory;
+        let mut io = PlcIo {
+            to_nck: &mut memory.to_nck,
+            from_nck: &memory.from_nck,
+            hmi: &memory.hmi,
+            inputs: &memory.inputs,
+            outputs: &mut memory.outputs,
+            flags: &mut memory.flags,
+            timers: &mut memory.timers,
+            counters: &mut memory.counters,
+            blocks: &mut memory.blocks,
+            time: self.time,
+            cycle_time: self.time - self.plc.last_scan,
+            names: &self.definition.names,
+        };
+        self.plc.last_scan = self.time;
+        let started = std::mem::replace(&mut self.plc.started, true);
+        let startup = if started {
+            Ok(())
+        } else {
+            program.startup(&mut io)
+        };
+        if let Err(fault) = startup.and_then(|()| program.scan(&mut io)) {
+            self.plc.stopped = true;
+            self.plc.fault = Some(fault.reason);
+            self.control.plc_missing();
+        }
+    }
+
+    fn sense_wired_switches(&mut self) {
+        for (axis, iron) in self.definition.layout.axes.iter() {
+            let Some(iron) = iron else { continue };
+            let wires = [
+                (Switch::Cam, iron.cam.as_ref().and_then(|cam| cam.input)),
+                (
+                    Switch::LimitPlus,
+                    iron.limit_plus.as_ref().and_then(|limit| limit.input),
+                ),
+                (
+                    Switch::LimitMinus,
+                    iron.limit_minus.as_ref().and_then(|limit| limit.input),
+                ),
+            ];
+            for (switch, input) in wires {
+                let Some(input) = input else { continue };
+                let pressed = self.plant.is_pressed(&self.definition.layout, axis, switch);
+                self.memory
+                    .inputs
+                    .set_bit(usize::from(input.byte), input.bit, pressed);
+            }
+        }
+    }
+
+    /// Switches without an input: the simulator itself sets 12.7, 12.1 and 12.0 after the PLC scan.
+    fn sense_unwired_switches(&mut self) {
+        for (axis, iron) in self.definition.layout.axes.iter() {
+            let Some(iron) = iron else { continue };
+            let pressed = |switch| self.plant.is_pressed(&self.definition.layout, axis, switch);
+            let signals = &mut self.memory.to_nck.axes[axis];
+            if iron.cam.as_ref().is_some_and(|cam| cam.input.is_none()) {
+                signals.set_deceleration_reference_point_approach(pressed(Switch::Cam));
+            }
+            if iron
+                .limit_plus
+                .as_ref()
+                .is_some_and(|limit| limit.input.is_none())
+            {
+                signals.set_hardware_limit_switch_plus(pressed(Switch::LimitPlus));
+            }
+            if iron
+                .limit_minus
+                .as_ref()
+                .is_some_and(|limit| limit.input.is_none())
+            {
+                signals.set_hardware_limit_switch_minus(pressed(Switch::LimitMinus));
+            }
+        }
+    }
+
+    fn apply_forces(&mut self) {
+        for &Force { location, value } in &self.forces {
+            self.memory.write(location, value);
+        }
+    }
+
+    /// Position control, drives and mechanics, MD10070 / MD10060 times.
+    fn move_axes(&mut self) {
+        let parameters = self.control.parameters();
+        let (count, cycle) = (parameters.servo_cycles, parameters.cycle);
+        let servo_cycle = cycle.seconds() / f64::from(count);
+        self.plant.run_up(cycle);
+        for part in 1..=count {
+            let plant = &self.plant;
+            let commands = PerAxis::from_fn(|axis| {
+                self.control
+                    .velocity_command(axis, plant.values(axis), part, count)
+            });
+            self.plant
+                .advance(&self.definition.layout, &commands, servo_cycle);
+        }
+    }
+
+    /// What drives and encoders tell.
+    pub(super) fn sense(&mut self) {
+        for (axis, feedback) in self.feedback.iter_mut() {
+            *feedback = Feedback {
+                encoders: self.plant.tell(axis),
+                half_count: self.plant.half_counts(axis),
+                velocity: self.plant.velocity(axis),
+                drive_ready: self.plant.is_drive_ready(axis),
+                slide: self.plant.slide(axis),
+            };
+        }
+    }
+}
+
+/// The variables of a machine that was just switched on: where its slides are is known before the first cycle.
+pub(super) fn first_variables(feedback: &PerAxis<Feedback>) -> Variables {
+    let mut variables = Variables::default();
+    for (axis, values) in variables.axes.iter_mut() {
+        *values = AxisValues {
+            slide: feedback[axis].slide,
+            ..AxisValues::default()
+        };
+    }
+    variables
+}

@@ -1,0 +1,154 @@
+//! The plant of one machine with every default filled in.
+
+use super::{Cam, Given, LimitSwitch, PlantDefinition};
+use crate::motion::Encoder;
+use crate::units::{AxisNumber, PerAxis, Position, Time};
+
+/// What decides a default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Hints {
+    /// The axis exists.
+    pub exists: bool,
+    /// Direction of the cam search, −1 or +1; 0 for an axis without cam (MD34000).
+    pub cam_direction: i8,
+    /// Distance of the zero marks, where `plant.toml` does not say it.
+    pub zero_mark_spacing: Position,
+}
+
+/// One axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Iron {
+    /// Where the slide is at first power on.
+    pub start: Position,
+    /// The speed loop as PT1, in seconds.
+    pub time_constant: f64,
+    /// Run-up of the drive after power on.
+    pub ready_after: Time,
+    /// Both encoders.
+    pub encoders: [Encoder; 2],
+    /// Reference cam.
+    pub cam: Option<Cam>,
+    /// Hardware limit switch plus.
+    pub limit_plus: Option<LimitSwitch>,
+    /// Hardware limit switch minus.
+    pub limit_minus: Option<LimitSwitch>,
+}
+
+/// How slides hang together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigidOrSoft {
+    /// The first slide, to which the others are offset.
+    pub first: AxisNumber,
+    /// The others, with their offset to the first when nothing is strained.
+    pub others: Vec<(AxisNumber, Position)>,
+    /// Share of a difference that the iron takes back per second; 1 is rigid.
+    pub stiffness: f64,
+}
+
+/// All axes and bridges of a machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    /// The existing axes.
+    pub axes: PerAxis<Option<Iron>>,
+    /// The bridges.
+    pub bridges: Vec<RigidOrSoft>,
+}
+
+/// Where the default cam begins, seen from the start.
+const DEFAULT_CAM_DISTANCE: f64 = 100.0;
+/// How far the default cam reaches, so that no slide starts behind it.
+const DEFAULT_CAM_LENGTH: f64 = 100_000.0;
+
+impl Layout {
+    /// Fills in defaults; `groupings` are number and axes, the leading axis first.
+    #[must_use]
+    pub fn new(
+        definition: &PlantDefinition,
+        names: &PerAxis<Option<String>>,
+        hints: &PerAxis<Hints>,
+        groupings: &[(u8, Vec<AxisNumber>)],
+    ) -> Self {
+        let axes = PerAxis::from_fn(|number| {
+            let name = names[number].as_deref().filter(|_| hints[number].exists)?;
+            Some(iron(definition, name, hints[number]))
+        });
+        let bridges = groupings
+            .iter()
+            .filter_map(|(number, members)| {
+                let bridge = definition.bridges.get(number)?;
+                let (&first, others) = members.split_first()?;
+                let offset = |axis: AxisNumber| {
+                    let name = names[axis].as_deref().unwrap_or_default();
+                    // An offset that is not said is the one that the slides have at first power on.
+                    bridge
+                        .offset
+                        .get(name)
+                        .copied()
+                        .unwrap_or_else(|| start(&axes, axis) - start(&axes, first))
+                };
+                let others = others.iter().map(|&axis| (axis, offset(axis))).collect();
+                Some(RigidOrSoft {
+                    first,
+                    others,
+                    stiffness: bridge.stiffness,
+                })
+            })
+            .collect();
+        Self { axes, bridges }
+    }
+}
+
+fn start(axes: &PerAxis<Option<Iron>>, axis: AxisNumber) -> Position {
+    axes[axis]
+        .as_ref()
+        .map_or(Position::ZERO, |iron| iron.start)
+}
+
+fn iron(definition: &PlantDefinition, name: &str, hints: Hints) -> Iron {
+    let default = super::AxisPlant::new(crate::source::Place::file("defaults"));
+    let said = definition.axes.get(name).unwrap_or(&default);
+    let encoders = [0, 1].map(|index| {
+        let encoder = &said.encoders[index];
+        let spacing = encoder.zero_mark_spacing.unwrap_or(hints.zero_mark_spacing);
+        Encoder::new(encoder.resolution, encoder.zero_mark, spacing, said.start)
+    });
+    let cam = match &said.cam {
+        Given::Said(cam) => Some(cam.clone()),
+        Given::Removed => None,
+        Given::Unsaid => default_cam(said.start, hints.cam_direction),
+    };
+    Iron {
+        start: said.start,
+        time_constant: said.drive.time_constant.seconds(),
+        ready_after: said.drive.ready_after,
+        encoders,
+        cam,
+        limit_plus: switch(&said.limit_plus),
+        limit_minus: switch(&said.limit_minus),
+    }
+}
+
+fn switch(given: &Given<LimitSwitch>) -> Option<LimitSwitch> {
+    match given {
+        Given::Said(switch) => Some(switch.clone()),
+        Given::Removed | Given::Unsaid => None,
+    }
+}
+
+fn default_cam(start: Position, direction: i8) -> Option<Cam> {
+    let near = Position::from_user(DEFAULT_CAM_DISTANCE);
+    let far = Position::from_user(DEFAULT_CAM_DISTANCE + DEFAULT_CAM_LENGTH);
+    match direction {
+        0 => None,
+        1.. => Some(Cam {
+            from: start + near,
+            to: start + far,
+            input: None,
+        }),
+        _ => Some(Cam {
+            from: start - far,
+            to: start - near,
+            input: None,
+        }),
+    }
+}

@@ -1,0 +1,308 @@
+//! The state of the iron: slides that drives move, bridges that pull them together, and faults.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Iron, Layout};
+use crate::motion::{Drive, Encoder, EncoderSignal};
+use crate::units::{AxisNumber, PerAxis, Position, Time};
+
+/// A switch of an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Switch {
+    /// Reference cam.
+    Cam,
+    /// Hardware limit switch plus.
+    LimitPlus,
+    /// Hardware limit switch minus.
+    LimitMinus,
+}
+
+/// What is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum FaultKind {
+    /// The slide cannot move.
+    Block,
+    /// The slide is displaced once.
+    Push {
+        /// By this much.
+        by: Position,
+    },
+    /// The active encoder gains or loses counts once.
+    EncoderSlip {
+        /// This many.
+        by: Position,
+    },
+    /// The encoders give no zero marks.
+    ZeroMarkMissing,
+    /// A switch stays as it is told.
+    SwitchStuck {
+        /// Which.
+        which: Switch,
+        /// Pressed or not.
+        at: bool,
+    },
+}
+
+/// A fault of an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Fault {
+    /// Whose.
+    pub axis: AxisNumber,
+    /// What.
+    pub kind: FaultKind,
+}
+
+/// One slide.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Slide {
+    position: Position,
+    /// Where it was at the last [`Plant::tell`].
+    told: Position,
+    drive: Drive,
+    encoders: [Encoder; 2],
+    ready_in: Time,
+    blocked: bool,
+    zero_mark_missing: bool,
+    /// Cam, limit plus, limit minus.
+    stuck: [Option<bool>; 3],
+}
+
+/// The iron of a machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Plant {
+    slides: PerAxis<Option<Slide>>,
+}
+
+impl Plant {
+    /// Everything at its start, switched on.
+    #[must_use]
+    pub fn new(layout: &Layout) -> Self {
+        Self {
+            slides: PerAxis::from_fn(|axis| layout.axes[axis].as_ref().map(Slide::new)),
+        }
+    }
+
+    /// Power off and on: slides and faults stay, drives run up anew, encoders count from where they are.
+    pub fn power_on(&mut self, layout: &Layout) {
+        for (axis, slide) in self.slides.iter_mut() {
+            if let (Some(slide), Some(iron)) = (slide, &layout.axes[axis]) {
+                slide.drive = Drive::default();
+                slide.ready_in = iron.ready_after;
+                for encoder in &mut slide.encoders {
+                    encoder.restart(slide.position);
+                }
+            }
+        }
+    }
+
+    /// A fault begins; `active` is the measuring system that the control uses.
+    pub fn fault(&mut self, fault: Fault, active: Option<u8>) {
+        let Some(slide) = &mut self.slides[fault.axis] else {
+            return;
+        };
+        match fault.kind {
+            FaultKind::Block => slide.blocked = true,
+            FaultKind::Push { by } => slide.position += by,
+            FaultKind::EncoderSlip { by } => {
+                slide.encoders[usize::from(active.unwrap_or(0))].slip(by)
+            }
+            FaultKind::ZeroMarkMissing => slide.zero_mark_missing = true,
+            FaultKind::SwitchStuck { which, at } => slide.stuck[which as usize] = Some(at),
+        }
+    }
+
+    /// A fault ends; what was displaced once stays displaced.
+    pub fn clear_fault(&mut self, fault: Fault) {
+        let Some(slide) = &mut self.slides[fault.axis] else {
+            return;
+        };
+        match fault.kind {
+            FaultKind::Block => slide.blocked = false,
+            FaultKind::Push { .. } | FaultKind::EncoderSlip { .. } => {}
+            FaultKind::ZeroMarkMissing => slide.zero_mark_missing = false,
+            FaultKind::SwitchStuck { which, .. } => slide.stuck[which as usize] = None,
+        }
+    }
+
+    /// One position-control cycle: each drive answers its command, slides move, bridges pull.
+    ///
+    /// A command of `None` is a drive without power: its motor is braked as fast as its speed loop would.
+    pub fn advance(&mut self, layout: &Layout, commands: &PerAxis<Option<f64>>, cycle: f64) {
+        for (axis, slide) in self.slides.iter_mut() {
+            if let (Some(slide), Some(iron)) = (slide, &layout.axes[axis]) {
+                slide.advance(commands[axis].unwrap_or(0.0), iron.time_constant, cycle);
+            }
+        }
+        for bridge in &layout.bridges {
+            for &(other, offset) in &bridge.others {
+                self.pull(bridge.first, other, offset, bridge.stiffness, cycle);
+            }
+        }
+    }
+
+    /// A bridge takes back its share of a difference, half on each slide, all of it on the one that can move.
+    fn pull(
+        &mut self,
+        first: AxisNumber,
+        other: AxisNumber,
+        offset: Position,
+        stiffness: f64,
+        cycle: f64,
+    ) {
+        let (Some(a), Some(b)) = (self.slides[first], self.slides[other]) else {
+            return;
+        };
+        let strain = (b.position - a.position - offset).increments() as f64;
+        let share = if stiffness >= 1.0 {
+            1.0
+        } else {
+            stiffness * cycle
+        };
+        let (to_a, to_b) = match (a.blocked, b.blocked) {
+            (false, false) => (0.5, 0.5),
+            (false, true) => (1.0, 0.0),
+            (true, false) => (0.0, 1.0),
+            (true, true) => return,
+        };
+        if strain == 0.0 || share == 0.0 {
+            return;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "a strain fits by far; the cast saturates"
+        )]
+        let whole = |movement: f64| Position::new(movement.round() as i64);
+        let taken = whole(strain * share);
+        let moved_a = whole(strain * share * to_a);
+        let moved_b = if to_b > 0.0 {
+            taken - moved_a
+        } else {
+            Position::ZERO
+        };
+        let rigid = stiffness >= 1.0;
+        let velocity = 0.5 * (a.drive.velocity() + b.drive.velocity());
+        if let Some(slide) = &mut self.slides[first] {
+            slide.position += moved_a;
+            if rigid {
+                slide.drive.force(if b.blocked { 0.0 } else { velocity });
+            }
+        }
+        if let Some(slide) = &mut self.slides[other] {
+            slide.position -= moved_b;
+            if rigid {
+                slide.drive.force(if a.blocked { 0.0 } else { velocity });
+            }
+        }
+    }
+
+    /// What both encoders of an axis tell since the last call.
+    pub fn tell(&mut self, axis: AxisNumber) -> [EncoderSignal; 2] {
+        let Some(slide) = &mut self.slides[axis] else {
+            return [EncoderSignal::default(); 2];
+        };
+        let signals = slide.encoders.map(|encoder| {
+            let mut signal = encoder.signal(slide.told, slide.position);
+            if slide.zero_mark_missing {
+                signal.zero_mark = None;
+            }
+            signal
+        });
+        slide.told = slide.position;
+        signals
+    }
+
+    /// The counts of both encoders of an axis at the moment.
+    #[must_use]
+    pub fn values(&self, axis: AxisNumber) -> [Position; 2] {
+        self.slides[axis].map_or([Position::ZERO; 2], |slide| {
+            slide
+                .encoders
+                .map(|encoder| encoder.signal(slide.position, slide.position).value)
+        })
+    }
+
+    /// The drives run up.
+    pub fn run_up(&mut self, cycle: Time) {
+        for (_, slide) in self.slides.iter_mut() {
+            if let Some(slide) = slide {
+                slide.ready_in = Time::from_nanos((slide.ready_in - cycle).nanos().max(0));
+            }
+        }
+    }
+
+    /// The drive has run up.
+    #[must_use]
+    pub fn is_drive_ready(&self, axis: AxisNumber) -> bool {
+        self.slides[axis].is_some_and(|slide| slide.ready_in == Time::ZERO)
+    }
+
+    /// Velocity of the motor, in increments per second at the slide.
+    #[must_use]
+    pub fn velocity(&self, axis: AxisNumber) -> f64 {
+        self.slides[axis].map_or(0.0, |slide| slide.drive.velocity())
+    }
+
+    /// Half a count of both encoders.
+    #[must_use]
+    pub fn half_counts(&self, axis: AxisNumber) -> [Position; 2] {
+        self.slides[axis].map_or([Position::ZERO; 2], |slide| {
+            slide.encoders.map(|encoder| encoder.half_count())
+        })
+    }
+
+    /// True position of a slide.
+    #[must_use]
+    pub fn slide(&self, axis: AxisNumber) -> Position {
+        self.slides[axis].map_or(Position::ZERO, |slide| slide.position)
+    }
+
+    /// Whether a switch is pressed; false for one that there is not.
+    #[must_use]
+    pub fn is_pressed(&self, layout: &Layout, axis: AxisNumber, switch: Switch) -> bool {
+        let (Some(slide), Some(iron)) = (&self.slides[axis], &layout.axes[axis]) else {
+            return false;
+        };
+        if let Some(stuck) = slide.stuck[switch as usize] {
+            return stuck;
+        }
+        let position = slide.position;
+        match switch {
+            Switch::Cam => iron
+                .cam
+                .as_ref()
+                .is_some_and(|cam| cam.from <= position && position <= cam.to),
+            Switch::LimitPlus => iron
+                .limit_plus
+                .as_ref()
+                .is_some_and(|limit| position >= limit.at),
+            Switch::LimitMinus => iron
+                .limit_minus
+                .as_ref()
+                .is_some_and(|limit| position <= limit.at),
+        }
+    }
+}
+
+impl Slide {
+    fn new(iron: &Iron) -> Self {
+        Self {
+            position: iron.start,
+            told: iron.start,
+            drive: Drive::default(),
+            encoders: iron.encoders,
+            ready_in: iron.ready_after,
+            blocked: false,
+            zero_mark_missing: false,
+            stuck: [None; 3],
+        }
+    }
+
+    fn advance(&mut self, command: f64, time_constant: f64, cycle: f64) {
+        self.drive.answer(command, time_constant, cycle);
+        if self.blocked {
+            self.drive.force(0.0);
+        } else {
+            self.position = self.drive.moved(self.position, cycle);
+        }
+    }
+}

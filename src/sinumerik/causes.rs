@@ -1,0 +1,186 @@
+//! The event behind each signal of the NCK, asked for when a bit has changed.
+//!
+//! States have their events; what follows from a value at the moment (exact stop, standstill, sums over axes and alarms)
+//! is noted when its edge is seen.
+
+use super::axis::Axis;
+use super::gantry::Grouping;
+use super::rules::Rule;
+use super::{Control, State};
+use crate::units::{AxisNumber, Position};
+use crate::variables::{AlarmNumber, Event, EventId, Input, Place, Quantity};
+
+impl Control {
+    /// The event behind the present value of a bit of the NCK.
+    pub fn cause(&mut self, place: Place, byte: u16, bit: u8) -> EventId {
+        match place {
+            Place::Nck => self.state.nck_cause(byte, bit),
+            Place::ModeGroup(_) => self.state.mode_group_cause(byte, bit),
+            Place::Channel(_) => self.state.channel_cause(byte, bit),
+            Place::Axis(axis) => self.axis_cause(axis, byte, bit),
+        }
+    }
+
+    /// The event behind a pending alarm.
+    #[must_use]
+    pub fn alarm_cause(&self, number: AlarmNumber, place: Place) -> EventId {
+        let pending = &self.state.alarms;
+        pending
+            .iter()
+            .find(|(alarm, _)| alarm.number == number && alarm.place == place)
+            .map_or(EventId::NONE, |(_, cause)| cause)
+    }
+
+    /// The number of the latest event.
+    #[must_use]
+    pub fn last_event(&self) -> EventId {
+        self.state.log.events.last()
+    }
+
+    /// The events after this one.
+    pub fn events_since(&self, id: EventId) -> impl Iterator<Item = &Event> {
+        self.state.log.events.since(id)
+    }
+
+    fn axis_cause(&mut self, number: AxisNumber, byte: u16, bit: u8) -> EventId {
+        let parameters = &self.parameters.axes[number];
+        let windows = (
+            parameters.exact_stop_coarse,
+            parameters.exact_stop_fine,
+            parameters.standstill_velocity,
+        );
+        let state = &mut *self.state;
+        let axis: &Axis = &state.axes[number];
+        let causes = axis.causes;
+        match (byte, bit) {
+            (60, 4 | 5) => causes.reference[usize::from(bit - 4)],
+            (60, 6 | 7) => {
+                let (datum, window) = if bit == 6 {
+                    (36000, windows.0)
+                } else {
+                    (36010, windows.1)
+                };
+                let measured = Input::Length(Quantity::Deviation, number, axis.deviation());
+                let limit = Input::Datum(datum, Some(number), window.user());
+                state.log.note(
+                    Place::Axis(number),
+                    Rule::ExactStop,
+                    [measured, limit, Input::None],
+                    causes.motion,
+                )
+            }
+            (61, 1) => state.alarm_event(Some(Place::Axis(number))),
+            (61, 2) => causes.drive,
+            (61, 3 | 5 | 6 | 7) => causes.enabling,
+            (61, 4) => {
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    reason = "a velocity for display; the cast saturates"
+                )]
+                let velocity = Position::new(axis.velocity.abs() as i64);
+                let measured = Input::Length(Quantity::Velocity, number, velocity);
+                let limit = Input::Datum(
+                    36060,
+                    Some(number),
+                    windows.2 * 60.0 / Position::PER_USER_UNIT,
+                );
+                state.log.note(
+                    Place::Axis(number),
+                    Rule::Standstill,
+                    [measured, limit, Input::None],
+                    causes.motion,
+                )
+            }
+            (64, _) => causes.motion,
+            (93, 5) => state.run_up.cause,
+            (93, 7) => causes.drive,
+            (101, 2 | 3) => state.monitored(number, bit == 2),
+            (101, 4 | 5) => state
+                .grouping_of(number)
+                .map_or(EventId::NONE, |grouping| grouping.cause),
+            (101, 6 | 7) => state.definition_cause,
+            (102, 5 | 6) => causes.measuring_system,
+            _ => EventId::NONE,
+        }
+    }
+}
+
+impl State {
+    fn nck_cause(&self, byte: u16, bit: u8) -> EventId {
+        match (byte, bit) {
+            (109, _) => self.alarm_event(None),
+            (108, 7) if self.run_up.is_nc_ready() && !self.is_nc_ready() => self.alarm_event(None),
+            _ => self.run_up.cause,
+        }
+    }
+
+    fn mode_group_cause(&mut self, byte: u16, bit: u8) -> EventId {
+        match (byte, bit) {
+            (6, 0..=2) => self.mode_group.mode_cause,
+            (6, 3) if self.alarms.is_empty() => self.run_up.cause,
+            (6, 3) => self.alarm_event(None),
+            (6, 7) => self.motion_event(),
+            (5 | 7, _) => self.mode_group.function_cause,
+            _ => EventId::NONE,
+        }
+    }
+
+    fn channel_cause(&mut self, byte: u16, bit: u8) -> EventId {
+        match (byte, bit) {
+            (33, 0) => self.channel.referencing.cause,
+            (35, 5..=7) | (36, 3) => self.motion_event(),
+            (36, 2) => self.reference_event(),
+            (36, 5) if self.alarms.is_empty() => self.run_up.cause,
+            (36, 5..=7) => self.alarm_event(None),
+            _ => EventId::NONE,
+        }
+    }
+
+    /// The alarm that is behind a sum over alarms; once they are gone, what cancelled them.
+    fn alarm_event(&self, place: Option<Place>) -> EventId {
+        let of_place = |alarm: Place| place.is_none_or(|place| alarm == place);
+        let pending = self.alarms.iter().find(|(alarm, _)| of_place(alarm.place));
+        pending.map_or(self.channel.reset_cause, |(_, cause)| cause)
+    }
+
+    /// The latest movement of any axis.
+    fn motion_event(&self) -> EventId {
+        self.axes
+            .iter()
+            .map(|(_, axis)| axis.causes.motion)
+            .max()
+            .unwrap_or(EventId::NONE)
+    }
+
+    fn reference_event(&self) -> EventId {
+        self.axes
+            .iter()
+            .map(|(_, axis)| axis.causes.reference[0].max(axis.causes.reference[1]))
+            .max()
+            .unwrap_or(EventId::NONE)
+    }
+
+    fn grouping_of(&self, axis: AxisNumber) -> Option<&Grouping> {
+        self.groupings
+            .iter()
+            .find(|grouping| grouping.coupling.leader() == axis)
+    }
+
+    fn monitored(&self, axis: AxisNumber, trip: bool) -> EventId {
+        let of_axis = self
+            .groupings
+            .iter()
+            .flat_map(|grouping| grouping.coupling.followers().zip(&grouping.monitored));
+        of_axis
+            .filter(|(follower, _)| *follower == axis)
+            .map(|(_, monitored)| {
+                if trip {
+                    monitored.trip_cause
+                } else {
+                    monitored.warning_cause
+                }
+            })
+            .next()
+            .unwrap_or(EventId::NONE)
+    }
+}

@@ -1,0 +1,188 @@
+//! Publication: the NCK's half of the interface and the variables, written once per cycle, at its end.
+//!
+//! Signals are set axis by axis (SIG-09). What somebody else wrote into a bit of the NCK is overwritten here (SIG-11).
+
+use super::alarms::Reaction;
+use super::gantry::Phase;
+use super::mode_group::Mode;
+use super::parameters::{AxisParameters, Parameters};
+use super::{Control, State};
+use crate::image::{AxisFromNck, FromNck, Hmi, clear_signals};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position};
+use crate::variables::{AxisValues, Place, Variables};
+
+impl Control {
+    /// Writes what the control shows.
+    pub fn publish(&mut self, from_nck: &mut FromNck, hmi: &mut Hmi, variables: &mut Variables) {
+        let parameters = std::sync::Arc::clone(&self.parameters);
+        let state = &mut *self.state;
+        if std::mem::take(&mut state.overwritten) {
+            clear_signals(from_nck);
+        }
+        state.publish_nck(from_nck);
+        state.publish_mode_group(from_nck, hmi);
+        state.publish_channel(from_nck, &parameters);
+        for (number, axis) in parameters.existing() {
+            if !axis.silent {
+                state.publish_axis(&mut from_nck.axes[number], number, axis);
+            }
+            variables.axes[number] = state.values(number, axis);
+        }
+        for index in 0..state.groupings.len() {
+            state.publish_grouping(index, from_nck, &parameters, variables);
+        }
+        if state.alarms.take_changed() {
+            variables
+                .alarms
+                .publish(state.alarms.iter().map(|(alarm, _)| *alarm));
+        }
+    }
+}
+
+impl State {
+    fn publish_nck(&self, from_nck: &mut FromNck) {
+        let signals = &mut from_nck.nck;
+        signals.set_nc_cpu_ready(self.run_up.is_cpu_ready());
+        signals.set_drives_in_cyclic_operation(self.run_up.are_drives_cyclic());
+        signals.set_drives_ready(self.run_up.are_drives_ready());
+        signals.set_nc_ready(self.is_nc_ready());
+        signals.set_nc_alarm_active(
+            self.alarms
+                .with_reaction(Reaction::INTERFACE_SIGNALS, None)
+                .is_some(),
+        );
+    }
+
+    fn publish_mode_group(&self, from_nck: &mut FromNck, hmi: &mut Hmi) {
+        let group = &self.mode_group;
+        let signals = &mut from_nck.mode_groups[ModeGroupNumber::FIRST];
+        signals.set_active_mode_automatic(group.mode == Mode::Automatic);
+        signals.set_active_mode_mdi(group.mode == Mode::Mda);
+        signals.set_active_mode_jog(group.mode == Mode::Jog);
+        signals.set_active_machine_function_ref(group.reference);
+        let not_ready = self
+            .alarms
+            .with_reaction(Reaction::MODE_GROUP_NOT_READY, None);
+        signals.set_mode_group_ready(self.run_up.is_nc_ready() && not_ready.is_none());
+        signals.set_all_channels_in_reset_state(!self.is_channel_active());
+        if !group.strobe_is_the_hmi_s {
+            hmi.mode_groups[ModeGroupNumber::FIRST].set_ref_selected(group.reference);
+        }
+    }
+
+    /// "At least one axis is being traversed in JOG", or referenced.
+    pub(super) fn is_channel_active(&self) -> bool {
+        self.units
+            .iter()
+            .flat_map(super::Unit::members)
+            .any(|axis| self.axes[axis].is_in_motion())
+    }
+
+    fn publish_channel(&self, from_nck: &mut FromNck, parameters: &Parameters) {
+        let signals = &mut from_nck.channels[ChannelNumber::FIRST];
+        let active = self.is_channel_active();
+        signals.set_referencing_active(self.channel.is_referencing());
+        // Without a program its state is "aborted", as after RESET.
+        signals.set_program_state_aborted(true);
+        signals.set_channel_state_active(active);
+        signals.set_channel_state_reset(!active);
+        let needed =
+            |axis: &AxisParameters| parameters.reference_needed && axis.reference.cycle_number > -1;
+        let (mut referenced, mut stationary) = (true, true);
+        for (number, axis) in parameters.existing() {
+            referenced &= !needed(axis) || self.axes[number].is_referenced();
+            stationary &= self.axes[number].stands(axis);
+        }
+        signals.set_all_axes_requiring_reference_point_are_referenced(referenced);
+        signals.set_all_axes_stationary(stationary);
+        let not_ready = self.alarms.with_reaction(Reaction::CHANNEL_NOT_READY, None);
+        signals.set_channel_ready(self.run_up.is_nc_ready() && not_ready.is_none());
+        signals.set_channel_specific_nck_alarm_active(
+            self.alarms
+                .with_reaction(Reaction::INTERFACE_SIGNALS, None)
+                .is_some(),
+        );
+        signals.set_nck_alarm_with_machining_stop_active(
+            self.alarms.with_reaction(Reaction::STOP, None).is_some(),
+        );
+    }
+
+    fn publish_axis(
+        &self,
+        signals: &mut AxisFromNck,
+        number: AxisNumber,
+        parameters: &AxisParameters,
+    ) {
+        let axis = &self.axes[number];
+        let [current, speed, position] = axis.enabling.controllers();
+        let place = Some(Place::Axis(number));
+        let alarm = self
+            .alarms
+            .with_reaction(Reaction::INTERFACE_SIGNALS, place)
+            .is_some();
+        signals.set_referenced_synchronized_1(axis.referenced[0]);
+        signals.set_referenced_synchronized_2(axis.referenced[1]);
+        let at_rest = position && axis.setpoint.is_at_rest() && axis.traverse_command == 0;
+        let within = |window: Position| at_rest && axis.deviation().abs() <= window;
+        signals.set_position_reached_exact_stop_coarse(within(parameters.exact_stop_coarse));
+        signals.set_position_reached_exact_stop_fine(within(parameters.exact_stop_fine));
+        signals.set_axis_specific_alarm(alarm);
+        signals.set_axis_ready(axis.drive_ready && axis.measuring_system.is_some() && !alarm);
+        signals.set_follow_up_active(axis.enabling.follow_up);
+        signals.set_axis_stationary(axis.velocity.abs() < parameters.standstill_velocity);
+        signals.set_position_controller_active(position);
+        signals.set_speed_controller_active(speed);
+        signals.set_current_controller_active(current);
+        signals.set_traverse_request_minus(axis.traverse_request < 0);
+        signals.set_traverse_request_plus(axis.traverse_request > 0);
+        signals.set_traverse_command_minus(axis.traverse_command < 0);
+        signals.set_traverse_command_plus(axis.traverse_command > 0);
+        signals.set_drive_ready(axis.drive_ready);
+        signals.set_pulses_enabled(axis.enabling.pulses_enabled());
+        signals.set_position_measuring_system_1_activated(axis.measuring_system == Some(0));
+        signals.set_position_measuring_system_2_activated(axis.measuring_system == Some(1));
+    }
+
+    fn publish_grouping(
+        &self,
+        index: usize,
+        from_nck: &mut FromNck,
+        parameters: &Parameters,
+        variables: &mut Variables,
+    ) {
+        let grouping = &self.groupings[index];
+        let leader = grouping.coupling.leader();
+        if !parameters.axes[leader].silent {
+            let signals = &mut from_nck.axes[leader];
+            signals.set_gantry_axis(true);
+            signals.set_gantry_leading_axis(true);
+            signals.set_gantry_grouping_is_synchronized(grouping.phase == Phase::Synchronised);
+            // O-07: 101.4 stays through a motion that was waited for; one that began by itself never set it.
+            let started = grouping.phase == Phase::Synchronising && grouping.waited_for;
+            let ready = grouping.phase == Phase::WaitingForStart || started;
+            signals.set_gantry_synchronization_ready_to_start(ready);
+        }
+        for (axis, monitored) in grouping.coupling.followers().zip(&grouping.monitored) {
+            variables.axes[axis].synchronism_difference = monitored.difference;
+            if !parameters.axes[axis].silent {
+                let signals = &mut from_nck.axes[axis];
+                signals.set_gantry_axis(true);
+                signals.set_gantry_warning_limit_exceeded(monitored.warning);
+                signals.set_gantry_trip_limit_exceeded(monitored.trip);
+            }
+        }
+    }
+
+    fn values(&self, number: AxisNumber, parameters: &AxisParameters) -> AxisValues {
+        let axis = &self.axes[number];
+        let per_user_unit = if parameters.rotary { 360.0 } else { 1.0 };
+        AxisValues {
+            position: axis.actual,
+            setpoint: axis.setpoint.position,
+            velocity: axis.velocity * 60.0 / Position::PER_USER_UNIT / per_user_unit,
+            following_error: axis.deviation(),
+            slide: axis.slide,
+            synchronism_difference: Position::ZERO,
+        }
+    }
+}

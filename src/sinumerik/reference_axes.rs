@@ -1,0 +1,393 @@
+//! Which axis is referenced when: by the traversing key, or by the channel; and what an approach means for the rest.
+//!
+//! Called in the stage "referencing and gantry". A key that is held starts one approach; it must be released before
+//! it starts another. A key that is pressed before the axes are in position control stays pending until they are.
+
+use serde::{Deserialize, Serialize};
+
+use super::alarms;
+use super::jog::key_direction;
+use super::log::axis_bit;
+use super::parameters::Parameters;
+use super::referencing::Outcome;
+use super::rules::Rule;
+use super::{State, Unit};
+use crate::image::ToNck;
+use crate::units::{AxisNumber, ChannelNumber, Position};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, SignalBit};
+
+const CHANNEL: Place = Place::Channel(ChannelNumber::FIRST);
+
+/// Channel-specific referencing (REF-23): which order number is on, and who has been started.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct ChannelReferencing {
+    /// The order number of MD34110 that is being referenced; 0 when none is.
+    number: i32,
+    /// Axes that were started, as bits.
+    started: u32,
+    /// DBX1.0 in the last cycle.
+    was: bool,
+    /// The event behind 33.0.
+    pub cause: EventId,
+}
+
+impl ChannelReferencing {
+    /// 33.0.
+    #[must_use]
+    pub(super) const fn is_active(&self) -> bool {
+        self.number != 0
+    }
+
+    /// It started this axis.
+    #[must_use]
+    pub(super) const fn started(&self, axis: AxisNumber) -> bool {
+        self.is_active() && self.started >> axis.index() & 1 == 1
+    }
+}
+
+impl State {
+    /// An axis that belongs to no closed grouping.
+    pub(super) fn run_single(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
+        let number = unit.leader();
+        self.brake(unit, parameters);
+        if self.axes[number].approach.is_running() {
+            self.reference_single(unit, parameters, to_nck);
+        } else if self.is_jogging() {
+            self.jog(unit, parameters, to_nck);
+        } else {
+            self.command(number, 0, 0, [Input::None; 3]);
+            if self.unit_can_move(unit)
+                && !self.is_gantry_axis(number)
+                && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
+            {
+                self.axes[number].approach_key = if self.channel.started(number) {
+                    0
+                } else {
+                    direction
+                };
+                self.start_approach(number, f64::from(direction), event);
+                self.reference_single(unit, parameters, to_nck);
+            }
+        }
+    }
+
+    fn reference_single(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
+        let number = unit.leader();
+        let key = self.axes[number].approach_key;
+        if let Some((alarm, event)) =
+            self.approach_interrupted(number, key, unit, parameters, to_nck)
+        {
+            self.axes[number].approach.abort();
+            self.command(number, 0, 0, [Input::None; 3]);
+            if let Some(alarm) = alarm {
+                self.raise_axis_alarm(alarm, number, event);
+            }
+            return;
+        }
+        match self.run_approach(number, parameters, to_nck) {
+            Outcome::Running => {}
+            Outcome::Failed(alarm, event) => {
+                self.command(number, 0, 0, [Input::None; 3]);
+                self.raise_axis_alarm(alarm, number, event);
+            }
+            Outcome::Referenced(shift, event) => {
+                self.command(number, 0, 0, [Input::None; 3]);
+                self.set_reference(number, shift, event);
+            }
+        }
+    }
+
+    /// An approach of the unit's first axis is asked for, by its key in the right direction or by the channel.
+    pub(super) fn approach_wanted(
+        &mut self,
+        unit: &Unit,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> Option<(i8, EventId)> {
+        let number = unit.leader();
+        let reference = &parameters.axes[number].reference;
+        let signals = &to_nck.axes[number];
+        let key = key_direction(signals);
+        if key == 0 {
+            self.axes[number].key_used = false;
+        }
+        let has_zero_mark = self.axes[number]
+            .measuring_system
+            .is_some_and(|active| reference.mode[usize::from(active)] == 1);
+        let disabled = signals.axis_spindle_disable() || self.axes[number].feed_disabled;
+        if !self.mode_group.reference || !has_zero_mark || disabled {
+            return None;
+        }
+        let forward = if reference.cam_direction > 0.0 { 1 } else { -1 };
+        if self
+            .channel
+            .referencing
+            .wants(number, reference.cycle_number)
+        {
+            self.channel.referencing.started |= 1 << number.index();
+            let cause = self.channel.referencing.cause;
+            return Some((
+                forward,
+                self.log
+                    .note_plain(Place::Axis(number), Rule::ApproachStartedByChannel, cause),
+            ));
+        }
+        // The other key: no start, no alarm. Without a cam both directions are right.
+        let right = key != 0 && (key == forward || !reference.cam_is_active);
+        if !right || self.axes[number].key_used {
+            return None;
+        }
+        self.axes[number].key_used = true;
+        let bit = if key > 0 { 7 } else { 6 };
+        let active = SignalBit {
+            place: Place::ModeGroup(crate::units::ModeGroupNumber::FIRST),
+            byte: 7,
+            bit: 2,
+        };
+        let inputs = [
+            axis_bit(number, 4, bit, true),
+            Input::Datum(34010, Some(number), f64::from(u8::from(forward < 0))),
+            Input::Bit(active, true),
+        ];
+        let event = self.log.note(
+            Place::Axis(number),
+            Rule::KeyStartsApproach,
+            inputs,
+            self.mode_group.function_cause,
+        );
+        Some((key, event))
+    }
+
+    /// Begins an approach: the reference of its measuring system is gone.
+    pub(super) fn start_approach(&mut self, number: AxisNumber, direction: f64, cause: EventId) {
+        let axis = &mut self.axes[number];
+        let encoder = usize::from(axis.measuring_system.unwrap_or(0));
+        if axis.referenced[encoder] {
+            axis.referenced[encoder] = false;
+            axis.causes.reference[encoder] =
+                self.log
+                    .note_plain(Place::Axis(number), Rule::NewApproach, cause);
+        }
+        axis.approach
+            .start(&mut self.log, number, direction, axis.actual, cause);
+    }
+
+    /// One cycle of an approach; the motion of its axis is commanded.
+    pub(super) fn run_approach(
+        &mut self,
+        number: AxisNumber,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> Outcome {
+        let mut approach = self.axes[number].approach;
+        let axis = &self.axes[number];
+        let signals = &to_nck.axes[number];
+        let (motion, outcome) = approach.run(
+            &mut self.log,
+            number,
+            axis,
+            &parameters.axes[number],
+            signals,
+        );
+        let axis = &mut self.axes[number];
+        axis.approach = approach;
+        axis.motion = motion;
+        let direction = motion.direction(axis.setpoint.position);
+        let request = if direction == 0 && axis.feed_held {
+            axis.traverse_request
+        } else {
+            direction
+        };
+        if (axis.traverse_request, axis.traverse_command) != (request, direction) {
+            axis.causes.motion = approach.cause();
+            axis.traverse_request = request;
+            axis.traverse_command = direction;
+        }
+        outcome
+    }
+
+    /// What ends an approach from outside: an alarm that stops, RESET, leaving REF, a missing enable, the key.
+    pub(super) fn approach_interrupted(
+        &mut self,
+        number: AxisNumber,
+        key: i8,
+        unit: &Unit,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> Option<(Option<AlarmNumber>, EventId)> {
+        let parent = self.axes[number].approach.cause();
+        if let Some(cause) = self.stop_cause() {
+            return Some((None, cause));
+        }
+        if !self.mode_group.reference {
+            let cause = self.mode_group.function_cause;
+            return Some((
+                None,
+                self.log
+                    .note_plain(Place::Axis(number), Rule::ApproachAborted, cause),
+            ));
+        }
+        let pressed = key_direction(&to_nck.axes[number]);
+        let (alarm, input) = if let Some(off) = unit
+            .members()
+            .find(|&axis| !self.axes[axis].enabling.is_on())
+        {
+            (Some(alarms::APPROACH_ABORTED), axis_bit(off, 61, 5, false))
+        } else if key != 0 && parameters.jog_mode && pressed != key {
+            (
+                Some(alarms::APPROACH_ABORTED),
+                axis_bit(number, 4, if key > 0 { 7 } else { 6 }, false),
+            )
+        } else if key != 0 && !parameters.jog_mode && pressed == -key {
+            (None, axis_bit(number, 4, if key > 0 { 6 } else { 7 }, true))
+        } else {
+            return None;
+        };
+        Some((
+            alarm,
+            self.log
+                .note_one(Place::Axis(number), Rule::ApproachAborted, input, parent),
+        ))
+    }
+
+    /// The measuring system was switched, or lost, under a running approach (REF-33).
+    pub(super) fn abort_approach(&mut self, number: AxisNumber, event: EventId) {
+        self.axes[number].approach.abort();
+        self.raise_axis_alarm(alarms::APPROACH_ABORTED, number, event);
+        if let Some(index) = self
+            .groupings
+            .iter()
+            .position(|g| g.is_referencing() && g.coupling.members().any(|m| m == number))
+        {
+            self.reset_grouping(index, event);
+        }
+    }
+
+    /// The place where the axis is has another actual value from now on, and the axis is referenced.
+    pub(super) fn set_reference(&mut self, number: AxisNumber, shift: Position, event: EventId) {
+        let axis = &mut self.axes[number];
+        axis.shift(shift);
+        if let Some(active) = axis.measuring_system {
+            axis.referenced[usize::from(active)] = true;
+            axis.causes.reference[usize::from(active)] = event;
+        }
+        let axes = &self.axes;
+        for grouping in &mut self.groupings {
+            let leader = grouping.coupling.leader();
+            let absolute = |follower: AxisNumber| {
+                axes[follower].is_referenced() && axes[leader].is_referenced()
+            };
+            grouping.coupling.value_shifted(number, shift, absolute);
+        }
+    }
+
+    /// Raises an alarm of an axis: `%1` channel, `%2` axis.
+    pub(super) fn raise_axis_alarm(
+        &mut self,
+        alarm: AlarmNumber,
+        number: AxisNumber,
+        event: EventId,
+    ) {
+        let parameters = [
+            Parameter::Channel(ChannelNumber::FIRST),
+            Parameter::Axis(number),
+            Parameter::None,
+            Parameter::None,
+        ];
+        self.alarms
+            .raise(alarm, Place::Axis(number), parameters, event);
+    }
+
+    fn is_gantry_axis(&self, number: AxisNumber) -> bool {
+        self.groupings
+            .iter()
+            .any(|grouping| grouping.coupling.members().any(|member| member == number))
+    }
+
+    /// Starts, orders and ends channel-specific referencing: MD34110 = 1 first, together; n after all of n − 1.
+    pub(super) fn reference_by_channel(&mut self, parameters: &Parameters, to_nck: &ToNck) {
+        let wanted = to_nck.channels[ChannelNumber::FIRST].activate_referencing();
+        let rises = wanted && !self.channel.referencing.was;
+        self.channel.referencing.was = wanted;
+        let stopped = self.stop_cause().is_some() || !self.mode_group.reference;
+        if self.channel.is_referencing() {
+            let number = self.channel.referencing.number;
+            let (finished, failed) = self.channel_referencing_progress(number, parameters);
+            if stopped || failed {
+                self.end_channel_referencing(0);
+            } else if finished {
+                self.end_channel_referencing(self.next_cycle_number(number, parameters));
+            }
+        } else if rises && !stopped {
+            self.channel.referencing.started = 0;
+            let input = Input::Bit(
+                SignalBit {
+                    place: CHANNEL,
+                    byte: 1,
+                    bit: 0,
+                },
+                true,
+            );
+            let event = self.log.note_one(
+                CHANNEL,
+                Rule::ApproachStartedByChannel,
+                input,
+                EventId::NONE,
+            );
+            self.channel.referencing.cause = event;
+            self.channel.referencing.number = self.next_cycle_number(0, parameters);
+        }
+    }
+
+    fn end_channel_referencing(&mut self, next: i32) {
+        let referencing = &mut self.channel.referencing;
+        referencing.number = next;
+        if next == 0 {
+            referencing.cause =
+                self.log
+                    .note_plain(CHANNEL, Rule::ChannelReferencingEnds, referencing.cause);
+        }
+    }
+
+    /// The next order number above this one that an axis has which can be started; 0 when there is none.
+    fn next_cycle_number(&self, above: i32, parameters: &Parameters) -> i32 {
+        self.units
+            .iter()
+            .filter(|unit| unit.grouping.is_some() || !self.is_gantry_axis(unit.leader()))
+            .map(|unit| parameters.axes[unit.leader()].reference.cycle_number)
+            .filter(|&number| number > above)
+            .min()
+            .unwrap_or(0)
+    }
+
+    /// Whether all axes of an order number are done, and whether one was aborted.
+    fn channel_referencing_progress(&self, number: i32, parameters: &Parameters) -> (bool, bool) {
+        let (mut finished, mut failed) = (true, false);
+        for unit in &self.units {
+            let axis = unit.leader();
+            if parameters.axes[axis].reference.cycle_number != number
+                || unit.grouping.is_none() && self.is_gantry_axis(axis)
+            {
+                continue;
+            }
+            let running = self.axes[axis].approach.is_running()
+                || unit
+                    .grouping
+                    .is_some_and(|index| self.groupings[usize::from(index)].is_referencing());
+            let started = self.channel.started(axis);
+            let referenced = unit
+                .members()
+                .all(|member| self.axes[member].is_referenced());
+            finished &= started && !running && referenced;
+            failed |= started && !running && !referenced;
+        }
+        (finished, failed)
+    }
+}
+
+impl ChannelReferencing {
+    /// This axis is to be started now.
+    const fn wants(&self, axis: AxisNumber, cycle_number: i32) -> bool {
+        self.is_active() && self.number == cycle_number && !self.started(axis)
+    }
+}
