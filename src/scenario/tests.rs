@@ -615,3 +615,106 @@ fn a_session_does_in_rust_what_a_scenario_does_in_a_file() -> Result<(), Failure
     ));
     Ok(())
 }
+
+#[test]
+fn a_force_wins_until_it_is_released() {
+    held(
+        r#"
+        [[step]]
+        force = { "X.controller_enable" = 1 }
+        [[step]]
+        run = "1cycles"
+        [[step]]
+        set = { "X.controller_enable" = 0 }
+        [[step]]
+        run = "1cycles"
+        [[step]]
+        expect = "X.controller_enable"
+        [[step]]
+        release = "X.controller_enable"
+        [[step]]
+        set = { "X.controller_enable" = 0 }
+        [[step]]
+        run = "1cycles"
+        [[step]]
+        expect = "!X.controller_enable"
+        "#,
+    );
+}
+
+#[test]
+fn what_the_plc_program_overwrites_is_said() {
+    let finished = held(
+        r#"plc = "enable_all"
+        [[step]]
+        run = "100ms"
+        [[step]]
+        set = { "X.controller_enable" = 0 }
+        [[step]]
+        run = "10ms"
+        [[step]]
+        expect = "X.controller_enable"
+        "#,
+    );
+    let notice = "# the PLC program overwrote what was set: X.controller_enable (DB31.DBX2.1)";
+    assert!(finished.golden().contains(notice), "{}", finished.golden());
+}
+
+#[test]
+fn the_plant_of_a_scenario_is_merged_over_that_of_the_machine() {
+    held("[plant.XF]\nstart = 119.5\n[[step]]\nexpect = \"XF.slide == 119.5\"\n");
+    let problem = prepared(&format!("[plant.XF]\nstrat = 119.5\n{STEP}"))
+        .err()
+        .unwrap();
+    assert_eq!(problem.place.unwrap().to_string(), "s.toml:4");
+    assert!(
+        problem.cure.contains("did you mean `start`?"),
+        "{}",
+        problem.cure
+    );
+}
+
+#[test]
+fn power_on_empties_the_memory_and_keeps_stored_machine_data_refused_ones_never_run() {
+    held(
+        r#"
+        [[step]]
+        set = { "M0.0" = 1 }
+        [[step]]
+        machine_data = { "37110[XF]" = 0.05 }
+        [[step]]
+        run = "10ms"
+        [[step]]
+        expect = "M0.0"
+        [[step]]
+        power_on = true
+        [[step]]
+        run = "1cycles"
+        [[step]]
+        expect = "!M0.0"
+        "#,
+    );
+    let step = "[[step]]\nmachine_data = { \"37100[XF]\" = \"no number\" }\n";
+    assert_eq!(prepared(step).err().unwrap().place.unwrap().line, 4);
+}
+
+#[test]
+fn a_plc_image_is_found_by_its_name_above_the_scenario_or_by_its_file() {
+    let directory = std::env::temp_dir().join(format!("opennck-image-{}", std::process::id()));
+    std::fs::create_dir_all(directory.join("plc_images")).unwrap();
+    std::fs::create_dir_all(directory.join("golden/area")).unwrap();
+    let image = "[[db]]\nnumber = 1000\nsize = 8\nvalues = { \"DBW2\" = 250 }\n";
+    std::fs::write(directory.join("plc_images/recipes.toml"), image).unwrap();
+    for name in ["recipes", "../../plc_images/recipes.toml"] {
+        let text = format!(
+            "title = \"t\"\nmachine = \"g1_example\"\nplc_image = \"{name}\"\n\
+             [[step]]\nexpect = \"DB1000.DBW2 == 250\"\n"
+        );
+        let scenario = Scenario::parse(&text, &directory.join("golden/area/s.toml")).unwrap();
+        let finished = scenario
+            .prepare(Profile::default(), &Programs::ready())
+            .unwrap()
+            .run();
+        assert!(finished.failure.is_none(), "{:?}", finished.failure);
+    }
+}
