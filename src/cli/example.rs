@@ -9,8 +9,7 @@ use crate::scenario::Scenario;
 use crate::source::Problem;
 
 /// The scenario, as it stands in the project.
-const SCENARIO: &str =
-    include_str!("../../golden/worked_example/gantry_references_and_synchronises.toml");
+const SCENARIO: &str = include_str!("../../golden/worked_example/gantry_references_and_synchronises.toml");
 
 /// The machine that is built in.
 const MACHINE: &str = "g1_example";
@@ -30,10 +29,7 @@ What to try next:
 /// # Errors
 /// Never, if the program was tested: its own data cannot be used.
 pub fn scenario() -> Result<Scenario, Problem> {
-    let mut scenario = Scenario::parse(
-        SCENARIO,
-        Path::new("gantry_references_and_synchronises.toml"),
-    )?;
+    let mut scenario = Scenario::parse(SCENARIO, Path::new("gantry_references_and_synchronises.toml"))?;
     MACHINE.clone_into(&mut scenario.machine.text);
     Ok(scenario)
 }

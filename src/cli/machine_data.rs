@@ -40,17 +40,12 @@ fn findings(path: &Path) -> Result<Vec<String>, Problem> {
         }
         Err(findings) => findings,
     };
-    let unreadable =
-        |finding: &Finding| finding.severity == Severity::Error && finding.number.is_none();
+    let unreadable = |finding: &Finding| finding.severity == Severity::Error && finding.number.is_none();
     match findings.iter().find(|finding| unreadable(finding)) {
         // Not a wrong datum but a file that is none.
-        Some(Finding {
-            place, what, cure, ..
-        }) if findings.len() == 1 => Err(Problem {
-            place: place.clone(),
-            what: what.clone(),
-            cure: cure.clone(),
-        }),
+        Some(Finding { place, what, cure, .. }) if findings.len() == 1 => {
+            Err(Problem { place: place.clone(), what: what.clone(), cure: cure.clone() })
+        }
         _ => Ok(findings.iter().map(ToString::to_string).collect()),
     }
 }

@@ -104,10 +104,7 @@ enum MachineData {
 
 /// The program, with these PLC programs by name.
 #[must_use]
-#[expect(
-    clippy::needless_pass_by_value,
-    reason = "the program ends with its programs"
-)]
+#[expect(clippy::needless_pass_by_value, reason = "the program ends with its programs")]
 pub fn main(programs: Programs) -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -120,30 +117,17 @@ pub fn main(programs: Programs) -> ExitCode {
     let mut output = Output::default();
     let code = match arguments.command {
         None => example::run(&programs, &mut output),
-        Some(Command::Run { scenarios, trace }) => {
-            run::run(&scenarios, trace.as_deref(), &programs, &mut output)
-        }
-        Some(Command::Test {
-            paths,
-            accept,
-            junit,
-            jobs,
-        }) => {
-            let options = test::Options {
-                accept,
-                junit,
-                jobs,
-            };
+        Some(Command::Run { scenarios, trace }) => run::run(&scenarios, trace.as_deref(), &programs, &mut output),
+        Some(Command::Test { paths, accept, junit, jobs }) => {
+            let options = test::Options { accept, junit, jobs };
             test::test(&paths, &options, &programs, &mut output)
         }
-        Some(Command::Signals {
-            filter,
-            profile,
-            format,
-        }) => signals::signals(filter.as_deref(), &profile, format, &mut output),
-        Some(Command::MachineData {
-            command: MachineData::Check { machine },
-        }) => machine_data::check(&machine, &mut output),
+        Some(Command::Signals { filter, profile, format }) => {
+            signals::signals(filter.as_deref(), &profile, format, &mut output)
+        }
+        Some(Command::MachineData { command: MachineData::Check { machine } }) => {
+            machine_data::check(&machine, &mut output)
+        }
     };
     ExitCode::from(code)
 }

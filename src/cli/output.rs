@@ -15,10 +15,7 @@ impl Output {
     pub(super) fn print(&mut self, text: &str) {
         if !self.closed {
             let mut out = std::io::stdout().lock();
-            self.closed = out
-                .write_all(text.as_bytes())
-                .and_then(|()| out.flush())
-                .is_err();
+            self.closed = out.write_all(text.as_bytes()).and_then(|()| out.flush()).is_err();
         }
     }
 

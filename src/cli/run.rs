@@ -10,12 +10,7 @@ use crate::scenario::{Failure, Finished, Prepared, Scenario};
 use crate::source::{Problem, unreadable};
 
 /// Reads all files before anything runs: one unusable file and nothing runs.
-pub(super) fn run(
-    files: &[PathBuf],
-    trace: Option<&Path>,
-    programs: &Programs,
-    output: &mut Output,
-) -> u8 {
+pub(super) fn run(files: &[PathBuf], trace: Option<&Path>, programs: &Programs, output: &mut Output) -> u8 {
     let mut ready = Vec::new();
     let mut usable = true;
     for file in files {
@@ -51,10 +46,7 @@ pub(super) fn run(
         if let Some((path, file)) = &trace
             && let Err(error) = (&*file).write_all(finished.json_lines().as_bytes())
         {
-            output.error(Problem::new(
-                format!("{} cannot be written: {error}", path.display()),
-                "check the disk",
-            ));
+            output.error(Problem::new(format!("{} cannot be written: {error}", path.display()), "check the disk"));
             code = 2;
         }
     }
@@ -64,11 +56,7 @@ pub(super) fn run(
 /// One scenario under each of its profiles.
 fn prepare(file: &Path, programs: &Programs) -> Result<Vec<Prepared>, Problem> {
     let scenario = Scenario::read(file)?;
-    scenario
-        .profiles
-        .iter()
-        .map(|profile| scenario.prepare(*profile, programs))
-        .collect()
+    scenario.profiles.iter().map(|profile| scenario.prepare(*profile, programs)).collect()
 }
 
 /// The file of the trace, opened before anything runs.
@@ -87,10 +75,7 @@ fn open(path: &Path, runs: usize) -> Result<(PathBuf, File), Problem> {
 pub(super) fn result(finished: &Finished, output: &mut Output) -> u8 {
     let session = finished.session();
     if session.trace().lost() > 0 {
-        output.warning(format!(
-            "{} rows of the trace were lost",
-            session.trace().lost()
-        ));
+        output.warning(format!("{} rows of the trace were lost", session.trace().lost()));
     }
     match &finished.failure {
         None => {

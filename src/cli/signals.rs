@@ -16,12 +16,7 @@ struct Entry {
     name: &'static str,
 }
 
-pub(super) fn signals(
-    filter: Option<&str>,
-    profile: &str,
-    format: Format,
-    output: &mut Output,
-) -> u8 {
+pub(super) fn signals(filter: Option<&str>, profile: &str, format: Format, output: &mut Output) -> u8 {
     let profile = match profile_named(profile) {
         Ok(profile) => profile,
         Err(problem) => {
@@ -46,24 +41,17 @@ pub(super) fn signals(
 
 impl Entry {
     fn holds(&self, wanted: &str) -> bool {
-        [self.address.as_str(), self.symbol.as_str(), self.name]
-            .iter()
-            .any(|text| text.to_lowercase().contains(wanted))
+        [self.address.as_str(), self.symbol.as_str(), self.name].iter().any(|text| text.to_lowercase().contains(wanted))
     }
 }
 
 /// The catalogue for the first axis, channel and mode group, which get names that stand for any.
 fn entries(profile: Profile) -> Vec<Entry> {
-    let mut names = Names {
-        profile,
-        ..Names::default()
-    };
+    let mut names = Names { profile, ..Names::default() };
     names.axes[AxisNumber::FIRST] = Some("AX1".to_owned());
     names.channels[ChannelNumber::FIRST] = Some("CHAN1".to_owned());
     let memory = Memory::new();
-    catalogue()
-        .filter_map(|signal| entry(signal, &names, &memory))
-        .collect()
+    catalogue().filter_map(|signal| entry(signal, &names, &memory)).collect()
 }
 
 /// Nothing for a signal that the profile does not show.
@@ -76,26 +64,15 @@ fn entry(signal: &'static Signal, names: &Names, memory: &Memory) -> Option<Entr
         Writer::Nck => "nck",
         Writer::Hmi => "hmi",
     };
-    Some(Entry {
-        address: address.to_string(),
-        symbol: names.symbol(location)?,
-        writer,
-        name: signal.doc,
-    })
+    Some(Entry { address: address.to_string(), symbol: names.symbol(location)?, writer, name: signal.doc })
 }
 
 fn printed(entries: &[Entry], format: Format) -> Result<String, Problem> {
-    let failed = |error: String| {
-        Problem::new(
-            format!("the list cannot be written: {error}"),
-            "choose another format",
-        )
-    };
+    let failed = |error: String| Problem::new(format!("the list cannot be written: {error}"), "choose another format");
     match format {
         Format::Table => Ok(table(entries)),
         Format::Json => {
-            let text =
-                serde_json::to_string_pretty(entries).map_err(|error| failed(error.to_string()))?;
+            let text = serde_json::to_string_pretty(entries).map_err(|error| failed(error.to_string()))?;
             Ok(text + "\n")
         }
         Format::Csv => {
@@ -106,13 +83,9 @@ fn printed(entries: &[Entry], format: Format) -> Result<String, Problem> {
                     .map_err(|error| failed(error.to_string()))?;
             }
             for entry in entries {
-                writer
-                    .serialize(entry)
-                    .map_err(|error| failed(error.to_string()))?;
+                writer.serialize(entry).map_err(|error| failed(error.to_string()))?;
             }
-            let bytes = writer
-                .into_inner()
-                .map_err(|error| failed(error.to_string()))?;
+            let bytes = writer.into_inner().map_err(|error| failed(error.to_string()))?;
             String::from_utf8(bytes).map_err(|error| failed(error.to_string()))
         }
     }
@@ -120,29 +93,14 @@ fn printed(entries: &[Entry], format: Format) -> Result<String, Problem> {
 
 fn table(entries: &[Entry]) -> String {
     let width = |column: fn(&Entry) -> &str, head: &str| {
-        entries
-            .iter()
-            .map(|entry| column(entry).chars().count())
-            .max()
-            .unwrap_or(0)
-            .max(head.len())
+        entries.iter().map(|entry| column(entry).chars().count()).max().unwrap_or(0).max(head.len())
     };
     let address = width(|entry| &entry.address, "address");
     let symbol = width(|entry| &entry.symbol, "symbol");
-    let mut text = format!(
-        "{:<address$}  {:<symbol$}  writer  name\n",
-        "address", "symbol"
-    );
+    let mut text = format!("{:<address$}  {:<symbol$}  writer  name\n", "address", "symbol");
     for entry in entries {
-        let Entry {
-            address: at,
-            symbol: called,
-            writer,
-            name,
-        } = entry;
-        text.push_str(&format!(
-            "{at:<address$}  {called:<symbol$}  {writer:<6}  {name}\n"
-        ));
+        let Entry { address: at, symbol: called, writer, name } = entry;
+        text.push_str(&format!("{at:<address$}  {called:<symbol$}  {writer:<6}  {name}\n"));
     }
     text
 }

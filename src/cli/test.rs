@@ -28,12 +28,7 @@ enum Work {
     Unusable(Problem),
 }
 
-pub(super) fn test(
-    paths: &[PathBuf],
-    options: &Options,
-    programs: &Programs,
-    output: &mut Output,
-) -> u8 {
+pub(super) fn test(paths: &[PathBuf], options: &Options, programs: &Programs, output: &mut Output) -> u8 {
     let files = match scenario_files(paths) {
         Ok(files) => files,
         Err(problem) => {
@@ -49,22 +44,14 @@ pub(super) fn test(
             Ok(cases) => {
                 let several = cases.len() > 1;
                 work.extend(cases.into_iter().map(|case| {
-                    let name = if several {
-                        format!("{name} ({})", profile_name(case.profile))
-                    } else {
-                        name.clone()
-                    };
+                    let name = if several { format!("{name} ({})", profile_name(case.profile)) } else { name.clone() };
                     (name, Work::Case(Box::new(case)))
                 }));
             }
         }
     }
     let outcomes = all(&work, options, programs);
-    let named: Vec<_> = work
-        .iter()
-        .map(|(name, _)| name.as_str())
-        .zip(outcomes)
-        .collect();
+    let named: Vec<_> = work.iter().map(|(name, _)| name.as_str()).zip(outcomes).collect();
     let mut code = report(&named, output);
     if let Some(junit) = &options.junit
         && let Err(problem) = write_junit(junit, &named)
@@ -77,17 +64,9 @@ pub(super) fn test(
 
 /// Runs everything, several at once; the outcomes are in the order of the work, whoever was first.
 fn all(work: &[(String, Work)], options: &Options, programs: &Programs) -> Vec<Outcome> {
-    let update = if options.accept {
-        Update::Accept
-    } else {
-        Update::No
-    };
+    let update = if options.accept { Update::Accept } else { Update::No };
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
-    let jobs = options
-        .jobs
-        .map_or_else(processors, usize::from)
-        .min(work.len())
-        .max(1);
+    let jobs = options.jobs.map_or_else(processors, usize::from).min(work.len()).max(1);
     let bar = bar(work.len());
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<(usize, Outcome)>> = Mutex::new(Vec::with_capacity(work.len()));
@@ -143,41 +122,18 @@ fn report(outcomes: &[(&str, Outcome)], output: &mut Output) -> u8 {
             Outcome::Unusable(_) => output.error(outcome),
         }
     }
-    let count =
-        |test: fn(&Outcome) -> bool| outcomes.iter().filter(|(_, outcome)| test(outcome)).count();
+    let count = |test: fn(&Outcome) -> bool| outcomes.iter().filter(|(_, outcome)| test(outcome)).count();
     let counts = [
         (count(|outcome| matches!(outcome, Outcome::Held)), "held"),
-        (
-            count(|outcome| matches!(outcome, Outcome::Accepted)),
-            "accepted",
-        ),
-        (
-            count(|outcome| matches!(outcome, Outcome::Failed(_))),
-            "failed",
-        ),
-        (
-            count(|outcome| matches!(outcome, Outcome::Differs(_))),
-            "differ",
-        ),
-        (
-            count(|outcome| matches!(outcome, Outcome::Missing(_))),
-            "without a golden file",
-        ),
-        (
-            count(|outcome| matches!(outcome, Outcome::Unusable(_))),
-            "unusable",
-        ),
+        (count(|outcome| matches!(outcome, Outcome::Accepted)), "accepted"),
+        (count(|outcome| matches!(outcome, Outcome::Failed(_))), "failed"),
+        (count(|outcome| matches!(outcome, Outcome::Differs(_))), "differ"),
+        (count(|outcome| matches!(outcome, Outcome::Missing(_))), "without a golden file"),
+        (count(|outcome| matches!(outcome, Outcome::Unusable(_))), "unusable"),
     ];
-    let counts: Vec<_> = counts
-        .iter()
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, word)| format!("{count} {word}"))
-        .collect();
-    output.line(format!(
-        "{} scenarios: {}",
-        outcomes.len(),
-        counts.join(", ")
-    ));
+    let counts: Vec<_> =
+        counts.iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("{count} {word}")).collect();
+    output.line(format!("{} scenarios: {}", outcomes.len(), counts.join(", ")));
     code
 }
 
@@ -186,29 +142,22 @@ fn write_junit(path: &Path, outcomes: &[(&str, Outcome)]) -> Result<(), Problem>
     for (name, outcome) in outcomes {
         let status = match outcome {
             Outcome::Held | Outcome::Accepted => TestCaseStatus::success(),
-            Outcome::Failed(_) | Outcome::Differs(_) | Outcome::Missing(_) => {
-                bad(NonSuccessKind::Failure, outcome)
-            }
+            Outcome::Failed(_) | Outcome::Differs(_) | Outcome::Missing(_) => bad(NonSuccessKind::Failure, outcome),
             Outcome::Unusable(_) => bad(NonSuccessKind::Error, outcome),
         };
         suite.add_test_case(TestCase::new(*name, status));
     }
     let mut report = Report::new("opennck");
     report.add_test_suite(suite);
-    let text = report.to_string().map_err(|error| {
-        Problem::new(
-            format!("the report cannot be written: {error}"),
-            "report this as a bug",
-        )
-    })?;
+    let text = report
+        .to_string()
+        .map_err(|error| Problem::new(format!("the report cannot be written: {error}"), "report this as a bug"))?;
     std::fs::write(path, text).map_err(|error| unreadable(path, &error))
 }
 
 fn bad(kind: NonSuccessKind, outcome: &Outcome) -> TestCaseStatus {
     let text = outcome.to_string();
     let mut status = TestCaseStatus::non_success(kind);
-    status
-        .set_message(text.lines().next().unwrap_or_default().to_owned())
-        .set_description(text);
+    status.set_message(text.lines().next().unwrap_or_default().to_owned()).set_description(text);
     status
 }

@@ -105,10 +105,8 @@ pub fn scenario_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Problem> {
         let before = files.len();
         collect(path, &mut files)?;
         if files.len() == before {
-            return Err(Place::file(&path.display().to_string()).problem(
-                "expected scenarios (*.toml), found none",
-                "name a directory that holds some",
-            ));
+            return Err(Place::file(&path.display().to_string())
+                .problem("expected scenarios (*.toml), found none", "name a directory that holds some"));
         }
     }
     files.sort();
@@ -126,9 +124,7 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Problem> {
     for entry in entries {
         let entry = entry.map_err(|error| unreadable(path, &error))?;
         let path = entry.path();
-        let is_toml = path
-            .extension()
-            .is_some_and(|extension| extension == "toml");
+        let is_toml = path.extension().is_some_and(|extension| extension == "toml");
         if path.is_dir() || is_toml {
             collect(&path, files)?;
         }
@@ -148,16 +144,8 @@ pub fn cases(file: &Path) -> Result<Vec<Case>, Problem> {
         .into_iter()
         .enumerate()
         .map(|(index, profile)| {
-            let extension = if index == 0 {
-                "snap".to_owned()
-            } else {
-                format!("{}.snap", profile_name(profile))
-            };
-            Case {
-                scenario: scenario.clone(),
-                profile,
-                snap: file.with_extension(extension),
-            }
+            let extension = if index == 0 { "snap".to_owned() } else { format!("{}.snap", profile_name(profile)) };
+            Case { scenario: scenario.clone(), profile, snap: file.with_extension(extension) }
         })
         .collect())
 }
@@ -166,8 +154,7 @@ impl Case {
     /// Runs the case and compares its trace.
     #[must_use]
     pub fn run(&self, programs: &Programs, update: Update) -> Outcome {
-        self.outcome(programs, update)
-            .unwrap_or_else(Outcome::Unusable)
+        self.outcome(programs, update).unwrap_or_else(Outcome::Unusable)
     }
 
     fn outcome(&self, programs: &Programs, update: Update) -> Result<Outcome, Problem> {
@@ -178,14 +165,8 @@ impl Case {
             None => {}
         }
         let body = finished.golden();
-        let known = if self.snap.is_file() {
-            Some(Snapshot::read(&self.snap)?)
-        } else {
-            None
-        };
-        let different = known
-            .as_ref()
-            .map(|known| self.difference(&known.body, &body));
+        let known = if self.snap.is_file() { Some(Snapshot::read(&self.snap)?) } else { None };
+        let different = known.as_ref().map(|known| self.difference(&known.body, &body));
         if let Some(None) = different {
             let _ = std::fs::remove_file(pending(&self.snap));
             return Ok(Outcome::Held);
@@ -215,9 +196,7 @@ impl Case {
         match self.scenario.compare {
             Compare::Exact => difference(&expected, &found),
             Compare::Sequence => difference_in_sequence(&expected, &found, None),
-            Compare::Within(tolerance) => {
-                difference_in_sequence(&expected, &found, Some(tolerance))
-            }
+            Compare::Within(tolerance) => difference_in_sequence(&expected, &found, Some(tolerance)),
         }
     }
 }
@@ -255,11 +234,7 @@ fn report(dir: &Path, programs: &Programs, update: Update) -> String {
                     count += 1;
                     let outcome = case.run(programs, update);
                     if !outcome.is_good() {
-                        wrong.push(format!(
-                            "{} ({})\n{outcome}",
-                            file.display(),
-                            profile_name(case.profile)
-                        ));
+                        wrong.push(format!("{} ({})\n{outcome}", file.display(), profile_name(case.profile)));
                     }
                 }
             }
@@ -268,11 +243,7 @@ fn report(dir: &Path, programs: &Programs, update: Update) -> String {
     if wrong.is_empty() {
         return String::new();
     }
-    format!(
-        "{} of {count} scenarios are not as they should be\n\n{}\n",
-        wrong.len(),
-        wrong.join("\n\n")
-    )
+    format!("{} of {count} scenarios are not as they should be\n\n{}\n", wrong.len(), wrong.join("\n\n"))
 }
 
 #[cfg(test)]

@@ -21,10 +21,7 @@ impl Snapshot {
     #[must_use]
     pub fn new(title: &str, body: String) -> Self {
         let title = serde_json::Value::from(title);
-        Self {
-            header: format!("source: opennck\ndescription: {title}\n"),
-            body,
-        }
+        Self { header: format!("source: opennck\ndescription: {title}\n"), body }
     }
 
     /// Reads a golden file.
@@ -33,29 +30,18 @@ impl Snapshot {
     /// It cannot be read, or has no header.
     pub fn read(path: &Path) -> Result<Self, Problem> {
         let text = read_text(path)?.replace("\r\n", "\n");
-        let parts = text
-            .strip_prefix("---\n")
-            .and_then(|rest| match rest.strip_prefix("---\n") {
-                Some(body) => Some(("", body)),
-                None => rest
-                    .split_once("\n---\n")
-                    .or_else(|| rest.strip_suffix("\n---").map(|head| (head, ""))),
-            });
+        let parts = text.strip_prefix("---\n").and_then(|rest| match rest.strip_prefix("---\n") {
+            Some(body) => Some(("", body)),
+            None => rest.split_once("\n---\n").or_else(|| rest.strip_suffix("\n---").map(|head| (head, ""))),
+        });
         let Some((header, body)) = parts else {
             return Err(Place::file(&path.display().to_string()).at_line(1).problem(
                 "expected a header between two lines of ---, found none",
                 "write the file with `opennck test --accept`",
             ));
         };
-        let header = if header.is_empty() {
-            String::new()
-        } else {
-            format!("{header}\n")
-        };
-        Ok(Self {
-            header,
-            body: body.to_owned(),
-        })
+        let header = if header.is_empty() { String::new() } else { format!("{header}\n") };
+        Ok(Self { header, body: body.to_owned() })
     }
 
     /// Writes the golden file.
@@ -76,10 +62,7 @@ impl std::fmt::Display for Snapshot {
 /// A body as it is compared.
 #[must_use]
 pub fn normalized(body: &str) -> String {
-    body.trim_end()
-        .replace("\r\n", "\n")
-        .trim_start_matches(['\r', '\n'])
-        .to_owned()
+    body.trim_end().replace("\r\n", "\n").trim_start_matches(['\r', '\n']).to_owned()
 }
 
 /// The file that waits for review beside a golden file: `name.snap.new`.

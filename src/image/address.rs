@@ -110,8 +110,7 @@ impl fmt::Display for Address {
     }
 }
 
-const CURE: &str =
-    "write it as DB31.DBX101.5, DB31.DBB101, DB21.DBW4, DB31.DBD78, M10.3, IB0, QW4, T5 or C3";
+const CURE: &str = "write it as DB31.DBX101.5, DB31.DBB101, DB21.DBW4, DB31.DBD78, M10.3, IB0, QW4, T5 or C3";
 
 impl FromStr for Address {
     type Err = Problem;
@@ -134,24 +133,15 @@ impl FromStr for Address {
                 _ => of_kind("X", element, text)?,
             },
         };
-        let format = suffix
-            .map(|suffix| format(suffix, width, text))
-            .transpose()?;
-        Ok(Self {
-            area,
-            byte,
-            width,
-            format,
-        })
+        let format = suffix.map(|suffix| format(suffix, width, text)).transpose()?;
+        Ok(Self { area, byte, width, format })
     }
 }
 
 /// The area and what follows it.
 fn area(text: &str) -> Option<(Area, &str)> {
     if let Some(rest) = text.strip_prefix("DB") {
-        let end = rest
-            .find(|c: char| !c.is_ascii_digit())
-            .unwrap_or(rest.len());
+        let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
         return Some((Area::DataBlock(rest[..end].parse().ok()?), &rest[end..]));
     }
     let (area, rest) = text.split_at_checked(1)?;
@@ -170,12 +160,9 @@ fn area(text: &str) -> Option<(Area, &str)> {
 fn of_kind(kind: &str, rest: &str, text: &str) -> Result<(u16, Width), Problem> {
     let width = match kind {
         "X" => {
-            let (byte, bit) = rest.split_once('.').ok_or_else(|| {
-                Problem::new(
-                    format!("expected a bit behind the byte, found none in `{text}`"),
-                    CURE,
-                )
-            })?;
+            let (byte, bit) = rest
+                .split_once('.')
+                .ok_or_else(|| Problem::new(format!("expected a bit behind the byte, found none in `{text}`"), CURE))?;
             let width = match bit.split_once("..") {
                 None => Width::Bit(bit_number(bit, text)?),
                 Some((first, last)) => {
@@ -214,10 +201,7 @@ fn number(digits: &str, text: &str) -> Result<u16, Problem> {
         return Err(strange(text));
     }
     digits.parse().map_err(|_| {
-        Problem::new(
-            format!("expected a byte up to 65535, found `{digits}` in `{text}`"),
-            "write a smaller number",
-        )
+        Problem::new(format!("expected a byte up to 65535, found `{digits}` in `{text}`"), "write a smaller number")
     })
 }
 
@@ -227,17 +211,12 @@ fn format(suffix: &str, width: Width, text: &str) -> Result<Format, Problem> {
         ("REAL", Width::Double) => Ok(Format::Real),
         ("WORD", Width::Word) | ("DWORD", Width::Double) => Ok(Format::Unsigned),
         _ => Err(Problem::new(
-            format!(
-                "expected `:INT` behind a word or `:DINT` or `:REAL` behind a double word, found `{text}`"
-            ),
+            format!("expected `:INT` behind a word or `:DINT` or `:REAL` behind a double word, found `{text}`"),
             "without a suffix the number is unsigned",
         )),
     }
 }
 
 fn strange(text: &str) -> Problem {
-    Problem::new(
-        format!("expected an absolute address, found `{text}`"),
-        CURE,
-    )
+    Problem::new(format!("expected an absolute address, found `{text}`"), CURE)
 }

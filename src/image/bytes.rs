@@ -148,10 +148,6 @@ where
 {
     let bytes = read(deserializer)?;
     T::read_from_bytes(&bytes).map_err(|_| {
-        D::Error::custom(format!(
-            "expected {} bytes of the interface, found {}",
-            size_of::<T>(),
-            bytes.len()
-        ))
+        D::Error::custom(format!("expected {} bytes of the interface, found {}", size_of::<T>(), bytes.len()))
     })
 }

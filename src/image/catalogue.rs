@@ -6,9 +6,8 @@ use zerocopy::IntoBytes;
 
 use super::places::{length, place};
 use super::{
-    AxisFromNck, AxisToNck, Block, ChannelFromNck, ChannelHmi, ChannelToNck, Format, FromNck, Hmi,
-    Kind, Location, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck,
-    Part, Signal, ToNck,
+    AxisFromNck, AxisToNck, Block, ChannelFromNck, ChannelHmi, ChannelToNck, Format, FromNck, Hmi, Kind, Location,
+    ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Part, Signal, ToNck,
 };
 
 /// One byte of the interface: where STEP 7 sees it, and what lives there.
@@ -68,11 +67,7 @@ static BY_PART: LazyLock<[Vec<Option<ByteSignals>>; 3]> = LazyLock::new(|| {
     let lengths = [size_of::<ToNck>(), size_of::<FromNck>(), size_of::<Hmi>()];
     let mut parts = lengths.map(|length| vec![None; length]);
     for block in [Block::Nck, Block::ModeGroup, Block::Channel, Block::Axis] {
-        let data_blocks = if block == Block::ModeGroup {
-            1
-        } else {
-            block.count()
-        };
+        let data_blocks = if block == Block::ModeGroup { 1 } else { block.count() };
         for index in 1..=data_blocks {
             for byte in 0..length(block) {
                 let run = place(block, index, byte).expect("the byte is below the length");
@@ -86,19 +81,9 @@ static BY_PART: LazyLock<[Vec<Option<ByteSignals>>; 3]> = LazyLock::new(|| {
 
 fn byte_signals(block: Block, index: u8, byte: u16) -> ByteSignals {
     let second = block == Block::ModeGroup && byte >= 20;
-    let (number, own) = if second {
-        (2, byte - 20)
-    } else {
-        (index, byte)
-    };
+    let (number, own) = if second { (2, byte - 20) } else { (index, byte) };
     let signals = &BY_BYTE[block as usize][usize::from(own)];
-    ByteSignals {
-        block,
-        number,
-        data_block: block.data_block(index),
-        byte,
-        signals,
-    }
+    ByteSignals { block, number, data_block: block.data_block(index), byte, signals }
 }
 
 fn index_of(part: Part) -> Option<usize> {
@@ -106,12 +91,7 @@ fn index_of(part: Part) -> Option<usize> {
         Part::ToNck => Some(0),
         Part::FromNck => Some(1),
         Part::Hmi => Some(2),
-        Part::Inputs
-        | Part::Outputs
-        | Part::Flags
-        | Part::Timers
-        | Part::Counters
-        | Part::Block(_) => None,
+        Part::Inputs | Part::Outputs | Part::Flags | Part::Timers | Part::Counters | Part::Block(_) => None,
     }
 }
 
@@ -124,42 +104,25 @@ pub fn signals_at(part: Part, offset: u32) -> Option<ByteSignals> {
 
 /// The signals that share a bit with a place.
 pub(super) fn touching(location: Location) -> impl Iterator<Item = (u8, &'static Signal)> {
-    let bytes = (0..location.bytes())
-        .filter_map(move |byte| signals_at(location.part, location.offset + byte));
-    let all = bytes.flat_map(|byte| {
-        byte.signals
-            .iter()
-            .map(move |signal| (byte.number, *signal))
-    });
-    all.filter(move |(number, signal)| {
-        signal
-            .location(*number)
-            .is_some_and(|other| other.overlaps(location))
-    })
+    let bytes = (0..location.bytes()).filter_map(move |byte| signals_at(location.part, location.offset + byte));
+    let all = bytes.flat_map(|byte| byte.signals.iter().map(move |signal| (byte.number, *signal)));
+    all.filter(move |(number, signal)| signal.location(*number).is_some_and(|other| other.overlaps(location)))
 }
 
 /// How a number at a place is read when nothing else is said: REAL where the catalogue has a REAL.
 pub(super) fn usual_format(location: Location) -> Format {
     let is_real = touching(location).any(|(number, signal)| {
-        let same =
-            |other: Location| (other.offset, other.width) == (location.offset, location.width);
+        let same = |other: Location| (other.offset, other.width) == (location.offset, location.width);
         signal.kind == Kind::Real && signal.location(number).is_some_and(same)
     });
-    if is_real {
-        Format::Real
-    } else {
-        Format::Unsigned
-    }
+    if is_real { Format::Real } else { Format::Unsigned }
 }
 
 /// Which bits of each byte of [`FromNck`] have a name.
 static NAMED: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let mut named = vec![0; size_of::<FromNck>()];
     for (offset, mask) in named.iter_mut().enumerate() {
-        let Some(found) = u32::try_from(offset)
-            .ok()
-            .and_then(|offset| signals_at(Part::FromNck, offset))
-        else {
+        let Some(found) = u32::try_from(offset).ok().and_then(|offset| signals_at(Part::FromNck, offset)) else {
             continue;
         };
         for bit in 0..8_u8 {

@@ -34,28 +34,19 @@ impl Blocks {
     /// The bytes of a block.
     #[must_use]
     pub fn get(&self, number: u16) -> Option<&Bytes> {
-        let index = self
-            .0
-            .binary_search_by_key(&number, |block| block.number)
-            .ok()?;
+        let index = self.0.binary_search_by_key(&number, |block| block.number).ok()?;
         Some(&self.0[index].bytes)
     }
 
     /// The bytes of a block, to be written.
     pub fn get_mut(&mut self, number: u16) -> Option<&mut Bytes> {
-        let index = self
-            .0
-            .binary_search_by_key(&number, |block| block.number)
-            .ok()?;
+        let index = self.0.binary_search_by_key(&number, |block| block.number).ok()?;
         Some(&mut self.0[index].bytes)
     }
 
     /// Puts a block in, in place of one with the same number.
     pub fn put(&mut self, block: DataBlock) {
-        match self
-            .0
-            .binary_search_by_key(&block.number, |other| other.number)
-        {
+        match self.0.binary_search_by_key(&block.number, |other| other.number) {
             Ok(index) => self.0[index] = block,
             Err(index) => self.0.insert(index, block),
         }
@@ -100,11 +91,7 @@ impl Memory {
     /// Everything 0: the interface, M 256, I 128, Q 128, T 64, C 64 bytes, and the standard blocks (O-24).
     #[must_use]
     pub fn new() -> Self {
-        let block = |number| DataBlock {
-            number,
-            name: None,
-            bytes: Bytes::zeroed(Self::STANDARD_LENGTH),
-        };
+        let block = |number| DataBlock { number, name: None, bytes: Bytes::zeroed(Self::STANDARD_LENGTH) };
         Self {
             to_nck: ToNck::default(),
             from_nck: FromNck::default(),
@@ -166,27 +153,16 @@ impl Memory {
             _ => u32::from(address.byte),
         };
         let bytes = u32::from(width).div_ceil(8);
-        let run =
-            places::run(self, address.area, byte, bytes, profile).map_err(|problem| Problem {
-                what: format!("{address}: {}", problem.what),
-                ..problem
-            })?;
+        let run = places::run(self, address.area, byte, bytes, profile)
+            .map_err(|problem| Problem { what: format!("{address}: {}", problem.what), ..problem })?;
         if run.left < bytes {
             return Err(Problem::new(
                 format!("{address} spans bytes of two writers"),
                 "read or write its bytes one by one",
             ));
         }
-        let mut location = Location {
-            part: run.part,
-            offset: run.offset,
-            bit,
-            width,
-            format: Format::Unsigned,
-        };
-        location.format = address
-            .format
-            .unwrap_or_else(|| super::catalogue::usual_format(location));
+        let mut location = Location { part: run.part, offset: run.offset, bit, width, format: Format::Unsigned };
+        location.format = address.format.unwrap_or_else(|| super::catalogue::usual_format(location));
         Ok(location)
     }
 
@@ -194,22 +170,14 @@ impl Memory {
     #[must_use]
     pub fn read(&self, location: Location) -> u64 {
         let start = location.offset as usize;
-        let bytes = self
-            .part(location.part)
-            .get(start..start + location.bytes() as usize)
-            .unwrap_or(&[]);
-        let number = bytes
-            .iter()
-            .fold(0, |number, &byte| number << 8 | u64::from(byte));
+        let bytes = self.part(location.part).get(start..start + location.bytes() as usize).unwrap_or(&[]);
+        let number = bytes.iter().fold(0, |number, &byte| number << 8 | u64::from(byte));
         number >> location.bit & location.mask()
     }
 
     /// The number at a place, signed or REAL as its format says.
     #[must_use]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "the width was checked: the number has at most 32 bits"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "the width was checked: the number has at most 32 bits")]
     pub fn value(&self, location: Location) -> f64 {
         let raw = self.read(location);
         match location.format {
@@ -224,10 +192,7 @@ impl Memory {
 
     /// Writes raw bits to a place; bits that do not fit are dropped, and nothing happens where this memory has no
     /// such bytes.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "one byte after the other is taken out on purpose"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "one byte after the other is taken out on purpose")]
     pub fn write(&mut self, location: Location, raw: u64) {
         if self.read(location) == raw & location.mask() {
             return; // a clone that shares the bytes keeps sharing them
@@ -247,13 +212,7 @@ impl Memory {
     ///
     /// # Errors
     /// There is no such data block, or it ends before the last byte; then `into` is unchanged or partly filled.
-    pub fn read_bytes(
-        &self,
-        area: Area,
-        start: u32,
-        into: &mut [u8],
-        profile: Profile,
-    ) -> Result<(), Problem> {
+    pub fn read_bytes(&self, area: Area, start: u32, into: &mut [u8], profile: Profile) -> Result<(), Problem> {
         let mut done = 0;
         while done < into.len() {
             let run = self.run_of(area, start, done, into.len(), profile)?;
@@ -269,13 +228,7 @@ impl Memory {
     ///
     /// # Errors
     /// There is no such data block, or it ends before the last byte; then nothing is written.
-    pub fn write_bytes(
-        &mut self,
-        area: Area,
-        start: u32,
-        bytes: &[u8],
-        profile: Profile,
-    ) -> Result<(), Problem> {
+    pub fn write_bytes(&mut self, area: Area, start: u32, bytes: &[u8], profile: Profile) -> Result<(), Problem> {
         for write in [false, true] {
             let mut done = 0;
             while done < bytes.len() {
@@ -283,8 +236,7 @@ impl Memory {
                 let count = (run.left as usize).min(bytes.len() - done);
                 if write {
                     let to = run.offset as usize;
-                    self.part_mut(run.part)[to..to + count]
-                        .copy_from_slice(&bytes[done..done + count]);
+                    self.part_mut(run.part)[to..to + count].copy_from_slice(&bytes[done..done + count]);
                 }
                 done += count;
             }
@@ -292,27 +244,11 @@ impl Memory {
         Ok(())
     }
 
-    fn run_of(
-        &self,
-        area: Area,
-        start: u32,
-        done: usize,
-        length: usize,
-        profile: Profile,
-    ) -> Result<Run, Problem> {
+    fn run_of(&self, area: Area, start: u32, done: usize, length: usize, profile: Profile) -> Result<Run, Problem> {
         let (done, length) = (u32::try_from(done), u32::try_from(length));
         let (Ok(done), Ok(length)) = (done, length) else {
-            return Err(Problem::new(
-                "expected at most 65536 bytes at once, found more",
-                "read less",
-            ));
+            return Err(Problem::new("expected at most 65536 bytes at once, found more", "read less"));
         };
-        places::run(
-            self,
-            area,
-            start.saturating_add(done),
-            length - done,
-            profile,
-        )
+        places::run(self, area, start.saturating_add(done), length - done, profile)
     }
 }

@@ -7,8 +7,7 @@ use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel};
 
 use super::catalogue::{touching, usual_format};
 use super::{
-    Address, Area, Block, Location, Memory, Part, Profile, Signal, Width, Writer, profile_828d,
-    signals, signals_at,
+    Address, Area, Block, Location, Memory, Part, Profile, Signal, Width, Writer, profile_828d, signals, signals_at,
 };
 
 /// What a machine calls its axes (MD10000) and channels (MD20000).
@@ -29,36 +28,22 @@ impl Names {
     /// The number of an axis.
     #[must_use]
     pub fn axis(&self, name: &str) -> Option<AxisNumber> {
-        self.axes
-            .iter()
-            .find(|(_, other)| other.as_deref() == Some(name))
-            .map(|(number, _)| number)
+        self.axes.iter().find(|(_, other)| other.as_deref() == Some(name)).map(|(number, _)| number)
     }
 
     /// The number of a channel.
     #[must_use]
     pub fn channel(&self, name: &str) -> Option<ChannelNumber> {
-        self.channels
-            .iter()
-            .find(|(_, other)| other.as_deref() == Some(name))
-            .map(|(number, _)| number)
+        self.channels.iter().find(|(_, other)| other.as_deref() == Some(name)).map(|(number, _)| number)
     }
 
     /// Everything that can stand before the dot of a symbol.
     fn owners(&self) -> impl Iterator<Item = (&str, Block, u8)> {
-        let axes = self
-            .axes
-            .iter()
-            .filter_map(|(n, name)| Some((name.as_deref()?, Block::Axis, n.number())));
-        let channels = self
-            .channels
-            .iter()
-            .filter_map(|(n, name)| Some((name.as_deref()?, Block::Channel, n.number())));
-        let groups = [
-            (NCK, Block::Nck, 1),
-            (MODE_GROUPS[0], Block::ModeGroup, 1),
-            (MODE_GROUPS[1], Block::ModeGroup, 2),
-        ];
+        let axes = self.axes.iter().filter_map(|(n, name)| Some((name.as_deref()?, Block::Axis, n.number())));
+        let channels =
+            self.channels.iter().filter_map(|(n, name)| Some((name.as_deref()?, Block::Channel, n.number())));
+        let groups =
+            [(NCK, Block::Nck, 1), (MODE_GROUPS[0], Block::ModeGroup, 1), (MODE_GROUPS[1], Block::ModeGroup, 2)];
         groups.into_iter().chain(channels).chain(axes)
     }
 
@@ -80,9 +65,7 @@ impl Names {
                 ));
             }
             let letters = |c: char| c.is_ascii_alphanumeric() || c == '_';
-            let is_data_block = name
-                .strip_prefix("DB")
-                .is_some_and(|rest| rest.parse::<u16>().is_ok());
+            let is_data_block = name.strip_prefix("DB").is_some_and(|rest| rest.parse::<u16>().is_ok());
             if name.is_empty() || !name.chars().all(letters) || is_data_block {
                 return Err(Problem::new(
                     format!(
@@ -102,13 +85,9 @@ impl Names {
     /// Nothing is called so, or the address does not exist; the cure names the nearest known name.
     pub fn resolve(&self, memory: &Memory, text: &str) -> Result<Location, Problem> {
         match text.split_once('.') {
-            Some((owner, signal)) if signal.starts_with(|c: char| c.is_ascii_lowercase()) => {
-                self.lookup(owner, signal)
-            }
+            Some((owner, signal)) if signal.starts_with(|c: char| c.is_ascii_lowercase()) => self.lookup(owner, signal),
             _ => {
-                let address: Address = text
-                    .parse()
-                    .map_err(|problem: Problem| self.hint(text, problem))?;
+                let address: Address = text.parse().map_err(|problem: Problem| self.hint(text, problem))?;
                 memory.locate(&address, self.profile)
             }
         }
@@ -118,27 +97,14 @@ impl Names {
         let Some((_, block, number)) = self.owners().find(|(other, ..)| *other == owner) else {
             let known: Vec<&str> = self.owners().map(|(name, ..)| name).collect();
             let cure = did_you_mean(owner, known.iter().copied(), "upper and lower case count");
-            return Err(Problem::new(
-                format!("expected one of `{}`, found `{owner}`", known.join("`, `")),
-                cure,
-            ));
+            return Err(Problem::new(format!("expected one of `{}`, found `{owner}`", known.join("`, `")), cure));
         };
         let mut of_block = signals().filter(|signal| signal.block == block);
-        let found = of_block
-            .find(|signal| signal.name == name)
-            .and_then(|signal| signal.location(number));
+        let found = of_block.find(|signal| signal.name == name).and_then(|signal| signal.location(number));
         found.ok_or_else(|| {
-            let known = signals()
-                .filter(|signal| signal.block == block)
-                .map(|signal| signal.name);
+            let known = signals().filter(|signal| signal.block == block).map(|signal| signal.name);
             let cure = did_you_mean(name, known, "`opennck signals` lists them all");
-            Problem::new(
-                format!(
-                    "expected a signal of {}, found `{owner}.{name}`",
-                    described(block, number)
-                ),
-                cure,
-            )
+            Problem::new(format!("expected a signal of {}, found `{owner}.{name}`", described(block, number)), cure)
         })
     }
 
@@ -148,15 +114,8 @@ impl Names {
         if !self.owners().any(|(name, ..)| name == owner) {
             return problem;
         }
-        let cure = did_you_mean(
-            &signal.to_ascii_lowercase(),
-            signals().map(|s| s.name),
-            "write X.controller_enable",
-        );
-        Problem::new(
-            format!("expected a signal name in lower case behind `{owner}.`, found `{text}`"),
-            cure,
-        )
+        let cure = did_you_mean(&signal.to_ascii_lowercase(), signals().map(|s| s.name), "write X.controller_enable");
+        Problem::new(format!("expected a signal name in lower case behind `{owner}.`, found `{text}`"), cure)
     }
 
     /// The address of a place as this machine's profile writes it. What the 828D does not show has its 840D sl address.
@@ -181,19 +140,11 @@ impl Names {
             8 => Width::Byte,
             16 => Width::Word,
             32 => Width::Double,
-            width => Width::Bits {
-                first: location.bit,
-                last: location.bit + width - 1,
-            },
+            width => Width::Bits { first: location.bit, last: location.bit + width - 1 },
         };
         let is_usual = location.format == usual_format(location);
         let format = (!is_usual && location.width > 8).then_some(location.format);
-        Address {
-            area,
-            byte,
-            width,
-            format,
-        }
+        Address { area, byte, width, format }
     }
 
     fn data_block_byte(&self, location: Location) -> (u16, u16) {
@@ -215,9 +166,7 @@ impl Names {
             signal.location(*number).map(place) == Some(place(location))
         };
         let (number, signal) = touching(location).find(exact)?;
-        let (owner, ..) = self
-            .owners()
-            .find(|(_, block, other)| (*block, *other) == (signal.block, number))?;
+        let (owner, ..) = self.owners().find(|(_, block, other)| (*block, *other) == (signal.block, number))?;
         Some(format!("{owner}.{}", signal.name))
     }
 

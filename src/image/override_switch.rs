@@ -4,9 +4,7 @@ use super::{Block, Location, Part, signals_at};
 
 /// The per cent of the positions of the switch, from position 1: the defaults of MD12010. The positions behind the
 /// last one count as 120 % as well.
-const POSITIONS: [u8; 23] = [
-    0, 1, 2, 4, 6, 8, 10, 20, 30, 40, 50, 60, 70, 75, 80, 85, 90, 95, 100, 105, 110, 115, 120,
-];
+const POSITIONS: [u8; 23] = [0, 1, 2, 4, 6, 8, 10, 20, 30, 40, 50, 60, 70, 75, 80, 85, 90, 95, 100, 105, 110, 115, 120];
 
 /// The code of a percentage: the position of the switch in Gray code, or the percentage itself in binary up to 200.
 /// `None` if the switch has no such position.
@@ -34,11 +32,7 @@ pub struct OverrideCoding {
 
 impl Default for OverrideCoding {
     fn default() -> Self {
-        Self {
-            axis_is_gray: true,
-            feed_is_gray: true,
-            rapid_traverse_is_gray: true,
-        }
+        Self { axis_is_gray: true, feed_is_gray: true, rapid_traverse_is_gray: true }
     }
 }
 
@@ -59,10 +53,6 @@ impl OverrideCoding {
 
     /// The percentages that have a code.
     pub(super) fn known(gray: bool) -> String {
-        if gray {
-            POSITIONS.map(|percent| percent.to_string()).join(", ")
-        } else {
-            "0 to 200".to_owned()
-        }
+        if gray { POSITIONS.map(|percent| percent.to_string()).join(", ") } else { "0 to 200".to_owned() }
     }
 }

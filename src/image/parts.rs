@@ -7,8 +7,8 @@ use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChann
 
 use super::bytes::read_part;
 use super::{
-    AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, ModeGroupFromNck,
-    ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, places,
+    AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck,
+    NckFromNck, NckHmi, NckToNck, places,
 };
 
 /// What the PLC writes to the NCK. The plain bytes of the interface blocks, which the catalogue does not name, lie

@@ -5,9 +5,8 @@ use std::mem::offset_of;
 use crate::source::Problem;
 
 use super::{
-    Area, AxisFromNck, AxisToNck, Block, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi,
-    Memory, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Part,
-    Profile, ToNck, profile_828d,
+    Area, AxisFromNck, AxisToNck, Block, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi, Memory,
+    ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Part, Profile, ToNck, profile_828d,
 };
 
 /// Plain bytes of DB10: 0 to 55, 58 to 67, 110 to 271.
@@ -42,13 +41,7 @@ struct Range {
 }
 
 const fn range(first: u16, last: u16, part: Part, base: usize, stride: usize) -> Range {
-    Range {
-        first,
-        last,
-        part,
-        base,
-        stride,
-    }
+    Range { first, last, part, base, stride }
 }
 
 const NCK_PLAIN: usize = offset_of!(ToNck, plain.nck);
@@ -102,10 +95,7 @@ static AXIS: [Range; 4] = [
 const fn tiles(ranges: &[Range], length: u16) {
     let (mut index, mut next) = (0, 0);
     while index < ranges.len() {
-        assert!(
-            ranges[index].first == next && ranges[index].last >= next,
-            "ranges must follow one another"
-        );
+        assert!(ranges[index].first == next && ranges[index].last >= next, "ranges must follow one another");
         next = ranges[index].last + 1;
         index += 1;
     }
@@ -132,17 +122,10 @@ const _: () = {
     // The parts, without padding and in this order.
     assert!(offset_of!(ToNck, mode_groups) == 2 && offset_of!(ToNck, channels) == 8);
     assert!(offset_of!(ToNck, axes) == 228 && offset_of!(ToNck, plain) == 1158);
-    assert!(
-        size_of::<ToNck>()
-            == 1158 + PLAIN_NCK + PLAIN_MODE_GROUPS + 10 * PLAIN_CHANNEL + 31 * PLAIN_AXIS
-    );
+    assert!(size_of::<ToNck>() == 1158 + PLAIN_NCK + PLAIN_MODE_GROUPS + 10 * PLAIN_CHANNEL + 31 * PLAIN_AXIS);
     assert!(offset_of!(FromNck, mode_groups) == 42 && offset_of!(FromNck, channels) == 48);
     assert!(offset_of!(FromNck, axes) == 268 && size_of::<FromNck>() == 268 + 31 * 43);
-    assert!(
-        offset_of!(Hmi, mode_groups) == 7
-            && offset_of!(Hmi, channels) == 11
-            && size_of::<Hmi>() == 31
-    );
+    assert!(offset_of!(Hmi, mode_groups) == 7 && offset_of!(Hmi, channels) == 11 && size_of::<Hmi>() == 31);
 };
 
 fn ranges(block: Block) -> &'static [Range] {
@@ -162,14 +145,9 @@ pub(super) fn length(block: Block) -> u16 {
 /// Where a byte of the data block of block number `number` lies; `None` beyond its end.
 pub(super) fn place(block: Block, number: u8, byte: u16) -> Option<Run> {
     let range = ranges(block).iter().find(|range| range.last >= byte)?;
-    let offset =
-        range.base + range.stride * (usize::from(number) - 1) + usize::from(byte - range.first);
+    let offset = range.base + range.stride * (usize::from(number) - 1) + usize::from(byte - range.first);
     let offset = u32::try_from(offset).expect("the parts have some thousand bytes");
-    Some(Run {
-        part: range.part,
-        offset,
-        left: u32::from(range.last - byte) + 1,
-    })
+    Some(Run { part: range.part, offset, left: u32::from(range.last - byte) + 1 })
 }
 
 /// The interface block behind a data block number of the 840D sl; both mode groups count as the first.
@@ -181,9 +159,7 @@ pub(super) fn interface_840d(db: u16) -> Option<(Block, u8)> {
         31..=61 => (Block::Axis, 31),
         _ => return None,
     };
-    u8::try_from(db - first + 1)
-        .ok()
-        .map(|number| (block, number))
+    u8::try_from(db - first + 1).ok().map(|number| (block, number))
 }
 
 /// Whether the interface has a data block of this number.
@@ -195,13 +171,7 @@ pub(super) fn is_interface(db: u16, profile: Profile) -> bool {
 }
 
 /// Where `bytes` bytes from `byte` of an area lie; the run may be shorter, but the whole span exists.
-pub(super) fn run(
-    memory: &Memory,
-    area: Area,
-    byte: u32,
-    bytes: u32,
-    profile: Profile,
-) -> Result<Run, Problem> {
+pub(super) fn run(memory: &Memory, area: Area, byte: u32, bytes: u32, profile: Profile) -> Result<Run, Problem> {
     let part = match area {
         Area::Inputs => Part::Inputs,
         Area::Outputs => Part::Outputs,
@@ -218,17 +188,9 @@ pub(super) fn run(
     };
     let length = u32::try_from(memory.part(part).len()).unwrap_or(u32::MAX);
     if byte.saturating_add(bytes) > length {
-        return Err(beyond(
-            &area.to_string(),
-            length,
-            byte.saturating_add(bytes),
-        ));
+        return Err(beyond(&area.to_string(), length, byte.saturating_add(bytes)));
     }
-    Ok(Run {
-        part,
-        offset: byte,
-        left: length - byte,
-    })
+    Ok(Run { part, offset: byte, left: length - byte })
 }
 
 fn interface(db: u16, byte: u32, bytes: u32, profile: Profile) -> Result<Run, Problem> {
@@ -237,11 +199,7 @@ fn interface(db: u16, byte: u32, bytes: u32, profile: Profile) -> Result<Run, Pr
     match profile {
         Profile::Sinumerik840dSl => {
             let (block, number) = interface_840d(db).expect("only called for interface blocks");
-            let exists = |byte| {
-                u16::try_from(byte)
-                    .ok()
-                    .and_then(|byte| place(block, number, byte))
-            };
+            let exists = |byte| u16::try_from(byte).ok().and_then(|byte| place(block, number, byte));
             match (exists(byte), exists(last)) {
                 (Some(run), Some(_)) => Ok(run),
                 _ => Err(beyond(&name, length(block).into(), last + 1)),
@@ -254,9 +212,7 @@ fn interface(db: u16, byte: u32, bytes: u32, profile: Profile) -> Result<Run, Pr
 /// The problem of an address behind the end.
 fn beyond(what: &str, length: u32, needed: u32) -> Problem {
     Problem::new(
-        format!(
-            "expected an address inside the {length} bytes of {what}, found one that needs {needed}"
-        ),
+        format!("expected an address inside the {length} bytes of {what}, found one that needs {needed}"),
         match length {
             0 => "a PLC image can declare it larger".to_owned(),
             length => format!("the last byte is {}", length - 1),
@@ -266,36 +222,20 @@ fn beyond(what: &str, length: u32, needed: u32) -> Problem {
 
 fn unknown(memory: &Memory, db: u16, profile: Profile) -> Problem {
     let (interface, axes, other) = match profile {
-        Profile::Sinumerik840dSl => (
-            "DB10, DB11, DB21 to DB30, DB31 to DB61",
-            "DB 30 + axis number",
-            profile_828d::has(db),
-        ),
+        Profile::Sinumerik840dSl => {
+            ("DB10, DB11, DB21 to DB30, DB31 to DB61", "DB 30 + axis number", profile_828d::has(db))
+        }
         Profile::Sinumerik828d => (
             "DB1800, DB2600, DB2700, DB3000, DB3100, DB3200, DB3300, DB3800 to DB3807, DB3900 to DB3907",
             "DB 3800 + axis number - 1",
             interface_840d(db).is_some(),
         ),
     };
-    let own: Vec<String> = memory
-        .blocks
-        .iter()
-        .map(|block| block.number.to_string())
-        .collect();
+    let own: Vec<String> = memory.blocks.iter().map(|block| block.number.to_string()).collect();
     let cure = match (other, profile) {
-        (true, Profile::Sinumerik840dSl) => {
-            "it is a block of the 828D: set its profile, or use a symbol".to_owned()
-        }
-        (true, Profile::Sinumerik828d) => {
-            "it is a block of the 840D sl: set its profile, or use a symbol".to_owned()
-        }
+        (true, Profile::Sinumerik840dSl) => "it is a block of the 828D: set its profile, or use a symbol".to_owned(),
+        (true, Profile::Sinumerik828d) => "it is a block of the 840D sl: set its profile, or use a symbol".to_owned(),
         (false, _) => format!("an axis has {axes}; other blocks are declared in a PLC image"),
     };
-    Problem::new(
-        format!(
-            "expected {interface} or an own block ({}), found DB{db}",
-            own.join(", ")
-        ),
-        cure,
-    )
+    Problem::new(format!("expected {interface} or an own block ({}), found DB{db}", own.join(", ")), cure)
 }

@@ -36,10 +36,7 @@ impl Preset {
         if let Some(node) = top.take("areas") {
             let mut table = node.into_table("the sizes of the areas")?;
             for (size, name) in areas.iter_mut().zip(["M", "I", "Q", "T", "C"]) {
-                *size = table
-                    .take(name)
-                    .map(|node| bytes_count(&node, 0))
-                    .transpose()?;
+                *size = table.take(name).map(|node| bytes_count(&node, 0)).transpose()?;
             }
             table.finish()?;
         }
@@ -49,10 +46,7 @@ impl Preset {
             let same = |other: &&DeclaredBlock| other.block.number == block.block.number;
             if let Some(other) = blocks.iter().find(same) {
                 return Err(block.place.problem(
-                    format!(
-                        "expected different numbers, found DB{} again",
-                        block.block.number
-                    ),
+                    format!("expected different numbers, found DB{} again", block.block.number),
                     format!("it is declared at {}", other.place),
                 ));
             }
@@ -63,11 +57,7 @@ impl Preset {
             None => Vec::new(),
         };
         top.finish()?;
-        Ok(Self {
-            areas,
-            blocks,
-            interface,
-        })
+        Ok(Self { areas, blocks, interface })
     }
 
     /// Reads a PLC image from a file.
@@ -90,16 +80,9 @@ fn bytes_count(node: &Node, least: i64) -> Result<usize, Problem> {
 fn declared_block(node: Node) -> Result<DeclaredBlock, Problem> {
     let place = node.place.clone();
     let mut table = node.into_table("a data block")?;
-    let place = if table.place.line > 0 {
-        table.place.clone()
-    } else {
-        place
-    };
+    let place = if table.place.line > 0 { table.place.clone() } else { place };
     let missing = |what: &str| {
-        place.problem(
-            format!("expected `{what}` for a data block, found none"),
-            format!("add {what} = …"),
-        )
+        place.problem(format!("expected `{what}` for a data block, found none"), format!("add {what} = …"))
     };
     let number = table.take("number").ok_or_else(|| missing("number"))?;
     let number = match u16::try_from(number.integer("the number of the data block")?) {
@@ -108,10 +91,7 @@ fn declared_block(node: Node) -> Result<DeclaredBlock, Problem> {
     };
     let (number, number_place) = number;
     let size = bytes_count(&table.take("size").ok_or_else(|| missing("size"))?, 1)?;
-    let name = table
-        .take("name")
-        .map(|node| node.text("a name").map(Arc::from))
-        .transpose()?;
+    let name = table.take("name").map(|node| node.text("a name").map(Arc::from)).transpose()?;
     let mut bytes = vec![0; size];
     if let Some(node) = table.take("fill") {
         let pattern = fill(&node, size)?;
@@ -120,21 +100,11 @@ fn declared_block(node: Node) -> Result<DeclaredBlock, Problem> {
         }
     }
     let values = match table.take("values") {
-        Some(node) => node
-            .into_table("values by address in the block")?
-            .take_rest(),
+        Some(node) => node.into_table("values by address in the block")?.take_rest(),
         None => Vec::new(),
     };
     table.finish()?;
-    Ok(DeclaredBlock {
-        place: number_place,
-        block: DataBlock {
-            number,
-            name,
-            bytes: Bytes::from(bytes),
-        },
-        values,
-    })
+    Ok(DeclaredBlock { place: number_place, block: DataBlock { number, name, bytes: Bytes::from(bytes) }, values })
 }
 
 /// The bytes of `"8C 00 FF"`.
@@ -142,20 +112,13 @@ fn fill(node: &Node, size: usize) -> Result<Vec<u8>, Problem> {
     let text = node.text("bytes in hexadecimal")?;
     let byte = |part: &str| {
         let digits = part.len() == 2 && part.bytes().all(|digit| digit.is_ascii_hexdigit());
-        if digits {
-            u8::from_str_radix(part, 16).ok()
-        } else {
-            None
-        }
+        if digits { u8::from_str_radix(part, 16).ok() } else { None }
     };
     let bytes: Option<Vec<u8>> = text.split_whitespace().map(byte).collect();
     match bytes {
         Some(bytes) if !bytes.is_empty() && bytes.len() <= size => Ok(bytes),
         Some(bytes) if !bytes.is_empty() => Err(node.place.problem(
-            format!(
-                "expected at most {size} bytes to fill the block, found {}",
-                bytes.len()
-            ),
+            format!("expected at most {size} bytes to fill the block, found {}", bytes.len()),
             "make the block larger",
         )),
         _ => Err(node.expected("bytes in hexadecimal", "write fill = \"8C 00 FF\"")),
@@ -168,24 +131,10 @@ impl Memory {
     /// # Errors
     /// A block has the number of an interface block, values overlap or do not fit, a name or address does not exist,
     /// or a bit of the NCK is to be set; at its place in the file.
-    pub fn from_preset(
-        preset: &Preset,
-        names: &Names,
-        coding: OverrideCoding,
-    ) -> Result<Self, Problem> {
+    pub fn from_preset(preset: &Preset, names: &Names, coding: OverrideCoding) -> Result<Self, Problem> {
         let mut memory = Self::new();
-        let Self {
-            flags,
-            inputs,
-            outputs,
-            timers,
-            counters,
-            ..
-        } = &mut memory;
-        for (area, size) in [flags, inputs, outputs, timers, counters]
-            .into_iter()
-            .zip(preset.areas)
-        {
+        let Self { flags, inputs, outputs, timers, counters, .. } = &mut memory;
+        for (area, size) in [flags, inputs, outputs, timers, counters].into_iter().zip(preset.areas) {
             if let Some(size) = size {
                 *area = Bytes::zeroed(size);
             }
@@ -193,20 +142,13 @@ impl Memory {
         for DeclaredBlock { place, block, .. } in &preset.blocks {
             if is_interface(block.number, names.profile) {
                 return Err(place.problem(
-                    format!(
-                        "expected the number of an own block, found DB{}, an interface block",
-                        block.number
-                    ),
+                    format!("expected the number of an own block, found DB{}, an interface block", block.number),
                     "use another number; starting values of the interface go into [interface]",
                 ));
             }
             memory.blocks.put(block.clone());
         }
-        let mut writes = Writes {
-            names,
-            coding,
-            done: Vec::new(),
-        };
+        let mut writes = Writes { names, coding, done: Vec::new() };
         for DeclaredBlock { block, values, .. } in &preset.blocks {
             for (key, place, node) in values {
                 if !key.starts_with("DB") {
@@ -215,12 +157,7 @@ impl Memory {
                         "write DBX0.3, DBB1, DBW2 or DBD4",
                     ));
                 }
-                writes.write(
-                    &mut memory,
-                    &format!("DB{}.{key}", block.number),
-                    place,
-                    node,
-                )?;
+                writes.write(&mut memory, &format!("DB{}.{key}", block.number), place, node)?;
             }
         }
         for (key, place, node) in &preset.interface {
@@ -238,36 +175,18 @@ struct Writes<'a> {
 }
 
 impl Writes<'_> {
-    fn write(
-        &mut self,
-        memory: &mut Memory,
-        key: &str,
-        place: &Place,
-        node: &Node,
-    ) -> Result<(), Problem> {
+    fn write(&mut self, memory: &mut Memory, key: &str, place: &Place, node: &Node) -> Result<(), Problem> {
         if let Value::Table(_) = node.value {
-            return Err(node.expected(
-                "one value",
-                "put the key in quotes: \"X.feed_override\" = \"100%\"",
-            ));
+            return Err(node.expected("one value", "put the key in quotes: \"X.feed_override\" = \"100%\""));
         }
-        let location = self
-            .names
-            .resolve(memory, key)
-            .map_err(|problem| problem.at(place))?;
+        let location = self.names.resolve(memory, key).map_err(|problem| problem.at(place))?;
         if self.names.writer(location) == Some(Writer::Nck) {
             return Err(place.problem(
-                format!(
-                    "expected a signal of the PLC or the HMI, found `{key}`, which the NCK writes"
-                ),
+                format!("expected a signal of the PLC or the HMI, found `{key}`, which the NCK writes"),
                 "remove it: the NCK sets its signals itself",
             ));
         }
-        if let Some((_, other, at)) = self
-            .done
-            .iter()
-            .find(|(other, ..)| other.overlaps(location))
-        {
+        if let Some((_, other, at)) = self.done.iter().find(|(other, ..)| other.overlaps(location)) {
             return Err(place.problem(
                 format!("expected each bit once, found `{key}`, which overlaps `{other}`"),
                 format!("`{other}` is set at {at}"),

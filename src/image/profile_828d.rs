@@ -17,13 +17,7 @@ struct Window {
 }
 
 const fn window(db: u16, first: u16, last: u16, block: Block, byte: u16) -> Window {
-    Window {
-        db,
-        first,
-        last,
-        block,
-        byte,
-    }
+    Window { db, first, last, block, byte }
 }
 
 /// How many axes the 828D has.
@@ -56,11 +50,7 @@ static WINDOWS: [Window; 21] = [
 impl Window {
     /// The number of the interface block that the window shows in data block `db`, if it is one of its own.
     fn number(&self, db: u16) -> Option<u8> {
-        let count = if matches!(self.block, Block::Axis) {
-            AXES
-        } else {
-            1
-        };
+        let count = if matches!(self.block, Block::Axis) { AXES } else { 1 };
         let index = db.checked_sub(self.db).filter(|index| *index < count)?;
         u8::try_from(index + 1).ok()
     }
@@ -74,28 +64,16 @@ pub(super) fn has(db: u16) -> bool {
 /// Where the bytes from `byte` lie; all up to `last` must exist.
 pub(super) fn run(db: u16, byte: u32, last: u32) -> Result<Run, Problem> {
     let windows = || WINDOWS.iter().filter(|window| window.number(db).is_some());
-    let find =
-        |byte: u32| windows().find(|w| (u32::from(w.first)..=u32::from(w.last)).contains(&byte));
-    let hole = (byte..=last)
-        .take(1 << 16)
-        .find(|byte| find(*byte).is_none());
+    let find = |byte: u32| windows().find(|w| (u32::from(w.first)..=u32::from(w.last)).contains(&byte));
+    let hole = (byte..=last).take(1 << 16).find(|byte| find(*byte).is_none());
     let window = find(byte).filter(|_| hole.is_none());
     let found = window.and_then(|window| {
         let byte = u16::try_from(byte).ok()?;
-        let run = place(
-            window.block,
-            window.number(db)?,
-            window.byte + (byte - window.first),
-        )?;
-        Some(Run {
-            left: run.left.min(u32::from(window.last - byte) + 1),
-            ..run
-        })
+        let run = place(window.block, window.number(db)?, window.byte + (byte - window.first))?;
+        Some(Run { left: run.left.min(u32::from(window.last - byte) + 1), ..run })
     });
     found.ok_or_else(|| {
-        let ranges: Vec<String> = windows()
-            .map(|window| format!("{} to {}", window.first, window.last))
-            .collect();
+        let ranges: Vec<String> = windows().map(|window| format!("{} to {}", window.first, window.last)).collect();
         Problem::new(
             format!(
                 "expected a byte that {} of the 828D has, found byte {}",

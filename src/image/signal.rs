@@ -115,19 +115,9 @@ impl Signal {
         }
         let byte = self.data_block_byte(number);
         let run = place(self.block, number, byte)?;
-        let format = if self.kind == Kind::Real {
-            Format::Real
-        } else {
-            Format::Unsigned
-        };
+        let format = if self.kind == Kind::Real { Format::Real } else { Format::Unsigned };
         let (bit, width) = (self.bit, self.kind.width());
-        Some(Location {
-            part: run.part,
-            offset: run.offset,
-            bit,
-            width,
-            format,
-        })
+        Some(Location { part: run.part, offset: run.offset, bit, width, format })
     }
 
     /// The byte in the data block of the 840D sl for block number `number`.

@@ -131,33 +131,15 @@ pub(super) const fn bits(
     doc: &'static str,
 ) -> Signal {
     let is_bit = matches!(kind.as_bytes(), b"bool");
-    assert!(
-        is_bit == (span.len() == 1),
-        "a `bool` row names one bit, a `u8` row two: high to low"
-    );
+    assert!(is_bit == (span.len() == 1), "a `bool` row names one bit, a `u8` row two: high to low");
     let (bit, kind) = if is_bit {
         (span[0], Kind::Bit)
     } else {
         assert!(span[0] > span[1], "a group is written high to low");
         let width = span[0] - span[1] + 1;
-        (
-            span[1],
-            if width == 8 {
-                Kind::Byte
-            } else {
-                Kind::Bits(width)
-            },
-        )
+        (span[1], if width == 8 { Kind::Byte } else { Kind::Bits(width) })
     };
-    Signal {
-        name,
-        block,
-        byte,
-        bit,
-        kind,
-        writer,
-        doc: doc.trim_ascii(),
-    }
+    Signal { name, block, byte, bit, kind, writer, doc: doc.trim_ascii() }
 }
 
 /// The catalogue entry of a number row.
@@ -175,15 +157,7 @@ pub(super) const fn number(
         b"u32" => Kind::Double,
         _ => panic!("a number is a u16, a u32 or an f32"),
     };
-    Signal {
-        name,
-        block,
-        byte,
-        bit: 0,
-        kind,
-        writer,
-        doc: doc.trim_ascii(),
-    }
+    Signal { name, block, byte, bit: 0, kind, writer, doc: doc.trim_ascii() }
 }
 
 /// Holds at compile time: rows ascend, neighbours do not overlap, all stay inside the run, and no number touches
@@ -194,30 +168,18 @@ pub(super) const fn check(rows: &[Signal], first: u16, last: u16) {
         let row = &rows[index];
         let from = row.byte as u32 * 8 + row.bit as u32;
         let end = from + row.kind.width() as u32;
-        assert!(
-            row.byte >= first && end <= (last as u32 + 1) * 8,
-            "a signal lies outside its run"
-        );
-        assert!(
-            row.bit as u32 + row.kind.width() as u32 <= 8 || row.bit == 0,
-            "a signal leaves its byte"
-        );
+        assert!(row.byte >= first && end <= (last as u32 + 1) * 8, "a signal lies outside its run");
+        assert!(row.bit as u32 + row.kind.width() as u32 <= 8 || row.bit == 0, "a signal leaves its byte");
         if index + 1 < rows.len() && rows[index + 1].kind.is_number() == row.kind.is_number() {
             let next = &rows[index + 1];
-            assert!(
-                end <= next.byte as u32 * 8 + next.bit as u32,
-                "rows must ascend and must not overlap"
-            );
+            assert!(end <= next.byte as u32 * 8 + next.bit as u32, "rows must ascend and must not overlap");
         }
         if row.kind.is_number() {
             let mut other = 0;
             while other < rows.len() {
                 let start = rows[other].byte as u32 * 8 + rows[other].bit as u32;
                 let stop = start + rows[other].kind.width() as u32;
-                assert!(
-                    other == index || stop <= from || end <= start,
-                    "a number overlaps a signal"
-                );
+                assert!(other == index || stop <= from || end <= start, "a number overlaps a signal");
                 other += 1;
             }
         }

@@ -16,21 +16,15 @@ pub fn raw_value(node: &Node, location: Location, coding: OverrideCoding) -> Res
         Value::Boolean(_) => Err(node.expected("a number", "true and false are for single bits")),
         Value::Integer(number) => integer(*number, node, location),
         Value::Float(number) if location.format == Format::Real => real(*number, node),
-        Value::Float(_) => Err(node.expected(
-            "a whole number",
-            "only a REAL takes fractions: add :REAL to the address",
-        )),
+        Value::Float(_) => {
+            Err(node.expected("a whole number", "only a REAL takes fractions: add :REAL to the address"))
+        }
         Value::Text(text) => match (text.strip_suffix('%'), based(text)) {
             (Some(percent), _) => per_cent(percent, node, location, coding),
             (None, Some(number)) => integer(number, node, location),
-            (None, None) => Err(node.expected(
-                "a number, true, false or \"100%\"",
-                "write numbers without quotes",
-            )),
+            (None, None) => Err(node.expected("a number, true, false or \"100%\"", "write numbers without quotes")),
         },
-        Value::Array(_) | Value::Table(_) => {
-            Err(node.expected("one value", "write one entry for each address"))
-        }
+        Value::Array(_) | Value::Table(_) => Err(node.expected("one value", "write one entry for each address")),
     }
 }
 
@@ -66,10 +60,7 @@ fn integer(number: i64, node: &Node, location: Location) -> Result<u64, Problem>
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "a REAL has 32 bits; what does not fit is refused below"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "a REAL has 32 bits; what does not fit is refused below")]
 fn real(number: f64, node: &Node) -> Result<u64, Problem> {
     let value = number as f32;
     if value.is_finite() {
@@ -79,27 +70,12 @@ fn real(number: f64, node: &Node) -> Result<u64, Problem> {
     }
 }
 
-fn per_cent(
-    text: &str,
-    node: &Node,
-    location: Location,
-    coding: OverrideCoding,
-) -> Result<u64, Problem> {
+fn per_cent(text: &str, node: &Node, location: Location, coding: OverrideCoding) -> Result<u64, Problem> {
     let Some(gray) = coding.at(location) else {
-        return Err(node.expected(
-            "a plain number",
-            "only feed_override and rapid_traverse_override take per cent",
-        ));
+        return Err(node.expected("a plain number", "only feed_override and rapid_traverse_override take per cent"));
     };
-    let code = text
-        .trim()
-        .parse()
-        .ok()
-        .and_then(|percent| override_code(percent, gray));
+    let code = text.trim().parse().ok().and_then(|percent| override_code(percent, gray));
     code.map(u64::from).ok_or_else(|| {
-        node.expected(
-            "a percentage of the override switch",
-            &format!("it has {}", OverrideCoding::known(gray)),
-        )
+        node.expected("a percentage of the override switch", &format!("it has {}", OverrideCoding::known(gray)))
     })
 }

@@ -32,16 +32,8 @@ impl Before {
             Part::Counters,
         ];
         let own = memory.blocks.iter().map(|block| Part::Block(block.number));
-        let parts = fixed
-            .into_iter()
-            .chain(own)
-            .map(|part| (part, memory.part(part).to_vec()))
-            .collect();
-        Self {
-            parts,
-            written: Vec::with_capacity(WRITES),
-            last_event,
-        }
+        let parts = fixed.into_iter().chain(own).map(|part| (part, memory.part(part).to_vec())).collect();
+        Self { parts, written: Vec::with_capacity(WRITES), last_event }
     }
 }
 
@@ -52,21 +44,10 @@ impl Machine {
             if self.memory.read(location) == value & location.mask() {
                 continue;
             }
-            let bits = if location.width < 8 {
-                location.mask() << location.bit
-            } else {
-                0xFF
-            };
+            let bits = if location.width < 8 { location.mask() << location.bit } else { 0xFF };
             let bits = u8::try_from(bits & 0xFF).unwrap_or(0xFF);
-            let change = Change::Overwritten {
-                part: location.part,
-                offset: location.offset,
-                bits,
-            };
-            self.recorder.push(Row {
-                cycle: self.cycle,
-                change,
-            });
+            let change = Change::Overwritten { part: location.part, offset: location.offset, bits };
+            self.recorder.push(Row { cycle: self.cycle, change });
         }
     }
 
@@ -104,9 +85,7 @@ impl Machine {
     }
 
     fn record_byte(&mut self, part: Part, offset: u32, old: u8, new: u8) {
-        let owner = (part == Part::FromNck || part == Part::Hmi)
-            .then(|| place_of(part, offset))
-            .flatten();
+        let owner = (part == Part::FromNck || part == Part::Hmi).then(|| place_of(part, offset)).flatten();
         let (mut by, mut causes) = ([By::Plc; 8], [EventId::NONE; 8]);
         for bit in 0..8_u8 {
             if (old ^ new) >> bit & 1 == 0 {
@@ -118,25 +97,14 @@ impl Machine {
                 causes[usize::from(bit)] = self.control.cause(place, byte, bit);
             }
         }
-        self.recorder.push(Row {
-            cycle: self.cycle,
-            change: Change::Byte {
-                part,
-                offset,
-                old,
-                new,
-                by,
-                causes,
-            },
-        });
+        self.recorder.push(Row { cycle: self.cycle, change: Change::Byte { part, offset, old, new, by, causes } });
     }
 
     fn who(&self, part: Part, offset: u32, bit: u8, value: bool) -> By {
         let meant = |write: &&Force| {
             let first = u64::from(write.location.offset) * 8 + u64::from(write.location.bit);
             let this = u64::from(offset) * 8 + u64::from(bit);
-            write.location.part == part
-                && (first..first + u64::from(write.location.width)).contains(&this)
+            write.location.part == part && (first..first + u64::from(write.location.width)).contains(&this)
         };
         let written = |write: &Force| {
             let place = if write.location.width < 8 {
@@ -152,9 +120,7 @@ impl Machine {
         }
         match part {
             Part::FromNck => {
-                return if self.before.written.iter().any(|w| meant(&w))
-                    && !is_signal(part, offset, bit)
-                {
+                return if self.before.written.iter().any(|w| meant(&w)) && !is_signal(part, offset, bit) {
                     By::Outside
                 } else {
                     By::Nck
@@ -163,14 +129,7 @@ impl Machine {
             Part::ToNck if self.is_switch(offset, bit) => return By::Plant,
             _ => {}
         }
-        if self
-            .before
-            .written
-            .iter()
-            .rev()
-            .find(meant)
-            .is_some_and(written)
-        {
+        if self.before.written.iter().rev().find(meant).is_some_and(written) {
             return By::Outside;
         }
         match part {
@@ -190,52 +149,28 @@ impl Machine {
         };
         match bit {
             7 => iron.cam.as_ref().is_some_and(|cam| cam.input.is_none()),
-            1 => iron
-                .limit_plus
-                .as_ref()
-                .is_some_and(|limit| limit.input.is_none()),
-            0 => iron
-                .limit_minus
-                .as_ref()
-                .is_some_and(|limit| limit.input.is_none()),
+            1 => iron.limit_plus.as_ref().is_some_and(|limit| limit.input.is_none()),
+            0 => iron.limit_minus.as_ref().is_some_and(|limit| limit.input.is_none()),
             _ => false,
         }
     }
 
     fn record_alarms(&mut self) {
         let same = self.alarms_before.len() == self.variables.alarms.count()
-            && self
-                .alarms_before
-                .iter()
-                .zip(self.variables.alarms.iter())
-                .all(|(old, new)| old == new);
+            && self.alarms_before.iter().zip(self.variables.alarms.iter()).all(|(old, new)| old == new);
         if same {
             return;
         }
         let cycle = self.cycle;
         for &alarm in &self.alarms_before {
             if !self.variables.alarms.iter().any(|other| *other == alarm) {
-                self.recorder.push(Row {
-                    cycle,
-                    change: Change::Alarm {
-                        alarm,
-                        raised: false,
-                        cause: EventId::NONE,
-                    },
-                });
+                self.recorder.push(Row { cycle, change: Change::Alarm { alarm, raised: false, cause: EventId::NONE } });
             }
         }
         for &alarm in self.variables.alarms.iter() {
             if !self.alarms_before.contains(&alarm) {
                 let cause = self.control.alarm_cause(alarm.number, alarm.place);
-                self.recorder.push(Row {
-                    cycle,
-                    change: Change::Alarm {
-                        alarm,
-                        raised: true,
-                        cause,
-                    },
-                });
+                self.recorder.push(Row { cycle, change: Change::Alarm { alarm, raised: true, cause } });
             }
         }
         self.alarms_before.clear();
@@ -253,11 +188,7 @@ fn place_of(part: Part, offset: u32) -> Option<(Place, u16)> {
         Block::Channel => Place::Channel(ChannelNumber::new(found.number)?),
         Block::Axis => Place::Axis(AxisNumber::new(found.number)?),
     };
-    let own = if found.block == Block::ModeGroup && found.number == 2 {
-        found.byte - 20
-    } else {
-        found.byte
-    };
+    let own = if found.block == Block::ModeGroup && found.number == 2 { found.byte - 20 } else { found.byte };
     Some((place, own))
 }
 

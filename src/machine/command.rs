@@ -92,9 +92,7 @@ impl Machine {
                     self.forces.retain(|force| force.location != location);
                     self.forces.push(Force { location, value });
                 }
-                Command::Release { location } => self
-                    .forces
-                    .retain(|force| !force.location.overlaps(location)),
+                Command::Release { location } => self.forces.retain(|force| !force.location.overlaps(location)),
                 Command::MachineDatum { target, value } => {
                     // Checked when it was queued; a later command of the same step may have renamed its axis.
                     if let Ok(target) = self.control.stored().parse_target(&target) {
@@ -123,7 +121,7 @@ impl Machine {
         match location.part {
             Part::FromNck => self.control.half_overwritten(),
             Part::Hmi if self.definition.strobe.is_touched_by(location) => {
-                self.control.strobe_written()
+                self.control.strobe_written();
             }
             _ => {}
         }

@@ -29,10 +29,7 @@ impl Describe for Machine {
     }
 
     fn alarm_number(&self, name: &str) -> Option<AlarmNumber> {
-        ALARMS
-            .iter()
-            .find(|alarm| alarm.name == name)
-            .map(|alarm| alarm.number)
+        ALARMS.iter().find(|alarm| alarm.name == name).map(|alarm| alarm.number)
     }
 
     fn rule(&self, rule: RuleNumber) -> Rule {
@@ -44,12 +41,8 @@ fn shown(machine: &Machine, parameter: Parameter) -> String {
     let names = &machine.definition.names;
     match parameter {
         Parameter::None => String::new(),
-        Parameter::Channel(number) => names.channels[number]
-            .clone()
-            .unwrap_or_else(|| format!("CHAN{number}")),
-        Parameter::Axis(number) => names.axes[number]
-            .clone()
-            .unwrap_or_else(|| format!("AX{number}")),
+        Parameter::Channel(number) => names.channels[number].clone().unwrap_or_else(|| format!("CHAN{number}")),
+        Parameter::Axis(number) => names.axes[number].clone().unwrap_or_else(|| format!("AX{number}")),
         Parameter::Number(number) => number.to_string(),
     }
 }

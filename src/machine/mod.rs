@@ -178,10 +178,7 @@ impl Machine {
 
 impl std::fmt::Debug for Machine {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Machine")
-            .field("cycle", &self.cycle)
-            .field("time", &self.time)
-            .finish_non_exhaustive()
+        f.debug_struct("Machine").field("cycle", &self.cycle).field("time", &self.time).finish_non_exhaustive()
     }
 }
 

@@ -11,9 +11,7 @@ use super::step::{Plc, first_variables};
 use super::{Definition, Machine};
 use crate::image::{Location, Memory, Names, OverrideCoding, Part, Preset, Profile};
 use crate::plant::{Db11Byte5Bit2, Hints, Layout, Plant, PlantDefinition};
-use crate::sinumerik::machine_data::{
-    Archive, Finding, MachineData, Owner, Target, files_of, refusal,
-};
+use crate::sinumerik::machine_data::{Archive, Finding, MachineData, Owner, Target, files_of, refusal};
 use crate::sinumerik::{AxisPresence, Control};
 use crate::source::{Place, Problem, Table, did_you_mean, read_text};
 use crate::trace::Recorder;
@@ -41,8 +39,7 @@ pub(super) struct Strobe {
 impl Strobe {
     /// A write there makes the byte the HMI's.
     pub(super) fn is_touched_by(&self, location: Location) -> bool {
-        let touched =
-            location.offset <= self.byte && self.byte < location.offset + location.bytes();
+        let touched = location.offset <= self.byte && self.byte < location.offset + location.bytes();
         location.part == Part::Hmi && self.fixed.is_none() && touched
     }
 
@@ -63,14 +60,8 @@ struct BuiltIn {
 
 static BUILT_IN: &[BuiltIn] = &[BuiltIn {
     name: "g1_example",
-    archives: &[(
-        "g1_example.tea",
-        include_bytes!("../../machine_data/g1_example/g1_example.tea"),
-    )],
-    plant: (
-        "plant.toml",
-        include_str!("../../machine_data/g1_example/plant.toml"),
-    ),
+    archives: &[("g1_example.tea", include_bytes!("../../machine_data/g1_example/g1_example.tea"))],
+    plant: ("plant.toml", include_str!("../../machine_data/g1_example/plant.toml")),
 }];
 
 pub(super) fn override_coding(data: &MachineData) -> OverrideCoding {
@@ -88,21 +79,13 @@ pub(super) fn open(path: &Path, options: OpenOptions) -> Result<Machine, Problem
     }
     let plant_place = plant.place.clone();
     let plant = PlantDefinition::read(plant)?;
-    let all: Vec<&str> = AxisNumber::all()
-        .map(|axis| archive.data.axis_name(axis))
-        .collect();
+    let all: Vec<&str> = AxisNumber::all().map(|axis| archive.data.axis_name(axis)).collect();
     plant.check_names(&all)?;
     let presence = presence(&archive, &plant);
     let control = Control::new(archive.data.clone(), presence);
     let names = Names {
-        axes: PerAxis::from_fn(|axis| {
-            presence[axis]
-                .exists
-                .then(|| archive.data.axis_name(axis).to_owned())
-        }),
-        channels: PerChannel::from_fn(|channel| {
-            Some(archive.data.channels[channel].chan_name.clone())
-        }),
+        axes: PerAxis::from_fn(|axis| presence[axis].exists.then(|| archive.data.axis_name(axis).to_owned())),
+        channels: PerChannel::from_fn(|channel| Some(archive.data.channels[channel].chan_name.clone())),
         profile: options.profile,
     };
     names.check()?;
@@ -114,18 +97,8 @@ pub(super) fn open(path: &Path, options: OpenOptions) -> Result<Machine, Problem
     let layout = layout(&plant, &archive, &control, &names);
     let mut warnings: Vec<String> = archive.findings.iter().map(Finding::to_string).collect();
     warnings.extend(not_modelled(&control, &names));
-    let strobe = Strobe {
-        fixed: plant.db11_5_2,
-        byte: strobe_byte(&memory),
-    };
-    let definition = Definition {
-        plc_cycle: plant.plc_cycle,
-        layout,
-        names,
-        memory: memory.clone(),
-        strobe,
-        warnings,
-    };
+    let strobe = Strobe { fixed: plant.db11_5_2, byte: strobe_byte(&memory) };
+    let definition = Definition { plc_cycle: plant.plc_cycle, layout, names, memory: memory.clone(), strobe, warnings };
     Ok(assemble(definition, control, memory))
 }
 
@@ -160,11 +133,7 @@ fn read(path: &Path) -> Result<(Archive, Table), Problem> {
         return read_built_in(path);
     }
     let files = files_of(path)?;
-    let plant = if path.is_dir() {
-        path.join("plant.toml")
-    } else {
-        path.with_file_name("plant.toml")
-    };
+    let plant = if path.is_dir() { path.join("plant.toml") } else { path.with_file_name("plant.toml") };
     let plant = Some(plant).filter(|plant| path.is_dir() && plant.exists());
     if files.is_empty() && plant.is_none() {
         return Err(Place::file(&path.display().to_string()).problem(
@@ -181,23 +150,16 @@ fn read(path: &Path) -> Result<(Archive, Table), Problem> {
 }
 
 fn read_built_in(path: &Path) -> Result<(Archive, Table), Problem> {
-    let name = path
-        .file_name()
-        .and_then(|name| name.to_str())
-        .unwrap_or_default();
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let names: Vec<&str> = BUILT_IN.iter().map(|machine| machine.name).collect();
     let Some(machine) = BUILT_IN.iter().find(|machine| machine.name == name) else {
-        let built_in = format!(
-            "a directory, an archive file, or a built-in machine: {}",
-            names.join(", ")
-        );
+        let built_in = format!("a directory, an archive file, or a built-in machine: {}", names.join(", "));
         return Err(Problem::new(
             format!("expected a machine, found nothing at {}", path.display()),
             did_you_mean(name, names.iter().copied(), &built_in),
         ));
     };
-    let archive =
-        Archive::read(machine.archives.iter().copied()).map_err(|findings| refusal(&findings))?;
+    let archive = Archive::read(machine.archives.iter().copied()).map_err(|findings| refusal(&findings))?;
     let (file, text) = machine.plant;
     Ok((archive, Table::parse(text, file)?))
 }
@@ -205,26 +167,14 @@ fn read_built_in(path: &Path) -> Result<(Archive, Table), Problem> {
 fn presence(archive: &Archive, plant: &PlantDefinition) -> PerAxis<AxisPresence> {
     let channel = ChannelNumber::FIRST;
     let data = &archive.data;
-    let in_channel = |axis: AxisNumber| {
-        data.channels[channel]
-            .axconf_machax_used
-            .contains(&axis.number())
-    };
+    let in_channel = |axis: AxisNumber| data.channels[channel].axconf_machax_used.contains(&axis.number());
     let in_plant = |axis: AxisNumber| plant.axes.contains_key(data.axis_name(axis));
     let said = archive.is_given_for(20070, Owner::Channel(channel));
-    let named = |axis: AxisNumber| {
-        in_plant(axis)
-            || if said {
-                in_channel(axis)
-            } else {
-                archive.given_axis(axis)
-            }
-    };
+    let named = |axis: AxisNumber| in_plant(axis) || if said { in_channel(axis) } else { archive.given_axis(axis) };
     let any = AxisNumber::all().any(named);
     PerAxis::from_fn(|axis| {
         let simulated = data.axes[axis].ctrlout_type == 0 && !data.axes[axis].simu_ax_vdi_output;
-        let says_so =
-            Target::new(30350, Owner::Axis(axis), 0).is_ok_and(|target| archive.is_given(&target));
+        let says_so = Target::new(30350, Owner::Axis(axis), 0).is_ok_and(|target| archive.is_given(&target));
         AxisPresence {
             exists: if any { named(axis) } else { in_channel(axis) },
             // E-26: an axis is a real one unless the archive itself says that it shows nothing.
@@ -268,8 +218,7 @@ fn check_plc_cycle(plc_cycle: Option<Time>, cycle: Time, place: &Place) -> Resul
 
 fn strobe_byte(memory: &Memory) -> u32 {
     let address = "DB11.DBB5".parse().ok();
-    let location =
-        address.and_then(|address| memory.locate(&address, Profile::Sinumerik840dSl).ok());
+    let location = address.and_then(|address| memory.locate(&address, Profile::Sinumerik840dSl).ok());
     location.map_or(u32::MAX, |location| location.offset)
 }
 

@@ -62,11 +62,7 @@ impl Machine {
             cycle: self.cycle,
             time: self.time,
             plc: SavedPlc {
-                program: self
-                    .plc
-                    .program
-                    .as_ref()
-                    .map(|program| (program.name().to_owned(), program.save())),
+                program: self.plc.program.as_ref().map(|program| (program.name().to_owned(), program.save())),
                 stopped: self.plc.stopped,
                 started: self.plc.started,
                 wait: self.plc.wait,
@@ -81,17 +77,10 @@ impl Machine {
     /// # Errors
     /// The bytes are no saved machine, or one of other axes or another PLC program; nothing has changed then.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Problem> {
-        let damaged = |what: String| {
-            Problem::new(
-                what,
-                "restore what `save` of this version gave, on the same machine",
-            )
-        };
-        let saved: SavedV1 = postcard::from_bytes(bytes).map_err(|error| {
-            damaged(format!(
-                "expected a saved machine, found damaged bytes: {error}"
-            ))
-        })?;
+        let damaged =
+            |what: String| Problem::new(what, "restore what `save` of this version gave, on the same machine");
+        let saved: SavedV1 = postcard::from_bytes(bytes)
+            .map_err(|error| damaged(format!("expected a saved machine, found damaged bytes: {error}")))?;
         if saved.version != VERSION {
             return Err(damaged(format!(
                 "expected a saved machine of version {VERSION}, found version {}",
@@ -99,24 +88,19 @@ impl Machine {
             )));
         }
         if saved.names != self.definition.names {
-            return Err(damaged(
-                "expected a saved machine with the same axes and channels, found others".to_owned(),
-            ));
+            return Err(damaged("expected a saved machine with the same axes and channels, found others".to_owned()));
         }
         match (&mut self.plc.program, &saved.plc.program) {
             (None, None) => {}
             (Some(program), Some((name, state))) if program.name() == name => {
-                program.restore(state)?
+                program.restore(state)?;
             }
             (mine, theirs) => {
-                let name = |program: Option<&str>| {
-                    program.map_or("none".to_owned(), |name| format!("`{name}`"))
-                };
+                let name =
+                    |program: Option<&str>| program.map_or_else(|| "none".to_owned(), |name| format!("`{name}`"));
                 let mine = name(mine.as_ref().map(|program| program.name()));
                 let theirs = name(theirs.as_ref().map(|(name, _)| name.as_str()));
-                return Err(damaged(format!(
-                    "expected the PLC program {mine}, found {theirs}"
-                )));
+                return Err(damaged(format!("expected the PLC program {mine}, found {theirs}")));
             }
         }
         self.control.restore(saved.control);
@@ -147,10 +131,7 @@ impl Machine {
             None => None,
             Some(program) => Some(program.fork().ok_or_else(|| {
                 Problem::new(
-                    format!(
-                        "expected a PLC program that can be forked, found `{}`",
-                        program.name()
-                    ),
+                    format!("expected a PLC program that can be forked, found `{}`", program.name()),
                     "write it as a closure over its own state: opennck::plc::program",
                 )
             })?),

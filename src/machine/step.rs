@@ -64,18 +64,13 @@ impl Machine {
         self.sense_unwired_switches();
         self.apply_forces();
         // Mode group, channel, enabling, referencing and gantry, setpoints, coupling.
-        self.control
-            .decide(self.cycle, &self.memory.to_nck, taken.cancel);
+        self.control.decide(self.cycle, &self.memory.to_nck, taken.cancel);
         // Position control, drives and mechanics.
         self.move_axes();
         self.sense();
         // Monitoring and alarms, publication, record.
         self.control.observe(&self.feedback);
-        self.control.publish(
-            &mut self.memory.from_nck,
-            &mut self.memory.hmi,
-            &mut self.variables,
-        );
+        self.control.publish(&mut self.memory.from_nck, &mut self.memory.hmi, &mut self.variables);
         self.record();
     }
 
@@ -89,10 +84,7 @@ impl Machine {
             return;
         }
         let cycle = self.cycle_time();
-        self.plc.wait = self
-            .definition
-            .plc_cycle
-            .map_or(0, |every| every.in_cycles(cycle) - 1);
+        self.plc.wait = self.definition.plc_cycle.map_or(0, |every| every.in_cycles(cycle) - 1);
         let Some(program) = &mut self.plc.program else {
             return;
         };
@@ -113,11 +105,7 @@ impl Machine {
         };
         self.plc.last_scan = self.time;
         let started = std::mem::replace(&mut self.plc.started, true);
-        let startup = if started {
-            Ok(())
-        } else {
-            program.startup(&mut io)
-        };
+        let startup = if started { Ok(()) } else { program.startup(&mut io) };
         if let Err(fault) = startup.and_then(|()| program.scan(&mut io)) {
             self.plc.stopped = true;
             self.plc.fault = Some(fault.reason);
@@ -130,21 +118,13 @@ impl Machine {
             let Some(iron) = iron else { continue };
             let wires = [
                 (Switch::Cam, iron.cam.as_ref().and_then(|cam| cam.input)),
-                (
-                    Switch::LimitPlus,
-                    iron.limit_plus.as_ref().and_then(|limit| limit.input),
-                ),
-                (
-                    Switch::LimitMinus,
-                    iron.limit_minus.as_ref().and_then(|limit| limit.input),
-                ),
+                (Switch::LimitPlus, iron.limit_plus.as_ref().and_then(|limit| limit.input)),
+                (Switch::LimitMinus, iron.limit_minus.as_ref().and_then(|limit| limit.input)),
             ];
             for (switch, input) in wires {
                 let Some(input) = input else { continue };
                 let pressed = self.plant.is_pressed(&self.definition.layout, axis, switch);
-                self.memory
-                    .inputs
-                    .set_bit(usize::from(input.byte), input.bit, pressed);
+                self.memory.inputs.set_bit(usize::from(input.byte), input.bit, pressed);
             }
         }
     }
@@ -158,18 +138,10 @@ impl Machine {
             if iron.cam.as_ref().is_some_and(|cam| cam.input.is_none()) {
                 signals.set_deceleration_reference_point_approach(pressed(Switch::Cam));
             }
-            if iron
-                .limit_plus
-                .as_ref()
-                .is_some_and(|limit| limit.input.is_none())
-            {
+            if iron.limit_plus.as_ref().is_some_and(|limit| limit.input.is_none()) {
                 signals.set_hardware_limit_switch_plus(pressed(Switch::LimitPlus));
             }
-            if iron
-                .limit_minus
-                .as_ref()
-                .is_some_and(|limit| limit.input.is_none())
-            {
+            if iron.limit_minus.as_ref().is_some_and(|limit| limit.input.is_none()) {
                 signals.set_hardware_limit_switch_minus(pressed(Switch::LimitMinus));
             }
         }
@@ -189,12 +161,9 @@ impl Machine {
         self.plant.run_up(cycle);
         for part in 1..=count {
             let plant = &self.plant;
-            let commands = PerAxis::from_fn(|axis| {
-                self.control
-                    .velocity_command(axis, plant.values(axis), part, count)
-            });
-            self.plant
-                .advance(&self.definition.layout, &commands, servo_cycle);
+            let commands =
+                PerAxis::from_fn(|axis| self.control.velocity_command(axis, plant.values(axis), part, count));
+            self.plant.advance(&self.definition.layout, &commands, servo_cycle);
         }
     }
 
@@ -216,10 +185,7 @@ impl Machine {
 pub(super) fn first_variables(feedback: &PerAxis<Feedback>) -> Variables {
     let mut variables = Variables::default();
     for (axis, values) in variables.axes.iter_mut() {
-        *values = AxisValues {
-            slide: feedback[axis].slide,
-            ..AxisValues::default()
-        };
+        *values = AxisValues { slide: feedback[axis].slide, ..AxisValues::default() };
     }
     variables
 }

@@ -39,10 +39,7 @@ impl Difference {
     #[must_use]
     pub fn stage(self, first: Position, second: Position) -> Stage {
         let distance = self.0.abs();
-        Stage {
-            first: first > Position::ZERO && distance > first,
-            second: distance > second,
-        }
+        Stage { first: first > Position::ZERO && distance > first, second: distance > second }
     }
 }
 
@@ -58,19 +55,12 @@ impl Coupling {
     /// A coupling of a leader with its followers; `None` where there are too many.
     #[must_use]
     pub fn new(leader: AxisNumber, followers: &[AxisNumber]) -> Option<Self> {
-        let mut coupling = Self {
-            leader,
-            followers: [None; FOLLOWERS],
-            leads_now: leader,
-        };
+        let mut coupling = Self { leader, followers: [None; FOLLOWERS], leads_now: leader };
         if followers.len() > FOLLOWERS {
             return None;
         }
         for (slot, &axis) in coupling.followers.iter_mut().zip(followers) {
-            *slot = Some(Follower {
-                axis,
-                base: Position::ZERO,
-            });
+            *slot = Some(Follower { axis, base: Position::ZERO });
         }
         Some(coupling)
     }
@@ -83,10 +73,7 @@ impl Coupling {
 
     /// The followers by definition, ascending as they were given.
     pub fn followers(&self) -> impl DoubleEndedIterator<Item = AxisNumber> + '_ {
-        self.followers
-            .iter()
-            .flatten()
-            .map(|follower| follower.axis)
+        self.followers.iter().flatten().map(|follower| follower.axis)
     }
 
     /// Leader and followers.
@@ -112,29 +99,16 @@ impl Coupling {
     }
 
     /// The coupling closes: differences count from here (O-12), but for those that are absolute already.
-    pub fn close(
-        &mut self,
-        actual: impl Fn(AxisNumber) -> Position,
-        absolute: impl Fn(AxisNumber) -> bool,
-    ) {
+    pub fn close(&mut self, actual: impl Fn(AxisNumber) -> Position, absolute: impl Fn(AxisNumber) -> bool) {
         let leader = actual(self.leader);
         for follower in self.followers.iter_mut().flatten() {
-            follower.base = if absolute(follower.axis) {
-                Position::ZERO
-            } else {
-                actual(follower.axis) - leader
-            };
+            follower.base = if absolute(follower.axis) { Position::ZERO } else { actual(follower.axis) - leader };
         }
     }
 
     /// The actual value of an axis was given another value by a reference; `absolute` tells of each follower
     /// whether it and the leader are both referenced now, from when on its difference is absolute.
-    pub fn value_shifted(
-        &mut self,
-        axis: AxisNumber,
-        by: Position,
-        absolute: impl Fn(AxisNumber) -> bool,
-    ) {
+    pub fn value_shifted(&mut self, axis: AxisNumber, by: Position, absolute: impl Fn(AxisNumber) -> bool) {
         for follower in self.followers.iter_mut().flatten() {
             if axis != self.leader && axis != follower.axis {
                 continue;
@@ -151,18 +125,9 @@ impl Coupling {
 
     /// The synchronism difference of a follower: its actual value minus its ideal position (MON-01).
     #[must_use]
-    pub fn difference(
-        &self,
-        follower: AxisNumber,
-        leader_actual: Position,
-        follower_actual: Position,
-    ) -> Difference {
-        let base = self
-            .followers
-            .iter()
-            .flatten()
-            .find(|known| known.axis == follower)
-            .map_or(Position::ZERO, |f| f.base);
+    pub fn difference(&self, follower: AxisNumber, leader_actual: Position, follower_actual: Position) -> Difference {
+        let base =
+            self.followers.iter().flatten().find(|known| known.axis == follower).map_or(Position::ZERO, |f| f.base);
         Difference(follower_actual - leader_actual - base)
     }
 }
@@ -186,10 +151,7 @@ mod tests {
     #[test]
     fn the_difference_before_referencing_is_the_change_since_the_coupling_closed() {
         let mut coupling = coupling();
-        coupling.close(
-            |which| if which == axis(1) { mm(5.0) } else { mm(7.0) },
-            |_| false,
-        );
+        coupling.close(|which| if which == axis(1) { mm(5.0) } else { mm(7.0) }, |_| false);
         assert_eq!(coupling.difference(axis(3), mm(5.0), mm(7.0)).0, mm(0.0));
         assert_eq!(coupling.difference(axis(3), mm(6.0), mm(8.25)).0, mm(0.25));
     }
@@ -202,10 +164,7 @@ mod tests {
         coupling.value_shifted(axis(1), mm(-10.0), |_| false);
         assert_eq!(coupling.difference(axis(3), mm(0.0), mm(10.0)).0, mm(0.0));
         coupling.value_shifted(axis(3), mm(-10.941), |_| true);
-        assert_eq!(
-            coupling.difference(axis(3), mm(0.0), mm(-0.941)).0,
-            mm(-0.941)
-        );
+        assert_eq!(coupling.difference(axis(3), mm(0.0), mm(-0.941)).0, mm(-0.941));
     }
 
     #[test]
@@ -213,10 +172,7 @@ mod tests {
         let limit = mm(0.2);
         assert!(!Difference(mm(37.7) - mm(37.5)).stage(limit, limit).second);
         assert!(Difference(mm(-0.200_001)).stage(limit, limit).second);
-        assert!(
-            !Difference(mm(50.0)).stage(Position::ZERO, mm(100.0)).first,
-            "0 is no warning limit"
-        );
+        assert!(!Difference(mm(50.0)).stage(Position::ZERO, mm(100.0)).first, "0 is no warning limit");
     }
 
     #[test]

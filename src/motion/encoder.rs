@@ -33,12 +33,7 @@ impl Encoder {
     ///
     /// Resolution and spacing are taken as at least one increment.
     #[must_use]
-    pub fn new(
-        resolution: Position,
-        zero_mark: Position,
-        spacing: Position,
-        slide: Position,
-    ) -> Self {
+    pub fn new(resolution: Position, zero_mark: Position, spacing: Position, slide: Position) -> Self {
         let one = Position::new(1);
         Self {
             resolution: resolution.max(one),
@@ -69,15 +64,8 @@ impl Encoder {
     /// What it tells after the slide moved.
     #[must_use]
     pub fn signal(&self, before: Position, after: Position) -> EncoderSignal {
-        let passed = if before == after {
-            None
-        } else {
-            self.mark_between(before, after)
-        };
-        EncoderSignal {
-            value: self.value(after),
-            zero_mark: passed.map(|mark| self.value(mark)),
-        }
+        let passed = if before == after { None } else { self.mark_between(before, after) };
+        EncoderSignal { value: self.value(after), zero_mark: passed.map(|mark| self.value(mark)) }
     }
 
     fn value(&self, slide: Position) -> Position {
@@ -97,11 +85,7 @@ impl Encoder {
             phase + (before_index - i64::from(on_mark)) * spacing
         };
         let mark = Position::new(mark);
-        let reached = if after > before {
-            mark <= after
-        } else {
-            mark >= after
-        };
+        let reached = if after > before { mark <= after } else { mark >= after };
         reached.then_some(mark)
     }
 }
@@ -134,10 +118,7 @@ mod tests {
         assert_eq!(encoder.signal(mm(10.2), mm(10.3)).zero_mark, Some(mm(5.3)));
         assert_eq!(encoder.signal(mm(10.3), mm(10.4)).zero_mark, None);
         assert_eq!(encoder.signal(mm(10.3), mm(10.2)).zero_mark, None);
-        assert_eq!(
-            encoder.signal(mm(-9.6), mm(-9.8)).zero_mark,
-            Some(mm(-14.7))
-        );
+        assert_eq!(encoder.signal(mm(-9.6), mm(-9.8)).zero_mark, Some(mm(-14.7)));
     }
 
     #[test]

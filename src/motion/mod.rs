@@ -16,18 +16,11 @@ pub use profile::{Limits, Setpoint};
 pub use servo::{Drive, velocity_command};
 
 /// Adds a movement in increments to a position, carrying the fraction.
-pub(crate) fn advance(
-    position: crate::units::Position,
-    carry: &mut f64,
-    movement: f64,
-) -> crate::units::Position {
+pub(crate) fn advance(position: crate::units::Position, carry: &mut f64, movement: f64) -> crate::units::Position {
     let wanted = movement + *carry;
     let whole = wanted.round();
     *carry = wanted - whole;
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "a cycle's movement fits by far; the cast saturates"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "a cycle's movement fits by far; the cast saturates")]
     let whole = whole as i64;
     crate::units::Position::new(position.increments().wrapping_add(whole))
 }

@@ -31,11 +31,7 @@ impl Setpoint {
     /// At rest here.
     #[must_use]
     pub const fn at(position: Position) -> Self {
-        Self {
-            position,
-            carry: 0.0,
-            velocity: 0.0,
-        }
+        Self { position, carry: 0.0, velocity: 0.0 }
     }
 
     /// Velocity in increments per second.
@@ -103,10 +99,7 @@ mod tests {
 
     const CYCLE: f64 = 0.002;
     /// 10 m/min and 1 m/s² in nanometres.
-    const LIMITS: Limits = Limits {
-        velocity: 10e9 / 60.0,
-        acceleration: 1e9,
-    };
+    const LIMITS: Limits = Limits { velocity: 10e9 / 60.0, acceleration: 1e9 };
 
     fn cycles_to(setpoint: &mut Setpoint, target: Position, limits: Limits) -> u32 {
         for count in 1..1_000_000 {
@@ -114,10 +107,7 @@ mod tests {
             let arrived = setpoint.go_to(target, limits, CYCLE);
             let change = (setpoint.velocity() - before.velocity()).abs();
             // The last cycle ends on a whole increment: one increment a cycle of rounding.
-            assert!(
-                change <= limits.acceleration * CYCLE + 1.01 / CYCLE,
-                "acceleration {change}"
-            );
+            assert!(change <= limits.acceleration * CYCLE + 1.01 / CYCLE, "acceleration {change}");
             assert!(setpoint.velocity().abs() <= limits.velocity + 1e-6);
             if arrived {
                 return count;
@@ -170,10 +160,7 @@ mod tests {
     fn every_target_is_reached_from_every_velocity() {
         for millionth in [1_i64, 7, 499, 1_000, 4_001, 77_777, 1_000_000, 12_345_678] {
             for start in [-150, -3, 0, 1, 90, 166] {
-                let mut setpoint = Setpoint {
-                    velocity: f64::from(start) * 1e6,
-                    ..Setpoint::default()
-                };
+                let mut setpoint = Setpoint { velocity: f64::from(start) * 1e6, ..Setpoint::default() };
                 cycles_to(&mut setpoint, Position::new(millionth), LIMITS);
                 assert_eq!(setpoint.position, Position::new(millionth));
             }

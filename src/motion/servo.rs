@@ -18,11 +18,7 @@ pub fn velocity_command(
     setpoint_velocity: f64,
     feed_forward: f64,
 ) -> f64 {
-    let seen = if deviation.abs() <= half_count {
-        0.0
-    } else {
-        deviation.increments() as f64
-    };
+    let seen = if deviation.abs() <= half_count { 0.0 } else { deviation.increments() as f64 };
     seen * gain + setpoint_velocity * feed_forward
 }
 
@@ -82,12 +78,10 @@ mod tests {
     #[test]
     fn the_following_error_is_velocity_over_gain() {
         let (gain, velocity) = (1000.0 / 60.0, 100e6);
-        let (mut setpoint, mut slide, mut drive) =
-            (Position::ZERO, Position::ZERO, Drive::default());
+        let (mut setpoint, mut slide, mut drive) = (Position::ZERO, Position::ZERO, Drive::default());
         for _ in 0..2_000 {
             setpoint += Position::new(200_000);
-            let command =
-                velocity_command(setpoint - slide, gain, Position::new(50), velocity, 0.0);
+            let command = velocity_command(setpoint - slide, gain, Position::new(50), velocity, 0.0);
             drive.answer(command, 0.003, CYCLE);
             slide = drive.moved(slide, CYCLE);
         }
@@ -98,10 +92,7 @@ mod tests {
 
     #[test]
     fn less_than_half_a_count_asks_for_nothing() {
-        assert_eq!(
-            velocity_command(Position::new(50), 16.0, Position::new(50), 0.0, 0.0).to_bits(),
-            0.0_f64.to_bits()
-        );
+        assert_eq!(velocity_command(Position::new(50), 16.0, Position::new(50), 0.0, 0.0).to_bits(), 0.0_f64.to_bits());
         assert!(velocity_command(Position::new(51), 16.0, Position::new(50), 0.0, 0.0) > 0.0);
     }
 }

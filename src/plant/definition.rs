@@ -76,11 +76,7 @@ pub struct Drive {
 
 impl Default for Drive {
     fn default() -> Self {
-        Self {
-            time_constant: Time::from_millis(3),
-            ready_after: Time::from_millis(20),
-            intelligent: false,
-        }
+        Self { time_constant: Time::from_millis(3), ready_after: Time::from_millis(20), intelligent: false }
     }
 }
 
@@ -99,12 +95,7 @@ pub struct EncoderPlant {
 
 impl Default for EncoderPlant {
     fn default() -> Self {
-        Self {
-            kind: None,
-            zero_mark: Position::ZERO,
-            zero_mark_spacing: None,
-            resolution: Position::new(100),
-        }
+        Self { kind: None, zero_mark: Position::ZERO, zero_mark_spacing: None, resolution: Position::new(100) }
     }
 }
 
@@ -192,14 +183,8 @@ impl PlantDefinition {
         let mut plant = Self::default();
         if let Some(node) = table.take("machine") {
             let mut machine = node.into_table("the table [machine]")?;
-            plant.plc_cycle = machine
-                .take("plc_cycle")
-                .map(|node| plc_cycle(&node))
-                .transpose()?;
-            plant.db11_5_2 = machine
-                .take("db11_5_2")
-                .map(|node| db11_5_2(&node))
-                .transpose()?;
+            plant.plc_cycle = machine.take("plc_cycle").map(|node| plc_cycle(&node)).transpose()?;
+            plant.db11_5_2 = machine.take("db11_5_2").map(|node| db11_5_2(&node)).transpose()?;
             machine.finish()?;
         }
         if let Some(node) = table.take("compatibility") {
@@ -214,10 +199,7 @@ impl PlantDefinition {
             compatibility.finish()?;
         }
         if let Some(node) = table.take("bridge") {
-            for (grouping, place, node) in node
-                .into_table("tables [bridge.1] to [bridge.8]")?
-                .take_rest()
-            {
+            for (grouping, place, node) in node.into_table("tables [bridge.1] to [bridge.8]")?.take_rest() {
                 let number = grouping.parse().ok().filter(|number| (1..=8).contains(number)).ok_or_else(|| {
                     place.problem(
                         format!("expected the number of a gantry grouping, 1 to 8, found `{grouping}`"),
@@ -230,10 +212,9 @@ impl PlantDefinition {
         for (name, place, node) in table.take_rest() {
             let what = format!("a table [{name}] for the machine axis `{name}`");
             let known = ["machine", "bridge", "compatibility"];
-            let table = node.into_table(&what).map_err(|problem| Problem {
-                cure: did_you_mean(&name, known, &problem.cure),
-                ..problem
-            })?;
+            let table = node
+                .into_table(&what)
+                .map_err(|problem| Problem { cure: did_you_mean(&name, known, &problem.cure), ..problem })?;
             plant.axes.insert(name, axis(table, place)?);
         }
         Ok(plant)
@@ -245,10 +226,7 @@ impl PlantDefinition {
     /// The first name that no machine axis has, with its place and the nearest name.
     pub fn check_names(&self, names: &[&str]) -> Result<(), Problem> {
         let axes = self.axes.iter().map(|(name, axis)| (name, &axis.place));
-        let bridges = self
-            .bridges
-            .values()
-            .flat_map(|bridge| bridge.offset.keys().map(|name| (name, &bridge.place)));
+        let bridges = self.bridges.values().flat_map(|bridge| bridge.offset.keys().map(|name| (name, &bridge.place)));
         for (name, place) in axes.chain(bridges) {
             if !names.contains(&name.as_str()) {
                 let fallback = format!("the machine axes are `{}`", names.join("`, `"));
@@ -270,10 +248,7 @@ fn axis(mut table: Table, place: Place) -> Result<AxisPlant, Problem> {
     if let Some(node) = table.take("drive") {
         plant.drive = drive(node)?;
     }
-    for (key, encoder) in ["encoder1", "encoder2"]
-        .into_iter()
-        .zip(&mut plant.encoders)
-    {
+    for (key, encoder) in ["encoder1", "encoder2"].into_iter().zip(&mut plant.encoders) {
         if let Some(node) = table.take(key) {
             *encoder = read_encoder(node)?;
         }
@@ -286,10 +261,7 @@ fn axis(mut table: Table, place: Place) -> Result<AxisPlant, Problem> {
         && minus.at >= plus.at
     {
         return Err(plant.place.problem(
-            format!(
-                "expected limit_plus above limit_minus = {}, found {}",
-                minus.at, plus.at
-            ),
+            format!("expected limit_plus above limit_minus = {}, found {}", minus.at, plus.at),
             "exchange the two",
         ));
     }
@@ -327,8 +299,7 @@ fn read_encoder(node: Node) -> Result<EncoderPlant, Problem> {
         encoder.zero_mark = position(&node, "the position of a zero mark in mm or degrees")?;
     }
     if let Some(node) = table.take("zero_mark_spacing") {
-        encoder.zero_mark_spacing =
-            Some(distance(&node, "a spacing of more than 0 mm or degrees")?);
+        encoder.zero_mark_spacing = Some(distance(&node, "a spacing of more than 0 mm or degrees")?);
     }
     if let Some(node) = table.take("resolution") {
         encoder.resolution = distance(&node, "a resolution of at least 0.000001 mm or degrees")?;
@@ -360,16 +331,10 @@ fn limit_switch(mut table: Table) -> Result<LimitSwitch, Problem> {
 
 fn bridge(node: Node) -> Result<Bridge, Problem> {
     let mut table = node.into_table("a bridge")?;
-    let mut bridge = Bridge {
-        place: table.place.clone(),
-        offset: BTreeMap::new(),
-        stiffness: 0.0,
-    };
+    let mut bridge = Bridge { place: table.place.clone(), offset: BTreeMap::new(), stiffness: 0.0 };
     if let Some(node) = table.take("offset") {
         for (name, _, node) in node.into_table("offsets such as { XF = 0.0 }")?.take_rest() {
-            bridge
-                .offset
-                .insert(name, position(&node, "an offset in mm or degrees")?);
+            bridge.offset.insert(name, position(&node, "an offset in mm or degrees")?);
         }
     }
     if let Some(node) = table.take("stiffness") {
@@ -390,23 +355,14 @@ fn given<T>(
 ) -> Result<Given<T>, Problem> {
     match node {
         None => Ok(Given::Unsaid),
-        Some(Node {
-            value: Value::Boolean(false),
-            ..
-        }) => Ok(Given::Removed),
-        Some(node) => node
-            .into_table(&format!("{what}, or false"))
-            .and_then(read)
-            .map(Given::Said),
+        Some(Node { value: Value::Boolean(false), .. }) => Ok(Given::Removed),
+        Some(node) => node.into_table(&format!("{what}, or false")).and_then(read).map(Given::Said),
     }
 }
 
 fn required(table: &mut Table, key: &'static str, of: &str) -> Result<Position, Problem> {
     let node = table.take(key).ok_or_else(|| {
-        table.place.problem(
-            format!("expected `{key}` of {of}, found nothing"),
-            format!("write {key} = 200.0"),
-        )
+        table.place.problem(format!("expected `{key}` of {of}, found nothing"), format!("write {key} = 200.0"))
     })?;
     position(&node, "a position in mm or degrees")
 }
@@ -436,35 +392,21 @@ fn time(node: &Node) -> Result<Time, Problem> {
     let cure = "write a number and us, ms, s, min or h, in quotes";
     let time = match &node.value {
         Value::Text(text) => Time::parse(text),
-        Value::Integer(_)
-        | Value::Float(_)
-        | Value::Boolean(_)
-        | Value::Array(_)
-        | Value::Table(_) => None,
+        Value::Integer(_) | Value::Float(_) | Value::Boolean(_) | Value::Array(_) | Value::Table(_) => None,
     };
-    time.filter(|time| *time <= Time::from_millis(3_600_000))
-        .ok_or_else(|| node.expected(what, cure))
+    time.filter(|time| *time <= Time::from_millis(3_600_000)).ok_or_else(|| node.expected(what, cure))
 }
 
 fn plc_cycle(node: &Node) -> Result<Time, Problem> {
     let cycle = time(node)?;
     if cycle == Time::ZERO {
-        return Err(node.expected(
-            "a PLC cycle of more than 0",
-            "a whole multiple of the NC cycle",
-        ));
+        return Err(node.expected("a PLC cycle of more than 0", "a whole multiple of the NC cycle"));
     }
     Ok(cycle)
 }
 
 fn db11_5_2(node: &Node) -> Result<Db11Byte5Bit2, Problem> {
-    one_of(
-        node,
-        &[
-            ("mirror", Db11Byte5Bit2::Mirror),
-            ("hmi_strobe", Db11Byte5Bit2::HmiStrobe),
-        ],
-    )
+    one_of(node, &[("mirror", Db11Byte5Bit2::Mirror), ("hmi_strobe", Db11Byte5Bit2::HmiStrobe)])
 }
 
 fn one_of<T: Copy>(node: &Node, choices: &[(&str, T)]) -> Result<T, Problem> {
@@ -482,10 +424,7 @@ fn input(node: &Node) -> Result<Input, Problem> {
     let input = node.text(what)?.strip_prefix('I').and_then(|rest| {
         let (byte, bit) = rest.split_once('.')?;
         let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
-        let input = Input {
-            byte: byte.parse().ok()?,
-            bit: bit.parse().ok()?,
-        };
+        let input = Input { byte: byte.parse().ok()?, bit: bit.parse().ok()? };
         (digits(byte) && digits(bit) && input.bit < 8).then_some(input)
     });
     input.ok_or_else(|| node.expected(what, "the letter I, the byte, a point, a bit from 0 to 7"))
@@ -521,9 +460,7 @@ stiffness = 0.25
 "#;
 
     fn refused(text: &str) -> String {
-        PlantDefinition::parse(text, "plant.toml")
-            .unwrap_err()
-            .to_string()
+        PlantDefinition::parse(text, "plant.toml").unwrap_err().to_string()
     }
 
     #[test]
@@ -532,20 +469,12 @@ stiffness = 0.25
         assert_eq!(plant.plc_cycle, Some(Time::from_millis(10)));
         assert_eq!(plant.db11_5_2, Some(Db11Byte5Bit2::Mirror));
         let x = &plant.axes["X"];
-        assert_eq!(
-            (x.start, x.drive),
-            (Position::from_user(120.0), Drive::default())
-        );
+        assert_eq!((x.start, x.drive), (Position::from_user(120.0), Drive::default()));
         assert_eq!(x.encoders[0].kind, Some(EncoderKind::Incremental));
         assert_eq!(x.encoders[0].zero_mark, Position::new(300_000));
         assert_eq!(x.encoders[1], EncoderPlant::default());
-        let Given::Said(cam) = x.cam else {
-            panic!("{x:?}")
-        };
-        assert_eq!(
-            (cam.to, cam.input),
-            (Position::from_user(260.0), Some(Input { byte: 3, bit: 4 }))
-        );
+        let Given::Said(cam) = x.cam else { panic!("{x:?}") };
+        assert_eq!((cam.to, cam.input), (Position::from_user(260.0), Some(Input { byte: 3, bit: 4 })));
         assert_eq!(x.limit_minus, Given::Unsaid);
         assert_eq!(plant.bridges[&1].offset["XF"], Position::from_user(0.5));
     }
@@ -555,23 +484,14 @@ stiffness = 0.25
         let mut table = Table::parse(EXAMPLE, "plant.toml").unwrap();
         table.merge(Table::parse("[X]\nstart = 1\ncam = false\n", "scenario.toml").unwrap());
         let plant = PlantDefinition::read(table).unwrap();
-        assert_eq!(
-            (plant.axes["X"].start, plant.axes["X"].cam),
-            (Position::from_user(1.0), Given::Removed)
-        );
-        assert_eq!(
-            plant.axes["X"].encoders[0].zero_mark,
-            Position::new(300_000)
-        );
+        assert_eq!((plant.axes["X"].start, plant.axes["X"].cam), (Position::from_user(1.0), Given::Removed));
+        assert_eq!(plant.axes["X"].encoders[0].zero_mark, Position::new(300_000));
     }
 
     #[test]
     fn an_unknown_key_is_refused_with_its_line_and_the_nearest_name() {
         let message = refused("[X]\n[X.encoder1]\nzero_marc = 1\n");
-        assert!(
-            message.starts_with("plant.toml:3: ") && message.contains("did you mean `zero_mark`?"),
-            "{message}"
-        );
+        assert!(message.starts_with("plant.toml:3: ") && message.contains("did you mean `zero_mark`?"), "{message}");
         assert!(refused("machin = 1\n").contains("did you mean `machine`?"));
     }
 
@@ -603,10 +523,7 @@ stiffness = 0.25
         let plant = PlantDefinition::parse(EXAMPLE, "plant.toml").unwrap();
         assert!(plant.check_names(&["X", "Y", "XF"]).is_ok());
         let message = plant.check_names(&["Y", "XF"]).unwrap_err().to_string();
-        assert!(
-            message.contains("found `X`") && message.contains("plant.toml:5"),
-            "{message}"
-        );
+        assert!(message.contains("found `X`") && message.contains("plant.toml:5"), "{message}");
     }
 
     #[test]
@@ -616,17 +533,13 @@ stiffness = 0.25
         plant.check_names(&["X", "Y", "XF"]).unwrap();
         let (x, xf) = (&plant.axes["X"], &plant.axes["XF"]);
         let difference = xf.encoders[0].zero_mark - x.encoders[0].zero_mark;
-        assert_eq!(
-            (difference, x.start - xf.start),
-            (Position::from_user(0.941), Position::ZERO)
-        );
+        assert_eq!((difference, x.start - xf.start), (Position::from_user(0.941), Position::ZERO));
         assert_eq!(x.cam, xf.cam);
     }
 
     #[test]
     fn db11_5_2_may_stand_in_compatibility_but_not_contradict() {
-        let plant =
-            PlantDefinition::parse("[compatibility]\ndb11_5_2 = \"hmi_strobe\"\n", "p").unwrap();
+        let plant = PlantDefinition::parse("[compatibility]\ndb11_5_2 = \"hmi_strobe\"\n", "p").unwrap();
         assert_eq!(plant.db11_5_2, Some(Db11Byte5Bit2::HmiStrobe));
         let both = "[machine]\ndb11_5_2 = \"mirror\"\n[compatibility]\ndb11_5_2 = \"hmi_strobe\"\n";
         assert!(refused(both).starts_with("plant.toml:4: "));

@@ -80,18 +80,10 @@ impl Layout {
                 let offset = |axis: AxisNumber| {
                     let name = names[axis].as_deref().unwrap_or_default();
                     // An offset that is not said is the one that the slides have at first power on.
-                    bridge
-                        .offset
-                        .get(name)
-                        .copied()
-                        .unwrap_or_else(|| start(&axes, axis) - start(&axes, first))
+                    bridge.offset.get(name).copied().unwrap_or_else(|| start(&axes, axis) - start(&axes, first))
                 };
                 let others = others.iter().map(|&axis| (axis, offset(axis))).collect();
-                Some(RigidOrSoft {
-                    first,
-                    others,
-                    stiffness: bridge.stiffness,
-                })
+                Some(RigidOrSoft { first, others, stiffness: bridge.stiffness })
             })
             .collect();
         Self { axes, bridges }
@@ -99,9 +91,7 @@ impl Layout {
 }
 
 fn start(axes: &PerAxis<Option<Iron>>, axis: AxisNumber) -> Position {
-    axes[axis]
-        .as_ref()
-        .map_or(Position::ZERO, |iron| iron.start)
+    axes[axis].as_ref().map_or(Position::ZERO, |iron| iron.start)
 }
 
 fn iron(definition: &PlantDefinition, name: &str, hints: Hints) -> Iron {
@@ -113,7 +103,7 @@ fn iron(definition: &PlantDefinition, name: &str, hints: Hints) -> Iron {
         Encoder::new(encoder.resolution, encoder.zero_mark, spacing, said.start)
     });
     let cam = match &said.cam {
-        Given::Said(cam) => Some(cam.clone()),
+        Given::Said(cam) => Some(*cam),
         Given::Removed => None,
         Given::Unsaid => default_cam(said.start, hints.cam_direction),
     };
@@ -130,7 +120,7 @@ fn iron(definition: &PlantDefinition, name: &str, hints: Hints) -> Iron {
 
 fn switch(given: &Given<LimitSwitch>) -> Option<LimitSwitch> {
     match given {
-        Given::Said(switch) => Some(switch.clone()),
+        Given::Said(switch) => Some(*switch),
         Given::Removed | Given::Unsaid => None,
     }
 }
@@ -140,15 +130,7 @@ fn default_cam(start: Position, direction: i8) -> Option<Cam> {
     let far = Position::from_user(DEFAULT_CAM_DISTANCE + DEFAULT_CAM_LENGTH);
     match direction {
         0 => None,
-        1.. => Some(Cam {
-            from: start + near,
-            to: start + far,
-            input: None,
-        }),
-        _ => Some(Cam {
-            from: start - far,
-            to: start - near,
-            input: None,
-        }),
+        1.. => Some(Cam { from: start + near, to: start + far, input: None }),
+        _ => Some(Cam { from: start - far, to: start - near, input: None }),
     }
 }

@@ -9,8 +9,7 @@ mod layout;
 mod moving;
 
 pub use definition::{
-    AxisPlant, Bridge, Cam, Db11Byte5Bit2, Drive, EncoderKind, EncoderPlant, Given, Input,
-    LimitSwitch, PlantDefinition,
+    AxisPlant, Bridge, Cam, Db11Byte5Bit2, Drive, EncoderKind, EncoderPlant, Given, Input, LimitSwitch, PlantDefinition,
 };
 pub use layout::{Hints, Iron, Layout, RigidOrSoft};
 pub use moving::{Fault, FaultKind, Plant, Switch};

@@ -77,9 +77,7 @@ impl Plant {
     /// Everything at its start, switched on.
     #[must_use]
     pub fn new(layout: &Layout) -> Self {
-        Self {
-            slides: PerAxis::from_fn(|axis| layout.axes[axis].as_ref().map(Slide::new)),
-        }
+        Self { slides: PerAxis::from_fn(|axis| layout.axes[axis].as_ref().map(Slide::new)) }
     }
 
     /// Power off and on: slides and faults stay, drives run up anew, encoders count from where they are.
@@ -104,7 +102,7 @@ impl Plant {
             FaultKind::Block => slide.blocked = true,
             FaultKind::Push { by } => slide.position += by,
             FaultKind::EncoderSlip { by } => {
-                slide.encoders[usize::from(active.unwrap_or(0))].slip(by)
+                slide.encoders[usize::from(active.unwrap_or(0))].slip(by);
             }
             FaultKind::ZeroMarkMissing => slide.zero_mark_missing = true,
             FaultKind::SwitchStuck { which, at } => slide.stuck[which as usize] = Some(at),
@@ -141,23 +139,12 @@ impl Plant {
     }
 
     /// A bridge takes back its share of a difference, half on each slide, all of it on the one that can move.
-    fn pull(
-        &mut self,
-        first: AxisNumber,
-        other: AxisNumber,
-        offset: Position,
-        stiffness: f64,
-        cycle: f64,
-    ) {
+    fn pull(&mut self, first: AxisNumber, other: AxisNumber, offset: Position, stiffness: f64, cycle: f64) {
         let (Some(a), Some(b)) = (self.slides[first], self.slides[other]) else {
             return;
         };
         let strain = (b.position - a.position - offset).increments() as f64;
-        let share = if stiffness >= 1.0 {
-            1.0
-        } else {
-            stiffness * cycle
-        };
+        let share = if stiffness >= 1.0 { 1.0 } else { stiffness * cycle };
         let (to_a, to_b) = match (a.blocked, b.blocked) {
             (false, false) => (0.5, 0.5),
             (false, true) => (1.0, 0.0),
@@ -167,18 +154,11 @@ impl Plant {
         if strain == 0.0 || share == 0.0 {
             return;
         }
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "a strain fits by far; the cast saturates"
-        )]
+        #[expect(clippy::cast_possible_truncation, reason = "a strain fits by far; the cast saturates")]
         let whole = |movement: f64| Position::new(movement.round() as i64);
         let taken = whole(strain * share);
         let moved_a = whole(strain * share * to_a);
-        let moved_b = if to_b > 0.0 {
-            taken - moved_a
-        } else {
-            Position::ZERO
-        };
+        let moved_b = if to_b > 0.0 { taken - moved_a } else { Position::ZERO };
         let rigid = stiffness >= 1.0;
         let velocity = 0.5 * (a.drive.velocity() + b.drive.velocity());
         if let Some(slide) = &mut self.slides[first] {
@@ -215,9 +195,7 @@ impl Plant {
     #[must_use]
     pub fn values(&self, axis: AxisNumber) -> [Position; 2] {
         self.slides[axis].map_or([Position::ZERO; 2], |slide| {
-            slide
-                .encoders
-                .map(|encoder| encoder.signal(slide.position, slide.position).value)
+            slide.encoders.map(|encoder| encoder.signal(slide.position, slide.position).value)
         })
     }
 
@@ -245,9 +223,7 @@ impl Plant {
     /// Half a count of both encoders.
     #[must_use]
     pub fn half_counts(&self, axis: AxisNumber) -> [Position; 2] {
-        self.slides[axis].map_or([Position::ZERO; 2], |slide| {
-            slide.encoders.map(|encoder| encoder.half_count())
-        })
+        self.slides[axis].map_or([Position::ZERO; 2], |slide| slide.encoders.map(|encoder| encoder.half_count()))
     }
 
     /// True position of a slide.
@@ -267,18 +243,9 @@ impl Plant {
         }
         let position = slide.position;
         match switch {
-            Switch::Cam => iron
-                .cam
-                .as_ref()
-                .is_some_and(|cam| cam.from <= position && position <= cam.to),
-            Switch::LimitPlus => iron
-                .limit_plus
-                .as_ref()
-                .is_some_and(|limit| position >= limit.at),
-            Switch::LimitMinus => iron
-                .limit_minus
-                .as_ref()
-                .is_some_and(|limit| position <= limit.at),
+            Switch::Cam => iron.cam.as_ref().is_some_and(|cam| cam.from <= position && position <= cam.to),
+            Switch::LimitPlus => iron.limit_plus.as_ref().is_some_and(|limit| position >= limit.at),
+            Switch::LimitMinus => iron.limit_minus.as_ref().is_some_and(|limit| position <= limit.at),
         }
     }
 }

@@ -18,11 +18,7 @@ impl Bench {
         for (number, name) in AxisNumber::all().zip(axes) {
             names.axes[number] = Some((*name).to_owned());
         }
-        Self {
-            memory: Memory::new(),
-            names,
-            time: Time::ZERO,
-        }
+        Self { memory: Memory::new(), names, time: Time::ZERO }
     }
 
     /// One scan, 10 ms after the last one.
@@ -32,17 +28,7 @@ impl Bench {
     }
 
     pub(super) fn io(&mut self) -> PlcIo<'_> {
-        let Memory {
-            to_nck,
-            from_nck,
-            hmi,
-            inputs,
-            outputs,
-            flags,
-            timers,
-            counters,
-            blocks,
-        } = &mut self.memory;
+        let Memory { to_nck, from_nck, hmi, inputs, outputs, flags, timers, counters, blocks } = &mut self.memory;
         PlcIo {
             to_nck,
             from_nck,

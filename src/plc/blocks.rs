@@ -54,8 +54,7 @@ impl OnDelay {
     /// ET: how long the input has been on, at most the delay.
     #[must_use]
     pub fn elapsed(&self, delay: Time, now: Time) -> Time {
-        self.since
-            .map_or(Time::ZERO, |since| (now - since).min(delay))
+        self.since.map_or(Time::ZERO, |since| (now - since).min(delay))
     }
 }
 
@@ -81,8 +80,7 @@ impl OffDelay {
     /// ET: how long the input has been off while the output was still on, at most the delay.
     #[must_use]
     pub fn elapsed(&self, delay: Time, now: Time) -> Time {
-        self.since
-            .map_or(Time::ZERO, |since| (now - since).min(delay))
+        self.since.map_or(Time::ZERO, |since| (now - since).min(delay))
     }
 }
 
@@ -128,14 +126,8 @@ mod tests {
     fn an_edge_is_seen_in_one_scan_only() {
         let (mut rising, mut falling) = (RisingEdge::default(), FallingEdge::default());
         let input = [false, true, true, false, false, true];
-        assert_eq!(
-            input.map(|on| rising.scan(on)),
-            [false, true, false, false, false, true]
-        );
-        assert_eq!(
-            input.map(|on| falling.scan(on)),
-            [false, false, false, true, false, false]
-        );
+        assert_eq!(input.map(|on| rising.scan(on)), [false, true, false, false, false, true]);
+        assert_eq!(input.map(|on| falling.scan(on)), [false, false, false, true, false, false]);
     }
 
     #[test]
@@ -191,21 +183,8 @@ mod tests {
     #[test]
     fn a_latch_remembers_and_its_dominant_input_wins() {
         let (mut set, mut reset) = (SetDominantLatch::default(), ResetDominantLatch::default());
-        let steps = [
-            (false, false),
-            (true, false),
-            (false, false),
-            (true, true),
-            (false, true),
-            (true, true),
-        ];
-        assert_eq!(
-            steps.map(|(s, r)| set.scan(s, r)),
-            [false, true, true, true, false, true]
-        );
-        assert_eq!(
-            steps.map(|(s, r)| reset.scan(s, r)),
-            [false, true, true, false, false, false]
-        );
+        let steps = [(false, false), (true, false), (false, false), (true, true), (false, true), (true, true)];
+        assert_eq!(steps.map(|(s, r)| set.scan(s, r)), [false, true, true, true, false, true]);
+        assert_eq!(steps.map(|(s, r)| reset.scan(s, r)), [false, true, true, false, false, false]);
     }
 }

@@ -44,13 +44,7 @@ pub fn program_with_fault<S>(
 where
     S: Clone,
 {
-    ClosureProgram {
-        name: name.into(),
-        initial: state.clone(),
-        state,
-        startup: None,
-        scan: Arc::new(scan),
-    }
+    ClosureProgram { name: name.into(), initial: state.clone(), state, startup: None, scan: Arc::new(scan) }
 }
 
 impl<S> ClosureProgram<S>
@@ -59,10 +53,7 @@ where
 {
     /// Runs this closure after power on, before the first scan (OB100).
     #[must_use]
-    pub fn on_startup(
-        mut self,
-        startup: impl Fn(&mut S, &mut PlcIo<'_>) + Send + Sync + 'static,
-    ) -> Self {
+    pub fn on_startup(mut self, startup: impl Fn(&mut S, &mut PlcIo<'_>) + Send + Sync + 'static) -> Self {
         self.startup = Some(Arc::new(move |state, io| {
             startup(state, io);
             Ok(())

@@ -48,10 +48,6 @@ impl<'a> PlcIo<'a> {
     /// The numbers of all axes that the machine has, ascending; a loop over them may write.
     pub fn axes(&self) -> impl Iterator<Item = AxisNumber> + use<'a> {
         let names = self.names;
-        names
-            .axes
-            .iter()
-            .filter(|(_, name)| name.is_some())
-            .map(|(number, _)| number)
+        names.axes.iter().filter(|(_, name)| name.is_some()).map(|(number, _)| number)
     }
 }

@@ -30,9 +30,7 @@ mod registry;
 #[cfg(test)]
 mod tests;
 
-pub use blocks::{
-    FallingEdge, OffDelay, OnDelay, ResetDominantLatch, RisingEdge, SetDominantLatch,
-};
+pub use blocks::{FallingEdge, OffDelay, OnDelay, ResetDominantLatch, RisingEdge, SetDominantLatch};
 pub use closure::{ClosureProgram, program, program_with_fault};
 pub use io::PlcIo;
 pub use programs::{enable_all, gantry_start, shared_reference_cam};
@@ -52,9 +50,7 @@ impl PlcFault {
     /// A fault with its reason.
     #[must_use]
     pub fn new(reason: impl Into<String>) -> Self {
-        Self {
-            reason: reason.into(),
-        }
+        Self { reason: reason.into() }
     }
 }
 

@@ -27,9 +27,7 @@ impl Programs {
         Self(BTreeMap::new())
             .with("enable_all", |_| Ok(enable_all().boxed()))
             .with("gantry_start", |_| Ok(gantry_start().boxed()))
-            .with("shared_reference_cam", |_| {
-                Ok(shared_reference_cam().boxed())
-            })
+            .with("shared_reference_cam", |_| Ok(shared_reference_cam().boxed()))
     }
 
     /// Adds a program under a name, in place of one that has it. The constructor may refuse a machine by its names.
@@ -55,15 +53,8 @@ impl Programs {
     pub fn program(&self, name: &str, machine: &Names) -> Result<Box<dyn PlcProgram>, Problem> {
         let Some(constructor) = self.0.get(name) else {
             let known = self.names().collect::<Vec<_>>().join("`, `");
-            let cure = did_you_mean(
-                name,
-                self.names(),
-                "register your own program under this name",
-            );
-            return Err(Problem::new(
-                format!("expected one of the PLC programs `{known}`, found `{name}`"),
-                cure,
-            ));
+            let cure = did_you_mean(name, self.names(), "register your own program under this name");
+            return Err(Problem::new(format!("expected one of the PLC programs `{known}`, found `{name}`"), cure));
         };
         constructor(machine)
     }

@@ -7,14 +7,10 @@ use super::bench::Bench;
 use super::{OnDelay, PlcFault, PlcProgram, Programs, RisingEdge, program, program_with_fault};
 
 fn counting() -> Box<dyn PlcProgram> {
-    program(
-        "counting",
-        (0_u16, RisingEdge::default()),
-        |(count, edge), io| {
-            *count += u16::from(edge.scan(io.inputs.bit(3, 4)));
-            io.flags.set_word(10, *count);
-        },
-    )
+    program("counting", (0_u16, RisingEdge::default()), |(count, edge), io| {
+        *count += u16::from(edge.scan(io.inputs.bit(3, 4)));
+        io.flags.set_word(10, *count);
+    })
     .on_startup(|(count, _), io| {
         *count = 100;
         io.outputs.set_bit(4, 0, true);
@@ -73,10 +69,7 @@ fn a_saved_program_goes_on_where_it_was() {
 fn the_state_of_another_program_is_refused() {
     let mut timer = program("timer", OnDelay::default(), |_, _| {});
     let problem = timer.restore(&[7, 7, 7]).unwrap_err().to_string();
-    assert!(
-        problem.contains("`timer`") && problem.contains("3 bytes"),
-        "{problem}"
-    );
+    assert!(problem.contains("`timer`") && problem.contains("3 bytes"), "{problem}");
     assert!(timer.restore(&[0, 0]).is_err(), "bytes left over");
     assert!(timer.restore(&[0]).is_ok());
 }
@@ -85,11 +78,7 @@ fn the_state_of_another_program_is_refused() {
 fn a_program_can_stop_the_plc() {
     let mut bench = Bench::with_axes(&["X"]);
     let mut stops = program_with_fault("stops", (), |(), io| {
-        if io.time > Time::from_millis(15) {
-            Err(PlcFault::new("I0.0 broke"))
-        } else {
-            Ok(())
-        }
+        if io.time > Time::from_millis(15) { Err(PlcFault::new("I0.0 broke")) } else { Ok(()) }
     });
     assert_eq!(bench.scan(&mut stops), Ok(()));
     let fault = bench.scan(&mut stops).unwrap_err();
@@ -109,19 +98,11 @@ fn a_program_finds_axes_by_name() {
 fn programs_are_found_by_name_and_a_misspelt_one_names_its_neighbour() {
     let programs = Programs::ready().with("mine", |_| Ok(counting()));
     let names = Names::default();
-    assert!(
-        programs
-            .names()
-            .eq(["enable_all", "gantry_start", "mine", "shared_reference_cam"])
-    );
+    assert!(programs.names().eq(["enable_all", "gantry_start", "mine", "shared_reference_cam"]));
     for name in ["enable_all", "gantry_start", "shared_reference_cam"] {
         assert_eq!(programs.program(name, &names).unwrap().name(), name);
     }
     assert_eq!(programs.program("mine", &names).unwrap().name(), "counting");
-    let problem = programs
-        .program("enable_al", &names)
-        .err()
-        .unwrap()
-        .to_string();
+    let problem = programs.program("enable_al", &names).err().unwrap().to_string();
     assert!(problem.contains("did you mean `enable_all`?"), "{problem}");
 }

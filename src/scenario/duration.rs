@@ -13,13 +13,7 @@ pub enum Duration {
 }
 
 /// The units of a duration with their seconds.
-const UNITS: [(&str, f64); 5] = [
-    ("us", 1e-6),
-    ("ms", 1e-3),
-    ("s", 1.0),
-    ("min", 60.0),
-    ("h", 3600.0),
-];
+const UNITS: [(&str, f64); 5] = [("us", 1e-6), ("ms", 1e-3), ("s", 1.0), ("min", 60.0), ("h", 3600.0)];
 
 impl Duration {
     /// Reads `<number>us|ms|s|min|h` or `<n>cycles`.
@@ -34,18 +28,13 @@ impl Duration {
             )
         };
         let trimmed = text.trim();
-        let digits = trimmed
-            .find(|c: char| c != '.' && !c.is_ascii_digit())
-            .unwrap_or(trimmed.len());
+        let digits = trimmed.find(|c: char| c != '.' && !c.is_ascii_digit()).unwrap_or(trimmed.len());
         let (number, unit) = trimmed.split_at(digits);
         let unit = unit.trim_start();
         if unit == "cycles" || unit == "cycle" {
             return number.parse().map(Self::Cycles).map_err(|_| problem());
         }
-        let (_, seconds) = UNITS
-            .iter()
-            .find(|(name, _)| *name == unit)
-            .ok_or_else(problem)?;
+        let (_, seconds) = UNITS.iter().find(|(name, _)| *name == unit).ok_or_else(problem)?;
         let number: f64 = number.parse().map_err(|_| problem())?;
         Ok(Self::Time(Time::from_seconds(number * seconds)))
     }
@@ -87,26 +76,13 @@ mod tests {
             ("0s", 1),
             ("0cycles", 1),
         ] {
-            assert_eq!(
-                Duration::parse(text).unwrap().cycles(cycle),
-                cycles,
-                "{text}"
-            );
+            assert_eq!(Duration::parse(text).unwrap().cycles(cycle), cycles, "{text}");
         }
     }
 
     #[test]
     fn what_is_no_duration_is_refused() {
-        for text in [
-            "",
-            "5",
-            "ms",
-            "-1s",
-            "1.2.3s",
-            "5 days",
-            "1.5cycles",
-            "1e3s",
-        ] {
+        for text in ["", "5", "ms", "-1s", "1.2.3s", "5 days", "1.5cycles", "1e3s"] {
             assert!(Duration::parse(text).is_err(), "{text}");
         }
     }

@@ -87,10 +87,7 @@ impl Scenario {
         let whole = Place::file(&file);
         let required = |node: Option<Node>, key: &str, example: &str| {
             node.ok_or_else(|| {
-                whole.problem(
-                    format!("expected the key `{key}`, found none"),
-                    format!("write {key} = {example}"),
-                )
+                whole.problem(format!("expected the key `{key}`, found none"), format!("write {key} = {example}"))
             })
         };
         let title = required(table.take("title"), "title", "\"what the scenario shows\"")?;
@@ -101,38 +98,19 @@ impl Scenario {
             path: path.to_owned(),
             title,
             machine,
-            covers: texts(table.take("covers"), "requirement IDs")?
-                .into_iter()
-                .map(|id| id.text)
-                .collect(),
+            covers: texts(table.take("covers"), "requirement IDs")?.into_iter().map(|id| id.text).collect(),
             profiles: profiles(table.take("profile"))?,
-            plc: table
-                .take("plc")
-                .map(|node| named(&node, "the name of a PLC program"))
-                .transpose()?,
-            plc_image: table
-                .take("plc_image")
-                .map(|node| named(&node, "the name of a PLC image"))
-                .transpose()?,
+            plc: table.take("plc").map(|node| named(&node, "the name of a PLC program")).transpose()?,
+            plc_image: table.take("plc_image").map(|node| named(&node, "the name of a PLC image")).transpose()?,
             limit: table
                 .take("limit")
-                .map_or(Ok(Duration::Time(DEFAULT_LIMIT)), |node| {
-                    duration(&node, "the bound on simulated time")
-                })?,
-            watch: table
-                .take("watch")
-                .map(|node| texts(Some(node), "signals to watch"))
-                .transpose()?,
-            causes: table
-                .take("causes")
-                .map_or(Ok(false), |node| node.boolean("true or false"))?,
+                .map_or(Ok(Duration::Time(DEFAULT_LIMIT)), |node| duration(&node, "the bound on simulated time"))?,
+            watch: table.take("watch").map(|node| texts(Some(node), "signals to watch")).transpose()?,
+            causes: table.take("causes").map_or(Ok(false), |node| node.boolean("true or false"))?,
             never: texts(table.take("never"), "expressions")?,
             always: texts(table.take("always"), "expressions")?,
             compare: table.take("compare").map_or(Ok(Compare::Exact), compare)?,
-            plant: table
-                .take("plant")
-                .map(|node| node.into_table("a table of plant data"))
-                .transpose()?,
+            plant: table.take("plant").map(|node| node.into_table("a table of plant data")).transpose()?,
             steps: steps(table.take("step"), &whole)?,
         };
         refuse_later_keys(&mut table)?;
@@ -162,10 +140,7 @@ pub fn profile_named(name: &str) -> Result<Profile, Problem> {
             } else {
                 did_you_mean(name, ["840d_sl", "828d"], "profiles are 840d_sl and 828d")
             };
-            Err(Problem::new(
-                format!("expected a profile, found `{name}`"),
-                cure,
-            ))
+            Err(Problem::new(format!("expected a profile, found `{name}`"), cure))
         }
     }
 }
@@ -180,18 +155,12 @@ pub fn profile_name(profile: Profile) -> &'static str {
 }
 
 pub(super) fn named(node: &Node, what: &str) -> Result<Named, Problem> {
-    Ok(Named {
-        text: node.text(what)?.to_owned(),
-        place: node.place.clone(),
-    })
+    Ok(Named { text: node.text(what)?.to_owned(), place: node.place.clone() })
 }
 
 /// A text or a list of texts.
 pub(super) fn texts(node: Option<Node>, what: &str) -> Result<Vec<Named>, Problem> {
-    node.map_or_else(Vec::new, Node::into_list)
-        .iter()
-        .map(|node| named(node, what))
-        .collect()
+    node.map_or_else(Vec::new, Node::into_list).iter().map(|node| named(node, what)).collect()
 }
 
 pub(super) fn duration(node: &Node, what: &str) -> Result<Duration, Problem> {
@@ -207,18 +176,12 @@ fn profiles(node: Option<Node>) -> Result<Vec<Profile>, Problem> {
     for name in texts(Some(node), "a profile")? {
         let profile = profile_named(&name.text).map_err(|problem| problem.at(&name.place))?;
         if profiles.contains(&profile) {
-            return Err(name.place.problem(
-                format!("the profile `{}` stands here twice", name.text),
-                "remove one",
-            ));
+            return Err(name.place.problem(format!("the profile `{}` stands here twice", name.text), "remove one"));
         }
         profiles.push(profile);
     }
     if profiles.is_empty() {
-        return Err(place.problem(
-            "expected at least one profile, found none",
-            "write profile = \"840d_sl\"",
-        ));
+        return Err(place.problem("expected at least one profile, found none", "write profile = \"840d_sl\""));
     }
     Ok(profiles)
 }
@@ -233,13 +196,10 @@ fn compare(node: Node) -> Result<Compare, Problem> {
             let mut table = node.into_table("a comparison")?;
             let time = table.take("time");
             table.finish()?;
-            let time =
-                time.ok_or_else(|| place.problem("expected the key `time`, found none", cure))?;
+            let time = time.ok_or_else(|| place.problem("expected the key `time`, found none", cure))?;
             match duration(&time, "a duration")? {
                 Duration::Time(time) => Ok(Compare::Within(time)),
-                Duration::Cycles(_) => {
-                    Err(time.expected("a time with a unit", "write { time = \"50ms\" }"))
-                }
+                Duration::Cycles(_) => Err(time.expected("a time with a unit", "write { time = \"50ms\" }")),
             }
         }
         _ => Err(node.expected("a way to compare traces", cure)),
@@ -247,26 +207,14 @@ fn compare(node: Node) -> Result<Compare, Problem> {
 }
 
 fn steps(node: Option<Node>, whole: &Place) -> Result<Vec<Table>, Problem> {
-    let none = || {
-        whole.problem(
-            "expected at least one `[[step]]`, found none",
-            "add [[step]] with a verb",
-        )
-    };
+    let none = || whole.problem("expected at least one `[[step]]`, found none", "add [[step]] with a verb");
     let node = node.ok_or_else(none)?;
     if !matches!(node.value, Value::Array(_)) {
         return Err(node.expected("a list of steps", "write [[step]] with two brackets"));
     }
-    let steps: Vec<_> = node
-        .into_list()
-        .into_iter()
-        .map(|step| step.into_table("a step with one verb"))
-        .collect::<Result<_, _>>()?;
-    if steps.is_empty() {
-        Err(none())
-    } else {
-        Ok(steps)
-    }
+    let steps: Vec<_> =
+        node.into_list().into_iter().map(|step| step.into_table("a step with one verb")).collect::<Result<_, _>>()?;
+    if steps.is_empty() { Err(none()) } else { Ok(steps) }
 }
 
 /// What the format names and this version does not do.
@@ -278,8 +226,5 @@ fn refuse_later_keys(table: &mut Table) -> Result<(), Problem> {
 }
 
 pub(super) fn not_available(place: &Place, what: &str) -> Problem {
-    place.problem(
-        format!("{what} is not available in this version"),
-        "remove it, or use a version that has it",
-    )
+    place.problem(format!("{what} is not available in this version"), "remove it, or use a version that has it")
 }

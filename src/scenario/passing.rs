@@ -26,11 +26,7 @@ enum Stopped {
 }
 
 impl Session {
-    pub(super) fn pulse_locations(
-        &mut self,
-        locations: &[Location],
-        cycles: u64,
-    ) -> Result<(), Failure> {
+    pub(super) fn pulse_locations(&mut self, locations: &[Location], cycles: u64) -> Result<(), Failure> {
         for &location in locations {
             self.queue(Command::Write { location, value: 1 })?;
         }
@@ -51,27 +47,18 @@ impl Session {
         Ok(())
     }
 
-    pub(super) fn wait_for(
-        &mut self,
-        expression: &Expression,
-        within: Option<u64>,
-    ) -> Result<(), Failure> {
+    pub(super) fn wait_for(&mut self, expression: &Expression, within: Option<u64>) -> Result<(), Failure> {
         if self.holds(expression) {
             return Ok(());
         }
         let mut waited = 0;
         loop {
             if within.is_some_and(|within| waited >= within) {
-                let what = format!(
-                    "{}, and it did not become true",
-                    self.waited(waited, expression)
-                );
+                let what = format!("{}, and it did not become true", self.waited(waited, expression));
                 return Err(self.missed(what, Some(expression)));
             }
             let before = self.pass_cycle();
-            before.map_err(|stopped| {
-                self.stopped(&stopped, &self.waited(waited, expression), Some(expression))
-            })?;
+            before.map_err(|stopped| self.stopped(&stopped, &self.waited(waited, expression), Some(expression)))?;
             waited += 1;
             if self.holds(expression) {
                 return Ok(());
@@ -80,30 +67,19 @@ impl Session {
     }
 
     fn waited(&self, cycles: u64, expression: &Expression) -> String {
-        format!(
-            "waited {} s for `{}`",
-            self.machine.cycle_time().times(cycles),
-            expression.source()
-        )
+        format!("waited {} s for `{}`", self.machine.cycle_time().times(cycles), expression.source())
     }
 
     pub(super) fn hold_for(&mut self, expression: &Expression, during: u64) -> Result<(), Failure> {
         for held in 0..=during {
             if !self.holds(expression) {
                 let held = self.machine.cycle_time().times(held);
-                let what = format!(
-                    "expected `{}` to hold, found it false after {held} s",
-                    expression.source()
-                );
+                let what = format!("expected `{}` to hold, found it false after {held} s", expression.source());
                 return Err(self.missed(what, Some(expression)));
             }
             if held < during {
                 self.pass_cycle().map_err(|stopped| {
-                    self.stopped(
-                        &stopped,
-                        &format!("while `{}` held", expression.source()),
-                        Some(expression),
-                    )
+                    self.stopped(&stopped, &format!("while `{}` held", expression.source()), Some(expression))
                 })?;
             }
         }
@@ -114,10 +90,7 @@ impl Session {
         if self.holds(expression) {
             Ok(())
         } else {
-            Err(self.missed(
-                format!("expected `{}`, found it false", expression.source()),
-                Some(expression),
-            ))
+            Err(self.missed(format!("expected `{}`, found it false", expression.source()), Some(expression)))
         }
     }
 
@@ -147,8 +120,7 @@ impl Session {
         self.pending.clear();
         self.trace.extend(self.machine.recorder());
         self.machine.drain();
-        self.trace
-            .note_values(self.machine.cycle(), self.machine.variables());
+        self.trace.note_values(self.machine.cycle(), self.machine.variables());
         let broken = self.conditions.iter().position(|condition| {
             self.with_view(self.last(), |view| condition.expression.holds(view)) != condition.wanted
         });
@@ -191,13 +163,7 @@ impl Session {
 
     fn looked_at<T>(&self, look: impl FnOnce(&View<'_>) -> T) -> T {
         let now = self.now();
-        self.with_view(
-            Moment {
-                memory: &now,
-                ..self.last()
-            },
-            look,
-        )
+        self.with_view(Moment { memory: &now, ..self.last() }, look)
     }
 
     pub(super) fn holds(&self, expression: &Expression) -> bool {
@@ -209,25 +175,14 @@ impl Session {
     }
 
     fn missed(&self, what: String, expression: Option<&Expression>) -> Failure {
-        let operands = expression.map_or_else(Vec::new, |expression| {
-            self.looked_at(|view| expression.operands(view, &self.machine))
-        });
+        let operands = expression
+            .map_or_else(Vec::new, |expression| self.looked_at(|view| expression.operands(view, &self.machine)));
         let names = self.machine.names();
         let alarms = self.machine.variables().alarms.iter().map(|alarm| {
-            let (name, text) = (
-                self.machine.alarm_name(alarm.number),
-                self.machine.alarm_text(alarm),
-            );
+            let (name, text) = (self.machine.alarm_name(alarm.number), self.machine.alarm_text(alarm));
             format!("{name} [{}] {text}", place_name(alarm.place, names))
         });
-        Missed {
-            place: None,
-            time: self.time(),
-            what,
-            operands,
-            alarms: alarms.collect(),
-        }
-        .into()
+        Missed { place: None, time: self.time(), what, operands, alarms: alarms.collect() }.into()
     }
 
     /// The failure of a cycle that was the last one.
@@ -235,18 +190,11 @@ impl Session {
         match stopped {
             Stopped::Limit => {
                 let limit = self.machine.cycle_time().times(self.limit.unwrap_or(0));
-                self.missed(
-                    format!("reached the limit of {limit} s: {doing}"),
-                    expression,
-                )
+                self.missed(format!("reached the limit of {limit} s: {doing}"), expression)
             }
             Stopped::Condition(index) => {
                 let condition = &self.conditions[*index];
-                let (word, found) = if condition.wanted {
-                    ("always", "false")
-                } else {
-                    ("never", "true")
-                };
+                let (word, found) = if condition.wanted { ("always", "false") } else { ("never", "true") };
                 let source = condition.expression.source();
                 let what = format!("expected {word} `{source}`, found it {found}");
                 let failure = self.missed(what, Some(&condition.expression));
@@ -261,10 +209,6 @@ impl Session {
 
 impl Shown {
     pub(super) fn of(machine: &Machine, time: Time) -> Self {
-        Self {
-            memory: machine.memory().clone(),
-            variables: machine.variables().clone(),
-            time,
-        }
+        Self { memory: machine.memory().clone(), variables: machine.variables().clone(), time }
     }
 }

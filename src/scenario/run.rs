@@ -38,18 +38,12 @@ impl Scenario {
         let mut machine = self.open(profile)?;
         let watch = self.watch(&machine)?;
         let mut reader = Reader::new(&machine);
-        let steps: Vec<Step> = self
-            .steps
-            .iter()
-            .map(|step| reader.step(step.clone()))
-            .collect::<Result<_, _>>()?;
+        let steps: Vec<Step> = self.steps.iter().map(|step| reader.step(step.clone())).collect::<Result<_, _>>()?;
         let captured = std::mem::take(&mut reader.captured);
         // What must hold from the first cycle on cannot wait for a value that a step captures.
         let conditions = self.conditions(&reader, &captured)?;
-        let looks_back = conditions
-            .iter()
-            .any(|condition| condition.expression.looks_back())
-            || steps.iter().any(Step::looks_back);
+        let looks_back =
+            conditions.iter().any(|condition| condition.expression.looks_back()) || steps.iter().any(Step::looks_back);
         let limit = self.limit.cycles(machine.cycle_time());
         let head = Head {
             title: self.title.clone(),
@@ -70,25 +64,12 @@ impl Scenario {
         for condition in conditions {
             session.add_condition(condition);
         }
-        Ok(Prepared {
-            session,
-            steps,
-            head,
-            causes: self.causes,
-        })
+        Ok(Prepared { session, steps, head, causes: self.causes })
     }
 
     fn open(&self, profile: Profile) -> Result<Machine, Problem> {
-        let preset = self
-            .plc_image
-            .as_ref()
-            .map(|image| self.preset(image))
-            .transpose()?;
-        let options = OpenOptions {
-            plant_over: self.plant.clone(),
-            profile,
-            preset,
-        };
+        let preset = self.plc_image.as_ref().map(|image| self.preset(image)).transpose()?;
+        let options = OpenOptions { plant_over: self.plant.clone(), profile, preset };
         Machine::open_with(self.directory().join(&self.machine.text), options)
             .map_err(|problem| problem.at(&self.machine.place))
     }
@@ -99,23 +80,14 @@ impl Scenario {
             self.directory().join(&image.text)
         } else {
             let name = Path::new("plc_images").join(format!("{}.toml", image.text));
-            let above = self
-                .directory()
-                .ancestors()
-                .map(|directory| directory.join(&name));
+            let above = self.directory().ancestors().map(|directory| directory.join(&name));
             let here = Some(PathBuf::from(&name));
-            above
-                .chain(here)
-                .find(|file| file.is_file())
-                .ok_or_else(|| {
-                    image.place.problem(
-                        format!(
-                            "expected a PLC image, found no plc_images/{}.toml here or above",
-                            image.text
-                        ),
-                        "name a file that ends in .toml, relative to the scenario",
-                    )
-                })?
+            above.chain(here).find(|file| file.is_file()).ok_or_else(|| {
+                image.place.problem(
+                    format!("expected a PLC image, found no plc_images/{}.toml here or above", image.text),
+                    "name a file that ends in .toml, relative to the scenario",
+                )
+            })?
         };
         Preset::read(&file).map_err(|problem| problem.at(&image.place))
     }
@@ -129,11 +101,7 @@ impl Scenario {
             .map_err(|(index, problem)| problem.at(&entries[index].place))
     }
 
-    fn conditions(
-        &self,
-        reader: &Reader<'_>,
-        captured: &[String],
-    ) -> Result<Vec<Condition>, Problem> {
+    fn conditions(&self, reader: &Reader<'_>, captured: &[String]) -> Result<Vec<Condition>, Problem> {
         let never = self.never.iter().map(|text| (text, false));
         let always = self.always.iter().map(|text| (text, true));
         never
@@ -156,41 +124,31 @@ impl Step {
     fn looks_back(&self) -> bool {
         match &self.action {
             Action::Wait(expression, _) | Action::Hold(expression, _) => expression.looks_back(),
-            Action::Expect(expressions) => expressions
-                .iter()
-                .any(|(_, expression)| expression.looks_back()),
-            Action::Capture(captures) => captures
-                .iter()
-                .any(|(_, expression)| expression.looks_back()),
+            Action::Expect(expressions) => expressions.iter().any(|(_, expression)| expression.looks_back()),
+            Action::Capture(captures) => captures.iter().any(|(_, expression)| expression.looks_back()),
             Action::Queue(_) | Action::Pulse(..) | Action::Run(_) | Action::Image(_) => false,
         }
     }
 
     fn run(&self, session: &mut Session) -> Result<(), Failure> {
         match &self.action {
-            Action::Queue(commands) => commands
-                .iter()
-                .try_for_each(|command| session.queue(command.clone())),
+            Action::Queue(commands) => commands.iter().try_for_each(|command| session.queue(command.clone())),
             Action::Pulse(locations, cycles) => session.pulse_locations(locations, *cycles),
             Action::Run(cycles) => session.run_cycles(*cycles),
             Action::Wait(expression, within) => session.wait_for(expression, *within),
             Action::Hold(expression, during) => session.hold_for(expression, *during),
-            Action::Expect(expressions) => {
-                expressions.iter().try_for_each(|(place, expression)| {
-                    session.expect_now(expression).map_err(|f| f.at(place))
-                })
-            }
+            Action::Expect(expressions) => expressions
+                .iter()
+                .try_for_each(|(place, expression)| session.expect_now(expression).map_err(|f| f.at(place))),
             Action::Capture(captures) => {
                 for (index, expression) in captures {
                     session.keep(*index, expression);
                 }
                 Ok(())
             }
-            Action::Image(bytes) => bytes.iter().try_for_each(|(place, location, bits)| {
-                session
-                    .expect_bits(*location, *bits)
-                    .map_err(|f| f.at(place))
-            }),
+            Action::Image(bytes) => bytes
+                .iter()
+                .try_for_each(|(place, location, bits)| session.expect_bits(*location, *bits).map_err(|f| f.at(place))),
         }
     }
 }
@@ -209,12 +167,7 @@ impl Prepared {
                 break;
             }
         }
-        Finished {
-            session: self.session,
-            head: self.head,
-            causes: self.causes,
-            failure,
-        }
+        Finished { session: self.session, head: self.head, causes: self.causes, failure }
     }
 
     /// What the machine's files made it warn of.

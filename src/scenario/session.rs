@@ -138,8 +138,7 @@ impl Session {
     }
 
     pub(super) fn set_watch(&mut self, watch: Watch) {
-        self.trace
-            .watch_values(&watch, self.machine.cycle(), self.machine.variables());
+        self.trace.watch_values(&watch, self.machine.cycle(), self.machine.variables());
         self.watch = watch;
     }
 
@@ -162,10 +161,7 @@ impl Session {
     /// There is no such signal, the NCK writes it, or the value does not fit.
     pub fn set(&mut self, signal: &str, value: impl Into<Setting>) -> Result<(), Failure> {
         let (location, bits) = self.resolved(signal, value.into())?;
-        self.queue(Command::Write {
-            location,
-            value: bits,
-        })
+        self.queue(Command::Write { location, value: bits })
     }
 
     /// Holds a signal after every scan of the PLC program, until it is released.
@@ -174,10 +170,7 @@ impl Session {
     /// As [`Session::set`].
     pub fn force(&mut self, signal: &str, value: impl Into<Setting>) -> Result<(), Failure> {
         let (location, bits) = self.resolved(signal, value.into())?;
-        self.queue(Command::Force {
-            location,
-            value: bits,
-        })
+        self.queue(Command::Force { location, value: bits })
     }
 
     /// Ends the forcing of a signal.
@@ -191,10 +184,7 @@ impl Session {
 
     fn resolved(&self, signal: &str, value: Setting) -> Result<(Location, u64), Problem> {
         let location = writable(&self.machine, signal)?;
-        Ok((
-            location,
-            value.bits(signal, location, self.machine.override_coding())?,
-        ))
+        Ok((location, value.bits(signal, location, self.machine.override_coding())?))
     }
 
     /// Sets a bit for 100 ms and resets it; ends one cycle after that, in which the bit is 0 again.
@@ -297,10 +287,7 @@ impl Session {
             Setting::Boolean(value) => DatumValue::Boolean(value),
             Setting::Text(text) => DatumValue::Text(text),
         };
-        self.queue(Command::MachineDatum {
-            target: target.to_owned(),
-            value,
-        })
+        self.queue(Command::MachineDatum { target: target.to_owned(), value })
     }
 
     /// "Set machine data active".
@@ -401,11 +388,7 @@ impl Session {
     }
 
     fn expression(&self, source: &str) -> Result<Expression, Problem> {
-        let scope = Scope {
-            memory: self.machine.memory(),
-            describe: &self.machine,
-            captured: &self.captured_names,
-        };
+        let scope = Scope { memory: self.machine.memory(), describe: &self.machine, captured: &self.captured_names };
         Expression::parse(source, scope)
     }
 }

@@ -72,28 +72,18 @@ pub(super) struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     pub(super) fn new(machine: &'a Machine) -> Self {
-        Self {
-            machine,
-            captured: Vec::new(),
-        }
+        Self { machine, captured: Vec::new() }
     }
 
     /// An expression with all names known so far.
     pub(super) fn expression(&self, source: &str, place: &Place) -> Result<Expression, Problem> {
-        let scope = Scope {
-            memory: self.machine.memory(),
-            describe: self.machine,
-            captured: &self.captured,
-        };
+        let scope = Scope { memory: self.machine.memory(), describe: self.machine, captured: &self.captured };
         Expression::parse(source, scope).map_err(|problem| problem.at(place))
     }
 
     pub(super) fn step(&mut self, mut table: Table) -> Result<Step, Problem> {
         let place = table.place.clone();
-        let note = table
-            .take("note")
-            .map(|node| node.text("a note").map(str::to_owned))
-            .transpose()?;
+        let note = table.take("note").map(|node| node.text("a note").map(str::to_owned)).transpose()?;
         let mut verbs = Vec::new();
         for verb in VERBS {
             if let Some(node) = table.take(verb) {
@@ -117,10 +107,7 @@ impl<'a> Reader<'a> {
                 }
             }
             table.finish()?;
-            return Err(place.problem(
-                "expected a step with one verb, found none",
-                verbs_in_words(),
-            ));
+            return Err(place.problem("expected a step with one verb, found none", verbs_in_words()));
         };
         if let Some((second, node)) = verbs.next() {
             return Err(node.place.problem(
@@ -136,11 +123,7 @@ impl<'a> Reader<'a> {
         }
         self.refuse_foreign_modifiers(verb, &mut table)?;
         table.finish()?;
-        Ok(Step {
-            place,
-            note,
-            action,
-        })
+        Ok(Step { place, note, action })
     }
 
     /// Tries a command on a copy of the machine, so that what it refuses is refused before anything runs.
@@ -166,26 +149,14 @@ impl<'a> Reader<'a> {
         let place = node.place.clone();
         let command = |command: Command| Action::Queue(vec![command]);
         let action = match verb {
-            "set" => Action::Queue(
-                self.writes(node, |location, value| Command::Write { location, value })?,
-            ),
-            "force" => Action::Queue(
-                self.writes(node, |location, value| Command::Force { location, value })?,
-            ),
+            "set" => Action::Queue(self.writes(node, |location, value| Command::Write { location, value })?),
+            "force" => Action::Queue(self.writes(node, |location, value| Command::Force { location, value })?),
             "release" => {
                 let places = self.locations(node)?;
-                Action::Queue(
-                    places
-                        .into_iter()
-                        .map(|(_, location)| Command::Release { location })
-                        .collect(),
-                )
+                Action::Queue(places.into_iter().map(|(_, location)| Command::Release { location }).collect())
             }
             "pulse" => {
-                let time = table
-                    .take("for")
-                    .map(|node| duration(&node, "how long the pulse is"))
-                    .transpose()?;
+                let time = table.take("for").map(|node| duration(&node, "how long the pulse is")).transpose()?;
                 let cycles = time.map_or_else(|| PULSE.in_cycles(cycle), |time| time.cycles(cycle));
                 let mut locations = Vec::new();
                 for (named, location) in self.locations(node)? {
@@ -201,33 +172,20 @@ impl<'a> Reader<'a> {
             }
             "run" => Action::Run(duration(&node, "how much time passes")?.cycles(cycle)),
             "wait" => {
-                let within = table
-                    .take("within")
-                    .map(|node| duration(&node, "how long to wait"))
-                    .transpose()?;
-                Action::Wait(
-                    self.one_expression(&node)?,
-                    within.map(|within| within.cycles(cycle)),
-                )
+                let within = table.take("within").map(|node| duration(&node, "how long to wait")).transpose()?;
+                Action::Wait(self.one_expression(&node)?, within.map(|within| within.cycles(cycle)))
             }
             "hold" => {
                 let during = table.take("during").ok_or_else(|| {
-                    place.problem(
-                        "expected `during` beside `hold`, found none",
-                        "write during = \"2s\"",
-                    )
+                    place.problem("expected `during` beside `hold`, found none", "write during = \"2s\"")
                 })?;
                 let during = duration(&during, "how long it holds")?;
                 Action::Hold(self.one_expression(&node)?, during.cycles(cycle))
             }
             "expect" => {
                 let texts = texts(Some(node), "an expression or a list of them")?;
-                let read = |text: &super::file::Named| {
-                    Ok((
-                        text.place.clone(),
-                        self.expression(&text.text, &text.place)?,
-                    ))
-                };
+                let read =
+                    |text: &super::file::Named| Ok((text.place.clone(), self.expression(&text.text, &text.place)?));
                 Action::Expect(texts.iter().map(read).collect::<Result<_, _>>()?)
             }
             "capture" => Action::Capture(self.captures(node)?),
@@ -241,11 +199,7 @@ impl<'a> Reader<'a> {
                 other => {
                     return Err(node.expected(
                         "\"stop\" or \"run\"",
-                        &did_you_mean(
-                            other,
-                            ["stop", "run"],
-                            "a PLC program is chosen at the head of the file",
-                        ),
+                        &did_you_mean(other, ["stop", "run"], "a PLC program is chosen at the head of the file"),
                     ));
                 }
             },
@@ -253,9 +207,7 @@ impl<'a> Reader<'a> {
             "clear_fault" => command(Command::ClearFault(self.fault(node)?)),
             "image" => Action::Image(self.image(node)?),
             _ => {
-                return Err(
-                    place.problem(format!("expected a verb, found `{verb}`"), verbs_in_words())
-                );
+                return Err(place.problem(format!("expected a verb, found `{verb}`"), verbs_in_words()));
             }
         };
         Ok(action)
@@ -279,18 +231,13 @@ impl<'a> Reader<'a> {
         texts
             .into_iter()
             .map(|named| {
-                let location = writable(self.machine, &named.text)
-                    .map_err(|problem| problem.at(&named.place))?;
+                let location = writable(self.machine, &named.text).map_err(|problem| problem.at(&named.place))?;
                 Ok((named, location))
             })
             .collect()
     }
 
-    fn writes(
-        &self,
-        node: Node,
-        command: impl Fn(Location, u64) -> Command,
-    ) -> Result<Vec<Command>, Problem> {
+    fn writes(&self, node: Node, command: impl Fn(Location, u64) -> Command) -> Result<Vec<Command>, Problem> {
         let mut table = node.into_table("signals with their values")?;
         let mut commands = Vec::new();
         for (name, place, node) in table.take_rest() {
@@ -308,11 +255,7 @@ impl<'a> Reader<'a> {
         for (name, place, node) in table.take_rest() {
             let expression = self.one_expression(&node)?;
             check_captured_name(&name).map_err(|problem| problem.at(&place))?;
-            let known = self
-                .captured
-                .iter()
-                .chain(&names)
-                .position(|known| *known == name);
+            let known = self.captured.iter().chain(&names).position(|known| *known == name);
             let index = known.unwrap_or(self.captured.len() + names.len());
             if known.is_none() {
                 names.push(name);
@@ -333,10 +276,9 @@ impl<'a> Reader<'a> {
                 Value::Boolean(value) => DatumValue::Boolean(*value),
                 Value::Text(text) => DatumValue::Text(text.clone()),
                 Value::Array(_) | Value::Table(_) => {
-                    return Err(node.expected(
-                        "a value of a machine datum",
-                        "one value per index: \"34100[2,XF]\" = 5.0",
-                    ));
+                    return Err(
+                        node.expected("a value of a machine datum", "one value per index: \"34100[2,XF]\" = 5.0")
+                    );
                 }
             };
             let command = Command::MachineDatum { target, value };
@@ -362,12 +304,10 @@ impl<'a> Reader<'a> {
         let axis = axis_named(self.machine, axis.text("the name of a machine axis")?)
             .map_err(|problem| problem.at(&axis.place))?;
         let mut distance = || {
-            let by = table.take("by").ok_or_else(|| {
-                place.problem("expected the key `by`, found none", "write by = 0.05")
-            })?;
-            Ok::<_, Problem>(Position::from_user(
-                by.number("a distance in mm or degrees")?,
-            ))
+            let by = table
+                .take("by")
+                .ok_or_else(|| place.problem("expected the key `by`, found none", "write by = 0.05"))?;
+            Ok::<_, Problem>(Position::from_user(by.number("a distance in mm or degrees")?))
         };
         let kind = match kind.text("the kind of a fault")? {
             "block" => FaultKind::Block,
@@ -377,35 +317,21 @@ impl<'a> Reader<'a> {
             "switch_stuck" => {
                 let mut required = |key: &'static str, example: &str| {
                     table.take(key).ok_or_else(|| {
-                        place.problem(
-                            format!("expected the key `{key}`, found none"),
-                            format!("write {example}"),
-                        )
+                        place.problem(format!("expected the key `{key}`, found none"), format!("write {example}"))
                     })
                 };
                 let which = required("which", "which = \"cam\"")?;
                 let at = required("at", "at = 1")?;
-                FaultKind::SwitchStuck {
-                    which: switch(&which)?,
-                    at: one_or_zero(&at)?,
-                }
+                FaultKind::SwitchStuck { which: switch(&which)?, at: one_or_zero(&at)? }
             }
             "drive_fault" | "encoder_fault" | "friction" | "drift" => {
                 let name = kind.text("the kind of a fault")?;
                 return Err(not_available(&kind.place, &format!("the fault `{name}`")));
             }
             other => {
-                let known = [
-                    "block",
-                    "push",
-                    "encoder_slip",
-                    "zero_mark_missing",
-                    "switch_stuck",
-                ];
+                let known = ["block", "push", "encoder_slip", "zero_mark_missing", "switch_stuck"];
                 let fallback = format!("kinds are {}", known.join(", "));
-                return Err(
-                    kind.expected("a kind of fault", &did_you_mean(other, known, &fallback))
-                );
+                return Err(kind.expected("a kind of fault", &did_you_mean(other, known, &fallback)));
             }
         };
         table.finish()?;
@@ -417,9 +343,7 @@ impl<'a> Reader<'a> {
         let mut expected = Vec::new();
         for (name, place, node) in table.take_rest() {
             let names = self.machine.names();
-            let location = names
-                .resolve(self.machine.memory(), &name)
-                .map_err(|problem| problem.at(&place))?;
+            let location = names.resolve(self.machine.memory(), &name).map_err(|problem| problem.at(&place))?;
             let bits = raw_value(&node, location, self.machine.override_coding())?;
             expected.push((node.place, location, bits));
         }
@@ -437,11 +361,8 @@ fn switch(node: &Node) -> Result<Switch, Problem> {
         "limit_plus" => Ok(Switch::LimitPlus),
         "limit_minus" => Ok(Switch::LimitMinus),
         other => {
-            let cure = did_you_mean(
-                other,
-                ["cam", "limit_plus", "limit_minus"],
-                "switches are cam, limit_plus, limit_minus",
-            );
+            let cure =
+                did_you_mean(other, ["cam", "limit_plus", "limit_minus"], "switches are cam, limit_plus, limit_minus");
             Err(node.expected("the name of a switch", &cure))
         }
     }
@@ -458,18 +379,14 @@ fn one_or_zero(node: &Node) -> Result<bool, Problem> {
 /// The axis of this name.
 pub(super) fn axis_named(machine: &Machine, name: &str) -> Result<AxisNumber, Problem> {
     let axes = &machine.names().axes;
-    AxisNumber::all()
-        .find(|axis| axes[*axis].as_deref() == Some(name))
-        .ok_or_else(|| {
-            let known: Vec<_> = AxisNumber::all()
-                .filter_map(|axis| axes[axis].as_deref())
-                .collect();
-            let fallback = format!("machine axes are {}", known.join(", "));
-            Problem::new(
-                format!("expected a machine axis, found `{name}`"),
-                did_you_mean(name, known.iter().copied(), &fallback),
-            )
-        })
+    AxisNumber::all().find(|axis| axes[*axis].as_deref() == Some(name)).ok_or_else(|| {
+        let known: Vec<_> = AxisNumber::all().filter_map(|axis| axes[axis].as_deref()).collect();
+        let fallback = format!("machine axes are {}", known.join(", "));
+        Problem::new(
+            format!("expected a machine axis, found `{name}`"),
+            did_you_mean(name, known.iter().copied(), &fallback),
+        )
+    })
 }
 
 /// A captured value has a plain name that means nothing else.
@@ -491,13 +408,9 @@ pub(super) fn writable(machine: &Machine, name: &str) -> Result<Location, Proble
     let names = machine.names();
     let location = names.resolve(machine.memory(), name)?;
     if names.writer(location) == Some(Writer::Nck) {
-        let what = names
-            .symbol(location)
-            .map_or_else(|| name.to_owned(), |symbol| format!("{symbol} ({name})"));
+        let what = names.symbol(location).map_or_else(|| name.to_owned(), |symbol| format!("{symbol} ({name})"));
         return Err(Problem::new(
-            format!(
-                "expected a signal that the PLC or the operator panel writes, found {what}, which the NCK writes"
-            ),
+            format!("expected a signal that the PLC or the operator panel writes, found {what}, which the NCK writes"),
             "the NCK would write it anew in the same cycle; `expect` it instead",
         ));
     }

@@ -20,9 +20,7 @@ fn prepared(rest: &str) -> Result<Prepared, Problem> {
 }
 
 fn run(rest: &str) -> Finished {
-    prepared(rest)
-        .unwrap_or_else(|problem| panic!("{problem}"))
-        .run()
+    prepared(rest).unwrap_or_else(|problem| panic!("{problem}")).run()
 }
 
 /// What a run that fails says.
@@ -41,134 +39,47 @@ const STEP: &str = "[[step]]\nrun = \"1s\"\n";
 #[test]
 fn every_mistake_in_the_head_names_its_line_and_a_cure() {
     for (head, line, cause, cure) in [
-        (
-            "titel = 1\n",
-            3,
-            "unknown key `titel`",
-            "did you mean `title`?",
-        ),
-        (
-            "profile = \"840d\"\n",
-            3,
-            "a profile, found `840d`",
-            "840d_sl",
-        ),
+        ("titel = 1\n", 3, "unknown key `titel`", "did you mean `title`?"),
+        ("profile = \"840d\"\n", 3, "a profile, found `840d`", "840d_sl"),
         ("profile = []\n", 3, "at least one profile", "840d_sl"),
         ("profile = [\"828d\", \"828d\"]\n", 3, "twice", "remove one"),
-        (
-            "plc = \"enable_al\"\n",
-            3,
-            "enable_al",
-            "did you mean `enable_all`?",
-        ),
-        (
-            "plc = 5\n",
-            3,
-            "the name of a PLC program, found the integer 5",
-            "quotes",
-        ),
-        (
-            "plc_image = \"no_such\"\n",
-            3,
-            "plc_images/no_such.toml",
-            ".toml",
-        ),
-        (
-            "limit = \"5\"\n",
-            3,
-            "a duration, found `5`",
-            "us, ms, s, min or h",
-        ),
-        (
-            "limit = 5\n",
-            3,
-            "the bound on simulated time, found the integer 5",
-            "quotes",
-        ),
-        (
-            "watch = [\"X.*\",\n \"X.positoin\"]\n",
-            4,
-            "X.positoin",
-            "did you mean",
-        ),
+        ("plc = \"enable_al\"\n", 3, "enable_al", "did you mean `enable_all`?"),
+        ("plc = 5\n", 3, "the name of a PLC program, found the integer 5", "quotes"),
+        ("plc_image = \"no_such\"\n", 3, "plc_images/no_such.toml", ".toml"),
+        ("limit = \"5\"\n", 3, "a duration, found `5`", "us, ms, s, min or h"),
+        ("limit = 5\n", 3, "the bound on simulated time, found the integer 5", "quotes"),
+        ("watch = [\"X.*\",\n \"X.positoin\"]\n", 4, "X.positoin", "did you mean"),
         ("causes = 1\n", 3, "found the integer 1", "true or false"),
         ("never = [\"1 <\"]\n", 3, "found the end", "operators are"),
         ("never = [\"a == 1\"]\n", 3, "a", ""),
-        (
-            "compare = \"exakt\"\n",
-            3,
-            "a way to compare traces",
-            "sequence",
-        ),
-        (
-            "compare = { tim = \"50ms\" }\n",
-            3,
-            "unknown key `tim`",
-            "did you mean `time`?",
-        ),
-        (
-            "compare = { time = \"5cycles\" }\n",
-            3,
-            "a time with a unit",
-            "50ms",
-        ),
-        (
-            "program = \"part.mpf\"\n",
-            3,
-            "not available in this version",
-            "remove it",
-        ),
+        ("compare = \"exakt\"\n", 3, "a way to compare traces", "sequence"),
+        ("compare = { tim = \"50ms\" }\n", 3, "unknown key `tim`", "did you mean `time`?"),
+        ("compare = { time = \"5cycles\" }\n", 3, "a time with a unit", "50ms"),
+        ("program = \"part.mpf\"\n", 3, "not available in this version", "remove it"),
         ("plant = 3\n", 3, "a table of plant data", "table"),
     ] {
-        let problem = prepared(&format!("{head}{STEP}"))
-            .err()
-            .unwrap_or_else(|| panic!("{head} is accepted"));
-        let place = problem
-            .place
-            .as_ref()
-            .map(ToString::to_string)
-            .unwrap_or_default();
+        let problem = prepared(&format!("{head}{STEP}")).err().unwrap_or_else(|| panic!("{head} is accepted"));
+        let place = problem.place.as_ref().map(ToString::to_string).unwrap_or_default();
         assert_eq!(place, format!("s.toml:{line}"), "{head}: {problem}");
-        assert!(
-            problem.what.contains(cause) && problem.cure.contains(cure),
-            "{head}: {problem}"
-        );
+        assert!(problem.what.contains(cause) && problem.cure.contains(cure), "{head}: {problem}");
     }
 }
 
 #[test]
 fn a_file_without_title_machine_or_steps_is_refused() {
     for (text, cause) in [
-        (
-            "machine = \"g1_example\"\n[[step]]\nrun = \"1s\"",
-            "the key `title`",
-        ),
+        ("machine = \"g1_example\"\n[[step]]\nrun = \"1s\"", "the key `title`"),
         ("title = \"t\"\n[[step]]\nrun = \"1s\"", "the key `machine`"),
-        (
-            "title = \"t\"\nmachine = \"g1_example\"",
-            "at least one `[[step]]`",
-        ),
-        (
-            "title = \"t\"\nmachine = \"g1_example\"\n[step]\nrun = \"1s\"",
-            "a list of steps",
-        ),
+        ("title = \"t\"\nmachine = \"g1_example\"", "at least one `[[step]]`"),
+        ("title = \"t\"\nmachine = \"g1_example\"\n[step]\nrun = \"1s\"", "a list of steps"),
         ("title = ", "TOML"),
     ] {
         let problem = Scenario::parse(text, Path::new("s.toml")).unwrap_err();
-        assert!(
-            problem.to_string().starts_with("s.toml") && problem.what.contains(cause),
-            "{problem}"
-        );
+        assert!(problem.to_string().starts_with("s.toml") && problem.what.contains(cause), "{problem}");
     }
-    let nowhere = Scenario::parse(
-        "title = \"t\"\nmachine = \"no/such/machine\"\n[[step]]\nrun = \"1s\"",
-        Path::new("s.toml"),
-    );
-    let problem = nowhere
-        .unwrap()
-        .prepare(Profile::default(), &Programs::ready())
-        .err()
-        .unwrap();
+    let nowhere =
+        Scenario::parse("title = \"t\"\nmachine = \"no/such/machine\"\n[[step]]\nrun = \"1s\"", Path::new("s.toml"));
+    let problem = nowhere.unwrap().prepare(Profile::default(), &Programs::ready()).err().unwrap();
     assert!(problem.place.is_some(), "{problem}");
 }
 
@@ -176,79 +87,19 @@ fn a_file_without_title_machine_or_steps_is_refused() {
 fn every_mistake_in_a_step_names_its_line_and_a_cure() {
     for (step, line, cause, cure) in [
         ("note = \"n\"", 3, "one verb, found none", "verbs are"),
-        (
-            "sett = { \"M0.0\" = 1 }",
-            4,
-            "unknown key `sett`",
-            "did you mean `set`?",
-        ),
-        (
-            "run = \"1s\"\nwait = \"1\"",
-            0,
-            "found `run` and `wait`",
-            "its own [[step]]",
-        ),
-        (
-            "within = \"1s\"",
-            4,
-            "a verb beside `within`",
-            "belongs to `wait`",
-        ),
-        (
-            "run = \"1s\"\nwithin = \"1s\"",
-            5,
-            "no `within` beside `run`",
-            "belongs to `wait`",
-        ),
-        (
-            "set = { \"M0.0\" = 1 }\nfor = \"1s\"",
-            5,
-            "no `for` beside `set`",
-            "belongs to `pulse`",
-        ),
+        ("sett = { \"M0.0\" = 1 }", 4, "unknown key `sett`", "did you mean `set`?"),
+        ("run = \"1s\"\nwait = \"1\"", 0, "found `run` and `wait`", "its own [[step]]"),
+        ("within = \"1s\"", 4, "a verb beside `within`", "belongs to `wait`"),
+        ("run = \"1s\"\nwithin = \"1s\"", 5, "no `within` beside `run`", "belongs to `wait`"),
+        ("set = { \"M0.0\" = 1 }\nfor = \"1s\"", 5, "no `for` beside `set`", "belongs to `pulse`"),
         ("set = 5", 4, "signals with their values", "table"),
-        (
-            "set = { \"X.traversing_key_pls\" = 1 }",
-            4,
-            "X.traversing_key_pls",
-            "traversing_key_plus",
-        ),
-        (
-            "set = { \"Z.traversing_key_plus\" = 1 }",
-            4,
-            "found `Z`",
-            "did you mean",
-        ),
-        (
-            "set = { \"DB31.DBX101.4\" = 1 }",
-            4,
-            "which the NCK writes",
-            "expect",
-        ),
-        (
-            "set = { \"DB31.DBB101\" = 1 }",
-            4,
-            "which the NCK writes",
-            "expect",
-        ),
-        (
-            "force = { \"X.gantry_synchronization_ready_to_start\" = 1 }",
-            4,
-            "which the NCK writes",
-            "expect",
-        ),
-        (
-            "pulse = [\"DB31.DBX101.4\"]",
-            4,
-            "which the NCK writes",
-            "expect",
-        ),
-        (
-            "pulse = [\"M0.0\",\n\"MB1\"]",
-            5,
-            "a single bit to pulse, found `MB1`",
-            "`set`",
-        ),
+        ("set = { \"X.traversing_key_pls\" = 1 }", 4, "X.traversing_key_pls", "traversing_key_plus"),
+        ("set = { \"Z.traversing_key_plus\" = 1 }", 4, "found `Z`", "did you mean"),
+        ("set = { \"DB31.DBX101.4\" = 1 }", 4, "which the NCK writes", "expect"),
+        ("set = { \"DB31.DBB101\" = 1 }", 4, "which the NCK writes", "expect"),
+        ("force = { \"X.gantry_synchronization_ready_to_start\" = 1 }", 4, "which the NCK writes", "expect"),
+        ("pulse = [\"DB31.DBX101.4\"]", 4, "which the NCK writes", "expect"),
+        ("pulse = [\"M0.0\",\n\"MB1\"]", 5, "a single bit to pulse, found `MB1`", "`set`"),
         ("set = { \"M0.0\" = 2 }", 4, "found 2", ""),
         ("set = { MB0 = 256 }", 4, "found 256", ""),
         ("set = { MB0 = -129 }", 4, "found -129", ""),
@@ -258,152 +109,44 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
         ("set = { MB0 = [1] }", 4, "found an array", ""),
         ("set = { M300 = 1 }", 4, "M300", ""),
         ("release = [\"M400.0\"]", 4, "256 bytes", "255"),
-        (
-            "run = 5",
-            4,
-            "how much time passes, found the integer 5",
-            "quotes",
-        ),
-        (
-            "run = \"5 days\"",
-            4,
-            "a duration, found `5 days`",
-            "10cycles",
-        ),
+        ("run = 5", 4, "how much time passes, found the integer 5", "quotes"),
+        ("run = \"5 days\"", 4, "a duration, found `5 days`", "10cycles"),
         ("wait = \"X.ready\"", 4, "X.ready", ""),
         ("wait = \"1\"\nwithin = 5", 5, "how long to wait", "quotes"),
         ("hold = \"1\"", 4, "`during` beside `hold`", "during = "),
-        (
-            "expect = [\"1\",\n\"1 < 2 < 3\"]",
-            5,
-            "one comparison",
-            "do not chain",
-        ),
+        ("expect = [\"1\",\n\"1 < 2 < 3\"]", 5, "one comparison", "do not chain"),
         ("expect = \"later > 1\"", 4, "later", ""),
-        (
-            "capture = { \"a.b\" = \"1\" }",
-            4,
-            "a plain name",
-            "letters, digits and underscores",
-        ),
-        (
-            "capture = { time = \"1\" }",
-            4,
-            "a plain name",
-            "not `time`",
-        ),
+        ("capture = { \"a.b\" = \"1\" }", 4, "a plain name", "letters, digits and underscores"),
+        ("capture = { time = \"1\" }", 4, "a plain name", "not `time`"),
         ("machine_data = { \"nonsense\" = 1 }", 4, "nonsense", ""),
-        (
-            "machine_data = { \"34090[XF]\" = [1] }",
-            4,
-            "a value of a machine datum",
-            "one value per index",
-        ),
-        (
-            "new_conf = false",
-            4,
-            "expected true, found false",
-            "new_conf = true",
-        ),
-        (
-            "power_on = 1",
-            4,
-            "expected true, found the integer 1",
-            "true or false",
-        ),
-        (
-            "plc = \"stopp\"",
-            4,
-            "\"stop\" or \"run\"",
-            "did you mean `stop`?",
-        ),
-        (
-            "handwheel = { number = 1 }",
-            4,
-            "`handwheel` is not available in this version",
-            "remove it",
-        ),
-        (
-            "program = \"x.mpf\"\nchannel = 1",
-            4,
-            "`program` is not available in this version",
-            "remove it",
-        ),
-        (
-            "fault = { kind = \"block\" }",
-            4,
-            "the key `axis`",
-            "axis = ",
-        ),
-        (
-            "fault = { axis = \"XG\", kind = \"block\" }",
-            4,
-            "a machine axis, found `XG`",
-            "did you mean",
-        ),
-        (
-            "fault = { axis = \"XF\", kind = \"blok\" }",
-            4,
-            "a kind of fault",
-            "did you mean `block`?",
-        ),
-        (
-            "fault = { axis = \"XF\", kind = \"drift\", by = 1 }",
-            4,
-            "`drift` is not available",
-            "remove it",
-        ),
-        (
-            "fault = { axis = \"XF\", kind = \"push\" }",
-            4,
-            "the key `by`",
-            "by = ",
-        ),
-        (
-            "fault = { axis = \"XF\", kind = \"block\", by = 1 }",
-            4,
-            "unknown key `by`",
-            "",
-        ),
+        ("machine_data = { \"34090[XF]\" = [1] }", 4, "a value of a machine datum", "one value per index"),
+        ("new_conf = false", 4, "expected true, found false", "new_conf = true"),
+        ("power_on = 1", 4, "expected true, found the integer 1", "true or false"),
+        ("plc = \"stopp\"", 4, "\"stop\" or \"run\"", "did you mean `stop`?"),
+        ("handwheel = { number = 1 }", 4, "`handwheel` is not available in this version", "remove it"),
+        ("program = \"x.mpf\"\nchannel = 1", 4, "`program` is not available in this version", "remove it"),
+        ("fault = { kind = \"block\" }", 4, "the key `axis`", "axis = "),
+        ("fault = { axis = \"XG\", kind = \"block\" }", 4, "a machine axis, found `XG`", "did you mean"),
+        ("fault = { axis = \"XF\", kind = \"blok\" }", 4, "a kind of fault", "did you mean `block`?"),
+        ("fault = { axis = \"XF\", kind = \"drift\", by = 1 }", 4, "`drift` is not available", "remove it"),
+        ("fault = { axis = \"XF\", kind = \"push\" }", 4, "the key `by`", "by = "),
+        ("fault = { axis = \"XF\", kind = \"block\", by = 1 }", 4, "unknown key `by`", ""),
         (
             "fault = { axis = \"XF\", kind = \"switch_stuck\", which = \"camm\", at = 1 }",
             4,
             "a switch",
             "did you mean `cam`?",
         ),
-        (
-            "fault = { axis = \"XF\", kind = \"switch_stuck\", which = \"cam\", at = 2 }",
-            4,
-            "0 or 1",
-            "at = 1",
-        ),
-        (
-            "image = { \"DB31.DBB101\" = \"2#1_0000_0000\" }",
-            4,
-            "found 256",
-            "",
-        ),
+        ("fault = { axis = \"XF\", kind = \"switch_stuck\", which = \"cam\", at = 2 }", 4, "0 or 1", "at = 1"),
+        ("image = { \"DB31.DBB101\" = \"2#1_0000_0000\" }", 4, "found 256", ""),
         ("image = { \"DB31.DBB200\" = 0 }", 4, "148 bytes", "147"),
     ] {
-        let problem = prepared(&format!("[[step]]\n{step}\n"))
-            .err()
-            .unwrap_or_else(|| panic!("{step} is accepted"));
-        let place = problem
-            .place
-            .as_ref()
-            .map(ToString::to_string)
-            .unwrap_or_default();
+        let problem = prepared(&format!("[[step]]\n{step}\n")).err().unwrap_or_else(|| panic!("{step} is accepted"));
+        let place = problem.place.as_ref().map(ToString::to_string).unwrap_or_default();
         // Two verbs are reported at the second of them in the order of the verbs, whichever that is.
-        let expected = if line == 0 {
-            place.clone()
-        } else {
-            format!("s.toml:{line}")
-        };
+        let expected = if line == 0 { place.clone() } else { format!("s.toml:{line}") };
         assert_eq!(place, expected, "{step}: {problem}");
-        assert!(
-            problem.what.contains(cause) && problem.cure.contains(cure),
-            "{step}: {problem}"
-        );
+        assert!(problem.what.contains(cause) && problem.cure.contains(cure), "{step}: {problem}");
     }
 }
 
@@ -413,13 +156,7 @@ fn what_a_later_step_captures_is_unknown_before() {
     let problem = prepared(steps).err().unwrap();
     assert_eq!(problem.place.unwrap().line, 4);
     let steps = "never = \"begun > 1\"\n[[step]]\ncapture = { begun = \"time\" }\n";
-    assert!(
-        prepared(steps)
-            .err()
-            .unwrap()
-            .cure
-            .contains("from its step on")
-    );
+    assert!(prepared(steps).err().unwrap().cure.contains("from its step on"));
     held(
         "[[step]]\ncapture = { begun = \"time + 1\" }\n[[step]]\nrun = \"1s\"\n[[step]]\nexpect = \"time == begun\"\n",
     );
@@ -482,11 +219,7 @@ fn a_failed_wait_says_what_it_waited_for_how_long_and_what_everything_was_then()
         first,
         "s.toml:3: waited 0.010 s for `M0.0 && X.traversing_key_plus`, and it did not become true (at 0.010 s)"
     );
-    assert!(
-        text.contains("\n  M0.0 = 0")
-            && text.contains("\n  X.traversing_key_plus (DB31.DBX4.7) = 0"),
-        "{text}"
-    );
+    assert!(text.contains("\n  M0.0 = 0") && text.contains("\n  X.traversing_key_plus (DB31.DBX4.7) = 0"), "{text}");
 }
 
 #[test]
@@ -498,19 +231,14 @@ fn the_limit_ends_every_step_that_lets_time_pass() {
         ("pulse = \"M0.0\"\nfor = \"1s\"", "after 0.100 s of a run"),
     ] {
         let text = missed(&format!("limit = \"100ms\"\n[[step]]\n{step}\n"));
-        assert!(
-            text.contains("reached the limit of 0.100 s") && text.contains(doing),
-            "{text}"
-        );
+        assert!(text.contains("reached the limit of 0.100 s") && text.contains(doing), "{text}");
     }
     held("limit = \"100ms\"\n[[step]]\nrun = \"100ms\"\n");
 }
 
 #[test]
 fn a_hold_must_be_true_now_and_in_every_cycle() {
-    held(
-        "[[step]]\nhold = \"time <= 0.1\"\nduring = \"100ms\"\n[[step]]\nexpect = \"time == 0.1\"\n",
-    );
+    held("[[step]]\nhold = \"time <= 0.1\"\nduring = \"100ms\"\n[[step]]\nexpect = \"time == 0.1\"\n");
     let text = missed("[[step]]\nhold = \"time < 0.05\"\nduring = \"100ms\"\n");
     assert!(text.contains("found it false after 0.050 s"), "{text}");
     assert!(missed("[[step]]\nhold = \"M0.0\"\nduring = \"1s\"\n").contains("after 0.000 s"));
@@ -533,24 +261,15 @@ fn a_pulse_takes_its_time_and_one_cycle_more() {
 #[test]
 fn never_and_always_are_checked_in_every_cycle_and_named_with_their_line() {
     let text = missed(&format!("never = [\"M0.1\",\n\"time > 0.01\"]\n{STEP}"));
-    assert!(
-        text.starts_with("s.toml:4: expected never `time > 0.01`, found it true (at 0.012 s)"),
-        "{text}"
-    );
+    assert!(text.starts_with("s.toml:4: expected never `time > 0.01`, found it true (at 0.012 s)"), "{text}");
     let text = missed(&format!("always = \"time < 0.01\"\n{STEP}"));
-    assert!(
-        text.starts_with("s.toml:3: expected always `time < 0.01`, found it false (at 0.010 s)"),
-        "{text}"
-    );
+    assert!(text.starts_with("s.toml:3: expected always `time < 0.01`, found it false (at 0.010 s)"), "{text}");
 }
 
 #[test]
 fn an_expected_byte_is_shown_in_bits() {
     let text = missed("[[step]]\nset = { MB1 = 5 }\n[[step]]\nimage = { MB1 = \"2#1101_0000\" }\n");
-    assert!(
-        text.starts_with("s.toml:6: expected MB1 = 2#11010000, found 2#00000101"),
-        "{text}"
-    );
+    assert!(text.starts_with("s.toml:6: expected MB1 = 2#11010000, found 2#00000101"), "{text}");
 }
 
 #[test]
@@ -567,22 +286,11 @@ fn notes_and_watched_memory_stand_in_the_golden_text() {
         "#,
     );
     let golden = finished.golden();
-    assert!(
-        golden.starts_with("scenario  t\nmachine   g1_example\ncycle     2 ms\n\n"),
-        "{golden}"
-    );
-    let rows: Vec<_> = golden
-        .lines()
-        .skip(5)
-        .map(str::trim)
-        .filter(|row| row.starts_with("0.012"))
-        .collect();
+    assert!(golden.starts_with("scenario  t\nmachine   g1_example\ncycle     2 ms\n\n"), "{golden}");
+    let rows: Vec<_> = golden.lines().skip(5).map(str::trim).filter(|row| row.starts_with("0.012")).collect();
     assert_eq!(rows.len(), 2, "{golden}");
     assert_eq!(rows[0], "0.012  # now");
-    assert_eq!(
-        rows[1].split_whitespace().collect::<Vec<_>>(),
-        ["0.012", "M0.0", "0", "->", "1", "outside"]
-    );
+    assert_eq!(rows[1].split_whitespace().collect::<Vec<_>>(), ["0.012", "M0.0", "0", "->", "1", "outside"]);
 }
 
 #[test]
@@ -609,10 +317,7 @@ fn a_session_does_in_rust_what_a_scenario_does_in_a_file() -> Result<(), Failure
     assert_eq!(session.machine().cycle() + 5, fork.machine().cycle());
     let failure = session.expect("MW2 == 1").unwrap_err();
     assert!(failure.to_string().contains("MW2 = 65535"), "{failure}");
-    assert!(matches!(
-        session.set("X.nonsense", 1),
-        Err(Failure::Unusable(_))
-    ));
+    assert!(matches!(session.set("X.nonsense", 1), Err(Failure::Unusable(_))));
     Ok(())
 }
 
@@ -663,15 +368,9 @@ fn what_the_plc_program_overwrites_is_said() {
 #[test]
 fn the_plant_of_a_scenario_is_merged_over_that_of_the_machine() {
     held("[plant.XF]\nstart = 119.5\n[[step]]\nexpect = \"XF.slide == 119.5\"\n");
-    let problem = prepared(&format!("[plant.XF]\nstrat = 119.5\n{STEP}"))
-        .err()
-        .unwrap();
+    let problem = prepared(&format!("[plant.XF]\nstrat = 119.5\n{STEP}")).err().unwrap();
     assert_eq!(problem.place.unwrap().to_string(), "s.toml:4");
-    assert!(
-        problem.cure.contains("did you mean `start`?"),
-        "{}",
-        problem.cure
-    );
+    assert!(problem.cure.contains("did you mean `start`?"), "{}", problem.cure);
 }
 
 #[test]
@@ -711,10 +410,7 @@ fn a_plc_image_is_found_by_its_name_above_the_scenario_or_by_its_file() {
              [[step]]\nexpect = \"DB1000.DBW2 == 250\"\n"
         );
         let scenario = Scenario::parse(&text, &directory.join("golden/area/s.toml")).unwrap();
-        let finished = scenario
-            .prepare(Profile::default(), &Programs::ready())
-            .unwrap()
-            .run();
+        let finished = scenario.prepare(Profile::default(), &Programs::ready()).unwrap().run();
         assert!(finished.failure.is_none(), "{:?}", finished.failure);
     }
 }

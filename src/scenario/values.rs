@@ -48,22 +48,14 @@ impl From<&str> for Setting {
 
 impl Setting {
     /// The bits of this value at a place that the user called `name`.
-    pub(super) fn bits(
-        self,
-        name: &str,
-        location: Location,
-        coding: OverrideCoding,
-    ) -> Result<u64, Problem> {
+    pub(super) fn bits(self, name: &str, location: Location, coding: OverrideCoding) -> Result<u64, Problem> {
         let value = match self {
             Self::Integer(number) => Value::Integer(number),
             Self::Float(number) => Value::Float(number),
             Self::Boolean(value) => Value::Boolean(value),
             Self::Text(text) => Value::Text(text),
         };
-        let node = Node {
-            place: Place::file(name),
-            value,
-        };
+        let node = Node { place: Place::file(name), value };
         raw_value(&node, location, coding)
     }
 }

@@ -78,7 +78,7 @@ pub struct Alarm {
 /// `NAME number "name" [REACTIONS] Cancel "text";`
 macro_rules! alarms {
     ($($(#[$doc:meta])* $constant:ident $number:expr, $name:literal [$($reaction:ident)*] $cancel:ident $text:literal;)*) => {
-        $($(#[$doc])* pub const $constant: AlarmNumber = AlarmNumber($number);)*
+        $($(#[$doc])* pub(super) const $constant: AlarmNumber = AlarmNumber($number);)*
 
         /// All alarms that can be raised, ascending by number.
         pub const CATALOGUE: &[Alarm] = &[$(Alarm {
@@ -144,10 +144,7 @@ impl Alarm {
     /// The row of a number.
     #[must_use]
     pub fn find(number: AlarmNumber) -> Option<&'static Self> {
-        CATALOGUE
-            .binary_search_by_key(&number, |alarm| alarm.number)
-            .ok()
-            .map(|index| &CATALOGUE[index])
+        CATALOGUE.binary_search_by_key(&number, |alarm| alarm.number).ok().map(|index| &CATALOGUE[index])
     }
 }
 
@@ -169,37 +166,14 @@ pub(super) struct Pending {
 
 impl Pending {
     /// Raises an alarm, or keeps it raised.
-    pub(super) fn raise(
-        &mut self,
-        number: AlarmNumber,
-        place: Place,
-        parameters: [Parameter; 4],
-        cause: EventId,
-    ) {
-        let alarm = RaisedAlarm {
-            number,
-            place,
-            parameters,
-        };
+    pub(super) fn raise(&mut self, number: AlarmNumber, place: Place, parameters: [Parameter; 4], cause: EventId) {
+        let alarm = RaisedAlarm { number, place, parameters };
         if let Some(entry) = self.entries.iter_mut().find(|entry| entry.alarm == alarm) {
             entry.fresh = true;
             return;
         }
-        let index = self
-            .entries
-            .partition_point(|entry| (entry.alarm.number, entry.alarm.place) < (number, place));
-        if self
-            .entries
-            .try_insert(
-                index,
-                Entry {
-                    alarm,
-                    cause,
-                    fresh: true,
-                },
-            )
-            .is_ok()
-        {
+        let index = self.entries.partition_point(|entry| (entry.alarm.number, entry.alarm.place) < (number, place));
+        if self.entries.try_insert(index, Entry { alarm, cause, fresh: true }).is_ok() {
             self.changed = true;
         }
     }
@@ -208,8 +182,7 @@ impl Pending {
     pub(super) fn cancel(&mut self, by: Cancel) {
         let before = self.entries.len();
         self.entries.retain(|entry| {
-            let class =
-                Alarm::find(entry.alarm.number).map_or(Cancel::PowerOn, |alarm| alarm.cancel);
+            let class = Alarm::find(entry.alarm.number).map_or(Cancel::PowerOn, |alarm| alarm.cancel);
             class == Cancel::ByItself || class > by
         });
         self.changed |= self.entries.len() != before;
@@ -219,9 +192,8 @@ impl Pending {
     pub(super) fn settle(&mut self) {
         let before = self.entries.len();
         self.entries.retain(|entry| {
-            let stays = entry.fresh
-                || Alarm::find(entry.alarm.number)
-                    .is_none_or(|alarm| alarm.cancel != Cancel::ByItself);
+            let stays =
+                entry.fresh || Alarm::find(entry.alarm.number).is_none_or(|alarm| alarm.cancel != Cancel::ByItself);
             entry.fresh = false;
             stays
         });
@@ -244,27 +216,14 @@ impl Pending {
         self.entries.iter().map(|entry| (&entry.alarm, entry.cause))
     }
 
-    /// Whether this one is pending.
-    #[must_use]
-    pub(super) fn contains(&self, number: AlarmNumber, place: Place) -> bool {
-        self.entries
-            .iter()
-            .any(|entry| entry.alarm.number == number && entry.alarm.place == place)
-    }
-
     /// The event behind the first pending alarm with this reaction that concerns this place (or all).
     #[must_use]
-    pub(super) fn with_reaction(
-        &self,
-        reaction: Reaction,
-        place: Option<Place>,
-    ) -> Option<EventId> {
+    pub(super) fn with_reaction(&self, reaction: Reaction, place: Option<Place>) -> Option<EventId> {
         self.entries
             .iter()
             .find(|entry| {
                 place.is_none_or(|place| entry.alarm.place == place)
-                    && Alarm::find(entry.alarm.number)
-                        .is_some_and(|alarm| alarm.reaction.has(reaction))
+                    && Alarm::find(entry.alarm.number).is_some_and(|alarm| alarm.reaction.has(reaction))
             })
             .map(|entry| entry.cause)
     }
@@ -274,46 +233,32 @@ impl Pending {
 mod tests {
     use super::*;
 
+    fn has(pending: &Pending, number: AlarmNumber) -> bool {
+        pending.iter().any(|(alarm, _)| alarm.number == number)
+    }
+
     fn raise(pending: &mut Pending, number: AlarmNumber) {
         pending.raise(number, Place::Nck, [Parameter::None; 4], EventId::NONE);
     }
 
     #[test]
     fn the_catalogue_ascends_so_that_a_number_is_found() {
-        assert!(
-            CATALOGUE
-                .windows(2)
-                .all(|pair| pair[0].number < pair[1].number)
-        );
-        assert_eq!(
-            Alarm::find(GANTRY_WAITING).map(|alarm| alarm.cancel),
-            Some(Cancel::ByItself)
-        );
+        assert!(CATALOGUE.windows(2).all(|pair| pair[0].number < pair[1].number));
+        assert_eq!(Alarm::find(GANTRY_WAITING).map(|alarm| alarm.cancel), Some(Cancel::ByItself));
         assert_eq!(Alarm::find(AlarmNumber(1)), None);
     }
 
     #[test]
     fn a_stronger_reset_removes_what_a_weaker_one_does_and_no_more() {
         let mut pending = Pending::default();
-        for number in [
-            ENABLE_RESET,
-            GANTRY_TRIP_LIMIT,
-            GANTRY_CONFIGURATION,
-            GANTRY_WAITING,
-        ] {
+        for number in [ENABLE_RESET, GANTRY_TRIP_LIMIT, GANTRY_CONFIGURATION, GANTRY_WAITING] {
             raise(&mut pending, number);
         }
         pending.cancel(Cancel::CancelKey);
-        assert!(
-            !pending.contains(ENABLE_RESET, Place::Nck)
-                && pending.contains(GANTRY_TRIP_LIMIT, Place::Nck)
-        );
+        assert!(!has(&pending, ENABLE_RESET) && has(&pending, GANTRY_TRIP_LIMIT));
         pending.cancel(Cancel::ModeGroupReset);
-        assert!(!pending.contains(GANTRY_TRIP_LIMIT, Place::Nck));
-        assert!(
-            pending.contains(GANTRY_CONFIGURATION, Place::Nck)
-                && pending.contains(GANTRY_WAITING, Place::Nck)
-        );
+        assert!(!has(&pending, GANTRY_TRIP_LIMIT));
+        assert!(has(&pending, GANTRY_CONFIGURATION) && has(&pending, GANTRY_WAITING));
     }
 
     #[test]
@@ -323,7 +268,7 @@ mod tests {
         pending.settle();
         raise(&mut pending, GANTRY_WARNING_LIMIT);
         pending.settle();
-        assert!(pending.contains(GANTRY_WARNING_LIMIT, Place::Nck));
+        assert!(has(&pending, GANTRY_WARNING_LIMIT));
         pending.settle();
         assert!(pending.is_empty());
     }

@@ -58,9 +58,7 @@ impl Motion {
     pub(super) fn direction(&self, from: Position) -> i8 {
         let sign = match *self {
             Self::Run { velocity, .. } => velocity,
-            Self::GoTo { target, velocity } if velocity > 0.0 => {
-                (target - from).increments() as f64
-            }
+            Self::GoTo { target, velocity } if velocity > 0.0 => (target - from).increments() as f64,
             Self::GoTo { .. } | Self::Brake { .. } | Self::Track | Self::Hold => 0.0,
         };
         if sign > 0.0 {
@@ -187,8 +185,7 @@ impl Axis {
     /// The active measuring system is referenced.
     #[must_use]
     pub(super) fn is_referenced(&self) -> bool {
-        self.measuring_system
-            .is_some_and(|active| self.referenced[usize::from(active)])
+        self.measuring_system.is_some_and(|active| self.referenced[usize::from(active)])
     }
 
     /// Setpoint minus actual value.
@@ -223,20 +220,12 @@ impl Axis {
         self.arrived = false;
         match self.motion {
             Motion::Brake { deceleration } => self.setpoint.run(0.0, deceleration, cycle),
-            Motion::Run {
-                velocity,
-                acceleration,
-            } => self.setpoint.run(velocity, acceleration, cycle),
+            Motion::Run { velocity, acceleration } => self.setpoint.run(velocity, acceleration, cycle),
             Motion::GoTo { target, velocity } if velocity > 0.0 => {
-                let limits = Limits {
-                    velocity,
-                    acceleration: parameters.maximum_acceleration,
-                };
+                let limits = Limits { velocity, acceleration: parameters.maximum_acceleration };
                 self.arrived = self.setpoint.go_to(target, limits, cycle);
             }
-            Motion::GoTo { .. } => self
-                .setpoint
-                .run(0.0, parameters.maximum_acceleration, cycle),
+            Motion::GoTo { .. } => self.setpoint.run(0.0, parameters.maximum_acceleration, cycle),
             Motion::Track => self.setpoint = Setpoint::at(self.actual),
             Motion::Hold => self.setpoint = Setpoint::at(self.setpoint.position),
         }

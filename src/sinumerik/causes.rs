@@ -44,60 +44,33 @@ impl Control {
 
     fn axis_cause(&mut self, number: AxisNumber, byte: u16, bit: u8) -> EventId {
         let parameters = &self.parameters.axes[number];
-        let windows = (
-            parameters.exact_stop_coarse,
-            parameters.exact_stop_fine,
-            parameters.standstill_velocity,
-        );
+        let windows = (parameters.exact_stop_coarse, parameters.exact_stop_fine, parameters.standstill_velocity);
         let state = &mut *self.state;
         let axis: &Axis = &state.axes[number];
         let causes = axis.causes;
         match (byte, bit) {
             (60, 4 | 5) => causes.reference[usize::from(bit - 4)],
             (60, 6 | 7) => {
-                let (datum, window) = if bit == 6 {
-                    (36000, windows.0)
-                } else {
-                    (36010, windows.1)
-                };
+                let (datum, window) = if bit == 6 { (36000, windows.0) } else { (36010, windows.1) };
                 let measured = Input::Length(Quantity::Deviation, number, axis.deviation());
                 let limit = Input::Datum(datum, Some(number), window.user());
-                state.log.note(
-                    Place::Axis(number),
-                    Rule::ExactStop,
-                    [measured, limit, Input::None],
-                    causes.motion,
-                )
+                state.log.note(Place::Axis(number), Rule::ExactStop, [measured, limit, Input::None], causes.motion)
             }
             (61, 1) => state.alarm_event(Some(Place::Axis(number))),
             (61, 2) => causes.drive,
             (61, 3 | 5 | 6 | 7) => causes.enabling,
             (61, 4) => {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    reason = "a velocity for display; the cast saturates"
-                )]
+                #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
                 let velocity = Position::new(axis.velocity.abs() as i64);
                 let measured = Input::Length(Quantity::Velocity, number, velocity);
-                let limit = Input::Datum(
-                    36060,
-                    Some(number),
-                    windows.2 * 60.0 / Position::PER_USER_UNIT,
-                );
-                state.log.note(
-                    Place::Axis(number),
-                    Rule::Standstill,
-                    [measured, limit, Input::None],
-                    causes.motion,
-                )
+                let limit = Input::Datum(36060, Some(number), windows.2 * 60.0 / Position::PER_USER_UNIT);
+                state.log.note(Place::Axis(number), Rule::Standstill, [measured, limit, Input::None], causes.motion)
             }
             (64, _) => causes.motion,
             (93, 5) => state.run_up.cause,
             (93, 7) => causes.drive,
             (101, 2 | 3) => state.monitored(number, bit == 2),
-            (101, 4 | 5) => state
-                .grouping_of(number)
-                .map_or(EventId::NONE, |grouping| grouping.cause),
+            (101, 4 | 5) => state.grouping_of(number).map_or(EventId::NONE, |grouping| grouping.cause),
             (101, 6 | 7) => state.definition_cause,
             (102, 5 | 6) => causes.measuring_system,
             _ => EventId::NONE,
@@ -145,11 +118,7 @@ impl State {
 
     /// The latest movement of any axis.
     fn motion_event(&self) -> EventId {
-        self.axes
-            .iter()
-            .map(|(_, axis)| axis.causes.motion)
-            .max()
-            .unwrap_or(EventId::NONE)
+        self.axes.iter().map(|(_, axis)| axis.causes.motion).max().unwrap_or(EventId::NONE)
     }
 
     fn reference_event(&self) -> EventId {
@@ -161,25 +130,14 @@ impl State {
     }
 
     fn grouping_of(&self, axis: AxisNumber) -> Option<&Grouping> {
-        self.groupings
-            .iter()
-            .find(|grouping| grouping.coupling.leader() == axis)
+        self.groupings.iter().find(|grouping| grouping.coupling.leader() == axis)
     }
 
     fn monitored(&self, axis: AxisNumber, trip: bool) -> EventId {
-        let of_axis = self
-            .groupings
-            .iter()
-            .flat_map(|grouping| grouping.coupling.followers().zip(&grouping.monitored));
+        let of_axis = self.groupings.iter().flat_map(|grouping| grouping.coupling.followers().zip(&grouping.monitored));
         of_axis
             .filter(|(follower, _)| *follower == axis)
-            .map(|(_, monitored)| {
-                if trip {
-                    monitored.trip_cause
-                } else {
-                    monitored.warning_cause
-                }
-            })
+            .map(|(_, monitored)| if trip { monitored.trip_cause } else { monitored.warning_cause })
             .next()
             .unwrap_or(EventId::NONE)
     }

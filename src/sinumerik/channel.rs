@@ -55,25 +55,12 @@ impl Control {
             return;
         }
         let bit = if by_mode_group {
-            SignalBit {
-                place: Place::ModeGroup(ModeGroupNumber::FIRST),
-                byte: 0,
-                bit: 7,
-            }
+            SignalBit { place: Place::ModeGroup(ModeGroupNumber::FIRST), byte: 0, bit: 7 }
         } else {
-            SignalBit {
-                place: Place::Channel(ChannelNumber::FIRST),
-                byte: 7,
-                bit: 7,
-            }
+            SignalBit { place: Place::Channel(ChannelNumber::FIRST), byte: 7, bit: 7 }
         };
         let channel = Place::Channel(ChannelNumber::FIRST);
-        let event = self.state.log.note_one(
-            channel,
-            Rule::ResetDone,
-            Input::Bit(bit, true),
-            EventId::NONE,
-        );
+        let event = self.state.log.note_one(channel, Rule::ResetDone, Input::Bit(bit, true), EventId::NONE);
         self.state.channel.reset_cause = event;
         self.state.alarms.cancel(Cancel::ModeGroupReset);
         self.activate(Effect::Reset);

@@ -122,14 +122,8 @@ impl State {
             axis_bit(number, 1, 6, signals.position_measuring_system_2()),
             Input::None,
         ];
-        let rule = if wanted.is_some() {
-            Rule::MeasuringSystem
-        } else {
-            Rule::Parking
-        };
-        let event = self
-            .log
-            .note(Place::Axis(number), rule, inputs, EventId::NONE);
+        let rule = if wanted.is_some() { Rule::MeasuringSystem } else { Rule::Parking };
+        let event = self.log.note(Place::Axis(number), rule, inputs, EventId::NONE);
         let aborts = self.axes[number].approach.is_running();
         let axis = &mut self.axes[number];
         axis.measuring_system = wanted;
@@ -155,28 +149,14 @@ impl State {
             let lost = !conditions.enable || !conditions.healthy;
             if lost && conditions.moving && self.unit_is_on(&unit) {
                 let (axis, cause) = conditions.culprit;
-                let event = self.log.note_one(
-                    Place::Axis(axis),
-                    Rule::EnableLostInMotion,
-                    conditions.missing,
-                    EventId::NONE,
-                );
+                let event =
+                    self.log.note_one(Place::Axis(axis), Rule::EnableLostInMotion, conditions.missing, EventId::NONE);
                 let channel = Parameter::Channel(ChannelNumber::FIRST);
-                let cause = [
-                    channel,
-                    Parameter::Axis(axis),
-                    Parameter::Number(cause),
-                    Parameter::None,
-                ];
-                self.alarms
-                    .raise(alarms::ENABLE_RESET, Place::Axis(axis), cause, event);
+                let cause = [channel, Parameter::Axis(axis), Parameter::Number(cause), Parameter::None];
+                self.alarms.raise(alarms::ENABLE_RESET, Place::Axis(axis), cause, event);
             }
             for axis in unit.members() {
-                self.step_control(
-                    axis,
-                    &conditions,
-                    parameters.axes[axis].servo_disable_cycles,
-                );
+                self.step_control(axis, &conditions, parameters.axes[axis].servo_disable_cycles);
             }
         }
     }
@@ -187,30 +167,13 @@ impl State {
 
     fn enable_pulses(&mut self, number: AxisNumber, enable: bool) {
         let axis = &mut self.axes[number];
-        let (ready, before) = (
-            axis.drive_ready && self.run_up.is_nc_ready(),
-            axis.enabling.pulses,
-        );
-        axis.enabling.pulses = if ready && enable {
-            (before + 1).min(STEP)
-        } else {
-            0
-        };
+        let (ready, before) = (axis.drive_ready && self.run_up.is_nc_ready(), axis.enabling.pulses);
+        axis.enabling.pulses = if ready && enable { (before + 1).min(STEP) } else { 0 };
         let (was, is) = (before >= STEP, axis.enabling.pulses_enabled());
         if was != is {
-            let rule = if is {
-                Rule::PulsesEnabled
-            } else {
-                Rule::PulsesDisabled
-            };
-            let inputs = [
-                axis_bit(number, 21, 7, enable),
-                axis_bit(number, 93, 5, ready),
-                Input::None,
-            ];
-            axis.causes.drive = self
-                .log
-                .note(Place::Axis(number), rule, inputs, axis.causes.drive);
+            let rule = if is { Rule::PulsesEnabled } else { Rule::PulsesDisabled };
+            let inputs = [axis_bit(number, 21, 7, enable), axis_bit(number, 93, 5, ready), Input::None];
+            axis.causes.drive = self.log.note(Place::Axis(number), rule, inputs, axis.causes.drive);
         }
     }
 
@@ -230,10 +193,7 @@ impl State {
             conditions.standing &= axis.stands(&parameters.axes[number]);
             conditions.moving |= axis.is_in_motion();
             conditions.follow_up |= signals.follow_up_mode();
-            if let Some(event) = self
-                .alarms
-                .with_reaction(Reaction::FOLLOW_UP, Some(Place::Axis(number)))
-            {
+            if let Some(event) = self.alarms.with_reaction(Reaction::FOLLOW_UP, Some(Place::Axis(number))) {
                 conditions.alarm = event;
             }
             let lost = if !signals.controller_enable() {
@@ -246,12 +206,7 @@ impl State {
                 conditions.healthy = false;
                 let by_plc = !signals.pulse_enable();
                 Some((
-                    axis_bit(
-                        number,
-                        if by_plc { 21 } else { 93 },
-                        if by_plc { 7 } else { 5 },
-                        false,
-                    ),
+                    axis_bit(number, if by_plc { 21 } else { 93 }, if by_plc { 7 } else { 5 }, false),
                     if by_plc { 2 } else { 4 },
                 ))
             } else {
@@ -270,11 +225,7 @@ impl State {
         let wanted = conditions.enable && conditions.healthy && !conditions.alarm.is_some();
         let powered = self.axes[number].enabling.pulses_enabled();
         let off = || {
-            if powered {
-                Control::Braking(disable_cycles)
-            } else {
-                Control::Off
-            }
+            if powered { Control::Braking(disable_cycles) } else { Control::Off }
         };
         let control = match before.control {
             Control::Off if wanted => Control::SwitchingOn(0),
@@ -289,8 +240,7 @@ impl State {
         };
         let parked = self.axes[number].measuring_system.is_none();
         let off = matches!(control, Control::Off | Control::SwitchingOn(_));
-        let follow_up = off
-            && (conditions.follow_up && !conditions.enable || conditions.alarm.is_some() || parked);
+        let follow_up = off && (conditions.follow_up && !conditions.enable || conditions.alarm.is_some() || parked);
         // Follow-up lasts until position control takes over, so that it takes over at the actual value.
         let follow_up = follow_up || before.follow_up && matches!(control, Control::SwitchingOn(_));
         self.axes[number].enabling.control = control;
@@ -306,11 +256,7 @@ impl State {
             } else {
                 (Rule::ControllerOff, EventId::NONE)
             };
-            let input = if wanted {
-                axis_bit(number, 2, 1, true)
-            } else {
-                conditions.missing
-            };
+            let input = if wanted { axis_bit(number, 2, 1, true) } else { conditions.missing };
             let event = self.log.note_one(Place::Axis(number), rule, input, parent);
             self.axes[number].causes.enabling = event;
         }
@@ -319,19 +265,12 @@ impl State {
 
 impl Axis {
     /// The motion of an axis that is not in position control, or that brakes towards being switched off.
-    pub(super) fn motion_without_control(
-        &self,
-        emergency_deceleration: f64,
-    ) -> Option<super::axis::Motion> {
+    pub(super) fn motion_without_control(&self, emergency_deceleration: f64) -> Option<super::axis::Motion> {
         use super::axis::Motion;
         match self.enabling.control {
             Control::On => None,
-            Control::Braking(_) => Some(Motion::Brake {
-                deceleration: emergency_deceleration,
-            }),
-            Control::Off | Control::SwitchingOn(_) if self.enabling.follow_up => {
-                Some(Motion::Track)
-            }
+            Control::Braking(_) => Some(Motion::Brake { deceleration: emergency_deceleration }),
+            Control::Off | Control::SwitchingOn(_) if self.enabling.follow_up => Some(Motion::Track),
             Control::Off | Control::SwitchingOn(_) => Some(Motion::Hold),
         }
     }

@@ -12,18 +12,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::alarms;
-use super::axis::Motion;
 use super::gantry_definition::Definition;
-use super::log::axis_bit;
 use super::parameters::Parameters;
 use super::referencing::Outcome;
 use super::rules::Rule;
 use super::{State, Unit};
 use crate::image::ToNck;
 use crate::motion::Coupling;
-use crate::units::{AxisNumber, ChannelNumber, Position};
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, Quantity};
+use crate::units::{AxisNumber, Position};
+use crate::variables::{AlarmNumber, EventId, Input, Place};
 
 /// Where a grouping is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -62,111 +59,27 @@ const fn row(from: Phase, by: Rule, to: Phase) -> Transition {
 
 /// Every step that a grouping can take.
 pub const TRANSITIONS: &[Transition] = &[
-    row(
-        Phase::NotSynchronised,
-        Rule::LeadingAxisApproach,
-        Phase::ReferencingLeadingAxis,
-    ),
-    row(
-        Phase::WaitingForStart,
-        Rule::LeadingAxisApproach,
-        Phase::ReferencingLeadingAxis,
-    ),
-    row(
-        Phase::Synchronised,
-        Rule::LeadingAxisApproach,
-        Phase::ReferencingLeadingAxis,
-    ),
-    row(
-        Phase::ReferencingLeadingAxis,
-        Rule::LeadingAxisReferenced,
-        Phase::ReferencingSynchronousAxis,
-    ),
-    row(
-        Phase::ReferencingLeadingAxis,
-        Rule::ReferencingAborted,
-        Phase::NotSynchronised,
-    ),
-    row(
-        Phase::ReferencingSynchronousAxis,
-        Rule::NextSynchronousAxis,
-        Phase::ReferencingSynchronousAxis,
-    ),
-    row(
-        Phase::ReferencingSynchronousAxis,
-        Rule::ReferencingAborted,
-        Phase::NotSynchronised,
-    ),
-    row(
-        Phase::ReferencingSynchronousAxis,
-        Rule::AutomaticStart,
-        Phase::Synchronising,
-    ),
-    row(
-        Phase::ReferencingSynchronousAxis,
-        Rule::WaitWarningLimitZero,
-        Phase::WaitingForStart,
-    ),
-    row(
-        Phase::ReferencingSynchronousAxis,
-        Rule::WaitDifference,
-        Phase::WaitingForStart,
-    ),
-    row(
-        Phase::ReferencingSynchronousAxis,
-        Rule::WaitLocked,
-        Phase::WaitingForStart,
-    ),
-    row(
-        Phase::WaitingForStart,
-        Rule::StartByPlc,
-        Phase::Synchronising,
-    ),
-    row(
-        Phase::WaitingForStart,
-        Rule::ReadyNoMore,
-        Phase::NotSynchronised,
-    ),
-    row(
-        Phase::WaitingForStart,
-        Rule::SynchronismRestored,
-        Phase::Synchronised,
-    ),
-    row(
-        Phase::Synchronising,
-        Rule::Synchronised,
-        Phase::Synchronised,
-    ),
-    row(
-        Phase::Synchronising,
-        Rule::SynchronisationAborted,
-        Phase::WaitingForStart,
-    ),
-    row(
-        Phase::Synchronising,
-        Rule::ReadyNoMore,
-        Phase::NotSynchronised,
-    ),
-    row(
-        Phase::Synchronised,
-        Rule::SynchronismLostFollowUp,
-        Phase::NotSynchronised,
-    ),
-    row(
-        Phase::Synchronised,
-        Rule::SynchronismLostReference,
-        Phase::NotSynchronised,
-    ),
-    row(
-        Phase::NotSynchronised,
-        Rule::SynchronismRestored,
-        Phase::Synchronised,
-    ),
-    row(
-        Phase::NotSynchronised,
-        Rule::ReadyAgain,
-        Phase::WaitingForStart,
-    ),
+    row(Phase::NotSynchronised, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
+    row(Phase::WaitingForStart, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
+    row(Phase::Synchronised, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
+    row(Phase::ReferencingLeadingAxis, Rule::LeadingAxisReferenced, Phase::ReferencingSynchronousAxis),
+    row(Phase::ReferencingLeadingAxis, Rule::ReferencingAborted, Phase::NotSynchronised),
+    row(Phase::ReferencingSynchronousAxis, Rule::NextSynchronousAxis, Phase::ReferencingSynchronousAxis),
+    row(Phase::ReferencingSynchronousAxis, Rule::ReferencingAborted, Phase::NotSynchronised),
+    row(Phase::ReferencingSynchronousAxis, Rule::AutomaticStart, Phase::Synchronising),
+    row(Phase::ReferencingSynchronousAxis, Rule::WaitWarningLimitZero, Phase::WaitingForStart),
+    row(Phase::ReferencingSynchronousAxis, Rule::WaitDifference, Phase::WaitingForStart),
+    row(Phase::ReferencingSynchronousAxis, Rule::WaitLocked, Phase::WaitingForStart),
+    row(Phase::WaitingForStart, Rule::StartByPlc, Phase::Synchronising),
+    row(Phase::WaitingForStart, Rule::ReadyNoMore, Phase::NotSynchronised),
+    row(Phase::WaitingForStart, Rule::SynchronismRestored, Phase::Synchronised),
+    row(Phase::Synchronising, Rule::Synchronised, Phase::Synchronised),
+    row(Phase::Synchronising, Rule::SynchronisationAborted, Phase::WaitingForStart),
+    row(Phase::Synchronising, Rule::ReadyNoMore, Phase::NotSynchronised),
+    row(Phase::Synchronised, Rule::SynchronismLostFollowUp, Phase::NotSynchronised),
+    row(Phase::Synchronised, Rule::SynchronismLostReference, Phase::NotSynchronised),
+    row(Phase::NotSynchronised, Rule::SynchronismRestored, Phase::Synchronised),
+    row(Phase::NotSynchronised, Rule::ReadyAgain, Phase::WaitingForStart),
     row(Phase::NotSynchronised, Rule::Opened, Phase::Open),
     row(Phase::ReferencingLeadingAxis, Rule::Opened, Phase::Open),
     row(Phase::ReferencingSynchronousAxis, Rule::Opened, Phase::Open),
@@ -203,25 +116,25 @@ pub(super) struct Grouping {
     /// The movement of the one that leads is handed on; not while the axes synchronise, and until all rest after that.
     pub coupled: bool,
     /// Which synchronous axis is being referenced.
-    turn: u8,
+    pub(super) turn: u8,
     /// Direction of the key that started the approach; 0 for channel-specific referencing.
-    key: i8,
+    pub(super) key: i8,
     /// Section 3 was entered from section 2, without RESET and without leaving REF since (REF-15).
-    from_referencing: bool,
+    pub(super) from_referencing: bool,
     /// 10654 is shown; RESET takes it away (O-09).
     pub message: bool,
     /// The synchronising motion was waited for; 101.4 was set before it.
     pub waited_for: bool,
     /// Where the synchronising motion leads, for all axes.
-    target: Position,
+    pub(super) target: Position,
     /// Whether the leading axis moves there, too.
-    leading_axis_moves: bool,
+    pub(super) leading_axis_moves: bool,
     /// Cycles at the target without exact stop fine.
-    waited: u64,
+    pub(super) waited: u64,
     /// 29.4 of the leading axis in the last cycle.
-    start_was: bool,
+    pub(super) start_was: bool,
     /// The axes were in follow-up in the last cycle.
-    followed_up: bool,
+    pub(super) followed_up: bool,
     /// What monitoring found on each synchronous axis.
     pub monitored: [Monitored; 2],
     /// The latest event of the grouping.
@@ -253,12 +166,10 @@ impl Grouping {
     }
 
     /// The axis that is referenced in section 1 or 2.
-    fn referencing(&self) -> Option<AxisNumber> {
+    pub(super) fn referencing(&self) -> Option<AxisNumber> {
         match self.phase {
             Phase::ReferencingLeadingAxis => Some(self.coupling.leader()),
-            Phase::ReferencingSynchronousAxis => {
-                self.coupling.followers().nth(usize::from(self.turn))
-            }
+            Phase::ReferencingSynchronousAxis => self.coupling.followers().nth(usize::from(self.turn)),
             _ => None,
         }
     }
@@ -272,13 +183,7 @@ impl Grouping {
 
 impl State {
     /// One cycle of a grouping.
-    pub(super) fn run_grouping(
-        &mut self,
-        index: usize,
-        unit: &Unit,
-        parameters: &Parameters,
-        to_nck: &ToNck,
-    ) {
+    pub(super) fn run_grouping(&mut self, index: usize, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let leader = self.groupings[index].coupling.leader();
         let start = to_nck.axes[leader].start_gantry_synchronization();
         let start_rises = start && !self.groupings[index].start_was;
@@ -286,9 +191,7 @@ impl State {
         self.brake(unit, parameters);
         self.watch_synchronism(index, unit, parameters, to_nck);
         if !self.groupings[index].coupled {
-            let rest = unit
-                .members()
-                .all(|axis| self.axes[axis].setpoint.is_at_rest());
+            let rest = unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest());
             let synchronising = self.groupings[index].phase == Phase::Synchronising;
             self.groupings[index].coupled = rest && !synchronising;
         }
@@ -308,29 +211,24 @@ impl State {
                 self.start_synchronising(index, parameters);
             }
             Phase::Synchronising => self.synchronise(index, unit, parameters),
-            Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {
-            }
+            Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {}
         }
         let idle = !self.groupings[index].is_referencing() && self.groupings[index].coupled;
         if idle && self.is_jogging() {
             self.jog(unit, parameters, to_nck);
         } else if idle {
-            self.command(leader, 0, 0, [Input::None; 3]);
+            let cause = self.groupings[index].cause;
+            self.traverse(leader, 0, 0, cause);
         }
     }
 
     /// Takes a step of the table.
-    fn step_grouping(&mut self, index: usize, by: Rule, inputs: [Input; 3], parent: EventId) {
+    pub(super) fn step_grouping(&mut self, index: usize, by: Rule, inputs: [Input; 3], parent: EventId) {
         let grouping = &mut self.groupings[index];
-        let to = TRANSITIONS
-            .iter()
-            .find(|row| row.from == grouping.phase && row.by == by)
-            .map(|row| row.to);
+        let to = TRANSITIONS.iter().find(|row| row.from == grouping.phase && row.by == by).map(|row| row.to);
         debug_assert!(to.is_some(), "no step from {:?} by {by:?}", grouping.phase);
         grouping.phase = to.unwrap_or_default();
-        grouping.cause = self
-            .log
-            .note(Place::Axis(grouping.coupling.leader()), by, inputs, parent);
+        grouping.cause = self.log.note(Place::Axis(grouping.coupling.leader()), by, inputs, parent);
         match grouping.phase {
             Phase::WaitingForStart => (grouping.message, grouping.waited_for) = (true, true),
             Phase::Synchronising => grouping.coupled = false,
@@ -341,10 +239,7 @@ impl State {
 
     fn may_start_approach(&self, index: usize, unit: &Unit) -> bool {
         let grouping = &self.groupings[index];
-        let phase = matches!(
-            grouping.phase,
-            Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised
-        );
+        let phase = matches!(grouping.phase, Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised);
         phase && grouping.coupled && self.unit_can_move(unit)
     }
 
@@ -356,11 +251,7 @@ impl State {
     fn start_grouping_approach(&mut self, index: usize, direction: i8, event: EventId) {
         let leader = self.groupings[index].coupling.leader();
         self.step_grouping(index, Rule::LeadingAxisApproach, [Input::None; 3], event);
-        let key = if self.channel.started(leader) {
-            0
-        } else {
-            direction
-        };
+        let key = if self.channel.started(leader) { 0 } else { direction };
         let grouping = &mut self.groupings[index];
         grouping.key = key;
         grouping.coupling.lead_with(leader);
@@ -369,13 +260,7 @@ impl State {
     }
 
     /// Sections 1 and 2.
-    fn reference_grouping(
-        &mut self,
-        index: usize,
-        unit: &Unit,
-        parameters: &Parameters,
-        to_nck: &ToNck,
-    ) {
+    fn reference_grouping(&mut self, index: usize, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let Some(number) = self.groupings[index].referencing() else {
             return;
         };
@@ -396,13 +281,7 @@ impl State {
         }
     }
 
-    fn abort_grouping(
-        &mut self,
-        index: usize,
-        number: AxisNumber,
-        alarm: Option<AlarmNumber>,
-        event: EventId,
-    ) {
+    fn abort_grouping(&mut self, index: usize, number: AxisNumber, alarm: Option<AlarmNumber>, event: EventId) {
         self.axes[number].approach.abort();
         if let Some(alarm) = alarm {
             self.raise_axis_alarm(alarm, number, event);
@@ -411,28 +290,18 @@ impl State {
         let leader = self.groupings[index].coupling.leader();
         self.groupings[index].coupling.lead_with(leader);
         for axis in self.groupings[index].coupling.clone().members() {
-            self.command(axis, 0, 0, [Input::None; 3]);
+            self.traverse(axis, 0, 0, event);
         }
     }
 
     /// After a reference point of sections 1 and 2: the next synchronous axis (O-10: ascending), or section 3.
-    fn next_section(
-        &mut self,
-        index: usize,
-        event: EventId,
-        parameters: &Parameters,
-        to_nck: &ToNck,
-    ) {
+    fn next_section(&mut self, index: usize, event: EventId, parameters: &Parameters, to_nck: &ToNck) {
         let (by, turn) = match self.groupings[index].phase {
             Phase::ReferencingLeadingAxis => (Rule::LeadingAxisReferenced, 0),
             _ => (Rule::NextSynchronousAxis, self.groupings[index].turn + 1),
         };
         let leader = self.groupings[index].coupling.leader();
-        let Some(next) = self.groupings[index]
-            .coupling
-            .followers()
-            .nth(usize::from(turn))
-        else {
+        let Some(next) = self.groupings[index].coupling.followers().nth(usize::from(turn)) else {
             self.groupings[index].coupling.lead_with(leader);
             self.compare_positions(index, event, parameters, to_nck);
             return;
@@ -442,316 +311,10 @@ impl State {
         self.groupings[index].coupling.lead_with(next);
         // MD37150 bit 1: direction by its own MD34010, or the leading axis'.
         let own = !parameters.axes[next].gantry.direction_of_leading_axis;
-        let direction = parameters.axes[if own { next } else { leader }]
-            .reference
-            .cam_direction;
-        let cause = self
-            .log
-            .note_plain(Place::Axis(next), Rule::ApproachStartedInGrouping, event);
+        let direction = parameters.axes[if own { next } else { leader }].reference.cam_direction;
+        let cause = self.log.note_plain(Place::Axis(next), Rule::ApproachStartedInGrouping, event);
         self.start_approach(next, direction, cause);
-        self.command(leader, 0, 0, [Input::None; 3]);
-    }
-
-    /// Section 3: start by itself, or wait (REF-06, REF-07, REF-11).
-    fn compare_positions(
-        &mut self,
-        index: usize,
-        event: EventId,
-        parameters: &Parameters,
-        to_nck: &ToNck,
-    ) {
-        let coupling = self.groupings[index].coupling.clone();
-        let leader = coupling.leader();
-        self.groupings[index].from_referencing = true;
-        self.groupings[index].waited = 0;
-        let all = self
-            .log
-            .note_plain(Place::Axis(leader), Rule::AllReferenced, event);
-        let mut wait = None;
-        for follower in coupling.followers() {
-            let limit = parameters.axes[follower].gantry.warning_limit;
-            let difference = self.axes[follower].actual - self.axes[leader].actual;
-            let datum = Input::Datum(37110, Some(follower), limit.user());
-            if limit == Position::ZERO {
-                wait = wait.or(Some((
-                    Rule::WaitWarningLimitZero,
-                    [datum, Input::None, Input::None],
-                )));
-            } else if difference.abs() >= limit {
-                let measured = Input::Length(Quantity::SynchronismDifference, follower, difference);
-                wait = wait.or(Some((Rule::WaitDifference, [measured, datum, Input::None])));
-            }
-        }
-        if to_nck.axes[leader].no_automatic_synchronization() {
-            wait = wait.or(Some((
-                Rule::WaitLocked,
-                [axis_bit(leader, 29, 5, true), Input::None, Input::None],
-            )));
-        }
-        if let Some((rule, inputs)) = wait {
-            self.step_grouping(index, rule, inputs, all);
-        } else {
-            self.set_target(index);
-            self.step_grouping(index, Rule::AutomaticStart, [Input::None; 3], all);
-        }
-    }
-
-    /// The common position: MD34100 of the leading axis after referencing, else its actual position (REF-15).
-    fn set_target(&mut self, index: usize) {
-        let leader = self.groupings[index].coupling.leader();
-        let from_referencing = self.groupings[index].from_referencing;
-        let grouping = &mut self.groupings[index];
-        grouping.leading_axis_moves = from_referencing;
-        grouping.waited = 0;
-        grouping.target = if from_referencing {
-            self.axes[leader].approach.set_position()
-        } else {
-            self.axes[leader].actual
-        };
-    }
-
-    fn start_synchronising(&mut self, index: usize, parameters: &Parameters) {
-        let leader = self.groupings[index].coupling.leader();
-        let parent = self.groupings[index].cause;
-        self.set_target(index);
-        let inputs = [axis_bit(leader, 29, 4, true), Input::None, Input::None];
-        self.step_grouping(index, Rule::StartByPlc, inputs, parent);
-        let unit = Unit::of(&self.groupings[index].coupling, index);
-        self.synchronise(index, &unit, parameters);
-    }
-
-    /// The decoupled motion of section 3: each axis with its own MD34040 (E-12).
-    fn synchronise(&mut self, index: usize, unit: &Unit, parameters: &Parameters) {
-        if !self.mode_group.reference || !self.unit_can_move(unit) {
-            let cause = self.stop_cause().unwrap_or(self.groupings[index].cause);
-            self.step_grouping(index, Rule::SynchronisationAborted, [Input::None; 3], cause);
-            self.groupings[index].from_referencing = false;
-            for axis in unit.members() {
-                self.command(axis, 0, 0, [Input::None; 3]);
-            }
-            return;
-        }
-        let leader = self.groupings[index].coupling.leader();
-        let (target, leading_axis_moves) = (
-            self.groupings[index].target,
-            self.groupings[index].leading_axis_moves,
-        );
-        let (mut arrived, mut late) = (true, None);
-        for number in unit.members() {
-            let axis_parameters = &parameters.axes[number];
-            let axis = &mut self.axes[number];
-            if number == leader && !leading_axis_moves {
-                continue;
-            }
-            let encoder = usize::from(axis.measuring_system.unwrap_or(0));
-            let factor = if axis.feed_held {
-                0.0
-            } else {
-                axis.feed_factor
-            };
-            let velocity = (axis_parameters.reference.marker_velocity[encoder] * factor)
-                .min(axis_parameters.maximum_velocity);
-            let at_rest = axis.setpoint.is_at_rest() && axis.setpoint.position == target;
-            axis.motion = Motion::GoTo { target, velocity };
-            let direction = axis.motion.direction(axis.setpoint.position);
-            let in_position = axis.deviation().abs() <= axis_parameters.exact_stop_fine;
-            if !(at_rest && in_position) {
-                arrived = false;
-                if at_rest {
-                    late = late.or(Some(number));
-                }
-            }
-            let wanted = (target - self.axes[number].setpoint.position)
-                .increments()
-                .signum();
-            let request = i8::try_from(wanted).unwrap_or(0);
-            let cause = self.groupings[index].cause;
-            self.axes[number].causes.motion = cause;
-            self.command(number, request, direction, [Input::None; 3]);
-        }
-        if arrived {
-            self.close_synchronised(index, unit, parameters);
-        } else if let Some(number) = late {
-            self.groupings[index].waited += 1;
-            if self.groupings[index].waited > parameters.axes[number].positioning_cycles {
-                let event = self.groupings[index].cause;
-                self.raise_axis_alarm(alarms::APPROACH_ABORTED, number, event);
-                self.step_grouping(index, Rule::SynchronisationAborted, [Input::None; 3], event);
-                self.groupings[index].from_referencing = false;
-            }
-        }
-    }
-
-    /// All axes are at their target: synchronised, and the coupling acts again (REF-10).
-    fn close_synchronised(&mut self, index: usize, unit: &Unit, parameters: &Parameters) {
-        let parent = self.groupings[index].cause;
-        let target = Input::Length(
-            Quantity::Position,
-            unit.leader(),
-            self.groupings[index].target,
-        );
-        self.step_grouping(
-            index,
-            Rule::Synchronised,
-            [target, Input::None, Input::None],
-            parent,
-        );
-        self.groupings[index].coupled = true;
-        for axis in unit.members() {
-            let deceleration = parameters.axes[axis].maximum_acceleration;
-            self.axes[axis].motion = Motion::Brake { deceleration };
-            self.command(axis, 0, 0, [Input::None; 3]);
-        }
-    }
-
-    /// What takes synchronism or readiness away, and what gives it back outside of section 3.
-    fn watch_synchronism(
-        &mut self,
-        index: usize,
-        unit: &Unit,
-        parameters: &Parameters,
-        to_nck: &ToNck,
-    ) {
-        self.open_or_close(index, unit, parameters);
-        let phase = self.groupings[index].phase;
-        let follower = unit
-            .members()
-            .find(|&axis| self.axes[axis].enabling.follow_up);
-        let unreferenced = unit
-            .members()
-            .find(|&axis| !self.axes[axis].is_referenced());
-        let followed_up =
-            std::mem::replace(&mut self.groupings[index].followed_up, follower.is_some());
-        let lost = follower
-            .map(|axis| {
-                (
-                    Rule::SynchronismLostFollowUp,
-                    axis_bit(axis, 61, 3, true),
-                    self.axes[axis].causes.enabling,
-                )
-            })
-            .or_else(|| {
-                let axis = unreferenced?;
-                let cause = self.axes[axis].causes.reference[0];
-                Some((
-                    Rule::SynchronismLostReference,
-                    axis_bit(axis, 60, 4, false),
-                    cause,
-                ))
-            });
-        match (phase, lost) {
-            (Phase::Synchronised, Some((rule, input, cause))) => {
-                self.step_grouping(index, rule, [input, Input::None, Input::None], cause);
-            }
-            (Phase::WaitingForStart | Phase::Synchronising, Some((_, input, cause))) => {
-                self.step_grouping(
-                    index,
-                    Rule::ReadyNoMore,
-                    [input, Input::None, Input::None],
-                    cause,
-                );
-            }
-            (Phase::WaitingForStart, None) if self.is_tripped(index) => {
-                self.step_grouping(
-                    index,
-                    Rule::ReadyNoMore,
-                    [Input::None; 3],
-                    self.groupings[index].cause,
-                );
-            }
-            (Phase::NotSynchronised, None) => self.make_ready(index, unit, parameters),
-            _ => {}
-        }
-        if followed_up && follower.is_none() {
-            let locked = to_nck.axes[unit.leader()].no_automatic_synchronization();
-            self.end_follow_up(index, unit, parameters, locked);
-        }
-    }
-
-    fn is_tripped(&self, index: usize) -> bool {
-        self.groupings[index]
-            .monitored
-            .iter()
-            .any(|monitored| monitored.trip)
-    }
-
-    /// E-13: all referenced, not synchronised, difference within MD37130.
-    fn make_ready(&mut self, index: usize, unit: &Unit, parameters: &Parameters) {
-        let leader = unit.leader();
-        let within = self.groupings[index].coupling.followers().all(|axis| {
-            let difference = self.axes[axis].actual - self.axes[leader].actual;
-            difference.abs() <= parameters.axes[axis].gantry.trip_limit_not_synchronised
-        });
-        if within && !self.is_tripped(index) {
-            let parent = self.groupings[index].cause;
-            self.step_grouping(index, Rule::ReadyAgain, [Input::None; 3], parent);
-            self.groupings[index].from_referencing = false;
-        }
-    }
-
-    /// Back in position control: differences that are not absolute count anew, and synchronism is restored where every
-    /// difference is within the standstill tolerance (SYN-06) and 29.5 is 0 (E-18).
-    fn end_follow_up(&mut self, index: usize, unit: &Unit, parameters: &Parameters, locked: bool) {
-        let axes = &self.axes;
-        let leader = unit.leader();
-        let absolute =
-            |axis: AxisNumber| axes[axis].is_referenced() && axes[leader].is_referenced();
-        self.groupings[index]
-            .coupling
-            .close(|axis| axes[axis].actual, absolute);
-        if self.groupings[index].phase != Phase::WaitingForStart || locked {
-            return;
-        }
-        let within = self.groupings[index].coupling.followers().all(|axis| {
-            let difference = self.axes[axis].actual - self.axes[leader].actual;
-            difference.abs() <= parameters.axes[axis].standstill_tolerance
-        });
-        if within {
-            let cause = self.axes[leader].causes.enabling;
-            self.step_grouping(index, Rule::SynchronismRestored, [Input::None; 3], cause);
-            let common = self.axes[leader].setpoint;
-            for axis in self.groupings[index].coupling.clone().followers() {
-                self.axes[axis].setpoint = common;
-            }
-        }
-    }
-
-    fn open_or_close(&mut self, index: usize, unit: &Unit, parameters: &Parameters) {
-        let open = unit
-            .members()
-            .find(|&axis| parameters.axes[axis].gantry.broken_up);
-        let is_open = self.groupings[index].phase == Phase::Open;
-        if let Some(axis) = open
-            && !is_open
-        {
-            if let Some(running) = self.groupings[index].referencing() {
-                self.axes[running].approach.abort();
-            }
-            let input = Input::Datum(37140, Some(axis), 1.0);
-            self.step_grouping(
-                index,
-                Rule::Opened,
-                [input, Input::None, Input::None],
-                EventId::NONE,
-            );
-            let leader = unit.leader();
-            self.groupings[index].coupling.lead_with(leader);
-            self.groupings[index].coupled = false;
-        } else if open.is_none() && is_open {
-            let input = Input::Datum(37140, Some(unit.leader()), 0.0);
-            self.step_grouping(
-                index,
-                Rule::Closed,
-                [input, Input::None, Input::None],
-                EventId::NONE,
-            );
-            let (axes, leader) = (&self.axes, unit.leader());
-            let absolute =
-                |axis: AxisNumber| axes[axis].is_referenced() && axes[leader].is_referenced();
-            self.groupings[index]
-                .coupling
-                .close(|axis| axes[axis].actual, absolute);
-        }
+        self.traverse(leader, 0, 0, cause);
     }
 
     /// RESET: sections 1 and 2 start anew with the leading axis (REF-12), section 3 with 29.4 (REF-13, O-09).
@@ -765,34 +328,12 @@ impl State {
             Phase::Synchronising => {
                 self.step_grouping(index, Rule::SynchronisationAborted, [Input::None; 3], event);
                 for axis in self.groupings[index].coupling.clone().members() {
-                    self.command(axis, 0, 0, [Input::None; 3]);
+                    self.traverse(axis, 0, 0, event);
                 }
             }
-            Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {
-            }
+            Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {}
         }
         self.groupings[index].from_referencing = false;
         self.groupings[index].message = false;
-    }
-
-    /// The messages of section 3, raised in each cycle that they hold.
-    pub(super) fn raise_grouping_messages(&mut self, index: usize, parameters: &Parameters) {
-        let grouping = &self.groupings[index];
-        let leader = grouping.coupling.leader();
-        let unit = Parameter::Number(i64::from(grouping.number));
-        let shown = [
-            Parameter::Channel(ChannelNumber::FIRST),
-            unit,
-            Parameter::None,
-            Parameter::None,
-        ];
-        let suppressed = parameters.axes[leader].gantry.suppress_message;
-        let number = match grouping.phase {
-            Phase::WaitingForStart if grouping.message => alarms::GANTRY_WAITING,
-            Phase::Synchronising if !suppressed => alarms::GANTRY_SYNCHRONISING,
-            _ => return,
-        };
-        let cause = grouping.cause;
-        self.alarms.raise(number, Place::Axis(leader), shown, cause);
     }
 }

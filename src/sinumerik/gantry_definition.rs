@@ -67,18 +67,9 @@ pub(super) fn define(data: &MachineData, axes: &PerAxis<AxisParameters>) -> Defi
         if leaders.is_empty() && followers.is_empty() {
             continue;
         }
-        let elsewhere = axes
-            .iter()
-            .any(|(axis, parameters)| !parameters.exists && kind(axis) == number + 10);
+        let elsewhere = axes.iter().any(|(axis, parameters)| !parameters.exists && kind(axis) == number + 10);
         let before = found.faults.len();
-        check(
-            &mut found.faults,
-            number,
-            &leaders,
-            &followers,
-            elsewhere,
-            data,
-        );
+        check(&mut found.faults, number, &leaders, &followers, elsewhere, data);
         if found.faults.len() > before {
             continue;
         }
@@ -99,80 +90,40 @@ fn check(
     data: &MachineData,
 ) {
     // 10650 code 2: leading axis declared more than once (DEF-05).
-    faults.extend(
-        leaders
-            .iter()
-            .skip(1)
-            .map(|&axis| machine_data_fault(axis, 2)),
-    );
+    faults.extend(leaders.iter().skip(1).map(|&axis| machine_data_fault(axis, 2)));
     // 10650 code 1: wrong following-axis designation; more than two of them (DEF-03).
-    faults.extend(
-        followers
-            .iter()
-            .skip(2)
-            .map(|&axis| machine_data_fault(axis, 1)),
-    );
+    faults.extend(followers.iter().skip(2).map(|&axis| machine_data_fault(axis, 1)));
     let Some(&leader) = leaders.first() else {
         faults.push(configuration_fault(1_000, number));
         return;
     };
     if followers.is_empty() {
-        faults.push(configuration_fault(
-            if followers_elsewhere { 5_000 } else { 2_000 },
-            number,
-        ));
+        faults.push(configuration_fault(if followers_elsewhere { 5_000 } else { 2_000 }, number));
     }
     let master = &data.axes[leader];
     for &axis in followers {
         if data.axes[axis].is_rot_ax != master.is_rot_ax {
-            let parameters = [
-                CHANNEL,
-                Parameter::Axis(axis),
-                Parameter::Number(i64::from(number)),
-                Parameter::None,
-            ];
-            faults.push(Fault {
-                alarm: alarms::GANTRY_MIXED_AXIS_TYPES,
-                place: Place::Axis(axis),
-                parameters,
-            });
+            let parameters = [CHANNEL, Parameter::Axis(axis), Parameter::Number(i64::from(number)), Parameter::None];
+            faults.push(Fault { alarm: alarms::GANTRY_MIXED_AXIS_TYPES, place: Place::Axis(axis), parameters });
         }
     }
-    if followers
-        .iter()
-        .any(|&axis| data.axes[axis].axconf_assign_master_chan != master.axconf_assign_master_chan)
-    {
+    if followers.iter().any(|&axis| data.axes[axis].axconf_assign_master_chan != master.axconf_assign_master_chan) {
         faults.push(configuration_fault(3_000, number));
     }
     let members = || leaders.iter().chain(followers);
     if members().any(|&axis| data.axes[axis].spind_assign_to_machax != 0) {
-        faults.push(Fault {
-            ..configuration_fault(13_000, 0)
-        });
+        faults.push(Fault { ..configuration_fault(13_000, 0) });
     }
 }
 
 fn machine_data_fault(axis: AxisNumber, code: i64) -> Fault {
-    let parameters = [
-        CHANNEL,
-        Parameter::Axis(axis),
-        Parameter::Number(code),
-        Parameter::None,
-    ];
-    Fault {
-        alarm: alarms::GANTRY_MACHINE_DATA,
-        place: Place::Axis(axis),
-        parameters,
-    }
+    let parameters = [CHANNEL, Parameter::Axis(axis), Parameter::Number(code), Parameter::None];
+    Fault { alarm: alarms::GANTRY_MACHINE_DATA, place: Place::Axis(axis), parameters }
 }
 
 /// 10651 with its reason: thousands say what, the last two digits the grouping.
 fn configuration_fault(reason: i64, number: u8) -> Fault {
     let reason = Parameter::Number(reason + i64::from(number));
     let parameters = [CHANNEL, reason, Parameter::None, Parameter::None];
-    Fault {
-        alarm: alarms::GANTRY_CONFIGURATION,
-        place: Place::Channel(ChannelNumber::FIRST),
-        parameters,
-    }
+    Fault { alarm: alarms::GANTRY_CONFIGURATION, place: Place::Channel(ChannelNumber::FIRST), parameters }
 }

@@ -10,15 +10,12 @@ use super::rules::Rule;
 use super::{State, Unit};
 use crate::image::{AxisToNck, ToNck};
 use crate::units::{AxisNumber, ChannelNumber};
-use crate::variables::{Input, Place};
+use crate::variables::{EventId, Input, Place};
 
 /// The direction of the traversing keys: +1, −1, or 0 for none, both, or keys that are disabled (4.4).
 #[must_use]
 pub(super) fn key_direction(signals: &AxisToNck) -> i8 {
-    let (plus, minus) = (
-        signals.traversing_key_plus(),
-        signals.traversing_key_minus(),
-    );
+    let (plus, minus) = (signals.traversing_key_plus(), signals.traversing_key_minus());
     match (plus, minus, signals.traversing_key_disable()) {
         (true, false, false) => 1,
         (false, true, false) => -1,
@@ -34,11 +31,8 @@ impl State {
         for axis in unit.members() {
             let signals = &to_nck.axes[axis];
             // O-21: the axial override acts while 1.7 = 1, else 100 %.
-            let factor = if signals.override_active() {
-                parameters.axis_override(signals.feed_override())
-            } else {
-                1.0
-            };
+            let factor =
+                if signals.override_active() { parameters.axis_override(signals.feed_override()) } else { 1.0 };
             self.axes[axis].feed_factor = factor;
             self.axes[axis].feed_held = stopped || disabled;
             self.axes[axis].feed_disabled = disabled;
@@ -66,24 +60,15 @@ impl State {
                 acceleration: axis_parameters.jog_acceleration,
             };
         } else {
-            axis.motion = Motion::Brake {
-                deceleration: axis_parameters.jog_acceleration,
-            };
+            axis.motion = Motion::Brake { deceleration: axis_parameters.jog_acceleration };
         }
         // Without controller enable the command stays pending and runs when the enable returns.
         let command = if held { 0 } else { direction };
-        self.command(number, direction, command, key_inputs(number, signals));
+        self.note_keys(number, direction, command, key_inputs(number, signals));
     }
 
-    /// Notes what is wanted (64.4, 64.5) and commanded (64.6, 64.7), with the event behind a change.
-    pub(super) fn command(
-        &mut self,
-        number: AxisNumber,
-        request: i8,
-        command: i8,
-        inputs: [Input; 3],
-    ) {
-        let axis = &mut self.axes[number];
+    fn note_keys(&mut self, number: AxisNumber, request: i8, command: i8, inputs: [Input; 3]) {
+        let axis = &self.axes[number];
         if (axis.traverse_request, axis.traverse_command) == (request, command) {
             return;
         }
@@ -94,11 +79,18 @@ impl State {
         } else {
             Rule::TraversingKey
         };
-        axis.traverse_request = request;
-        axis.traverse_command = command;
-        axis.causes.motion = self
-            .log
-            .note(Place::Axis(number), rule, inputs, axis.causes.motion);
+        let event = self.log.note(Place::Axis(number), rule, inputs, axis.causes.motion);
+        self.traverse(number, request, command, event);
+    }
+
+    /// What is wanted (64.4, 64.5) and commanded (64.6, 64.7), with the event behind a change.
+    pub(super) fn traverse(&mut self, number: AxisNumber, request: i8, command: i8, cause: EventId) {
+        let axis = &mut self.axes[number];
+        if (axis.traverse_request, axis.traverse_command) != (request, command) {
+            axis.traverse_request = request;
+            axis.traverse_command = command;
+            axis.causes.motion = cause;
+        }
     }
 }
 
@@ -106,10 +98,6 @@ fn key_inputs(number: AxisNumber, signals: &AxisToNck) -> [Input; 3] {
     [
         axis_bit(number, 4, 7, signals.traversing_key_plus()),
         axis_bit(number, 4, 6, signals.traversing_key_minus()),
-        if signals.feed_stop() {
-            axis_bit(number, 4, 3, true)
-        } else {
-            Input::None
-        },
+        if signals.feed_stop() { axis_bit(number, 4, 3, true) } else { Input::None },
     ]
 }

@@ -17,25 +17,12 @@ pub(super) struct Log {
 
 impl Log {
     /// Notes that a rule allowed something.
-    pub(super) fn note(
-        &mut self,
-        place: Place,
-        rule: Rule,
-        inputs: [Input; 3],
-        parent: EventId,
-    ) -> EventId {
-        self.events
-            .push(self.cycle, place, rule.number(), inputs, parent)
+    pub(super) fn note(&mut self, place: Place, rule: Rule, inputs: [Input; 3], parent: EventId) -> EventId {
+        self.events.push(self.cycle, place, rule.number(), inputs, parent)
     }
 
     /// Notes it with one input.
-    pub(super) fn note_one(
-        &mut self,
-        place: Place,
-        rule: Rule,
-        input: Input,
-        parent: EventId,
-    ) -> EventId {
+    pub(super) fn note_one(&mut self, place: Place, rule: Rule, input: Input, parent: EventId) -> EventId {
         self.note(place, rule, [input, Input::None, Input::None], parent)
     }
 
@@ -48,12 +35,5 @@ impl Log {
 /// A signal of an axis as an input.
 #[must_use]
 pub(super) const fn axis_bit(axis: AxisNumber, byte: u16, bit: u8, value: bool) -> Input {
-    Input::Bit(
-        SignalBit {
-            place: Place::Axis(axis),
-            byte,
-            bit,
-        },
-        value,
-    )
+    Input::Bit(SignalBit { place: Place::Axis(axis), byte, bit }, value)
 }

@@ -34,6 +34,7 @@ mod referencing;
 mod rules;
 mod run_up;
 mod setpoints;
+mod synchronisation;
 
 pub use alarms::{Alarm, CATALOGUE as ALARMS, Cancel, Reaction};
 pub use axis::Feedback;
@@ -73,11 +74,7 @@ struct Unit {
 
 impl Unit {
     const fn single(axis: AxisNumber) -> Self {
-        Self {
-            axes: [axis; 3],
-            count: 1,
-            grouping: None,
-        }
+        Self { axes: [axis; 3], count: 1, grouping: None }
     }
 
     fn of(coupling: &Coupling, index: usize) -> Self {
@@ -146,13 +143,7 @@ impl Control {
         let stored = Arc::new(data);
         let parameters = Arc::new(Parameters::new(&stored, &presence));
         let state = Box::new(State::new(&parameters));
-        Self {
-            active: Arc::clone(&stored),
-            stored,
-            presence: Arc::new(presence),
-            parameters,
-            state,
-        }
+        Self { active: Arc::clone(&stored), stored, presence: Arc::new(presence), parameters, state }
     }
 
     /// Power off and on: stored machine data become active, everything else starts anew.
@@ -163,10 +154,7 @@ impl Control {
         let events = std::mem::take(&mut self.state.log.events);
         *self.state = State::new(&self.parameters);
         self.state.log = Log { cycle, events };
-        self.state.definition_cause =
-            self.state
-                .log
-                .note_plain(Place::Nck, Rule::GroupingDefined, EventId::NONE);
+        self.state.definition_cause = self.state.log.note_plain(Place::Nck, Rule::GroupingDefined, EventId::NONE);
     }
 
     /// What the stages work with.
@@ -217,10 +205,7 @@ impl Control {
     pub fn plc_missing(&mut self) {
         if !self.state.plc_missing {
             self.state.plc_missing = true;
-            self.state.plc_cause =
-                self.state
-                    .log
-                    .note_plain(Place::Nck, Rule::PlcMissing, EventId::NONE);
+            self.state.plc_cause = self.state.log.note_plain(Place::Nck, Rule::PlcMissing, EventId::NONE);
         }
     }
 
@@ -238,30 +223,14 @@ impl Control {
     /// Position control of an axis in part `part` of `count` of the interpolation cycle, the setpoint finely interpolated: the
     /// velocity that its drive is to have; `None` for a drive without power.
     #[must_use]
-    pub fn velocity_command(
-        &self,
-        axis: AxisNumber,
-        encoders: [Position; 2],
-        part: u32,
-        count: u32,
-    ) -> Option<f64> {
+    pub fn velocity_command(&self, axis: AxisNumber, encoders: [Position; 2], part: u32, count: u32) -> Option<f64> {
         let state = &self.state.axes[axis];
-        let active = usize::from(
-            state
-                .measuring_system
-                .filter(|_| state.enabling.is_powered())?,
-        );
+        let active = usize::from(state.measuring_system.filter(|_| state.enabling.is_powered())?);
         let actual = encoders[active] + state.offset[active];
         let way = (state.setpoint.position - state.before).increments();
         let setpoint = state.before + Position::new(way * i64::from(part) / i64::from(count));
         let gain = self.parameters.axes[axis].gain;
-        Some(velocity_command(
-            setpoint - actual,
-            gain,
-            state.half_count,
-            state.setpoint.velocity(),
-            0.0,
-        ))
+        Some(velocity_command(setpoint - actual, gain, state.half_count, state.setpoint.velocity(), 0.0))
     }
 
     /// Somebody else wrote into the NCK's half.
@@ -319,11 +288,7 @@ impl Control {
     pub fn restore(&mut self, saved: SavedControl) {
         let same = saved.stored == saved.active;
         self.stored = Arc::new(saved.stored);
-        self.active = if same {
-            Arc::clone(&self.stored)
-        } else {
-            Arc::new(saved.active)
-        };
+        self.active = if same { Arc::clone(&self.stored) } else { Arc::new(saved.active) };
         self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
         *self.state = saved.state;
     }
@@ -337,12 +302,7 @@ impl State {
             mode_group: ModeGroup::default(),
             channel: Channel::default(),
             axes: PerAxis::default(),
-            groupings: parameters
-                .groupings
-                .groupings
-                .iter()
-                .map(Grouping::new)
-                .collect(),
+            groupings: parameters.groupings.groupings.iter().map(Grouping::new).collect(),
             units: ArrayVec::new(),
             alarms: alarms::Pending::default(),
             feedback: PerAxis::default(),
@@ -351,10 +311,7 @@ impl State {
             plc_cause: EventId::NONE,
             overwritten: true,
         };
-        state.definition_cause =
-            state
-                .log
-                .note_plain(Place::Nck, Rule::GroupingDefined, EventId::NONE);
+        state.definition_cause = state.log.note_plain(Place::Nck, Rule::GroupingDefined, EventId::NONE);
         state.form_units(parameters);
         state
     }
@@ -365,9 +322,7 @@ impl State {
         let mut taken = 0_u32;
         for (index, grouping) in self.groupings.iter().enumerate() {
             let unit = Unit::of(&grouping.coupling, index);
-            let broken_up = unit
-                .members()
-                .any(|axis| parameters.axes[axis].gantry.broken_up);
+            let broken_up = unit.members().any(|axis| parameters.axes[axis].gantry.broken_up);
             if broken_up && grouping.phase == gantry::Phase::Open {
                 continue;
             }
@@ -376,10 +331,7 @@ impl State {
             }
             self.units.push(unit);
         }
-        for (axis, _) in parameters
-            .existing()
-            .filter(|(axis, _)| taken >> axis.index() & 1 == 0)
-        {
+        for (axis, _) in parameters.existing().filter(|(axis, _)| taken >> axis.index() & 1 == 0) {
             self.units.push(Unit::single(axis));
         }
     }
@@ -396,14 +348,10 @@ impl State {
 
     /// Every axis of the unit brakes at the slowest rate (O-04), unless a later stage commands something else.
     fn brake(&mut self, unit: &Unit, parameters: &Parameters) {
-        let slowest = unit
-            .members()
-            .map(|axis| parameters.axes[axis].maximum_acceleration)
-            .fold(f64::INFINITY, f64::min);
+        let slowest =
+            unit.members().map(|axis| parameters.axes[axis].maximum_acceleration).fold(f64::INFINITY, f64::min);
         for axis in unit.members() {
-            self.axes[axis].motion = Motion::Brake {
-                deceleration: slowest,
-            };
+            self.axes[axis].motion = Motion::Brake { deceleration: slowest };
         }
     }
 }

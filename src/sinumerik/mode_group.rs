@@ -44,14 +44,7 @@ pub(super) struct ModeGroup {
 const FIRST: ModeGroupNumber = ModeGroupNumber::FIRST;
 
 fn bit(byte: u16, bit: u8, value: bool) -> Input {
-    Input::Bit(
-        SignalBit {
-            place: Place::ModeGroup(FIRST),
-            byte,
-            bit,
-        },
-        value,
-    )
+    Input::Bit(SignalBit { place: Place::ModeGroup(FIRST), byte, bit }, value)
 }
 
 impl State {
@@ -74,21 +67,14 @@ impl State {
             && mode != self.mode_group.mode
         {
             self.mode_group.mode = mode;
-            self.mode_group.mode_cause =
-                self.log
-                    .note_one(place, Rule::ModeSelected, input, EventId::NONE);
+            self.mode_group.mode_cause = self.log.note_one(place, Rule::ModeSelected, input, EventId::NONE);
         }
         let reference = self.mode_group.mode == Mode::Jog && signals.machine_function_ref();
         if reference != self.mode_group.reference {
             self.mode_group.reference = reference;
-            let inputs = [
-                bit(1, 2, signals.machine_function_ref()),
-                bit(6, 2, self.mode_group.mode == Mode::Jog),
-                Input::None,
-            ];
-            self.mode_group.function_cause =
-                self.log
-                    .note(place, Rule::MachineFunction, inputs, EventId::NONE);
+            let inputs =
+                [bit(1, 2, signals.machine_function_ref()), bit(6, 2, self.mode_group.mode == Mode::Jog), Input::None];
+            self.mode_group.function_cause = self.log.note(place, Rule::MachineFunction, inputs, EventId::NONE);
         }
     }
 
@@ -96,11 +82,7 @@ impl State {
     pub(super) fn strobe_written(&mut self) {
         if !self.mode_group.strobe_is_the_hmi_s {
             self.mode_group.strobe_is_the_hmi_s = true;
-            self.log.note_plain(
-                Place::ModeGroup(FIRST),
-                Rule::StrobeOwnedByHmi,
-                EventId::NONE,
-            );
+            self.log.note_plain(Place::ModeGroup(FIRST), Rule::StrobeOwnedByHmi, EventId::NONE);
         }
     }
 }

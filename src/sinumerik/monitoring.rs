@@ -22,18 +22,11 @@ impl Control {
         }
         for fault in &parameters.groupings.faults {
             let cause = state.definition_cause;
-            state
-                .alarms
-                .raise(fault.alarm, fault.place, fault.parameters, cause);
+            state.alarms.raise(fault.alarm, fault.place, fault.parameters, cause);
         }
         if state.plc_missing {
             let cause = state.plc_cause;
-            state.alarms.raise(
-                alarms::PLC_SIGN_OF_LIFE,
-                Place::Nck,
-                [Parameter::None; 4],
-                cause,
-            );
+            state.alarms.raise(alarms::PLC_SIGN_OF_LIFE, Place::Nck, [Parameter::None; 4], cause);
         }
         state.alarms.settle();
     }
@@ -43,29 +36,18 @@ impl State {
     fn monitor_grouping(&mut self, index: usize, parameters: &Parameters) {
         let grouping = &mut self.groupings[index];
         let leader = grouping.coupling.leader();
-        let following_up = grouping
-            .coupling
-            .members()
-            .any(|axis| self.axes[axis].enabling.follow_up);
+        let following_up = grouping.coupling.members().any(|axis| self.axes[axis].enabling.follow_up);
         let monitored = grouping.phase != Phase::Open && !following_up;
         let synchronised = grouping.phase == Phase::Synchronised;
         let coupling = grouping.coupling.clone();
         for (slot, follower) in coupling.followers().enumerate() {
-            let difference = coupling.difference(
-                follower,
-                self.axes[leader].actual,
-                self.axes[follower].actual,
-            );
+            let difference = coupling.difference(follower, self.axes[leader].actual, self.axes[follower].actual);
             let limits = &parameters.axes[follower].gantry;
             // MON-04, MON-05; the synchronous axis' own limits count (DEF-12).
             let (trip_limit, datum, rule) = if synchronised {
                 (limits.trip_limit, 37120, Rule::TripLimitSynchronised)
             } else {
-                (
-                    limits.trip_limit_not_synchronised,
-                    37130,
-                    Rule::TripLimitNotSynchronised,
-                )
+                (limits.trip_limit_not_synchronised, 37130, Rule::TripLimitNotSynchronised)
             };
             let stage = difference.stage(limits.warning_limit, trip_limit);
             let (warning, trip) = (monitored && stage.first, monitored && stage.second);
@@ -74,42 +56,24 @@ impl State {
             let before = self.groupings[index].monitored[slot];
             let mut after = before;
             if warning != before.warning {
-                let rule = if warning {
-                    Rule::WarningLimit
-                } else {
-                    Rule::WarningGone
-                };
+                let rule = if warning { Rule::WarningLimit } else { Rule::WarningGone };
                 let limit = Input::Datum(37110, Some(follower), limits.warning_limit.user());
-                after.warning_cause =
-                    self.log
-                        .note(place, rule, [measured, limit, Input::None], EventId::NONE);
+                after.warning_cause = self.log.note(place, rule, [measured, limit, Input::None], EventId::NONE);
             }
             if trip != before.trip {
                 let rule = if trip { rule } else { Rule::TripGone };
                 let limit = Input::Datum(datum, Some(follower), trip_limit.user());
-                after.trip_cause =
-                    self.log
-                        .note(place, rule, [measured, limit, Input::None], EventId::NONE);
+                after.trip_cause = self.log.note(place, rule, [measured, limit, Input::None], EventId::NONE);
             }
             (after.difference, after.warning, after.trip) = (difference.0, warning, trip);
             self.groupings[index].monitored[slot] = after;
-            let shown = [
-                Parameter::Channel(ChannelNumber::FIRST),
-                Parameter::Axis(follower),
-                Parameter::None,
-                Parameter::None,
-            ];
+            let shown =
+                [Parameter::Channel(ChannelNumber::FIRST), Parameter::Axis(follower), Parameter::None, Parameter::None];
             if warning {
-                self.alarms.raise(
-                    alarms::GANTRY_WARNING_LIMIT,
-                    place,
-                    shown,
-                    after.warning_cause,
-                );
+                self.alarms.raise(alarms::GANTRY_WARNING_LIMIT, place, shown, after.warning_cause);
             }
             if trip {
-                self.alarms
-                    .raise(alarms::GANTRY_TRIP_LIMIT, place, shown, after.trip_cause);
+                self.alarms.raise(alarms::GANTRY_TRIP_LIMIT, place, shown, after.trip_cause);
             }
         }
     }

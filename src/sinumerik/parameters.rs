@@ -166,10 +166,9 @@ impl Parameters {
     pub fn axis_override(&self, code: u8) -> f64 {
         if self.axis_override_is_gray {
             let gray = code & 0x1F;
-            let binary = (0..5)
-                .map(|bit| ((gray >> bit).count_ones() as u8 & 1) << bit)
-                .sum::<u8>();
-            self.axis_override_factors[usize::from(binary.max(1)) - 1]
+            // Each bit of the position is the parity of the Gray bits from it upwards.
+            let position = gray ^ gray >> 1 ^ gray >> 2 ^ gray >> 3 ^ gray >> 4;
+            self.axis_override_factors[usize::from(position.max(1)) - 1]
         } else {
             (f64::from(code) / 100.0).min(self.binary_override_limit)
         }
@@ -179,45 +178,27 @@ impl Parameters {
 /// The interpolation cycle (O-22), rounded to whole nanoseconds, at least one microsecond.
 #[must_use]
 pub(super) fn cycle_time(data: &MachineData) -> Time {
-    let seconds =
-        data.general.sysclock_cycle_time * f64::from(data.general.ipo_sysclock_time_ratio.max(1));
+    let seconds = data.general.sysclock_cycle_time * f64::from(data.general.ipo_sysclock_time_ratio.max(1));
     Time::from_seconds(seconds).max(Time::from_micros(1))
 }
 
 fn servo_cycles(data: &MachineData) -> u32 {
-    let ratio = data.general.ipo_sysclock_time_ratio.max(1)
-        / data.general.posctrl_sysclock_time_ratio.max(1);
+    let ratio = data.general.ipo_sysclock_time_ratio.max(1) / data.general.posctrl_sysclock_time_ratio.max(1);
     ratio.max(1).unsigned_abs()
 }
 
-fn axis(
-    data: &MachineData,
-    number: AxisNumber,
-    presence: AxisPresence,
-    cycle: Time,
-) -> AxisParameters {
+fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresence, cycle: Time) -> AxisParameters {
     let md = &data.axes[number];
     let rotary = md.is_rot_ax;
     // mm/min, or rev/min of 360 degrees.
-    let velocity =
-        |value: f64| value * Position::PER_USER_UNIT / 60.0 * if rotary { 360.0 } else { 1.0 };
+    let velocity = |value: f64| value * Position::PER_USER_UNIT / 60.0 * if rotary { 360.0 } else { 1.0 };
     // m/s², or rev/s².
-    let acceleration =
-        |value: f64| value * Position::PER_USER_UNIT * if rotary { 360.0 } else { 1_000.0 };
+    let acceleration = |value: f64| value * Position::PER_USER_UNIT * if rotary { 360.0 } else { 1_000.0 };
     let cycles = |seconds: f64| {
-        if seconds > 0.0 {
-            Time::from_seconds(seconds).in_cycles(cycle)
-        } else {
-            0
-        }
+        if seconds > 0.0 { Time::from_seconds(seconds).in_cycles(cycle) } else { 0 }
     };
-    let (linear_setting, rotary_setting) =
-        (data.setting.jog_set_velo, data.setting.jog_rot_ax_set_velo);
-    let setting = if rotary {
-        rotary_setting
-    } else {
-        linear_setting
-    };
+    let (linear_setting, rotary_setting) = (data.setting.jog_set_velo, data.setting.jog_rot_ax_set_velo);
+    let setting = if rotary { rotary_setting } else { linear_setting };
     let factor = md.stop_limit_factor[0];
     let maximum_velocity = velocity(md.max_ax_velo);
     let maximum_acceleration = acceleration(md.max_ax_accel[0]).max(1.0);
@@ -229,13 +210,8 @@ fn axis(
         encoders: md.num_encs,
         maximum_velocity,
         maximum_acceleration,
-        jog_acceleration: if md.jog_max_accel > 0.0 {
-            acceleration(md.jog_max_accel)
-        } else {
-            maximum_acceleration
-        },
-        jog_velocity: velocity(if setting > 0.0 { setting } else { md.jog_velo })
-            .min(maximum_velocity),
+        jog_acceleration: if md.jog_max_accel > 0.0 { acceleration(md.jog_max_accel) } else { maximum_acceleration },
+        jog_velocity: velocity(if setting > 0.0 { setting } else { md.jog_velo }).min(maximum_velocity),
         jog_rapid_velocity: velocity(md.jog_velo_rapid).min(maximum_velocity),
         gain: md.posctrl_gain[0] * 1_000.0 / 60.0,
         exact_stop_coarse: Position::from_user(md.stop_limit_coarse * factor),
@@ -243,8 +219,7 @@ fn axis(
         positioning_cycles: cycles(md.positioning_time),
         standstill_tolerance: Position::from_user(md.standstill_pos_tol * factor),
         standstill_velocity: velocity(md.standstill_velo_tol),
-        emergency_deceleration: (maximum_velocity / md.ax_emergency_stop_time.max(cycle.seconds()))
-            .max(1.0),
+        emergency_deceleration: (maximum_velocity / md.ax_emergency_stop_time.max(cycle.seconds())).max(1.0),
         servo_disable_cycles: cycles(md.servo_disable_delay_time),
         reference: reference(md, maximum_velocity, &velocity),
         gantry: gantry(md),
@@ -263,8 +238,7 @@ fn reference(md: &Axis, maximum_velocity: f64, velocity: &impl Fn(f64) -> f64) -
         maximum_marker_distance: md.refp_max_marker_dist.map(Position::from_user),
         position_velocity: bounded(md.refp_velo_pos),
         move_distance: std::array::from_fn(|encoder| {
-            Position::from_user(md.refp_move_dist[encoder])
-                + Position::from_user(md.refp_move_dist_corr[encoder])
+            Position::from_user(md.refp_move_dist[encoder]) + Position::from_user(md.refp_move_dist_corr[encoder])
         }),
         cam_shift: md.refp_cam_shift.map(Position::from_user),
         set_position: md.refp_set_pos.map(Position::from_user),

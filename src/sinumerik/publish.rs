@@ -32,9 +32,7 @@ impl Control {
             state.publish_grouping(index, from_nck, &parameters, variables);
         }
         if state.alarms.take_changed() {
-            variables
-                .alarms
-                .publish(state.alarms.iter().map(|(alarm, _)| *alarm));
+            variables.alarms.publish(state.alarms.iter().map(|(alarm, _)| *alarm));
         }
     }
 }
@@ -46,11 +44,7 @@ impl State {
         signals.set_drives_in_cyclic_operation(self.run_up.are_drives_cyclic());
         signals.set_drives_ready(self.run_up.are_drives_ready());
         signals.set_nc_ready(self.is_nc_ready());
-        signals.set_nc_alarm_active(
-            self.alarms
-                .with_reaction(Reaction::INTERFACE_SIGNALS, None)
-                .is_some(),
-        );
+        signals.set_nc_alarm_active(self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, None).is_some());
     }
 
     fn publish_mode_group(&self, from_nck: &mut FromNck, hmi: &mut Hmi) {
@@ -60,9 +54,7 @@ impl State {
         signals.set_active_mode_mdi(group.mode == Mode::Mda);
         signals.set_active_mode_jog(group.mode == Mode::Jog);
         signals.set_active_machine_function_ref(group.reference);
-        let not_ready = self
-            .alarms
-            .with_reaction(Reaction::MODE_GROUP_NOT_READY, None);
+        let not_ready = self.alarms.with_reaction(Reaction::MODE_GROUP_NOT_READY, None);
         signals.set_mode_group_ready(self.run_up.is_nc_ready() && not_ready.is_none());
         signals.set_all_channels_in_reset_state(!self.is_channel_active());
         if !group.strobe_is_the_hmi_s {
@@ -72,10 +64,7 @@ impl State {
 
     /// "At least one axis is being traversed in JOG", or referenced.
     pub(super) fn is_channel_active(&self) -> bool {
-        self.units
-            .iter()
-            .flat_map(super::Unit::members)
-            .any(|axis| self.axes[axis].is_in_motion())
+        self.units.iter().flat_map(super::Unit::members).any(|axis| self.axes[axis].is_in_motion())
     }
 
     fn publish_channel(&self, from_nck: &mut FromNck, parameters: &Parameters) {
@@ -86,8 +75,7 @@ impl State {
         signals.set_program_state_aborted(true);
         signals.set_channel_state_active(active);
         signals.set_channel_state_reset(!active);
-        let needed =
-            |axis: &AxisParameters| parameters.reference_needed && axis.reference.cycle_number > -1;
+        let needed = |axis: &AxisParameters| parameters.reference_needed && axis.reference.cycle_number > -1;
         let (mut referenced, mut stationary) = (true, true);
         for (number, axis) in parameters.existing() {
             referenced &= !needed(axis) || self.axes[number].is_referenced();
@@ -98,28 +86,16 @@ impl State {
         let not_ready = self.alarms.with_reaction(Reaction::CHANNEL_NOT_READY, None);
         signals.set_channel_ready(self.run_up.is_nc_ready() && not_ready.is_none());
         signals.set_channel_specific_nck_alarm_active(
-            self.alarms
-                .with_reaction(Reaction::INTERFACE_SIGNALS, None)
-                .is_some(),
+            self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, None).is_some(),
         );
-        signals.set_nck_alarm_with_machining_stop_active(
-            self.alarms.with_reaction(Reaction::STOP, None).is_some(),
-        );
+        signals.set_nck_alarm_with_machining_stop_active(self.alarms.with_reaction(Reaction::STOP, None).is_some());
     }
 
-    fn publish_axis(
-        &self,
-        signals: &mut AxisFromNck,
-        number: AxisNumber,
-        parameters: &AxisParameters,
-    ) {
+    fn publish_axis(&self, signals: &mut AxisFromNck, number: AxisNumber, parameters: &AxisParameters) {
         let axis = &self.axes[number];
         let [current, speed, position] = axis.enabling.controllers();
         let place = Some(Place::Axis(number));
-        let alarm = self
-            .alarms
-            .with_reaction(Reaction::INTERFACE_SIGNALS, place)
-            .is_some();
+        let alarm = self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, place).is_some();
         signals.set_referenced_synchronized_1(axis.referenced[0]);
         signals.set_referenced_synchronized_2(axis.referenced[1]);
         let at_rest = position && axis.setpoint.is_at_rest() && axis.traverse_command == 0;

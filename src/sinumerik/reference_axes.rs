@@ -55,16 +55,13 @@ impl State {
         } else if self.is_jogging() {
             self.jog(unit, parameters, to_nck);
         } else {
-            self.command(number, 0, 0, [Input::None; 3]);
+            let cause = self.mode_group.function_cause;
+            self.traverse(number, 0, 0, cause);
             if self.unit_can_move(unit)
                 && !self.is_gantry_axis(number)
                 && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
             {
-                self.axes[number].approach_key = if self.channel.started(number) {
-                    0
-                } else {
-                    direction
-                };
+                self.axes[number].approach_key = if self.channel.started(number) { 0 } else { direction };
                 self.start_approach(number, f64::from(direction), event);
                 self.reference_single(unit, parameters, to_nck);
             }
@@ -74,11 +71,9 @@ impl State {
     fn reference_single(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let number = unit.leader();
         let key = self.axes[number].approach_key;
-        if let Some((alarm, event)) =
-            self.approach_interrupted(number, key, unit, parameters, to_nck)
-        {
+        if let Some((alarm, event)) = self.approach_interrupted(number, key, unit, parameters, to_nck) {
             self.axes[number].approach.abort();
-            self.command(number, 0, 0, [Input::None; 3]);
+            self.traverse(number, 0, 0, event);
             if let Some(alarm) = alarm {
                 self.raise_axis_alarm(alarm, number, event);
             }
@@ -87,11 +82,11 @@ impl State {
         match self.run_approach(number, parameters, to_nck) {
             Outcome::Running => {}
             Outcome::Failed(alarm, event) => {
-                self.command(number, 0, 0, [Input::None; 3]);
+                self.traverse(number, 0, 0, event);
                 self.raise_axis_alarm(alarm, number, event);
             }
             Outcome::Referenced(shift, event) => {
-                self.command(number, 0, 0, [Input::None; 3]);
+                self.traverse(number, 0, 0, event);
                 self.set_reference(number, shift, event);
             }
         }
@@ -111,26 +106,17 @@ impl State {
         if key == 0 {
             self.axes[number].key_used = false;
         }
-        let has_zero_mark = self.axes[number]
-            .measuring_system
-            .is_some_and(|active| reference.mode[usize::from(active)] == 1);
+        let has_zero_mark =
+            self.axes[number].measuring_system.is_some_and(|active| reference.mode[usize::from(active)] == 1);
         let disabled = signals.axis_spindle_disable() || self.axes[number].feed_disabled;
         if !self.mode_group.reference || !has_zero_mark || disabled {
             return None;
         }
         let forward = if reference.cam_direction > 0.0 { 1 } else { -1 };
-        if self
-            .channel
-            .referencing
-            .wants(number, reference.cycle_number)
-        {
+        if self.channel.referencing.wants(number, reference.cycle_number) {
             self.channel.referencing.started |= 1 << number.index();
             let cause = self.channel.referencing.cause;
-            return Some((
-                forward,
-                self.log
-                    .note_plain(Place::Axis(number), Rule::ApproachStartedByChannel, cause),
-            ));
+            return Some((forward, self.log.note_plain(Place::Axis(number), Rule::ApproachStartedByChannel, cause)));
         }
         // The other key: no start, no alarm. Without a cam both directions are right.
         let right = key != 0 && (key == forward || !reference.cam_is_active);
@@ -139,22 +125,13 @@ impl State {
         }
         self.axes[number].key_used = true;
         let bit = if key > 0 { 7 } else { 6 };
-        let active = SignalBit {
-            place: Place::ModeGroup(crate::units::ModeGroupNumber::FIRST),
-            byte: 7,
-            bit: 2,
-        };
+        let active = SignalBit { place: Place::ModeGroup(crate::units::ModeGroupNumber::FIRST), byte: 7, bit: 2 };
         let inputs = [
             axis_bit(number, 4, bit, true),
             Input::Datum(34010, Some(number), f64::from(u8::from(forward < 0))),
             Input::Bit(active, true),
         ];
-        let event = self.log.note(
-            Place::Axis(number),
-            Rule::KeyStartsApproach,
-            inputs,
-            self.mode_group.function_cause,
-        );
+        let event = self.log.note(Place::Axis(number), Rule::KeyStartsApproach, inputs, self.mode_group.function_cause);
         Some((key, event))
     }
 
@@ -164,40 +141,22 @@ impl State {
         let encoder = usize::from(axis.measuring_system.unwrap_or(0));
         if axis.referenced[encoder] {
             axis.referenced[encoder] = false;
-            axis.causes.reference[encoder] =
-                self.log
-                    .note_plain(Place::Axis(number), Rule::NewApproach, cause);
+            axis.causes.reference[encoder] = self.log.note_plain(Place::Axis(number), Rule::NewApproach, cause);
         }
-        axis.approach
-            .start(&mut self.log, number, direction, axis.actual, cause);
+        axis.approach.start(direction, axis.actual, cause);
     }
 
     /// One cycle of an approach; the motion of its axis is commanded.
-    pub(super) fn run_approach(
-        &mut self,
-        number: AxisNumber,
-        parameters: &Parameters,
-        to_nck: &ToNck,
-    ) -> Outcome {
+    pub(super) fn run_approach(&mut self, number: AxisNumber, parameters: &Parameters, to_nck: &ToNck) -> Outcome {
         let mut approach = self.axes[number].approach;
         let axis = &self.axes[number];
         let signals = &to_nck.axes[number];
-        let (motion, outcome) = approach.run(
-            &mut self.log,
-            number,
-            axis,
-            &parameters.axes[number],
-            signals,
-        );
+        let (motion, outcome) = approach.run(&mut self.log, number, axis, &parameters.axes[number], signals);
         let axis = &mut self.axes[number];
         axis.approach = approach;
         axis.motion = motion;
         let direction = motion.direction(axis.setpoint.position);
-        let request = if direction == 0 && axis.feed_held {
-            axis.traverse_request
-        } else {
-            direction
-        };
+        let request = if direction == 0 && axis.feed_held { axis.traverse_request } else { direction };
         if (axis.traverse_request, axis.traverse_command) != (request, direction) {
             axis.causes.motion = approach.cause();
             axis.traverse_request = request;
@@ -221,43 +180,27 @@ impl State {
         }
         if !self.mode_group.reference {
             let cause = self.mode_group.function_cause;
-            return Some((
-                None,
-                self.log
-                    .note_plain(Place::Axis(number), Rule::ApproachAborted, cause),
-            ));
+            return Some((None, self.log.note_plain(Place::Axis(number), Rule::ApproachAborted, cause)));
         }
         let pressed = key_direction(&to_nck.axes[number]);
-        let (alarm, input) = if let Some(off) = unit
-            .members()
-            .find(|&axis| !self.axes[axis].enabling.is_on())
-        {
+        let (alarm, input) = if let Some(off) = unit.members().find(|&axis| !self.axes[axis].enabling.is_on()) {
             (Some(alarms::APPROACH_ABORTED), axis_bit(off, 61, 5, false))
         } else if key != 0 && parameters.jog_mode && pressed != key {
-            (
-                Some(alarms::APPROACH_ABORTED),
-                axis_bit(number, 4, if key > 0 { 7 } else { 6 }, false),
-            )
+            (Some(alarms::APPROACH_ABORTED), axis_bit(number, 4, if key > 0 { 7 } else { 6 }, false))
         } else if key != 0 && !parameters.jog_mode && pressed == -key {
             (None, axis_bit(number, 4, if key > 0 { 6 } else { 7 }, true))
         } else {
             return None;
         };
-        Some((
-            alarm,
-            self.log
-                .note_one(Place::Axis(number), Rule::ApproachAborted, input, parent),
-        ))
+        Some((alarm, self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, parent)))
     }
 
     /// The measuring system was switched, or lost, under a running approach (REF-33).
     pub(super) fn abort_approach(&mut self, number: AxisNumber, event: EventId) {
         self.axes[number].approach.abort();
         self.raise_axis_alarm(alarms::APPROACH_ABORTED, number, event);
-        if let Some(index) = self
-            .groupings
-            .iter()
-            .position(|g| g.is_referencing() && g.coupling.members().any(|m| m == number))
+        if let Some(index) =
+            self.groupings.iter().position(|g| g.is_referencing() && g.coupling.members().any(|m| m == number))
         {
             self.reset_grouping(index, event);
         }
@@ -274,34 +217,20 @@ impl State {
         let axes = &self.axes;
         for grouping in &mut self.groupings {
             let leader = grouping.coupling.leader();
-            let absolute = |follower: AxisNumber| {
-                axes[follower].is_referenced() && axes[leader].is_referenced()
-            };
+            let absolute = |follower: AxisNumber| axes[follower].is_referenced() && axes[leader].is_referenced();
             grouping.coupling.value_shifted(number, shift, absolute);
         }
     }
 
     /// Raises an alarm of an axis: `%1` channel, `%2` axis.
-    pub(super) fn raise_axis_alarm(
-        &mut self,
-        alarm: AlarmNumber,
-        number: AxisNumber,
-        event: EventId,
-    ) {
-        let parameters = [
-            Parameter::Channel(ChannelNumber::FIRST),
-            Parameter::Axis(number),
-            Parameter::None,
-            Parameter::None,
-        ];
-        self.alarms
-            .raise(alarm, Place::Axis(number), parameters, event);
+    pub(super) fn raise_axis_alarm(&mut self, alarm: AlarmNumber, number: AxisNumber, event: EventId) {
+        let parameters =
+            [Parameter::Channel(ChannelNumber::FIRST), Parameter::Axis(number), Parameter::None, Parameter::None];
+        self.alarms.raise(alarm, Place::Axis(number), parameters, event);
     }
 
     fn is_gantry_axis(&self, number: AxisNumber) -> bool {
-        self.groupings
-            .iter()
-            .any(|grouping| grouping.coupling.members().any(|member| member == number))
+        self.groupings.iter().any(|grouping| grouping.coupling.members().any(|member| member == number))
     }
 
     /// Starts, orders and ends channel-specific referencing: MD34110 = 1 first, together; n after all of n − 1.
@@ -320,20 +249,8 @@ impl State {
             }
         } else if rises && !stopped {
             self.channel.referencing.started = 0;
-            let input = Input::Bit(
-                SignalBit {
-                    place: CHANNEL,
-                    byte: 1,
-                    bit: 0,
-                },
-                true,
-            );
-            let event = self.log.note_one(
-                CHANNEL,
-                Rule::ApproachStartedByChannel,
-                input,
-                EventId::NONE,
-            );
+            let input = Input::Bit(SignalBit { place: CHANNEL, byte: 1, bit: 0 }, true);
+            let event = self.log.note_one(CHANNEL, Rule::ApproachStartedByChannel, input, EventId::NONE);
             self.channel.referencing.cause = event;
             self.channel.referencing.number = self.next_cycle_number(0, parameters);
         }
@@ -343,9 +260,7 @@ impl State {
         let referencing = &mut self.channel.referencing;
         referencing.number = next;
         if next == 0 {
-            referencing.cause =
-                self.log
-                    .note_plain(CHANNEL, Rule::ChannelReferencingEnds, referencing.cause);
+            referencing.cause = self.log.note_plain(CHANNEL, Rule::ChannelReferencingEnds, referencing.cause);
         }
     }
 
@@ -371,13 +286,9 @@ impl State {
                 continue;
             }
             let running = self.axes[axis].approach.is_running()
-                || unit
-                    .grouping
-                    .is_some_and(|index| self.groupings[usize::from(index)].is_referencing());
+                || unit.grouping.is_some_and(|index| self.groupings[usize::from(index)].is_referencing());
             let started = self.channel.started(axis);
-            let referenced = unit
-                .members()
-                .all(|member| self.axes[member].is_referenced());
+            let referenced = unit.members().all(|member| self.axes[member].is_referenced());
             finished &= started && !running && referenced;
             failed |= started && !running && !referenced;
         }

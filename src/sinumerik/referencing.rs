@@ -74,19 +74,11 @@ pub const TRANSITIONS: &[Transition] = &[
     row(Phase::BrakeOnCam, Rule::LeaveCamFirst, Phase::LeaveCam),
     row(Phase::LeaveCam, Rule::CamLeft, Phase::BrakeOffCam),
     row(Phase::BrakeOffCam, Rule::StoppedOffCam, Phase::SearchEdge),
-    row(
-        Phase::SearchEdge,
-        Rule::CreepVelocityMissed,
-        Phase::SearchCam,
-    ),
+    row(Phase::SearchEdge, Rule::CreepVelocityMissed, Phase::SearchCam),
     row(Phase::SearchEdge, Rule::CamEdge, Phase::PassShift),
     row(Phase::PassShift, Rule::CamShiftPassed, Phase::SearchMark),
     row(Phase::SearchMark, Rule::ZeroMark, Phase::GoToReferencePoint),
-    row(
-        Phase::GoToReferencePoint,
-        Rule::ReferencePointReached,
-        Phase::ExactStop,
-    ),
+    row(Phase::GoToReferencePoint, Rule::ReferencePointReached, Phase::ExactStop),
     row(Phase::ExactStop, Rule::Referenced, Phase::Idle),
 ];
 
@@ -133,12 +125,6 @@ struct View<'a> {
 }
 
 impl Approach {
-    /// Where it is.
-    #[must_use]
-    pub(super) const fn phase(&self) -> Phase {
-        self.phase
-    }
-
     /// Whether one is running.
     #[must_use]
     pub(super) fn is_running(&self) -> bool {
@@ -163,32 +149,24 @@ impl Approach {
     }
 
     fn step(&mut self, log: &mut Log, number: AxisNumber, by: Rule, inputs: [Input; 3]) {
-        let to = TRANSITIONS
-            .iter()
-            .find(|row| row.from == self.phase && row.by == by)
-            .map(|row| row.to);
+        let to = TRANSITIONS.iter().find(|row| row.from == self.phase && row.by == by).map(|row| row.to);
         debug_assert!(to.is_some(), "no step from {:?} by {by:?}", self.phase);
         self.phase = to.unwrap_or(Phase::Idle);
         self.cause = log.note(Place::Axis(number), by, inputs, self.cause);
     }
 
     /// Starts towards the cam, in the direction of a sign; `cause` is the event that asked for it.
-    pub(super) fn start(
-        &mut self,
-        log: &mut Log,
-        number: AxisNumber,
-        direction: f64,
-        actual: Position,
-        cause: EventId,
-    ) {
+    pub(super) fn start(&mut self, direction: f64, actual: Position, cause: EventId) {
+        let (phase, first) = (Phase::SearchCam, TRANSITIONS[0]);
+        debug_assert!(first.from == Phase::Idle && first.to == phase);
         *self = Self {
+            phase,
             cam_direction: direction,
             marker_direction: direction,
             origin: actual,
             cause,
             ..Self::default()
         };
-        self.step(log, number, Rule::ApproachStarted, [Input::None; 3]);
     }
 
     /// One cycle: the motion that the axis is to make, and how it went on.
@@ -201,13 +179,7 @@ impl Approach {
         signals: &AxisToNck,
     ) -> (Motion, Outcome) {
         let encoder = usize::from(axis.measuring_system.unwrap_or(0));
-        let view = View {
-            number,
-            axis,
-            parameters,
-            signals,
-            encoder,
-        };
+        let view = View { number, axis, parameters, signals, encoder };
         let outcome = self.decide(log, &view);
         (self.motion(&view), outcome)
     }
@@ -218,11 +190,7 @@ impl Approach {
         }
         let (axis, reference) = (view.axis, &view.parameters.reference);
         let on_cam = view.signals.deceleration_reference_point_approach();
-        let cam = [
-            axis_bit(view.number, 12, 7, on_cam),
-            Input::None,
-            Input::None,
-        ];
+        let cam = [axis_bit(view.number, 12, 7, on_cam), Input::None, Input::None];
         let creep_from_rising_edge = reference.marker_reverse[view.encoder];
         match self.phase {
             Phase::Idle | Phase::PassShift => {}
@@ -233,11 +201,7 @@ impl Approach {
                     log,
                     view.number,
                     Rule::WithoutCam,
-                    [
-                        Input::Datum(34000, Some(view.number), 0.0),
-                        Input::None,
-                        Input::None,
-                    ],
+                    [Input::Datum(34000, Some(view.number), 0.0), Input::None, Input::None],
                 );
             }
             Phase::SearchCam if on_cam && self.set_off_on_cam(axis) => {
@@ -250,13 +214,7 @@ impl Approach {
                 self.step(log, view.number, Rule::CamReached, cam);
             }
             Phase::SearchCam => {
-                return self.too_far(
-                    log,
-                    view,
-                    reference.maximum_cam_distance,
-                    alarms::CAM_NOT_REACHED,
-                    34030,
-                );
+                return self.too_far(log, view, reference.maximum_cam_distance, alarms::CAM_NOT_REACHED, 34030);
             }
             Phase::BrakeOnCam if axis.stands(view.parameters) => {
                 if !on_cam {
@@ -274,40 +232,20 @@ impl Approach {
                 return self.edge(log, view, cam);
             }
             Phase::LeaveCam | Phase::SearchEdge => {
-                return self.too_far(
-                    log,
-                    view,
-                    reference.maximum_cam_distance,
-                    alarms::CAM_NOT_REACHED,
-                    34030,
-                );
+                return self.too_far(log, view, reference.maximum_cam_distance, alarms::CAM_NOT_REACHED, 34030);
             }
             Phase::BrakeOnCam | Phase::BrakeOffCam => {}
             Phase::SearchMark => {
                 let Some(mark) = axis.zero_mark else {
                     let maximum = reference.maximum_marker_distance[view.encoder];
-                    return self.too_far(
-                        log,
-                        view,
-                        maximum,
-                        alarms::REFERENCE_MARK_NOT_FOUND,
-                        34060,
-                    );
+                    return self.too_far(log, view, maximum, alarms::REFERENCE_MARK_NOT_FOUND, 34060);
                 };
                 self.target = mark + reference.move_distance[view.encoder];
-                let inputs = [
-                    Input::Length(Quantity::Position, view.number, mark),
-                    Input::None,
-                    Input::None,
-                ];
+                let inputs = [Input::Length(Quantity::Position, view.number, mark), Input::None, Input::None];
                 self.step(log, view.number, Rule::ZeroMark, inputs);
             }
             Phase::GoToReferencePoint if axis.arrived => {
-                let inputs = [
-                    Input::Length(Quantity::Position, view.number, self.target),
-                    Input::None,
-                    Input::None,
-                ];
+                let inputs = [Input::Length(Quantity::Position, view.number, self.target), Input::None, Input::None];
                 self.step(log, view.number, Rule::ReferencePointReached, inputs);
                 self.waited = 0;
             }
@@ -322,11 +260,7 @@ impl Approach {
     fn turn(&mut self, log: &mut Log, view: &View<'_>, falling: Rule, cam: [Input; 3]) {
         if view.parameters.reference.marker_reverse[view.encoder] {
             self.marker_direction = self.cam_direction;
-            let inputs = [
-                cam[0],
-                Input::Datum(34050, Some(view.number), 1.0),
-                Input::None,
-            ];
+            let inputs = [cam[0], Input::Datum(34050, Some(view.number), 1.0), Input::None];
             self.step(log, view.number, Rule::LeaveCamFirst, inputs);
         } else {
             self.marker_direction = -self.cam_direction;
@@ -336,30 +270,15 @@ impl Approach {
 
     /// What ends an approach in any phase: feed disable; 0 % while the override does not act (phase 2).
     fn interrupted(&mut self, log: &mut Log, view: &View<'_>) -> Option<Outcome> {
-        let creeping = matches!(
-            self.phase,
-            Phase::LeaveCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark
-        );
+        let creeping = matches!(self.phase, Phase::LeaveCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark);
         let input = if view.axis.feed_disabled {
-            Input::Bit(
-                SignalBit {
-                    place: Place::Channel(ChannelNumber::FIRST),
-                    byte: 6,
-                    bit: 0,
-                },
-                true,
-            )
+            Input::Bit(SignalBit { place: Place::Channel(ChannelNumber::FIRST), byte: 6, bit: 0 }, true)
         } else if creeping && view.axis.feed_factor <= 0.0 {
             axis_bit(view.number, 1, 7, true)
         } else {
             return None;
         };
-        Some(self.fail(
-            log,
-            view,
-            alarms::APPROACH_ABORTED,
-            [input, Input::None, Input::None],
-        ))
+        Some(self.fail(log, view, alarms::APPROACH_ABORTED, [input, Input::None, Input::None]))
     }
 
     /// The axis was on the cam when the approach began: it has not moved yet.
@@ -392,12 +311,7 @@ impl Approach {
         let shift = view.parameters.reference.cam_shift[view.encoder];
         if self.phase == Phase::PassShift && (view.axis.actual - self.origin).abs() >= shift {
             let input = Input::Datum(34092, Some(view.number), shift.user());
-            self.step(
-                log,
-                view.number,
-                Rule::CamShiftPassed,
-                [input, Input::None, Input::None],
-            );
+            self.step(log, view.number, Rule::CamShiftPassed, [input, Input::None, Input::None]);
         }
     }
 
@@ -425,11 +339,7 @@ impl Approach {
         let deviation = view.axis.deviation().abs();
         let inputs = [
             Input::Length(Quantity::Deviation, view.number, deviation),
-            Input::Datum(
-                36010,
-                Some(view.number),
-                view.parameters.exact_stop_fine.user(),
-            ),
+            Input::Datum(36010, Some(view.number), view.parameters.exact_stop_fine.user()),
             Input::None,
         ];
         if deviation <= view.parameters.exact_stop_fine {
@@ -443,19 +353,8 @@ impl Approach {
         Outcome::Running
     }
 
-    fn fail(
-        &mut self,
-        log: &mut Log,
-        view: &View<'_>,
-        alarm: AlarmNumber,
-        inputs: [Input; 3],
-    ) -> Outcome {
-        self.cause = log.note(
-            Place::Axis(view.number),
-            Rule::ApproachAborted,
-            inputs,
-            self.cause,
-        );
+    fn fail(&mut self, log: &mut Log, view: &View<'_>, alarm: AlarmNumber, inputs: [Input; 3]) -> Outcome {
+        self.cause = log.note(Place::Axis(view.number), Rule::ApproachAborted, inputs, self.cause);
         self.phase = Phase::Idle;
         Outcome::Failed(alarm, self.cause)
     }
@@ -464,16 +363,12 @@ impl Approach {
     fn motion(&self, view: &View<'_>) -> Motion {
         let (parameters, reference) = (view.parameters, &view.parameters.reference);
         let acceleration = parameters.maximum_acceleration;
-        let brake = Motion::Brake {
-            deceleration: acceleration,
-        };
+        let brake = Motion::Brake { deceleration: acceleration };
         let creep = reference.marker_velocity[view.encoder];
         let velocity = match self.phase {
             Phase::Idle | Phase::BrakeOnCam | Phase::BrakeOffCam => return brake,
             Phase::SearchCam if reference.cam_is_active => {
-                self.cam_direction
-                    * (reference.cam_velocity * view.axis.feed_factor)
-                        .min(parameters.maximum_velocity)
+                self.cam_direction * (reference.cam_velocity * view.axis.feed_factor).min(parameters.maximum_velocity)
             }
             Phase::LeaveCam => -self.cam_direction * reference.cam_velocity,
             Phase::SearchCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark => {
@@ -481,22 +376,11 @@ impl Approach {
             }
             Phase::GoToReferencePoint | Phase::ExactStop => {
                 let held = view.axis.feed_held;
-                let velocity = (reference.position_velocity * view.axis.feed_factor)
-                    .min(parameters.maximum_velocity);
-                return Motion::GoTo {
-                    target: self.target,
-                    velocity: if held { 0.0 } else { velocity },
-                };
+                let velocity = (reference.position_velocity * view.axis.feed_factor).min(parameters.maximum_velocity);
+                return Motion::GoTo { target: self.target, velocity: if held { 0.0 } else { velocity } };
             }
         };
-        if view.axis.feed_held {
-            brake
-        } else {
-            Motion::Run {
-                velocity,
-                acceleration,
-            }
-        }
+        if view.axis.feed_held { brake } else { Motion::Run { velocity, acceleration } }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The rules by which the control acts, each with the place where it is written.
 //!
 //! Every transition of a state machine and every signal edge names one of these as its cause. A new rule is a new
-//! row here; what it prints is `id: inputs`, or `id: text` where nothing was measured.
+//! row here; it prints as `id: text, inputs`, with an empty text where the inputs say it all.
 
 use crate::variables::{Rule as Text, RuleNumber};
 
@@ -24,10 +24,10 @@ rules! {
     RunUp "O-20" "run-up of control and drives";
     NcNotReady "O-20" "alarm with the reaction NC not ready";
     DriveReady "O-20" "drive ready after its run-up";
-    PulsesEnabled "O-20" "drive ready and pulse enable";
-    PulsesDisabled "O-20" "pulse enable or drive ready missing";
-    ControllerOn "O-20" "controller enable with pulses and a measuring system";
-    ControllerOff "SIG-01" "controller enable missing on an axis of the unit";
+    PulsesEnabled "O-20" "pulses enabled";
+    PulsesDisabled "O-20" "pulses disabled";
+    ControllerOn "O-20" "controller enable";
+    ControllerOff "SIG-01" "controller enable missing in the unit";
     BrakedWithoutEnable "MD36620" "braked after the controller enable went";
     FollowUp "SIG-02" "follow-up mode without controller enable";
     FollowUpByAlarm "SYN-01" "alarm with the reaction follow-up";
@@ -35,33 +35,33 @@ rules! {
     MeasuringSystem "REF-33" "measuring system selected";
     Parking "SYN-01" "both measuring systems off";
     // Modes.
-    ModeSelected "O-19" "mode requested";
-    MachineFunction "O-19" "machine function requested within JOG";
+    ModeSelected "O-19" "mode";
+    MachineFunction "O-19" "machine function";
     StrobeOwnedByHmi "E-01" "DB11.DBB5 was written from outside and is the HMI's from now on";
     ResetDone "RESET" "RESET";
     // Jogging.
-    TraversingKey "JOG" "traversing key";
-    KeyReleased "JOG" "no traversing key any more";
+    TraversingKey "JOG" "key";
+    KeyReleased "JOG" "no key";
     MotionBlocked "JOG" "motion blocked";
     // Reference point approach.
-    KeyStartsApproach "REF-02" "traversing key in the direction of MD34010 with REF active";
+    KeyStartsApproach "REF-02" "approach started";
     ApproachStarted "REF-31" "reference point approach begins";
     ChannelReferencingEnds "REF-23" "channel-specific referencing ended";
     ApproachStartedByChannel "REF-23" "channel-specific referencing";
     ApproachStartedInGrouping "REF-04" "synchronous axis referenced after the leading axis";
-    OnCamAtStart "REF-31" "on the cam at the start: section 1 of the approach is done";
+    OnCamAtStart "REF-31" "on the cam at the start";
     WithoutCam "REF-31" "MD34000 = 0: no cam, the zero mark is searched at once";
-    CamReached "REF-31" "reference cam reached";
+    CamReached "REF-31" "cam reached";
     StoppedOnCam "REF-31" "at rest on the cam";
     LeaveCamFirst "REF-31" "MD34050 = 1: off the cam first";
-    CamLeft "REF-31" "reference cam left";
+    CamLeft "REF-31" "cam left";
     StoppedOffCam "REF-31" "at rest off the cam";
-    CamEdge "REF-31" "cam edge that starts the search for the zero mark";
+    CamEdge "REF-31" "cam edge";
     CamShiftPassed "REF-31" "MD34092 passed after the cam edge";
     CreepVelocityMissed "20006" "creep velocity not reached at the cam edge: section 1 once more";
     ZeroMark "REF-31" "zero mark";
     ReferencePointReached "REF-31" "at the reference point";
-    Referenced "REF-03" "reference point reached with exact stop fine";
+    Referenced "REF-03" "reference point reached";
     ApproachAborted "REF-12" "reference point approach aborted";
     ReferenceLost "REF-01" "no reference";
     NewApproach "REF-32" "a new approach of this measuring system began";
@@ -71,11 +71,11 @@ rules! {
     LeadingAxisReferenced "REF-04" "section 2: the synchronous axis is referenced, the leading axis follows";
     NextSynchronousAxis "REF-05" "section 2: the next synchronous axis is referenced";
     AllReferenced "REF-06" "section 3: all axes are referenced, positions are compared";
-    AutomaticStart "REF-07" "every difference below MD37110";
-    WaitWarningLimitZero "REF-11" "MD37110 = 0";
-    WaitDifference "REF-11" "difference not below MD37110";
-    WaitLocked "REF-11" "automatic synchronisation locked";
-    StartByPlc "REF-14" "start gantry synchronisation";
+    AutomaticStart "REF-07" "every difference below the warning limit";
+    WaitWarningLimitZero "REF-11" "";
+    WaitDifference "REF-11" "difference not below the warning limit";
+    WaitLocked "REF-11" "";
+    StartByPlc "REF-14" "start";
     SynchronisationAborted "REF-13" "synchronisation interrupted, all axes referenced";
     ReferencingAborted "REF-12" "referencing interrupted";
     Synchronised "REF-10" "all axes at their target";
@@ -85,21 +85,21 @@ rules! {
     SynchronismLostApproach "SYN-01" "an axis is referenced anew";
     ReadyAgain "O-09" "all axes referenced, not synchronised";
     ReadyNoMore "E-13" "not ready for synchronisation any more";
-    Opened "BRK-01" "MD37140 opens the grouping";
+    Opened "BRK-01" "grouping opened";
     Closed "BRK-05" "grouping closed";
-    WarningLimit "MON-02" "difference above MD37110";
-    WarningGone "MON-02" "difference not above MD37110";
-    TripLimitSynchronised "MON-04" "difference above MD37120";
-    TripLimitNotSynchronised "MON-05" "difference above MD37130";
-    TripGone "MON-04" "difference within the trip limit";
+    WarningLimit "MON-02" "above the warning limit";
+    WarningGone "MON-02" "not above the warning limit";
+    TripLimitSynchronised "MON-04" "above the trip limit";
+    TripLimitNotSynchronised "MON-05" "above the trip limit";
+    TripGone "MON-04" "within the trip limit";
     // Alarms and states that follow from values.
     EnableLostInMotion "21612" "enable reset during motion";
     AlarmRaised "ALARM" "alarm raised";
     AlarmCancelled "ALARM" "alarm cancelled";
     AlarmsPending "ALARM" "alarms pending";
     PlcMissing "2000" "no sign of life from the PLC program";
-    ExactStop "MD36010" "deviation against the exact-stop window";
-    Standstill "MD36060" "velocity against the standstill threshold";
+    ExactStop "MD36010" "deviation";
+    Standstill "MD36060" "velocity";
     ChannelState "DB21" "state of the channel";
     Traverse "SIG-09" "movement commanded";
     Definition "MD" "machine data";
@@ -115,9 +115,6 @@ impl Rule {
     /// The rule behind a number.
     #[must_use]
     pub fn text(number: RuleNumber) -> Text {
-        TEXTS.get(usize::from(number.0)).copied().unwrap_or(Text {
-            id: "?",
-            text: "unknown rule",
-        })
+        TEXTS.get(usize::from(number.0)).copied().unwrap_or(Text { id: "?", text: "unknown rule" })
     }
 }

@@ -49,9 +49,7 @@ impl RunUp {
 impl State {
     /// One cycle of the run-up.
     pub(super) fn run_up(&mut self, parameters: &Parameters) {
-        let ready = parameters
-            .existing()
-            .all(|(number, _)| self.feedback[number].drive_ready);
+        let ready = parameters.existing().all(|(number, _)| self.feedback[number].drive_ready);
         let run_up = &mut self.run_up;
         let before = *run_up;
         run_up.drives_ready = ready;
@@ -59,14 +57,7 @@ impl State {
         if run_up.cycles < 2 * STEP || run_up.cycles < 3 * STEP && ready {
             run_up.cycles += 1;
         }
-        let steps = |r: &RunUp| {
-            (
-                r.is_cpu_ready(),
-                r.are_drives_cyclic(),
-                r.are_drives_ready(),
-                r.is_nc_ready(),
-            )
-        };
+        let steps = |r: &RunUp| (r.is_cpu_ready(), r.are_drives_cyclic(), r.are_drives_ready(), r.is_nc_ready());
         if steps(&before) != steps(run_up) {
             run_up.cause = self.log.note_plain(Place::Nck, Rule::RunUp, EventId::NONE);
         }
@@ -74,10 +65,6 @@ impl State {
 
     /// 108.7.
     pub(super) fn is_nc_ready(&self) -> bool {
-        self.run_up.is_nc_ready()
-            && self
-                .alarms
-                .with_reaction(Reaction::NC_NOT_READY, None)
-                .is_none()
+        self.run_up.is_nc_ready() && self.alarms.with_reaction(Reaction::NC_NOT_READY, None).is_none()
     }
 }

@@ -10,20 +10,15 @@ impl State {
     pub(super) fn set_setpoints(&mut self, unit: &Unit, parameters: &Parameters) {
         let cycle = parameters.cycle.seconds();
         // A unit that loses its enables brakes together, by the shortest of its emergency ramps.
-        let emergency = unit
-            .members()
-            .map(|axis| parameters.axes[axis].emergency_deceleration)
-            .fold(f64::INFINITY, f64::min);
+        let emergency =
+            unit.members().map(|axis| parameters.axes[axis].emergency_deceleration).fold(f64::INFINITY, f64::min);
         for axis in unit.members() {
             self.axes[axis].before = self.axes[axis].setpoint.position;
             if let Some(motion) = self.axes[axis].motion_without_control(emergency) {
                 self.axes[axis].motion = motion;
             }
         }
-        let coupled = unit
-            .grouping
-            .map(usize::from)
-            .filter(|&index| self.groupings[index].coupled);
+        let coupled = unit.grouping.map(usize::from).filter(|&index| self.groupings[index].coupled);
         let Some(index) = coupled else {
             for axis in unit.members() {
                 self.axes[axis].execute(&parameters.axes[axis], cycle);
@@ -34,38 +29,21 @@ impl State {
         let before = self.axes[leads].setpoint.position;
         self.axes[leads].execute(&parameters.axes[leads], cycle);
         let led_by = self.axes[leads].setpoint;
-        let moves = matches!(
-            self.axes[leads].enabling.control,
-            Control::On | Control::Braking(_)
-        );
+        let moves = matches!(self.axes[leads].enabling.control, Control::On | Control::Braking(_));
         let leader = self.groupings[index].coupling.leader();
         let (request, command, cause) = {
             let axis = &self.axes[leads];
-            (
-                axis.traverse_request,
-                axis.traverse_command,
-                axis.causes.motion,
-            )
+            (axis.traverse_request, axis.traverse_command, axis.causes.motion)
         };
         for axis in unit.members().filter(|&axis| axis != leads) {
-            let follows = moves
-                && matches!(
-                    self.axes[axis].enabling.control,
-                    Control::On | Control::Braking(_)
-                );
+            let follows = moves && matches!(self.axes[axis].enabling.control, Control::On | Control::Braking(_));
             if follows {
-                self.axes[axis]
-                    .setpoint
-                    .follow(led_by.position - before, led_by.velocity());
+                self.axes[axis].setpoint.follow(led_by.position - before, led_by.velocity());
             } else {
                 self.axes[axis].execute(&parameters.axes[axis], cycle);
             }
             // SIG-09: when the leading axis is traversed, its command shows on the synchronous axes, too.
-            let mirrored = if leads == leader {
-                (request, command)
-            } else {
-                (0, 0)
-            };
+            let mirrored = if leads == leader { (request, command) } else { (0, 0) };
             let led = &mut self.axes[axis];
             if (led.traverse_request, led.traverse_command) != mirrored {
                 (led.traverse_request, led.traverse_command) = mirrored;

@@ -24,39 +24,25 @@ impl Place {
     /// A whole file.
     #[must_use]
     pub fn file(file: &str) -> Self {
-        Self {
-            file: file.into(),
-            line: 0,
-        }
+        Self { file: file.into(), line: 0 }
     }
 
     /// Another line of the same file.
     #[must_use]
     pub fn at_line(&self, line: u32) -> Self {
-        Self {
-            file: Arc::clone(&self.file),
-            line,
-        }
+        Self { file: Arc::clone(&self.file), line }
     }
 
     /// A problem here.
     #[must_use]
     pub fn problem(&self, what: impl Into<String>, cure: impl Into<String>) -> Problem {
-        Problem {
-            place: Some(self.clone()),
-            what: what.into(),
-            cure: cure.into(),
-        }
+        Problem { place: Some(self.clone()), what: what.into(), cure: cure.into() }
     }
 }
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.line == 0 {
-            write!(f, "{}", self.file)
-        } else {
-            write!(f, "{}:{}", self.file, self.line)
-        }
+        if self.line == 0 { write!(f, "{}", self.file) } else { write!(f, "{}:{}", self.file, self.line) }
     }
 }
 
@@ -75,11 +61,7 @@ impl Problem {
     /// A problem that is not in a file.
     #[must_use]
     pub fn new(what: impl Into<String>, cure: impl Into<String>) -> Self {
-        Self {
-            place: None,
-            what: what.into(),
-            cure: cure.into(),
-        }
+        Self { place: None, what: what.into(), cure: cure.into() }
     }
 
     /// The same problem, at this place unless it already has one.
@@ -117,15 +99,8 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 
 /// `did you mean …?`, or the fallback where nothing is near.
 #[must_use]
-pub fn did_you_mean<'a>(
-    name: &str,
-    known: impl IntoIterator<Item = &'a str>,
-    fallback: &str,
-) -> String {
-    nearest(name, known).map_or_else(
-        || fallback.to_owned(),
-        |near| format!("did you mean `{near}`?"),
-    )
+pub fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a str>, fallback: &str) -> String {
+    nearest(name, known).map_or_else(|| fallback.to_owned(), |near| format!("did you mean `{near}`?"))
 }
 
 /// Reads a text file; a byte order mark is dropped, bytes that are not UTF-8 are taken as Latin-1, as controls write them.
@@ -150,10 +125,8 @@ pub fn decode(bytes: &[u8]) -> String {
 /// The problem of a file that cannot be read.
 #[must_use]
 pub fn unreadable(path: &std::path::Path, error: &std::io::Error) -> Problem {
-    Place::file(&path.display().to_string()).problem(
-        format!("cannot be read: {error}"),
-        "check the path and the permissions",
-    )
+    Place::file(&path.display().to_string())
+        .problem(format!("cannot be read: {error}"), "check the path and the permissions")
 }
 
 #[cfg(test)]
@@ -162,22 +135,14 @@ mod tests {
 
     #[test]
     fn a_problem_prints_place_cause_and_cure() {
-        let problem = Place::file("a.toml")
-            .at_line(7)
-            .problem("expected a number, found a string", "write 1.5");
-        assert_eq!(
-            problem.to_string(),
-            "a.toml:7: expected a number, found a string\n  write 1.5"
-        );
+        let problem = Place::file("a.toml").at_line(7).problem("expected a number, found a string", "write 1.5");
+        assert_eq!(problem.to_string(), "a.toml:7: expected a number, found a string\n  write 1.5");
     }
 
     #[test]
     fn a_misspelt_name_finds_its_neighbour_and_a_foreign_one_does_not() {
         let known = ["controller_enable", "pulse_enable"];
-        assert_eq!(
-            nearest("controler_enable", known),
-            Some("controller_enable")
-        );
+        assert_eq!(nearest("controler_enable", known), Some("controller_enable"));
         assert_eq!(nearest("spindle", known), None);
     }
 }

@@ -55,10 +55,7 @@ impl Table {
         let document = DeTable::parse(text).map_err(|error| {
             let line = error.span().map_or(0, |span| lines.line(span.start));
             start.at_line(line).problem(
-                format!(
-                    "expected TOML, found a mistake: {}",
-                    error.message().replace('\n', "; ")
-                ),
+                format!("expected TOML, found a mistake: {}", error.message().replace('\n', "; ")),
                 "TOML 1.0: strings in quotes, tables in brackets, one value per key",
             )
         })?;
@@ -68,11 +65,7 @@ impl Table {
     /// An empty table.
     #[must_use]
     pub fn empty(place: Place) -> Self {
-        Self {
-            place,
-            entries: Vec::new(),
-            known: Vec::new(),
-        }
+        Self { place, entries: Vec::new(), known: Vec::new() }
     }
 
     /// Takes a value out by its name, and notes the name as known.
@@ -102,10 +95,7 @@ impl Table {
         };
         let known = self.known.join("`, `");
         let cure = did_you_mean(name, self.known.iter().copied(), "remove it");
-        Err(place.problem(
-            format!("expected one of `{known}`, found the unknown key `{name}`"),
-            cure,
-        ))
+        Err(place.problem(format!("expected one of `{known}`, found the unknown key `{name}`"), cure))
     }
 
     /// Merges another table over this one: tables merge, everything else is replaced, `false` removes a table.
@@ -114,19 +104,14 @@ impl Table {
             let existing = self.entries.iter().position(|(other, ..)| *other == name);
             match existing {
                 None if matches!(node.value, Value::Boolean(false)) => {
-                    self.entries.push((name, place, node))
+                    self.entries.push((name, place, node));
                 }
                 None => self.entries.push((name, place, node)),
                 Some(index) => {
                     let (.., old) = &mut self.entries[index];
                     match (&mut old.value, node.value) {
                         (Value::Table(old), Value::Table(new)) => old.merge(new),
-                        (_, value) => {
-                            *old = Node {
-                                place: node.place,
-                                value,
-                            }
-                        }
+                        (_, value) => *old = Node { place: node.place, value },
                     }
                 }
             }
@@ -151,8 +136,7 @@ impl Node {
     /// The problem "expected this, found that" at this place.
     #[must_use]
     pub fn expected(&self, what: &str, cure: &str) -> Problem {
-        self.place
-            .problem(format!("expected {what}, found {}", self.found()), cure)
+        self.place.problem(format!("expected {what}, found {}", self.found()), cure)
     }
 
     /// A text.
@@ -226,13 +210,7 @@ struct Lines(Vec<usize>);
 
 impl Lines {
     fn new(text: &str) -> Self {
-        Self(
-            text.bytes()
-                .enumerate()
-                .filter(|(_, byte)| *byte == b'\n')
-                .map(|(offset, _)| offset)
-                .collect(),
-        )
+        Self(text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(offset, _)| offset).collect())
     }
 
     fn line(&self, offset: usize) -> u32 {
@@ -246,65 +224,39 @@ fn table(from: &DeTable<'_>, place: &Place, lines: &Lines, file: &Place) -> Resu
         let key_place = file.at_line(lines.line(key.span().start));
         let value_place = file.at_line(lines.line(value.span().start));
         let node = node(value.get_ref(), &value_place, lines, file)?;
-        ordered.insert(
-            (key.span().start, key.get_ref().to_string()),
-            (key_place, node),
-        );
+        ordered.insert((key.span().start, key.get_ref().to_string()), (key_place, node));
     }
-    let entries = ordered
-        .into_iter()
-        .map(|((_, name), (place, node))| (name, place, node))
-        .collect();
-    Ok(Table {
-        place: place.clone(),
-        entries,
-        known: Vec::new(),
-    })
+    let entries = ordered.into_iter().map(|((_, name), (place, node))| (name, place, node)).collect();
+    Ok(Table { place: place.clone(), entries, known: Vec::new() })
 }
 
 fn node(from: &DeValue<'_>, place: &Place, lines: &Lines, file: &Place) -> Result<Node, Problem> {
     let value = match from {
         DeValue::String(text) => Value::Text(text.to_string()),
-        DeValue::Integer(integer) => Value::Integer(
-            i64::from_str_radix(integer.as_str(), integer.radix()).map_err(|_| {
-                place.problem(
-                    "expected an integer of 64 bits, found a larger one",
-                    "write a smaller number",
-                )
-            })?,
+        DeValue::Integer(integer) => {
+            Value::Integer(i64::from_str_radix(integer.as_str(), integer.radix()).map_err(|_| {
+                place.problem("expected an integer of 64 bits, found a larger one", "write a smaller number")
+            })?)
+        }
+        DeValue::Float(float) => Value::Float(
+            float
+                .as_str()
+                .parse()
+                .map_err(|_| place.problem(format!("expected a number, found `{}`", float.as_str()), "write 1.5"))?,
         ),
-        DeValue::Float(float) => Value::Float(float.as_str().parse().map_err(|_| {
-            place.problem(
-                format!("expected a number, found `{}`", float.as_str()),
-                "write 1.5",
-            )
-        })?),
         DeValue::Boolean(value) => Value::Boolean(*value),
         DeValue::Datetime(_) => {
-            return Err(place.problem(
-                "expected a text, number, array or table, found a date",
-                "put it in quotes",
-            ));
+            return Err(place.problem("expected a text, number, array or table, found a date", "put it in quotes"));
         }
         DeValue::Array(array) => Value::Array(
             array
                 .iter()
-                .map(|item| {
-                    node(
-                        item.get_ref(),
-                        &file.at_line(lines.line(item.span().start)),
-                        lines,
-                        file,
-                    )
-                })
+                .map(|item| node(item.get_ref(), &file.at_line(lines.line(item.span().start)), lines, file))
                 .collect::<Result<_, _>>()?,
         ),
         DeValue::Table(inner) => Value::Table(table(inner, place, lines, file)?),
     };
-    Ok(Node {
-        place: place.clone(),
-        value,
-    })
+    Ok(Node { place: place.clone(), value })
 }
 
 #[cfg(test)]
@@ -332,10 +284,7 @@ mod tests {
         let mut table = parsed("strat = 1\n");
         assert_eq!(table.take("start"), None);
         let problem = table.finish().unwrap_err().to_string();
-        assert!(
-            problem.contains("`strat`") && problem.contains("did you mean `start`?"),
-            "{problem}"
-        );
+        assert!(problem.contains("`strat`") && problem.contains("did you mean `start`?"), "{problem}");
     }
 
     #[test]

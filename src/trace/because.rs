@@ -12,33 +12,22 @@ pub fn place_name(place: Place, names: &Names) -> String {
     match place {
         Place::Nck => "nck".to_owned(),
         Place::ModeGroup(group) => format!("mode_group_{group}"),
-        Place::Channel(channel) => names.channels[channel]
-            .clone()
-            .unwrap_or_else(|| format!("CHAN{channel}")),
+        Place::Channel(channel) => names.channels[channel].clone().unwrap_or_else(|| format!("CHAN{channel}")),
         Place::Axis(axis) => axis_name(axis, names),
     }
 }
 
 fn axis_name(axis: AxisNumber, names: &Names) -> String {
-    names.axes[axis]
-        .clone()
-        .unwrap_or_else(|| format!("AX{axis}"))
+    names.axes[axis].clone().unwrap_or_else(|| format!("AX{axis}"))
 }
 
-/// `REF-11: MD37110[XF] = 0`, or the rule's own text where it tested nothing.
+/// The rule, what it says where the inputs do not say it, and the inputs: `REF-11: MD37110[XF] = 0`,
+/// `REF-31: reference cam reached, X.deceleration_reference_point_approach = 1`.
 pub(super) fn because(event: &Event, describe: &dyn Describe) -> String {
     let rule = describe.rule(event.rule);
-    let inputs: Vec<_> = event
-        .inputs
-        .iter()
-        .filter_map(|input| shown(input, describe))
-        .collect();
-    let inputs = if inputs.is_empty() {
-        rule.text.to_owned()
-    } else {
-        inputs.join(", ")
-    };
-    format!("{}: {inputs}", rule.id)
+    let text = Some(rule.text.to_owned()).filter(|text| !text.is_empty());
+    let inputs = event.inputs.iter().filter_map(|input| shown(input, describe));
+    format!("{}: {}", rule.id, text.into_iter().chain(inputs).collect::<Vec<_>>().join(", "))
 }
 
 fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
@@ -54,15 +43,11 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
             Some(format!("{name} = {}", u8::from(value)))
         }
         Input::Datum(number, None, value) => Some(format!("MD{number} = {value}")),
-        Input::Datum(number, Some(axis), value) => {
-            Some(format!("MD{number}[{}] = {value}", axis_name(axis, names)))
-        }
+        Input::Datum(number, Some(axis), value) => Some(format!("MD{number}[{}] = {value}", axis_name(axis, names))),
         Input::Length(quantity, axis, length) => {
             let axis = axis_name(axis, names);
             let (name, value) = match quantity {
-                Quantity::SynchronismDifference => {
-                    (AxisValue::SynchronismDifference.name(), length.user())
-                }
+                Quantity::SynchronismDifference => (AxisValue::SynchronismDifference.name(), length.user()),
                 Quantity::Position => (AxisValue::Position.name(), length.user()),
                 Quantity::Deviation => ("deviation", length.user()),
                 Quantity::Distance => ("distance", length.user()),
@@ -71,9 +56,6 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
             };
             Some(format!("{axis}.{name} = {}", six_decimals(value)))
         }
-        Input::Alarm(number) => Some(format!(
-            "alarm {}",
-            describe.alarm_name(AlarmNumber(number))
-        )),
+        Input::Alarm(number) => Some(format!("alarm {}", describe.alarm_name(AlarmNumber(number)))),
     }
 }

@@ -21,11 +21,7 @@ pub(super) fn line(line: &Line) -> String {
             }
         }
         LineKind::Alarm(alarm) => {
-            let name = if alarm.numbered {
-                alarm.name.clone()
-            } else {
-                quoted(&alarm.name)
-            };
+            let name = if alarm.numbered { alarm.name.clone() } else { quoted(&alarm.name) };
             let parameters: Vec<_> = alarm
                 .parameters
                 .iter()
@@ -35,10 +31,7 @@ pub(super) fn line(line: &Line) -> String {
                 })
                 .collect();
             fields.push(("alarm", name));
-            fields.push((
-                "state",
-                quoted(if alarm.raised { "raised" } else { "cleared" }),
-            ));
+            fields.push(("state", quoted(if alarm.raised { "raised" } else { "cleared" })));
             fields.push(("where", quoted(&alarm.place)));
             fields.push(("parameters", format!("[{}]", parameters.join(","))));
             fields.push(("text", quoted(&alarm.text)));
@@ -51,10 +44,7 @@ pub(super) fn line(line: &Line) -> String {
             fields.push(("value", new.clone()));
         }
     }
-    let fields: Vec<_> = fields
-        .into_iter()
-        .map(|(key, value)| format!("\"{key}\":{value}"))
-        .collect();
+    let fields: Vec<_> = fields.into_iter().map(|(key, value)| format!("\"{key}\":{value}")).collect();
     format!("{{{}}}\n", fields.join(","))
 }
 

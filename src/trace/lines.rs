@@ -100,87 +100,41 @@ impl Trace {
                 draft(row, &memory, &mut places, &mut drafts);
                 if let Change::Overwritten { part, offset, bits } = row.change {
                     let what = places.call(part, offset, bits);
-                    push(
-                        cycle,
-                        0,
-                        LineKind::Note(format!("the PLC program overwrote what was set: {what}")),
-                    );
+                    push(cycle, 0, LineKind::Note(format!("the PLC program overwrote what was set: {what}")));
                 }
             }
             for row in rows {
-                if let Change::Byte {
-                    part, offset, new, ..
-                } = row.change
-                {
-                    let byte = Location {
-                        part,
-                        offset,
-                        bit: 0,
-                        width: 8,
-                        format: Format::Unsigned,
-                    };
+                if let Change::Byte { part, offset, new, .. } = row.change {
+                    let byte = Location { part, offset, bit: 0, width: 8, format: Format::Unsigned };
                     memory.write(byte, new.into());
                 }
             }
-            for Draft {
-                printable,
-                old,
-                by,
-                cause,
-            } in drafts.into_values()
-            {
+            for Draft { printable, old, by, cause } in drafts.into_values() {
                 let new = shown(&memory, printable.location);
                 if old != new {
-                    let because = self
-                        .event(cause, cycle)
-                        .map(|event| because(event, describe));
-                    let Printable {
-                        symbol, address, ..
-                    } = printable;
+                    let because = self.event(cause, cycle).map(|event| because(event, describe));
+                    let Printable { symbol, address, .. } = printable;
                     let rank = if by == By::Nck { 2 } else { 1 };
-                    push(
-                        cycle,
-                        rank,
-                        LineKind::Signal(SignalLine {
-                            symbol,
-                            address,
-                            old,
-                            new,
-                            by,
-                            because,
-                        }),
-                    );
+                    push(cycle, rank, LineKind::Signal(SignalLine { symbol, address, old, new, by, because }));
                 }
             }
             let mut alarms: Vec<_> = rows
                 .iter()
                 .filter_map(|row| match row.change {
-                    Change::Alarm {
-                        alarm,
-                        raised,
-                        cause,
-                    } => Some((alarm, raised, cause)),
+                    Change::Alarm { alarm, raised, cause } => Some((alarm, raised, cause)),
                     Change::Byte { .. } | Change::Overwritten { .. } => None,
                 })
                 .collect();
             alarms.sort_by_key(|(alarm, ..)| (alarm.number, alarm.place));
             for (alarm, raised, cause) in alarms {
-                push(
-                    cycle,
-                    3,
-                    LineKind::Alarm(self.alarm(&alarm, raised, (cause, cycle), describe)),
-                );
+                push(cycle, 3, LineKind::Alarm(self.alarm(&alarm, raised, (cause, cycle), describe)));
             }
         }
         for row in &self.values {
             let watched = &self.watched[row.index];
             let axis = place_name(Place::Axis(watched.axis), names);
             let name = format!("{axis}.{}", watched.value);
-            push(
-                row.cycle,
-                4,
-                LineKind::Value(name, row.old.map(decimals), decimals(row.new)),
-            );
+            push(row.cycle, 4, LineKind::Value(name, row.old.map(decimals), decimals(row.new)));
         }
         ranked.sort_by_key(|(cycle, rank, _)| (*cycle, *rank));
         ranked.into_iter().map(|(_, _, line)| line).collect()
@@ -207,29 +161,14 @@ impl Trace {
             place: place_name(alarm.place, names),
             parameters: alarm.parameters.iter().filter_map(parameter).collect(),
             text: describe.alarm_text(alarm),
-            because: self
-                .event(cause, cycle)
-                .map(|event| because(event, describe)),
+            because: self.event(cause, cycle).map(|event| because(event, describe)),
         }
     }
 }
 
 /// Notes which printable things a row changes; a number across several bytes is noted once.
-fn draft(
-    row: &Row,
-    before: &Memory,
-    places: &mut Places<'_>,
-    drafts: &mut BTreeMap<(bool, Order, u8), Draft>,
-) {
-    let Change::Byte {
-        part,
-        offset,
-        old,
-        new,
-        by,
-        causes,
-    } = row.change
-    else {
+fn draft(row: &Row, before: &Memory, places: &mut Places<'_>, drafts: &mut BTreeMap<(bool, Order, u8), Draft>) {
+    let Change::Byte { part, offset, old, new, by, causes } = row.change else {
         return;
     };
     let changed = old ^ new;
@@ -239,11 +178,7 @@ fn draft(
             continue;
         }
         let bit = mask.trailing_zeros() as usize;
-        let key = (
-            by[bit] == By::Nck,
-            printable.order,
-            printable.location.width,
-        );
+        let key = (by[bit] == By::Nck, printable.order, printable.location.width);
         drafts.entry(key).or_insert_with(|| Draft {
             printable: printable.clone(),
             old: shown(before, printable.location),

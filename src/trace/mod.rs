@@ -76,14 +76,7 @@ impl Trace {
 
     /// Notes these values from now on, in every cycle in which they change.
     pub fn watch_values(&mut self, watch: &Watch, cycle: u64, variables: &Variables) {
-        self.watched = watch
-            .values()
-            .map(|(axis, value)| WatchedValue {
-                axis,
-                value,
-                last: None,
-            })
-            .collect();
+        self.watched = watch.values().map(|(axis, value)| WatchedValue { axis, value, last: None }).collect();
         self.values.clear();
         self.note_values(cycle, variables);
     }
@@ -100,12 +93,7 @@ impl Trace {
         for (index, watched) in self.watched.iter_mut().enumerate() {
             let new = millionths(watched.value.of(watched.axis, variables));
             if watched.last != Some(new) {
-                self.values.push(ValueRow {
-                    cycle,
-                    index,
-                    old: watched.last,
-                    new,
-                });
+                self.values.push(ValueRow { cycle, index, old: watched.last, new });
                 watched.last = Some(new);
             }
         }
@@ -129,10 +117,7 @@ impl Trace {
         if !id.is_some() {
             return None;
         }
-        self.events[..so_far]
-            .iter()
-            .rev()
-            .find(|event| event.id == id)
+        self.events[..so_far].iter().rev().find(|event| event.id == id)
     }
 
     /// How many rows the recorder lost because nobody drained it.
@@ -143,8 +128,7 @@ impl Trace {
 
     /// The time at the end of a cycle.
     fn time(&self, cycle: u64) -> Time {
-        self.cycle_time
-            .times(cycle.saturating_sub(self.first_cycle))
+        self.cycle_time.times(cycle.saturating_sub(self.first_cycle))
     }
 
     /// The trace for people: one row a change, aligned columns, with causes or without.
@@ -161,10 +145,7 @@ impl Trace {
 }
 
 /// A value in millionths, as six decimals show it.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "float to integer casts saturate"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "float to integer casts saturate")]
 fn millionths(value: f64) -> i64 {
     (value * 1e6).round() as i64
 }

@@ -28,19 +28,13 @@ pub(super) struct Places<'a> {
 
 impl<'a> Places<'a> {
     pub(super) fn new(names: &'a Names, watch: &'a Watch) -> Self {
-        Self {
-            names,
-            watch,
-            known: BTreeMap::new(),
-        }
+        Self { names, watch, known: BTreeMap::new() }
     }
 
     /// What has rows of its own in this byte.
     pub(super) fn at(&mut self, part: Part, offset: u32) -> &[Printable] {
         let (names, watch) = (self.names, self.watch);
-        self.known
-            .entry((part, offset))
-            .or_insert_with(|| found(names, watch, part, offset))
+        self.known.entry((part, offset)).or_insert_with(|| found(names, watch, part, offset))
     }
 
     /// How a message calls these bits of a byte.
@@ -60,13 +54,7 @@ impl<'a> Places<'a> {
             }
         }
         for bit in (0..8).filter(|bit| left & (1 << bit) != 0) {
-            let location = Location {
-                part,
-                offset,
-                bit,
-                width: 1,
-                format: Format::Unsigned,
-            };
+            let location = Location { part, offset, bit, width: 1, format: Format::Unsigned };
             called.push(self.names.address(location).to_string());
         }
         called.join(", ")
@@ -78,22 +66,14 @@ pub(super) fn mask_in_byte(location: Location, offset: u32) -> u8 {
     if !(location.offset..location.offset + location.bytes()).contains(&offset) {
         return 0;
     }
-    if location.width >= 8 {
-        0xFF
-    } else {
-        (0xFF >> (8 - location.width)) << location.bit
-    }
+    if location.width >= 8 { 0xFF } else { (0xFF >> (8 - location.width)) << location.bit }
 }
 
 fn found(names: &Names, watch: &Watch, part: Part, offset: u32) -> Vec<Printable> {
     let mut printables = Vec::new();
     let mut named_bits = 0;
     let byte = signals_at(part, offset);
-    let signals = byte.iter().flat_map(|byte| {
-        byte.signals
-            .iter()
-            .map(|signal| signal.location(byte.number))
-    });
+    let signals = byte.iter().flat_map(|byte| byte.signals.iter().map(|signal| signal.location(byte.number)));
     for location in signals.flatten() {
         named_bits |= mask_in_byte(location, offset);
         let printable = printable(names, location);
@@ -102,35 +82,21 @@ fn found(names: &Names, watch: &Watch, part: Part, offset: u32) -> Vec<Printable
         }
     }
     for bit in (0..8).filter(|bit| named_bits & (1 << bit) == 0) {
-        let location = Location {
-            part,
-            offset,
-            bit,
-            width: 1,
-            format: Format::Unsigned,
-        };
+        let location = Location { part, offset, bit, width: 1, format: Format::Unsigned };
         let printable = printable(names, location);
         if watch.shows_unnamed_bit(&printable) {
             printables.push(printable);
         }
     }
     if named_bits == 0 {
-        let location = Location {
-            part,
-            offset,
-            bit: 0,
-            width: 8,
-            format: Format::Unsigned,
-        };
+        let location = Location { part, offset, bit: 0, width: 8, format: Format::Unsigned };
         let printable = printable(names, location);
         if watch.shows_unnamed_byte(&printable) {
             printables.push(printable);
         }
     }
     for &location in watch.locations() {
-        let listed = printables
-            .iter()
-            .any(|printable| printable.location == location);
+        let listed = printables.iter().any(|printable| printable.location == location);
         if !listed && location.part == part && mask_in_byte(location, offset) != 0 {
             printables.push(printable(names, location));
         }
@@ -140,12 +106,7 @@ fn found(names: &Names, watch: &Watch, part: Part, offset: u32) -> Vec<Printable
 
 fn printable(names: &Names, location: Location) -> Printable {
     let address = names.address(location).to_string();
-    Printable {
-        location,
-        symbol: names.symbol(location),
-        order: order(&address),
-        address,
-    }
+    Printable { location, symbol: names.symbol(location), order: order(&address), address }
 }
 
 /// The order of an address, from its text: the letters of its area, then its numbers.
@@ -158,10 +119,7 @@ fn order(address: &str) -> Order {
     match address.as_bytes() {
         [b'D', b'B', ..] => (5, next(), next(), next()),
         [first, ..] => {
-            let area = b"IQMTC"
-                .iter()
-                .position(|letter| letter == first)
-                .unwrap_or(5);
+            let area = b"IQMTC".iter().position(|letter| letter == first).unwrap_or(5);
             (u8::try_from(area).unwrap_or(5), 0, next(), next())
         }
         [] => (u8::MAX, 0, 0, 0),
@@ -176,8 +134,7 @@ pub(super) fn signal_at(bit: SignalBit) -> Option<&'static Signal> {
         Place::Channel(_) => Block::Channel,
         Place::Axis(_) => Block::Axis,
     };
-    signals()
-        .find(|signal| signal.block == block && signal.byte == bit.byte && signal.bit == bit.bit)
+    signals().find(|signal| signal.block == block && signal.byte == bit.byte && signal.bit == bit.bit)
 }
 
 /// The value at a place in a memory.

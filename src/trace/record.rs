@@ -78,11 +78,7 @@ pub struct Recorder {
 
 impl Default for Recorder {
     fn default() -> Self {
-        Self {
-            rows: Vec::with_capacity(Self::ROWS),
-            events: Vec::with_capacity(Self::EVENTS),
-            lost: 0,
-        }
+        Self { rows: Vec::with_capacity(Self::ROWS), events: Vec::with_capacity(Self::EVENTS), lost: 0 }
     }
 }
 

@@ -50,14 +50,7 @@ struct Columns {
 
 impl Columns {
     fn widths(&self) -> [usize; 5] {
-        [
-            &self.time,
-            &self.what,
-            &self.address,
-            &self.change,
-            &self.by,
-        ]
-        .map(|column| column.chars().count())
+        [&self.time, &self.what, &self.address, &self.change, &self.by].map(|column| column.chars().count())
     }
 }
 
@@ -69,14 +62,9 @@ pub(super) fn rows(lines: &[Line], causes: bool) -> String {
         address: "address".to_owned(),
         change: "change".to_owned(),
         by: "by".to_owned(),
-        rest: if causes {
-            "because".to_owned()
-        } else {
-            String::new()
-        },
+        rest: if causes { "because".to_owned() } else { String::new() },
     };
-    let rows: Vec<Result<Columns, &Line>> =
-        lines.iter().map(|line| columns(line, causes)).collect();
+    let rows: Vec<Result<Columns, &Line>> = lines.iter().map(|line| columns(line, causes)).collect();
     let mut widths = head.widths();
     for row in &rows {
         match row {
@@ -109,17 +97,9 @@ pub(super) fn rows(lines: &[Line], causes: bool) -> String {
                 widths[4],
                 row.rest
             ),
-            Err(Line {
-                time,
-                kind: LineKind::Note(note),
-            }) => {
+            Err(Line { time, kind: LineKind::Note(note) }) => {
                 // A note of several lines stays one row.
-                format!(
-                    "{:>1$}  # {2}",
-                    time.to_string(),
-                    widths[0],
-                    note.lines().collect::<Vec<_>>().join(" / ")
-                )
+                format!("{:>1$}  # {2}", time.to_string(), widths[0], note.lines().collect::<Vec<_>>().join(" / "))
             }
             Err(_) => continue,
         };
@@ -151,9 +131,7 @@ fn columns(line: &Line, causes: bool) -> Result<Columns, &Line> {
         }
         LineKind::Alarm(alarm) => {
             let because = alarm.because.as_ref().filter(|_| causes);
-            let because = because
-                .map(|because| format!("  ({because})"))
-                .unwrap_or_default();
+            let because = because.map(|because| format!("  ({because})")).unwrap_or_default();
             Columns {
                 time,
                 what: format!("alarm {}", alarm.name),
@@ -167,9 +145,7 @@ fn columns(line: &Line, causes: bool) -> Result<Columns, &Line> {
             time,
             what: name.clone(),
             address: String::new(),
-            change: old
-                .as_ref()
-                .map_or_else(|| new.clone(), |old| format!("{old} -> {new}")),
+            change: old.as_ref().map_or_else(|| new.clone(), |old| format!("{old} -> {new}")),
             by: String::new(),
             rest: String::new(),
         },
@@ -195,11 +171,7 @@ pub fn difference(expected: &str, found: &str) -> Option<String> {
 
 /// The first difference of two traces in the order of their rows; times may differ by `tolerance`, or by anything without one.
 #[must_use]
-pub fn difference_in_sequence(
-    expected: &str,
-    found: &str,
-    tolerance: Option<Time>,
-) -> Option<String> {
+pub fn difference_in_sequence(expected: &str, found: &str, tolerance: Option<Time>) -> Option<String> {
     let mut expected = expected.lines();
     let mut found = found.lines();
     let mut line = 0;
@@ -231,9 +203,5 @@ fn timed(row: &str) -> Option<(Time, std::str::SplitWhitespace<'_>)> {
 
 fn in_words(line: usize, expected: Option<&str>, found: Option<&str>) -> String {
     let shown = |text: Option<&str>| text.map_or_else(|| "(the end)".to_owned(), str::to_owned);
-    format!(
-        "first difference in line {line}\n  expected  {}\n  found     {}",
-        shown(expected),
-        shown(found)
-    )
+    format!("first difference in line {line}\n  expected  {}\n  found     {}", shown(expected), shown(found))
 }

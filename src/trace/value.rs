@@ -77,11 +77,7 @@ impl fmt::Display for AxisValue {
 #[must_use]
 pub fn six_decimals(value: f64) -> String {
     let text = format!("{value:.6}");
-    if text == "-0.000000" {
-        "0.000000".to_owned()
-    } else {
-        text
-    }
+    if text == "-0.000000" { "0.000000".to_owned() } else { text }
 }
 
 #[cfg(test)]

@@ -28,29 +28,19 @@ impl Watch {
     ///
     /// # Errors
     /// One of them, given with its index, names nothing.
-    pub fn parse(
-        entries: &[&str],
-        names: &Names,
-        memory: &Memory,
-    ) -> Result<Self, (usize, Problem)> {
+    pub fn parse(entries: &[&str], names: &Names, memory: &Memory) -> Result<Self, (usize, Problem)> {
         let mut chosen = Chosen::default();
         for (index, entry) in entries.iter().enumerate() {
-            chosen
-                .add(entry, names, memory)
-                .map_err(|problem| (index, problem))?;
+            chosen.add(entry, names, memory).map_err(|problem| (index, problem))?;
         }
         chosen.values.sort_unstable();
         chosen.values.dedup();
-        Ok(Self {
-            chosen: Some(chosen),
-        })
+        Ok(Self { chosen: Some(chosen) })
     }
 
     /// The values that it names.
     pub fn values(&self) -> impl Iterator<Item = (AxisNumber, AxisValue)> {
-        self.chosen
-            .iter()
-            .flat_map(|chosen| chosen.values.iter().copied())
+        self.chosen.iter().flat_map(|chosen| chosen.values.iter().copied())
     }
 
     pub(super) fn locations(&self) -> &[Location] {
@@ -58,9 +48,7 @@ impl Watch {
     }
 
     pub(super) fn shows_signal(&self, signal: &Printable) -> bool {
-        self.chosen
-            .as_ref()
-            .is_none_or(|chosen| chosen.shows(signal))
+        self.chosen.as_ref().is_none_or(|chosen| chosen.shows(signal))
     }
 
     pub(super) fn shows_unnamed_bit(&self, bit: &Printable) -> bool {
@@ -71,9 +59,7 @@ impl Watch {
     }
 
     pub(super) fn shows_unnamed_byte(&self, byte: &Printable) -> bool {
-        self.chosen
-            .as_ref()
-            .is_some_and(|chosen| chosen.shows(byte))
+        self.chosen.as_ref().is_some_and(|chosen| chosen.shows(byte))
     }
 }
 
@@ -82,37 +68,29 @@ impl Chosen {
         if let Some((head, tail)) = entry.rsplit_once('.')
             && let Some(value) = AxisValue::named(tail)
         {
-            let axes: Vec<_> = axes(names)
-                .filter(|(_, name)| matches(head, name))
-                .collect();
+            let axes: Vec<_> = axes(names).filter(|(_, name)| matches(head, name)).collect();
             if axes.is_empty() {
                 let known = || names_of_axes(names);
-                let fallback = format!(
-                    "machine axes are {}",
-                    known().collect::<Vec<_>>().join(", ")
-                );
+                let fallback = format!("machine axes are {}", known().collect::<Vec<_>>().join(", "));
                 return Err(Problem::new(
                     format!("expected the value of a machine axis, found `{entry}`"),
                     did_you_mean(head, known(), &fallback),
                 ));
             }
-            self.values
-                .extend(axes.into_iter().map(|(axis, _)| (axis, value)));
+            self.values.extend(axes.into_iter().map(|(axis, _)| (axis, value)));
             return Ok(());
         }
         if !entry.contains('*') {
-            let location = names
-                .resolve(memory, entry)
-                .map_err(|problem| nearest_value(problem, entry, names));
+            let location = names.resolve(memory, entry).map_err(|problem| nearest_value(problem, entry, names));
             self.locations.push(location?);
             return Ok(());
         }
         if !looks_like_addresses(entry) {
             let owners = owners(names);
             let matching = signals().any(|signal| {
-                owners.iter().any(|(block, owner)| {
-                    *block == signal.block && matches(entry, &format!("{owner}.{}", signal.name))
-                })
+                owners
+                    .iter()
+                    .any(|(block, owner)| *block == signal.block && matches(entry, &format!("{owner}.{}", signal.name)))
             });
             if !matching {
                 let head = entry.split('.').next().unwrap_or(entry);
@@ -135,26 +113,16 @@ impl Chosen {
         self.locations.contains(&printable.location)
             || self.patterns.iter().any(|pattern| {
                 matches(pattern, &printable.address)
-                    || printable
-                        .symbol
-                        .as_ref()
-                        .is_some_and(|symbol| matches(pattern, symbol))
+                    || printable.symbol.as_ref().is_some_and(|symbol| matches(pattern, symbol))
             })
     }
 }
 
 /// The problem of an unknown name, with the nearest value of an axis in its cure if one is near.
 fn nearest_value(problem: Problem, entry: &str, names: &Names) -> Problem {
-    let near = entry
-        .rsplit_once('.')
-        .filter(|(head, _)| axes(names).any(|(_, name)| name == *head));
-    match near
-        .and_then(|(head, tail)| Some((head, nearest(tail, AxisValue::ALL.map(AxisValue::name))?)))
-    {
-        Some((head, value)) => Problem {
-            cure: format!("did you mean `{head}.{value}`?"),
-            ..problem
-        },
+    let near = entry.rsplit_once('.').filter(|(head, _)| axes(names).any(|(_, name)| name == *head));
+    match near.and_then(|(head, tail)| Some((head, nearest(tail, AxisValue::ALL.map(AxisValue::name))?))) {
+        Some((head, value)) => Problem { cure: format!("did you mean `{head}.{value}`?"), ..problem },
         None => problem,
     }
 }
@@ -171,9 +139,7 @@ fn names_of_axes(names: &Names) -> impl Iterator<Item = &str> {
 fn owners(names: &Names) -> Vec<(Block, String)> {
     let place = |block, place| (block, super::place_name(place, names));
     let mut owners = vec![place(Block::Nck, Place::Nck)];
-    owners.extend(
-        ModeGroupNumber::all().map(|group| place(Block::ModeGroup, Place::ModeGroup(group))),
-    );
+    owners.extend(ModeGroupNumber::all().map(|group| place(Block::ModeGroup, Place::ModeGroup(group))));
     let channels = ChannelNumber::all().filter(|channel| names.channels[*channel].is_some());
     owners.extend(channels.map(|channel| place(Block::Channel, Place::Channel(channel))));
     owners.extend(axes(names).map(|(axis, _)| place(Block::Axis, Place::Axis(axis))));
@@ -182,12 +148,9 @@ fn owners(names: &Names) -> Vec<(Block, String)> {
 
 /// Whether a pattern is about addresses: `DB33.…`, `M10.*`, `IB*`, `*`.
 fn looks_like_addresses(pattern: &str) -> bool {
-    let area = pattern
-        .strip_prefix("DB")
-        .or_else(|| pattern.strip_prefix(['I', 'Q', 'M', 'T', 'C']));
+    let area = pattern.strip_prefix("DB").or_else(|| pattern.strip_prefix(['I', 'Q', 'M', 'T', 'C']));
     let area = area.map(|rest| rest.strip_prefix(['B', 'W', 'D']).unwrap_or(rest));
-    pattern == "*"
-        || area.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '*'))
+    pattern == "*" || area.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '*'))
 }
 
 /// Whether a text fits a pattern in which `*` stands for anything.
@@ -222,11 +185,7 @@ mod tests {
             ("X*.controller_enable", "XF.controller_enable", true),
             ("DB33.DBX101.*", "DB33.DBX101.4", true),
             ("DB33.DBX101.*", "DB33.DBX10.4", false),
-            (
-                "*gantry*start*",
-                "X.gantry_synchronization_ready_to_start",
-                true,
-            ),
+            ("*gantry*start*", "X.gantry_synchronization_ready_to_start", true),
             ("*ab", "ab", true),
             ("a*a", "a", false),
             ("X.a", "X.ab", false),

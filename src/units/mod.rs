@@ -10,9 +10,7 @@ use std::ops::{Add, AddAssign, Index, IndexMut, Neg, Sub, SubAssign};
 use serde::{Deserialize, Serialize};
 
 /// A point in time or a span of time, in whole nanoseconds.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Time(i64);
 
 impl Time {
@@ -39,10 +37,7 @@ impl Time {
 
     /// From seconds, rounded to the nearest nanosecond; saturates beyond 292 years.
     #[must_use]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "float to integer casts saturate, as documented"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "float to integer casts saturate, as documented")]
     pub fn from_seconds(seconds: f64) -> Self {
         Self((seconds * 1e9).round() as i64)
     }
@@ -50,10 +45,7 @@ impl Time {
     /// Reads a number and its unit, `us`, `ms`, `s`, `min` or `h`: `10ms`, `0.5 s`. `None` where it is something
     /// else, negative, or beyond 292 years.
     #[must_use]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "the value is checked to be in range before"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "the value is checked to be in range before")]
     pub fn parse(text: &str) -> Option<Self> {
         let text = text.trim();
         let end = text.find(|letter: char| !letter.is_ascii_digit() && letter != '.')?;
@@ -85,11 +77,7 @@ impl Time {
     /// How many cycles of `cycle` this span takes: rounded up, at least one.
     #[must_use]
     pub fn in_cycles(self, cycle: Self) -> u64 {
-        let cycles = self
-            .0
-            .max(1)
-            .unsigned_abs()
-            .div_ceil(cycle.0.max(1).unsigned_abs());
+        let cycles = self.0.max(1).unsigned_abs().div_ceil(cycle.0.max(1).unsigned_abs());
         cycles.max(1)
     }
 
@@ -133,9 +121,7 @@ impl fmt::Display for Time {
 }
 
 /// A position or a distance: whole nanometres on a linear axis, whole millionths of a degree on a rotary one.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Position(i64);
 
 impl Position {
@@ -152,10 +138,7 @@ impl Position {
 
     /// From millimetres or degrees, rounded to the nearest increment.
     #[must_use]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "float to integer casts saturate"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "float to integer casts saturate")]
     pub fn from_user(millimetres_or_degrees: f64) -> Self {
         Self((millimetres_or_degrees * Self::PER_USER_UNIT).round() as i64)
     }
@@ -219,11 +202,7 @@ impl fmt::Display for Position {
         let increments = self.0.unsigned_abs();
         let fraction = format!("{:06}", increments % 1_000_000);
         let kept = fraction.trim_end_matches('0').len().max(3);
-        f.pad_integral(
-            true,
-            "",
-            &format!("{sign}{}.{}", increments / 1_000_000, &fraction[..kept]),
-        )
+        f.pad_integral(true, "", &format!("{sign}{}.{}", increments / 1_000_000, &fraction[..kept]))
     }
 }
 
@@ -358,17 +337,7 @@ mod tests {
         assert_eq!(Time::parse("0.1 ms"), Some(Time::from_micros(100)));
         assert_eq!(Time::parse("2min"), Some(Time::from_millis(120_000)));
         assert_eq!(Time::parse("1h"), Some(Time::from_millis(3_600_000)));
-        for text in [
-            "10",
-            "ms",
-            "",
-            "-1s",
-            "1e3s",
-            "1.2.3s",
-            "5cycles",
-            "9999999999h",
-            "inf s",
-        ] {
+        for text in ["10", "ms", "", "-1s", "1e3s", "1.2.3s", "5cycles", "9999999999h", "inf s"] {
             assert_eq!(Time::parse(text), None, "{text}");
         }
     }

@@ -108,24 +108,10 @@ pub struct Events {
 
 impl Events {
     /// Notes an event.
-    pub fn push(
-        &mut self,
-        cycle: u64,
-        place: Place,
-        rule: RuleNumber,
-        inputs: [Input; 3],
-        parent: EventId,
-    ) -> EventId {
+    pub fn push(&mut self, cycle: u64, place: Place, rule: RuleNumber, inputs: [Input; 3], parent: EventId) -> EventId {
         self.last = self.last.wrapping_add(1).max(1);
         let id = EventId(self.last);
-        let event = Event {
-            id,
-            cycle,
-            place,
-            rule,
-            inputs,
-            parent,
-        };
+        let event = Event { id, cycle, place, rule, inputs, parent };
         if self.ring.try_push(event).is_err() {
             self.ring[(self.last as usize - 1) % CAPACITY] = event;
         }

@@ -111,9 +111,7 @@ impl Alarms {
     /// The pending alarm of this number, at this place if one is named.
     #[must_use]
     pub fn find(&self, number: AlarmNumber, place: Option<Place>) -> Option<&RaisedAlarm> {
-        self.raised
-            .iter()
-            .find(|alarm| alarm.number == number && place.is_none_or(|place| alarm.place == place))
+        self.raised.iter().find(|alarm| alarm.number == number && place.is_none_or(|place| alarm.place == place))
     }
 }
 

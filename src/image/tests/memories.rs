@@ -38,11 +38,7 @@ fn a_real_of_the_catalogue_is_a_real_without_a_suffix() {
     let mut memory = Memory::new();
     memory.from_nck.axes[AxisNumber::FIRST].set_positioning_axis_f_function(1500.5);
     assert!(reads(&memory, "DB31.DBD78", 1500.5));
-    assert!(reads(
-        &memory,
-        "DB31.DBD78:DINT",
-        f64::from(1500.5_f32.to_bits())
-    ));
+    assert!(reads(&memory, "DB31.DBD78:DINT", f64::from(1500.5_f32.to_bits())));
     let names = names();
     let real = names.resolve(&memory, "DB31.DBD78").unwrap();
     assert_eq!(names.address(real).to_string(), "DB31.DBD78");
@@ -53,9 +49,7 @@ fn a_real_of_the_catalogue_is_a_real_without_a_suffix() {
 #[test]
 fn writing_a_group_leaves_the_rest_of_its_byte() {
     let mut memory = full_of(0xFF);
-    let location = names()
-        .resolve(&memory, "nck.handwheel_1_axis_number")
-        .unwrap();
+    let location = names().resolve(&memory, "nck.handwheel_1_axis_number").unwrap();
     memory.write(location, 3);
     assert!(reads(&memory, "DB10.DBB100", f64::from(0b1110_0011)));
     assert_eq!(names().address(location).to_string(), "DB10.DBX100.0..4");
@@ -66,15 +60,7 @@ fn writing_a_group_leaves_the_rest_of_its_byte() {
 #[test]
 fn plain_bytes_are_memory_like_any_other() {
     let (mut memory, names) = (Memory::new(), names());
-    for text in [
-        "DB10.DBB0",
-        "DB10.DBB271",
-        "DB11.DBX63.7",
-        "DB21.DBW200",
-        "DB22.DBB31",
-        "DB31.DBB59",
-        "DB61.DBD144",
-    ] {
+    for text in ["DB10.DBB0", "DB10.DBB271", "DB11.DBX63.7", "DB21.DBW200", "DB22.DBB31", "DB31.DBB59", "DB61.DBD144"] {
         write(&mut memory, text, 1);
         assert!(reads(&memory, text, 1.0), "{text}");
         let location = names.resolve(&memory, text).unwrap();
@@ -98,64 +84,29 @@ fn timers_and_counters_are_words() {
 fn bytes_are_read_and_written_across_the_writers() {
     let mut memory = Memory::new();
     let pattern: Vec<u8> = (0..148).collect();
-    memory
-        .write_bytes(Area::DataBlock(33), 0, &pattern, SL)
-        .unwrap();
+    memory.write_bytes(Area::DataBlock(33), 0, &pattern, SL).unwrap();
     let mut read = vec![0; 100];
-    memory
-        .read_bytes(Area::DataBlock(33), 20, &mut read, SL)
-        .unwrap();
+    memory.read_bytes(Area::DataBlock(33), 20, &mut read, SL).unwrap();
     assert_eq!(read, pattern[20..120]);
     let xf = AxisNumber::new(3).unwrap();
     assert_eq!(memory.to_nck.axes[xf].feed_override(), 0);
-    assert!(
-        memory.from_nck.axes[xf].gantry_trip_limit_exceeded(),
-        "byte 101 is 101 = 0110_0101b"
-    );
+    assert!(memory.from_nck.axes[xf].gantry_trip_limit_exceeded(), "byte 101 is 101 = 0110_0101b");
     for (db, length) in [(10, 272), (11, 64), (30, 416), (61, 148)] {
-        let pattern: Vec<u8> = (0..length)
-            .map(|index| u8::try_from(index % 251).unwrap())
-            .collect();
-        memory
-            .write_bytes(Area::DataBlock(db), 0, &pattern, SL)
-            .unwrap();
-        assert_eq!(
-            super::data_block(&memory, db, pattern.len()),
-            pattern,
-            "DB{db}"
-        );
+        let pattern: Vec<u8> = (0..length).map(|index| u8::try_from(index % 251).unwrap()).collect();
+        memory.write_bytes(Area::DataBlock(db), 0, &pattern, SL).unwrap();
+        assert_eq!(super::data_block(&memory, db, pattern.len()), pattern, "DB{db}");
     }
 }
 
 #[test]
 fn bytes_beyond_the_end_are_refused_and_nothing_is_written() {
     let mut memory = Memory::new();
-    assert!(
-        memory
-            .write_bytes(Area::DataBlock(31), 140, &[1; 9], SL)
-            .is_err()
-    );
-    assert!(
-        memory
-            .write_bytes(Area::DataBlock(3800), 10, &[1; 3], D828)
-            .is_err()
-    );
+    assert!(memory.write_bytes(Area::DataBlock(31), 140, &[1; 9], SL).is_err());
+    assert!(memory.write_bytes(Area::DataBlock(3800), 10, &[1; 3], D828).is_err());
     assert!(memory.write_bytes(Area::Flags, 255, &[1; 2], SL).is_err());
-    assert!(
-        memory
-            .write_bytes(Area::Flags, u32::MAX, &[1; 2], SL)
-            .is_err()
-    );
-    assert!(
-        memory
-            .write_bytes(Area::DataBlock(99), 0, &[1], SL)
-            .is_err()
-    );
-    assert!(
-        memory
-            .read_bytes(Area::DataBlock(31), 148, &mut [0], SL)
-            .is_err()
-    );
+    assert!(memory.write_bytes(Area::Flags, u32::MAX, &[1; 2], SL).is_err());
+    assert!(memory.write_bytes(Area::DataBlock(99), 0, &[1], SL).is_err());
+    assert!(memory.read_bytes(Area::DataBlock(31), 148, &mut [0], SL).is_err());
     assert_eq!(memory, Memory::new());
 }
 
@@ -163,53 +114,26 @@ fn bytes_beyond_the_end_are_refused_and_nothing_is_written() {
 fn a_stored_memory_comes_back_the_same() {
     let mut memory = full_of(0x5A);
     memory.inputs[3] = 7;
-    memory.blocks.put(DataBlock {
-        number: 1000,
-        name: Some("recipes".into()),
-        bytes: Bytes::zeroed(9),
-    });
+    memory.blocks.put(DataBlock { number: 1000, name: Some("recipes".into()), bytes: Bytes::zeroed(9) });
     let stored = postcard::to_stdvec(&memory).unwrap();
-    assert!(
-        stored.len() < 16_000,
-        "bytes are stored as bytes: {}",
-        stored.len()
-    );
+    assert!(stored.len() < 16_000, "bytes are stored as bytes: {}", stored.len());
     assert_eq!(postcard::from_bytes::<Memory>(&stored).unwrap(), memory);
     let text = serde_json::to_string(&memory).unwrap();
     assert_eq!(serde_json::from_str::<Memory>(&text).unwrap(), memory);
-    assert!(
-        postcard::from_bytes::<crate::image::Hmi>(
-            &postcard::to_stdvec(&Bytes::zeroed(30)).unwrap()
-        )
-        .is_err()
-    );
+    assert!(postcard::from_bytes::<crate::image::Hmi>(&postcard::to_stdvec(&Bytes::zeroed(30)).unwrap()).is_err());
 }
 
 #[test]
 fn a_clone_goes_its_own_way() {
     let first = Memory::new();
     let mut second = first.clone();
-    assert_eq!(
-        first.flags.as_ptr(),
-        second.flags.as_ptr(),
-        "shared until somebody writes"
-    );
+    assert_eq!(first.flags.as_ptr(), second.flags.as_ptr(), "shared until somebody writes");
     second.flags.set_bit(10, 3, false);
-    assert_eq!(
-        first.flags.as_ptr(),
-        second.flags.as_ptr(),
-        "writing what is there changes nothing"
-    );
+    assert_eq!(first.flags.as_ptr(), second.flags.as_ptr(), "writing what is there changes nothing");
     second.flags.set_bit(10, 3, true);
     second.blocks.get_mut(4).unwrap().set_word(0, 0x1234);
     assert!(!first.flags.bit(10, 3) && second.flags.bit(10, 3));
-    assert_eq!(
-        (
-            first.blocks.get(4).unwrap().word(0),
-            second.blocks.get(4).unwrap().word(0)
-        ),
-        (0, 0x1234)
-    );
+    assert_eq!((first.blocks.get(4).unwrap().word(0), second.blocks.get(4).unwrap().word(0)), (0, 0x1234));
     assert_ne!(first, second);
 }
 
@@ -227,11 +151,7 @@ fn areas_end_quietly_inside_a_program() {
 #[test]
 fn own_blocks_stay_in_order_and_a_missing_one_reads_as_nothing() {
     let mut memory = Memory::new();
-    memory.blocks.put(DataBlock {
-        number: 3,
-        name: None,
-        bytes: Bytes::zeroed(1),
-    });
+    memory.blocks.put(DataBlock { number: 3, name: None, bytes: Bytes::zeroed(1) });
     let numbers: Vec<u16> = memory.blocks.iter().map(|block| block.number).collect();
     assert_eq!(numbers, [2, 3, 4, 5, 7, 18, 19, 20, 71, 72, 73]);
     let location = names().resolve(&memory, "DB3.DBB0").unwrap();

@@ -28,10 +28,7 @@ fn names() -> Names {
 }
 
 fn names_828d() -> Names {
-    Names {
-        profile: D828,
-        ..names()
-    }
+    Names { profile: D828, ..names() }
 }
 
 /// Every axis and channel named, A1 to A31 and K1 to K10.
@@ -58,8 +55,6 @@ fn full_of(byte: u8) -> Memory {
 /// All bytes of a data block of the 840D sl.
 fn data_block(memory: &Memory, number: u16, length: usize) -> Vec<u8> {
     let mut bytes = vec![0; length];
-    memory
-        .read_bytes(Area::DataBlock(number), 0, &mut bytes, SL)
-        .unwrap();
+    memory.read_bytes(Area::DataBlock(number), 0, &mut bytes, SL).unwrap();
     bytes
 }

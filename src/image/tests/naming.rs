@@ -6,10 +6,7 @@ use crate::units::{AxisNumber, ChannelNumber};
 use super::names;
 
 fn refused(text: &str) -> String {
-    names()
-        .resolve(&Memory::new(), text)
-        .unwrap_err()
-        .to_string()
+    names().resolve(&Memory::new(), text).unwrap_err().to_string()
 }
 
 #[test]
@@ -55,10 +52,7 @@ fn a_misspelt_symbol_names_its_neighbour() {
         ("X.CONTROLLER_ENABLE", "`controller_enable`"),
     ] {
         let problem = refused(text);
-        assert!(
-            problem.contains(&format!("did you mean {near}?")),
-            "{text}: {problem}"
-        );
+        assert!(problem.contains(&format!("did you mean {near}?")), "{text}: {problem}");
     }
 }
 
@@ -78,13 +72,7 @@ fn an_axis_may_be_called_like_a_flag() {
     assert_eq!(names.check(), Ok(()));
     let memory = Memory::new();
     assert_eq!(names.resolve(&memory, "M10.3").unwrap().part, Part::Flags);
-    assert_eq!(
-        names
-            .resolve(&memory, "M10.controller_enable")
-            .unwrap()
-            .part,
-        Part::ToNck
-    );
+    assert_eq!(names.resolve(&memory, "M10.controller_enable").unwrap().part, Part::ToNck);
 }
 
 #[test]

@@ -57,11 +57,7 @@ fn both_addresses_are_one_place_and_each_profile_prints_its_own() {
     let memory = Memory::new();
     for (sl, d828) in EQUIVALENT {
         let location = names().resolve(&memory, sl).unwrap();
-        assert_eq!(
-            names_828d().resolve(&memory, d828).unwrap(),
-            location,
-            "{sl} {d828}"
-        );
+        assert_eq!(names_828d().resolve(&memory, d828).unwrap(), location, "{sl} {d828}");
         assert_eq!(names().address(location).to_string(), *sl);
         assert_eq!(names_828d().address(location).to_string(), *d828);
     }
@@ -76,19 +72,12 @@ fn gantry_signals_lie_in_byte_5005_of_the_axis() {
         ("X.no_automatic_synchronization", "DB3800.DBX5005.5"),
         ("XF.gantry_trip_limit_exceeded", "DB3902.DBX5005.2"),
         ("XF.gantry_warning_limit_exceeded", "DB3902.DBX5005.3"),
-        (
-            "X.gantry_synchronization_ready_to_start",
-            "DB3900.DBX5005.4",
-        ),
+        ("X.gantry_synchronization_ready_to_start", "DB3900.DBX5005.4"),
         ("X.gantry_grouping_is_synchronized", "DB3900.DBX5005.5"),
         ("X.gantry_leading_axis", "DB3900.DBX5005.6"),
         ("X.gantry_axis", "DB3900.DBX5005.7"),
     ] {
-        assert_eq!(
-            names.resolve(&memory, symbol),
-            names.resolve(&memory, address),
-            "{symbol}"
-        );
+        assert_eq!(names.resolve(&memory, symbol), names.resolve(&memory, address), "{symbol}");
     }
 }
 
@@ -97,29 +86,19 @@ fn gantry_signals_lie_in_byte_5005_of_the_axis() {
 fn the_four_digit_spelling_finds_ref_referencing_and_referenced() {
     let (memory, names) = (Memory::new(), names_828d());
     for (symbol, address) in [
-        (
-            "mode_group_1.active_machine_function_ref",
-            "DB3100.DBX0001.2",
-        ),
+        ("mode_group_1.active_machine_function_ref", "DB3100.DBX0001.2"),
         ("CHAN1.referencing_active", "DB3300.DBX0001.0"),
         ("XF.referenced_synchronized_1", "DB3902.DBX0000.4"),
         ("XF.referenced_synchronized_2", "DB3902.DBX0000.5"),
     ] {
-        assert_eq!(
-            names.resolve(&memory, symbol),
-            names.resolve(&memory, address),
-            "{symbol}"
-        );
+        assert_eq!(names.resolve(&memory, symbol), names.resolve(&memory, address), "{symbol}");
     }
 }
 
 #[test]
 fn every_signal_has_an_address_that_leads_back_or_keeps_its_840d_sl_address() {
     let memory = Memory::new();
-    let names = crate::image::Names {
-        profile: super::D828,
-        ..all_names()
-    };
+    let names = crate::image::Names { profile: super::D828, ..all_names() };
     let mut shown = 0;
     for signal in signals() {
         let count = if signal.block == Block::Axis { 8 } else { 1 };
@@ -140,12 +119,7 @@ fn every_signal_has_an_address_that_leads_back_or_keeps_its_840d_sl_address() {
 
 #[test]
 fn what_the_828d_does_not_have_is_refused() {
-    let refused = |text: &str| {
-        names_828d()
-            .resolve(&Memory::new(), text)
-            .unwrap_err()
-            .to_string()
-    };
+    let refused = |text: &str| names_828d().resolve(&Memory::new(), text).unwrap_err().to_string();
     assert!(refused("DB31.DBX101.5").contains("840D sl"));
     assert!(refused("DB3808.DBB0").contains("DB3800 to DB3807"));
     assert!(refused("DB3900.DBB12").contains("0 to 11, 1000 to 1003"));

@@ -7,19 +7,15 @@ use zerocopy::{FromBytes, Immutable, IntoBytes};
 
 use crate::image::table::Accessors;
 use crate::image::{
-    AxisFromNck, AxisToNck, Block, ChannelFromNck, ChannelHmi, ChannelToNck, Kind, Memory,
-    ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Signal, Writer,
-    signals, signals_at,
+    AxisFromNck, AxisToNck, Block, ChannelFromNck, ChannelHmi, ChannelToNck, Kind, Memory, ModeGroupFromNck,
+    ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Signal, Writer, signals, signals_at,
 };
 
 use super::{PARTS, all_names, data_block, full_of, names};
 
 /// The bits of a run as one long number per bit, so that a stray write shows.
 fn bits(bytes: &[u8]) -> Vec<bool> {
-    bytes
-        .iter()
-        .flat_map(|byte| (0..8).map(move |bit| byte >> bit & 1 == 1))
-        .collect()
+    bytes.iter().flat_map(|byte| (0..8).map(move |bit| byte >> bit & 1 == 1)).collect()
 }
 
 /// Where the bit of weight 2^`index` of a signal lies in its run.
@@ -47,11 +43,7 @@ where
                 for index in 0..signal.kind.width() {
                     expected[position(signal, first, index)] = value >> index & 1 == 1;
                 }
-                assert_eq!(
-                    bits(after.as_bytes()),
-                    expected,
-                    "{name} = {value:#x} over {background:#x}"
-                );
+                assert_eq!(bits(after.as_bytes()), expected, "{name} = {value:#x} over {background:#x}");
                 assert_eq!(get(&after), value, "{name}");
             }
         }
@@ -90,12 +82,7 @@ fn no_signal_overlaps_another_in_any_block() {
         for pair in of_block.windows(2) {
             let end = pair[0].byte * 8 + u16::from(pair[0].bit) + u16::from(pair[0].kind.width());
             let next = pair[1].byte * 8 + u16::from(pair[1].bit);
-            assert!(
-                end <= next,
-                "{} and {} of {block:?}",
-                pair[0].name,
-                pair[1].name
-            );
+            assert!(end <= next, "{} and {} of {block:?}", pair[0].name, pair[1].name);
         }
     }
 }
@@ -106,18 +93,8 @@ fn names_are_unique_in_their_block_and_every_signal_says_what_it_means() {
         let mut seen = BTreeSet::new();
         for signal in signals().filter(|signal| signal.block == block) {
             assert!(seen.insert(signal.name), "{} twice", signal.name);
-            assert!(
-                signal.doc.len() > 10 && signal.doc.ends_with('.'),
-                "{}: {}",
-                signal.name,
-                signal.doc
-            );
-            assert!(
-                signal
-                    .name
-                    .bytes()
-                    .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_')
-            );
+            assert!(signal.doc.len() > 10 && signal.doc.ends_with('.'), "{}: {}", signal.name, signal.doc);
+            assert!(signal.name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_'));
         }
     }
     assert!(signals().count() > 350);
@@ -138,16 +115,9 @@ fn writing_a_signal_of_any_block_changes_no_other_bit_of_the_whole_memory() {
             let mut moved = 0;
             for part in PARTS {
                 let pairs = empty.part(part).iter().zip(memory.part(part));
-                moved += pairs
-                    .map(|(before, after)| (before ^ after).count_ones())
-                    .sum::<u32>();
+                moved += pairs.map(|(before, after)| (before ^ after).count_ones()).sum::<u32>();
             }
-            assert_eq!(
-                moved,
-                u32::from(signal.kind.width()),
-                "{} {number}",
-                signal.name
-            );
+            assert_eq!(moved, u32::from(signal.kind.width()), "{} {number}", signal.name);
             memory.write(location, old);
             assert_eq!(memory, empty, "{} {number}", signal.name);
         }
@@ -162,23 +132,12 @@ fn every_signal_of_every_block_is_found_by_its_symbol_and_by_its_address() {
         for number in 1..=signal.block.count() {
             let location = signal.location(number).unwrap();
             let symbol = names.symbol(location).unwrap();
-            assert_eq!(
-                names.resolve(&memory, &symbol).unwrap(),
-                location,
-                "{symbol}"
-            );
+            assert_eq!(names.resolve(&memory, &symbol).unwrap(), location, "{symbol}");
             let address = names.address(location).to_string();
-            assert_eq!(
-                names.resolve(&memory, &address).unwrap(),
-                location,
-                "{symbol} {address}"
-            );
+            assert_eq!(names.resolve(&memory, &address).unwrap(), location, "{symbol} {address}");
             assert_eq!(names.writer(location), Some(signal.writer), "{symbol}");
             let data_block = signal.block.data_block(number);
-            assert!(
-                address.starts_with(&format!("DB{data_block}.")),
-                "{symbol} {address}"
-            );
+            assert!(address.starts_with(&format!("DB{data_block}.")), "{symbol} {address}");
         }
     }
 }
@@ -192,34 +151,14 @@ fn every_byte_of_the_parts_knows_its_data_block() {
             let Some(byte) = signals_at(part, offset) else {
                 continue;
             };
-            let address = format!("DB{}.DBB{}", byte.data_block, byte.byte)
-                .parse()
-                .unwrap();
+            let address = format!("DB{}.DBB{}", byte.data_block, byte.byte).parse().unwrap();
             let location = memory.locate(&address, super::SL).unwrap();
-            assert_eq!(
-                (location.part, location.offset),
-                (part, offset),
-                "{address}"
-            );
+            assert_eq!((location.part, location.offset), (part, offset), "{address}");
         }
     }
-    let referenced = signals_at(
-        names()
-            .resolve(&memory, "XF.referenced_synchronized_1")
-            .unwrap()
-            .part,
-        268 + 2 * 43,
-    );
-    let names: Vec<_> = referenced
-        .unwrap()
-        .signals
-        .iter()
-        .map(|signal| signal.name)
-        .collect();
-    assert_eq!(
-        names[4..6],
-        ["referenced_synchronized_1", "referenced_synchronized_2"]
-    );
+    let referenced = signals_at(names().resolve(&memory, "XF.referenced_synchronized_1").unwrap().part, 268 + 2 * 43);
+    let names: Vec<_> = referenced.unwrap().signals.iter().map(|signal| signal.name).collect();
+    assert_eq!(names[4..6], ["referenced_synchronized_1", "referenced_synchronized_2"]);
 }
 
 /// Symbol, data block, byte, bit and writer, copied from the manuals by hand.
@@ -352,10 +291,7 @@ fn numbers_lie_where_the_manuals_print_them_big_endian() {
         .enumerate()
         .filter(|(index, _)| ![68, 78, 79, 80, 81, 86, 87, 88, 89, 90, 91].contains(&(index + 60)));
     assert!(untouched.map(|(_, byte)| byte).all(|byte| *byte == 0xA5));
-    assert_eq!(
-        signals().filter(|signal| signal.kind == Kind::Real).count(),
-        2
-    );
+    assert_eq!(signals().filter(|signal| signal.kind == Kind::Real).count(), 2);
 }
 
 #[test]
@@ -363,11 +299,7 @@ fn a_program_writes_its_own_side_from_what_it_reads_on_the_other() {
     let mut memory = Memory::new();
     let x = crate::units::AxisNumber::FIRST;
     memory.from_nck.axes[x].set_gantry_synchronization_ready_to_start(true);
-    let Memory {
-        to_nck, from_nck, ..
-    } = &mut memory;
-    to_nck
-        .axis(x)
-        .set_start_gantry_synchronization(from_nck.axis(x).gantry_synchronization_ready_to_start());
+    let Memory { to_nck, from_nck, .. } = &mut memory;
+    to_nck.axis(x).set_start_gantry_synchronization(from_nck.axis(x).gantry_synchronization_ready_to_start());
     assert_eq!(data_block(&memory, 31, 148)[29], 0b0001_0000);
 }

@@ -35,9 +35,7 @@ mod tests {
         let mut expected = Memory::new();
         for number in [AxisNumber::new(1).unwrap(), AxisNumber::new(2).unwrap()] {
             for address in ["DBX1.5", "DBX2.1", "DBX21.7"] {
-                let address = format!("DB{}.{address}", 30 + u16::from(number.number()))
-                    .parse()
-                    .unwrap();
+                let address = format!("DB{}.{address}", 30 + u16::from(number.number())).parse().unwrap();
                 let bit = expected.locate(&address, bench.names.profile).unwrap();
                 expected.write(bit, 1);
             }

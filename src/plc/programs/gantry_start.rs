@@ -13,9 +13,9 @@ pub fn gantry_start() -> ClosureProgram<()> {
     program("gantry_start", (), |(), io| {
         enable(io);
         for x in io.axes() {
-            io.to_nck.axis(x).set_start_gantry_synchronization(
-                io.from_nck.axis(x).gantry_synchronization_ready_to_start(),
-            );
+            io.to_nck
+                .axis(x)
+                .set_start_gantry_synchronization(io.from_nck.axis(x).gantry_synchronization_ready_to_start());
         }
     })
 }
@@ -30,10 +30,7 @@ mod tests {
     fn the_start_follows_ready_to_start_on_its_axis() {
         let mut bench = Bench::with_axes(&["X", "XF"]);
         let at = |bench: &Bench, address: &str| {
-            bench
-                .memory
-                .locate(&address.parse().unwrap(), Profile::Sinumerik840dSl)
-                .unwrap()
+            bench.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap()
         };
         let (ready, start) = (at(&bench, "DB31.DBX101.4"), at(&bench, "DB31.DBX29.4"));
         let other = at(&bench, "DB32.DBX29.4");
@@ -44,10 +41,6 @@ mod tests {
             assert_eq!(bench.memory.read(start), value);
             assert_eq!(bench.memory.read(other), 0);
         }
-        assert_eq!(
-            bench.memory.read(at(&bench, "DB31.DBX2.1")),
-            1,
-            "it enables the axes as well"
-        );
+        assert_eq!(bench.memory.read(at(&bench, "DB31.DBX2.1")), 1, "it enables the axes as well");
     }
 }

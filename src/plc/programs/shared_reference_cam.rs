@@ -14,21 +14,12 @@ use super::enable_all::enable;
 pub fn shared_reference_cam() -> ClosureProgram<()> {
     program("shared_reference_cam", (), |(), io| {
         enable(io);
-        let leading = io
-            .from_nck
-            .axes
-            .iter()
-            .find(|(_, axis)| axis.gantry_leading_axis());
+        let leading = io.from_nck.axes.iter().find(|(_, axis)| axis.gantry_leading_axis());
         let Some((leading, _)) = leading else { return };
-        let on_cam = io
-            .to_nck
-            .axis(leading)
-            .deceleration_reference_point_approach();
+        let on_cam = io.to_nck.axis(leading).deceleration_reference_point_approach();
         for (number, axis) in io.from_nck.axes.iter() {
             if number != leading && axis.gantry_axis() {
-                io.to_nck
-                    .axis(number)
-                    .set_deceleration_reference_point_approach(on_cam);
+                io.to_nck.axis(number).set_deceleration_reference_point_approach(on_cam);
             }
         }
     })
@@ -41,22 +32,14 @@ mod tests {
     use crate::plc::bench::Bench;
 
     fn set(bench: &mut Bench, address: &str, value: u64) {
-        let at = bench
-            .memory
-            .locate(&address.parse().unwrap(), Profile::Sinumerik840dSl)
-            .unwrap();
+        let at = bench.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap();
         bench.memory.write(at, value);
     }
 
     fn cams(bench: &Bench) -> [u64; 3] {
         [31, 32, 33].map(|db| {
             let address = format!("DB{db}.DBX12.7").parse().unwrap();
-            bench.memory.read(
-                bench
-                    .memory
-                    .locate(&address, Profile::Sinumerik840dSl)
-                    .unwrap(),
-            )
+            bench.memory.read(bench.memory.locate(&address, Profile::Sinumerik840dSl).unwrap())
         })
     }
 

@@ -96,10 +96,7 @@ impl Expression {
     /// # Errors
     /// It is not one, or a name in it is unknown; the problem names the nearest known one.
     pub fn parse(source: &str, scope: Scope<'_>) -> Result<Self, Problem> {
-        Ok(Self {
-            source: source.trim().to_owned(),
-            root: parse::parse(source.trim(), scope)?,
-        })
+        Ok(Self { source: source.trim().to_owned(), root: parse::parse(source.trim(), scope)? })
     }
 
     /// The expression as it was written.
@@ -167,39 +164,27 @@ impl Term {
             Self::Value(axis, value) => value.of(*axis, now.variables),
             Self::Time => now.time.seconds(),
             Self::Captured(index, _) => captured(now, *index),
-            Self::Alarm(alarm, place) => {
-                number(now.variables.alarms.find(*alarm, *place).is_some())
-            }
+            Self::Alarm(alarm, place) => number(now.variables.alarms.find(*alarm, *place).is_some()),
             Self::AlarmParameter(alarm, index) => {
                 let raised = now.variables.alarms.find(*alarm, None);
                 raised.map_or(0.0, |raised| parameter(raised.parameters[*index]))
             }
             Self::Alarms => now.variables.alarms.count() as f64,
             Self::Edge { rising, of } => {
-                let last = truth(of.value(&View {
-                    now: view.last,
-                    ..*view
-                }));
-                let before = truth(of.value(&View {
-                    now: view.before,
-                    ..*view
-                }));
+                let last = truth(of.value(&View { now: view.last, ..*view }));
+                let before = truth(of.value(&View { now: view.before, ..*view }));
                 number(last != before && last == *rising)
             }
             Self::Not(of) => number(!truth(of.value(view))),
             Self::Negative(of) => -of.value(view),
             Self::Absolute(of) => of.value(view).abs(),
-            Self::Pair(operator, left, right) => {
-                operator.apply(left.value(view), || right.value(view))
-            }
+            Self::Pair(operator, left, right) => operator.apply(left.value(view), || right.value(view)),
         }
     }
 
     fn children(&self) -> [Option<&Self>; 2] {
         match self {
-            Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) => {
-                [Some(of), None]
-            }
+            Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) => [Some(of), None],
             Self::Pair(_, left, right) => [Some(left), Some(right)],
             Self::Number(_)
             | Self::Signal(_)
@@ -213,20 +198,12 @@ impl Term {
     }
 
     fn any(&self, test: &dyn Fn(&Self) -> bool) -> bool {
-        test(self)
-            || self
-                .children()
-                .into_iter()
-                .flatten()
-                .any(|child| child.any(test))
+        test(self) || self.children().into_iter().flatten().any(|child| child.any(test))
     }
 
     fn operands(&self, view: &View<'_>, describe: &dyn Describe, lines: &mut Vec<String>) {
         if let Some(name) = self.name(describe) {
-            let line = format!(
-                "{name} = {}",
-                shown(self.value(view), matches!(self, Self::Value(..)))
-            );
+            let line = format!("{name} = {}", shown(self.value(view), matches!(self, Self::Value(..))));
             if !lines.contains(&line) {
                 lines.push(line);
             }
@@ -242,28 +219,17 @@ impl Term {
         let name = match self {
             Self::Signal(location) => {
                 let address = names.address(*location);
-                names.symbol(*location).map_or_else(
-                    || address.to_string(),
-                    |symbol| format!("{symbol} ({address})"),
-                )
+                names.symbol(*location).map_or_else(|| address.to_string(), |symbol| format!("{symbol} ({address})"))
             }
             Self::Value(axis, value) => format!("{}.{value}", axis_name(names, *axis)),
             Self::Time => "time".to_owned(),
             Self::Captured(_, name) => name.clone(),
             Self::Alarm(alarm, None) => format!("alarm({})", describe.alarm_name(*alarm)),
             Self::Alarm(alarm, Some(place)) => {
-                format!(
-                    "alarm({}, {})",
-                    describe.alarm_name(*alarm),
-                    place_name(*place, names)
-                )
+                format!("alarm({}, {})", describe.alarm_name(*alarm), place_name(*place, names))
             }
             Self::AlarmParameter(alarm, index) => {
-                format!(
-                    "alarm_parameter({}, {})",
-                    describe.alarm_name(*alarm),
-                    index + 1
-                )
+                format!("alarm_parameter({}, {})", describe.alarm_name(*alarm), index + 1)
             }
             Self::Alarms => "alarms()".to_owned(),
             Self::Number(_)
@@ -279,11 +245,7 @@ impl Term {
 
 /// A value for a message: six decimals for what is measured, as short as possible for the rest.
 fn shown(value: f64, measured: bool) -> String {
-    if measured {
-        six_decimals(value)
-    } else {
-        format!("{value}")
-    }
+    if measured { six_decimals(value) } else { format!("{value}") }
 }
 
 fn axis_name(names: &Names, axis: AxisNumber) -> String {
@@ -296,12 +258,9 @@ impl Operator {
         match self {
             Self::Or => 1,
             Self::And => 2,
-            Self::Equal
-            | Self::NotEqual
-            | Self::Less
-            | Self::LessOrEqual
-            | Self::Greater
-            | Self::GreaterOrEqual => Self::COMPARISON,
+            Self::Equal | Self::NotEqual | Self::Less | Self::LessOrEqual | Self::Greater | Self::GreaterOrEqual => {
+                Self::COMPARISON
+            }
             Self::Add | Self::Subtract => 4,
             Self::Multiply | Self::Divide => 5,
             Self::Minimum | Self::Maximum => 6,

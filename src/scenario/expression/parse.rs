@@ -11,16 +11,7 @@ use crate::variables::{AlarmNumber, Place};
 const DEPTH: usize = 100;
 
 /// The functions there are.
-const FUNCTIONS: [&str; 8] = [
-    "alarm",
-    "alarm_parameter",
-    "alarms",
-    "rose",
-    "fell",
-    "abs",
-    "min",
-    "max",
-];
+const FUNCTIONS: [&str; 8] = ["alarm", "alarm_parameter", "alarms", "rose", "fell", "abs", "min", "max"];
 
 struct Parser<'a> {
     source: &'a str,
@@ -33,14 +24,7 @@ struct Parser<'a> {
 
 pub(super) fn parse(source: &str, scope: Scope<'_>) -> Result<Term, Problem> {
     let words = tokens(source)?;
-    let mut parser = Parser {
-        source,
-        words,
-        at: 0,
-        depth: 0,
-        inside_edge: false,
-        scope,
-    };
+    let mut parser = Parser { source, words, at: 0, depth: 0, inside_edge: false, scope };
     let term = parser.expression(0)?;
     match parser.peek() {
         Token::End => Ok(term),
@@ -89,8 +73,7 @@ impl Parser<'_> {
             if operator.binding() == Operator::COMPARISON {
                 if compared {
                     let mut problem = self.expected("one comparison");
-                    "comparisons do not chain: write `a < b && b < c`"
-                        .clone_into(&mut problem.cure);
+                    "comparisons do not chain: write `a < b && b < c`".clone_into(&mut problem.cure);
                     return Err(problem);
                 }
                 compared = true;
@@ -170,30 +153,18 @@ impl Parser<'_> {
             "rose" | "fell" => {
                 if self.inside_edge {
                     let cure = "rose and fell are not nested: combine them with && or ||";
-                    let mut problem = mistake(
-                        self.source,
-                        column,
-                        "a signal or a condition",
-                        &format!("`{name}`"),
-                    );
+                    let mut problem = mistake(self.source, column, "a signal or a condition", &format!("`{name}`"));
                     cure.clone_into(&mut problem.cure);
                     return Err(problem);
                 }
                 self.inside_edge = true;
                 let of = Box::new(self.expression(0)?);
                 self.inside_edge = false;
-                Term::Edge {
-                    rising: name == "rose",
-                    of,
-                }
+                Term::Edge { rising: name == "rose", of }
             }
             "abs" => Term::Absolute(Box::new(self.expression(0)?)),
             "min" | "max" => {
-                let operator = if name == "min" {
-                    Operator::Minimum
-                } else {
-                    Operator::Maximum
-                };
+                let operator = if name == "min" { Operator::Minimum } else { Operator::Maximum };
                 let mut left = self.expression(0)?;
                 self.sign(",")?;
                 loop {
@@ -224,21 +195,12 @@ impl Parser<'_> {
     fn alarm(&mut self) -> Result<AlarmNumber, Problem> {
         let whole = self.expected("the number of an alarm");
         match self.next() {
-            Token::Number(number) => whole_number(number, AlarmNumber::OWN - 1)
-                .map(AlarmNumber)
-                .ok_or(whole),
-            Token::Quoted(name) => self
-                .scope
-                .describe
-                .alarm_number(&name)
-                .ok_or_else(|| Problem {
-                    cure: "see the alarms of this control, or give a number".to_owned(),
-                    ..whole
-                }),
-            Token::Name(name) => Err(Problem {
-                cure: format!("put a name in quotes: alarm('{name}')"),
+            Token::Number(number) => whole_number(number, AlarmNumber::OWN - 1).map(AlarmNumber).ok_or(whole),
+            Token::Quoted(name) => self.scope.describe.alarm_number(&name).ok_or_else(|| Problem {
+                cure: "see the alarms of this control, or give a number".to_owned(),
                 ..whole
             }),
+            Token::Name(name) => Err(Problem { cure: format!("put a name in quotes: alarm('{name}')"), ..whole }),
             Token::Sign(_) | Token::End => Err(whole),
         }
     }
@@ -264,18 +226,13 @@ impl Parser<'_> {
         if let Some(axis) = axis_named(&self.scope, &name) {
             return Ok(Place::Axis(axis));
         }
-        let channel =
-            ChannelNumber::all().find(|channel| names.channels[*channel].as_deref() == Some(&name));
+        let channel = ChannelNumber::all().find(|channel| names.channels[*channel].as_deref() == Some(&name));
         channel.map(Place::Channel).ok_or_else(|| {
             let axes = AxisNumber::all().filter_map(|axis| names.axes[axis].as_deref());
-            let channels =
-                ChannelNumber::all().filter_map(|channel| names.channels[channel].as_deref());
+            let channels = ChannelNumber::all().filter_map(|channel| names.channels[channel].as_deref());
             let known: Vec<_> = axes.chain(channels).collect();
             let fallback = format!("known are {}", known.join(", "));
-            Problem {
-                cure: did_you_mean(&name, known.iter().copied(), &fallback),
-                ..problem
-            }
+            Problem { cure: did_you_mean(&name, known.iter().copied(), &fallback), ..problem }
         })
     }
 
@@ -284,24 +241,15 @@ impl Parser<'_> {
         if name == "time" {
             return Ok(Term::Time);
         }
-        if let Some(index) = self
-            .scope
-            .captured
-            .iter()
-            .position(|captured| captured == name)
-        {
+        if let Some(index) = self.scope.captured.iter().position(|captured| captured == name) {
             return Ok(Term::Captured(index, name.to_owned()));
         }
         let problem = mistake(self.source, column, "a known name", &format!("`{name}`"));
         if FUNCTIONS.contains(&name) {
-            return Err(Problem {
-                cure: format!("a function has parentheses: `{name}(…)`"),
-                ..problem
-            });
+            return Err(Problem { cure: format!("a function has parentheses: `{name}(…)`"), ..problem });
         }
-        let axis_and_value = name
-            .rsplit_once('.')
-            .and_then(|(head, tail)| axis_named(&self.scope, head).map(|axis| (axis, head, tail)));
+        let axis_and_value =
+            name.rsplit_once('.').and_then(|(head, tail)| axis_named(&self.scope, head).map(|axis| (axis, head, tail)));
         if let Some((axis, _, tail)) = axis_and_value
             && let Some(value) = AxisValue::named(tail)
         {
@@ -311,29 +259,16 @@ impl Parser<'_> {
             Ok(location) => Ok(Term::Signal(location)),
             Err(unknown) => {
                 let values = AxisValue::ALL.map(AxisValue::name);
-                let near_value = axis_and_value.and_then(|(_, head, tail)| {
-                    nearest(tail, values).map(|value| format!("{head}.{value}"))
-                });
-                let own = self
-                    .scope
-                    .captured
-                    .iter()
-                    .map(String::as_str)
-                    .chain(["time"]);
+                let near_value = axis_and_value
+                    .and_then(|(_, head, tail)| nearest(tail, values).map(|value| format!("{head}.{value}")));
+                let own = self.scope.captured.iter().map(String::as_str).chain(["time"]);
                 let cure = match (near_value, nearest(name, own)) {
                     (Some(near), _) => format!("did you mean `{near}`?"),
                     (None, Some(near)) if !name.contains('.') => format!("did you mean `{near}`?"),
                     _ => unknown.cure,
                 };
-                let what = format!(
-                    "{} (at character {column} of `{}`)",
-                    unknown.what, self.source
-                );
-                Err(Problem {
-                    place: None,
-                    what,
-                    cure,
-                })
+                let what = format!("{} (at character {column} of `{}`)", unknown.what, self.source);
+                Err(Problem { place: None, what, cure })
             }
         }
     }
@@ -344,11 +279,7 @@ fn axis_named(scope: &Scope<'_>, name: &str) -> Option<AxisNumber> {
 }
 
 /// A number that is whole, not negative and not above `largest`.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "tested before the cast"
-)]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested before the cast")]
 fn whole_number(number: f64, largest: u32) -> Option<u32> {
     (number.fract() == 0.0 && (0.0..=f64::from(largest)).contains(&number)).then_some(number as u32)
 }

@@ -51,8 +51,7 @@ fn state(machine: &Machine) -> (Memory, Variables) {
     let mut variables = Variables::default();
     variables.axes[AxisNumber::FIRST].position = Position::from_user(120.5);
     variables.axes[AxisNumber::FIRST].velocity = 600.0;
-    variables.axes[AxisNumber::new(2).unwrap()].synchronism_difference =
-        Position::from_user(-0.941);
+    variables.axes[AxisNumber::new(2).unwrap()].synchronism_difference = Position::from_user(-0.941);
     let alarm = RaisedAlarm {
         number: AlarmNumber(10651),
         place: Place::Axis(AxisNumber::FIRST),
@@ -63,10 +62,7 @@ fn state(machine: &Machine) -> (Memory, Variables) {
             Parameter::None,
         ],
     };
-    let own = RaisedAlarm {
-        number: AlarmNumber(AlarmNumber::OWN),
-        ..alarm
-    };
+    let own = RaisedAlarm { number: AlarmNumber(AlarmNumber::OWN), ..alarm };
     variables.alarms.publish([alarm, own].into_iter());
     (memory, variables)
 }
@@ -75,32 +71,14 @@ fn parsed(source: &str) -> Result<Expression, Problem> {
     let machine = Machine::new();
     let (memory, _) = state(&machine);
     let captured = ["start".to_owned()];
-    Expression::parse(
-        source,
-        Scope {
-            memory: &memory,
-            describe: &machine,
-            captured: &captured,
-        },
-    )
+    Expression::parse(source, Scope { memory: &memory, describe: &machine, captured: &captured })
 }
 
 fn value(source: &str) -> f64 {
     let machine = Machine::new();
     let (memory, variables) = state(&machine);
-    let now = Moment {
-        memory: &memory,
-        variables: &variables,
-        time: Time::from_millis(1_500),
-        captured: &[7.0],
-    };
-    parsed(source)
-        .unwrap_or_else(|problem| panic!("{problem}"))
-        .value(&View {
-            now,
-            last: now,
-            before: now,
-        })
+    let now = Moment { memory: &memory, variables: &variables, time: Time::from_millis(1_500), captured: &[7.0] };
+    parsed(source).unwrap_or_else(|problem| panic!("{problem}")).value(&View { now, last: now, before: now })
 }
 
 #[test]
@@ -125,24 +103,15 @@ fn operators_have_the_precedence_of_rust() {
         ("2 >= 2 && 2 <= 2 && 3 > 2 && 2 != 3", 1.0),
         ("0 / 0 || 0", 0.0),
     ] {
-        assert!(
-            (value(source) - expected).abs() < 1e-12,
-            "{source} = {}",
-            value(source)
-        );
+        assert!((value(source) - expected).abs() < 1e-12, "{source} = {}", value(source));
     }
 }
 
 #[test]
 fn numbers_are_read_with_base_point_and_underscore() {
-    for (source, expected) in [
-        ("1.5", 1.5),
-        ("2#1101_0000", 208.0),
-        ("16#D0", 208.0),
-        ("16#d0", 208.0),
-        ("1_000", 1000.0),
-        ("007", 7.0),
-    ] {
+    for (source, expected) in
+        [("1.5", 1.5), ("2#1101_0000", 208.0), ("16#D0", 208.0), ("16#d0", 208.0), ("1_000", 1000.0), ("007", 7.0)]
+    {
         assert!((value(source) - expected).abs() < 1e-12, "{source}");
     }
 }
@@ -167,11 +136,7 @@ fn names_mean_signals_addresses_values_and_captured_values() {
         ("min(3, start, 5)", 3.0),
         ("max(3, start)", 7.0),
     ] {
-        assert!(
-            (value(source) - expected).abs() < 1e-6,
-            "{source} = {}",
-            value(source)
-        );
+        assert!((value(source) - expected).abs() < 1e-6, "{source} = {}", value(source));
     }
 }
 
@@ -198,36 +163,15 @@ fn an_edge_lies_between_the_last_two_cycles_and_not_in_pending_writes() {
     let machine = Machine::new();
     let (memory, variables) = state(&machine);
     let empty = Memory::new();
-    let at = |memory| Moment {
-        memory,
-        variables: &variables,
-        time: Time::ZERO,
-        captured: &[],
-    };
-    let scope = Scope {
-        memory: &empty,
-        describe: &machine,
-        captured: &[],
-    };
+    let at = |memory| Moment { memory, variables: &variables, time: Time::ZERO, captured: &[] };
+    let scope = Scope { memory: &empty, describe: &machine, captured: &[] };
     let rose = Expression::parse("rose(M10.3 && time == 0)", scope).unwrap();
     let fell = Expression::parse("fell(M10.3)", scope).unwrap();
-    let up = View {
-        now: at(&empty),
-        last: at(&memory),
-        before: at(&empty),
-    };
+    let up = View { now: at(&empty), last: at(&memory), before: at(&empty) };
     assert!(rose.holds(&up) && !fell.holds(&up));
-    let down = View {
-        now: at(&memory),
-        last: at(&empty),
-        before: at(&memory),
-    };
+    let down = View { now: at(&memory), last: at(&empty), before: at(&memory) };
     assert!(!rose.holds(&down) && fell.holds(&down));
-    let only_written = View {
-        now: at(&memory),
-        last: at(&empty),
-        before: at(&empty),
-    };
+    let only_written = View { now: at(&memory), last: at(&empty), before: at(&empty) };
     assert!(!rose.holds(&only_written) && !fell.holds(&only_written));
     assert!(rose.looks_back() && !parsed("M10.3").unwrap().looks_back());
 }
@@ -235,11 +179,7 @@ fn an_edge_lies_between_the_last_two_cycles_and_not_in_pending_writes() {
 #[test]
 fn a_mistake_says_what_was_expected_where_and_what_to_do() {
     for (source, cause, cure) in [
-        (
-            "1 < 2 < 3",
-            "one comparison, found `<` at character 7",
-            "do not chain",
-        ),
+        ("1 < 2 < 3", "one comparison, found `<` at character 7", "do not chain"),
         ("1 == 1 == 1", "one comparison", "do not chain"),
         ("1 +", "found the end at character 4", "operators are"),
         ("(1", "expected `)`, found the end", "operators are"),
@@ -256,30 +196,14 @@ fn a_mistake_says_what_was_expected_where_and_what_to_do() {
         ("1.", "a number", "numbers are written"),
         ("strat", "`strat`", "did you mean `start`?"),
         ("X.positoin", "`X.positoin`", "did you mean `X.position`?"),
-        (
-            "X.traversing_key_pls",
-            "`X.traversing_key_pls`",
-            "traversing_key_plus",
-        ),
+        ("X.traversing_key_pls", "`X.traversing_key_pls`", "traversing_key_plus"),
         ("alarm", "`alarm`", "parentheses"),
-        (
-            "alram(10653)",
-            "a function, found `alram`",
-            "did you mean `alarm`?",
-        ),
+        ("alram(10653)", "a function, found `alram`", "did you mean `alarm`?"),
         ("alarm(x)", "the number of an alarm", "quotes"),
-        (
-            "alarm('nothing')",
-            "the number of an alarm, found 'nothing'",
-            "give a number",
-        ),
+        ("alarm('nothing')", "the number of an alarm, found 'nothing'", "give a number"),
         ("alarm(1.5)", "the number of an alarm", "operators are"),
         ("alarm('open)", "a closing quote", "operators are"),
-        (
-            "alarm(10653, X3)",
-            "an axis or a channel",
-            "did you mean `X",
-        ),
+        ("alarm(10653, X3)", "an axis or a channel", "did you mean `X"),
         ("alarm_parameter(10651)", "expected `,`", "operators are"),
         ("alarm_parameter(10651, 5)", "1 to 4", "operators are"),
         ("alarms(1)", "expected `)`", "operators are"),
@@ -308,21 +232,9 @@ fn nesting_has_an_end() {
 fn the_operands_of_a_failed_expression_are_shown_once_each_with_symbol_and_address() {
     let machine = Machine::new();
     let (memory, variables) = state(&machine);
-    let now = Moment {
-        memory: &memory,
-        variables: &variables,
-        time: Time::ZERO,
-        captured: &[7.0],
-    };
+    let now = Moment { memory: &memory, variables: &variables, time: Time::ZERO, captured: &[7.0] };
     let source = "X.traversing_key_plus && M10.3 && X.position > start && alarm(10651, X) && !X.traversing_key_plus";
-    let lines = parsed(source).unwrap().operands(
-        &View {
-            now,
-            last: now,
-            before: now,
-        },
-        &machine,
-    );
+    let lines = parsed(source).unwrap().operands(&View { now, last: now, before: now }, &machine);
     assert_eq!(
         lines,
         [

@@ -31,9 +31,7 @@ impl Token {
 }
 
 /// The signs, longer ones before their beginnings.
-const SIGNS: [&str; 15] = [
-    "==", "!=", "<=", ">=", "&&", "||", "<", ">", "!", "+", "-", "*", "/", "(", ")",
-];
+const SIGNS: [&str; 15] = ["==", "!=", "<=", ">=", "&&", "||", "<", ">", "!", "+", "-", "*", "/", "(", ")"];
 
 /// Cuts an expression into words, each with its column from one.
 pub(super) fn tokens(source: &str) -> Result<Vec<(usize, Token)>, Problem> {
@@ -66,12 +64,7 @@ pub(super) fn tokens(source: &str) -> Result<Vec<(usize, Token)>, Problem> {
             found.push((column, Token::Sign(sign)));
             rest = &rest[sign.len()..];
         } else {
-            let mut problem = mistake(
-                source,
-                column,
-                "a number, a name or an operator",
-                &format!("`{first}`"),
-            );
+            let mut problem = mistake(source, column, "a number, a name or an operator", &format!("`{first}`"));
             match first {
                 '&' => problem.cure = "`and` is written `&&`".to_owned(),
                 '|' => problem.cure = "`or` is written `||`".to_owned(),
@@ -98,20 +91,12 @@ fn parse_number(word: &str) -> Option<f64> {
     if let Some((base, digits)) = word.split_once('#') {
         let base = base.parse().ok().filter(|base| (2..=16).contains(base))?;
         let digits = without_separators(digits)?;
-        return u64::from_str_radix(&digits, base)
-            .ok()
-            .map(|number| number as f64);
+        return u64::from_str_radix(&digits, base).ok().map(|number| number as f64);
     }
     let digits = without_separators(word)?;
     let well_formed = digits.split('.').count() <= 2
-        && digits
-            .split('.')
-            .all(|part| !part.is_empty() && part.bytes().all(|c| c.is_ascii_digit()));
-    if well_formed {
-        digits.parse().ok()
-    } else {
-        None
-    }
+        && digits.split('.').all(|part| !part.is_empty() && part.bytes().all(|c| c.is_ascii_digit()));
+    if well_formed { digits.parse().ok() } else { None }
 }
 
 /// Digits without the `_` between them; an underscore stands between two digits or it is a mistake.

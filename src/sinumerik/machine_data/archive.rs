@@ -68,14 +68,7 @@ impl fmt::Display for Finding {
 impl From<Problem> for Finding {
     fn from(problem: Problem) -> Self {
         let Problem { place, what, cure } = problem;
-        Self {
-            severity: Severity::Error,
-            place,
-            number: None,
-            identifier: String::new(),
-            what,
-            cure,
-        }
+        Self { severity: Severity::Error, place, number: None, identifier: String::new(), what, cure }
     }
 }
 
@@ -85,19 +78,12 @@ pub fn refusal(findings: &[Finding]) -> Problem {
     let Some(first) = findings.first() else {
         return Problem::new("the machine data were refused", "");
     };
-    let name = first
-        .number
-        .map(|number| format!("{} {}: ", numbered(number), first.identifier))
-        .unwrap_or_default();
+    let name = first.number.map(|number| format!("{} {}: ", numbered(number), first.identifier)).unwrap_or_default();
     let more = match findings.len() - 1 {
         0 => String::new(),
         more => format!("; `machine-data check` shows {more} more"),
     };
-    Problem {
-        place: first.place.clone(),
-        what: format!("{name}{}{more}", first.what),
-        cure: first.cure.clone(),
-    }
+    Problem { place: first.place.clone(), what: format!("{name}{}{more}", first.what), cure: first.cure.clone() }
 }
 
 /// An assignment that means no datum of the catalogue: kept as it stands, to be written back.
@@ -145,12 +131,7 @@ impl fmt::Display for Summary {
             self.taken, self.unknown
         )?;
         for member in self.members.iter().filter(read) {
-            writeln!(
-                f,
-                "  {}: {} assignments",
-                member.name,
-                member.assignments.unwrap_or_default()
-            )?;
+            writeln!(f, "  {}: {} assignments", member.name, member.assignments.unwrap_or_default())?;
         }
         for member in self.members.iter().filter(|member| !read(member)) {
             writeln!(f, "  left: {}", member.name)?;
@@ -206,15 +187,10 @@ impl Archive {
     pub fn load(files: &[PathBuf]) -> Result<Self, Vec<Finding>> {
         let mut sources = Vec::new();
         for path in files {
-            let bytes = std::fs::read(path)
-                .map_err(|error| vec![Finding::from(unreadable(path, &error))])?;
+            let bytes = std::fs::read(path).map_err(|error| vec![Finding::from(unreadable(path, &error))])?;
             sources.push((path.display().to_string(), bytes));
         }
-        Self::read(
-            sources
-                .iter()
-                .map(|(name, bytes)| (name.as_str(), bytes.as_slice())),
-        )
+        Self::read(sources.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())))
     }
 
     /// Reads the contents of files, each with the name that messages shall use.
@@ -230,9 +206,7 @@ impl Archive {
     ///
     /// # Errors
     /// Every finding, if one of them is an error; nothing is loaded then.
-    pub fn read<'a>(
-        files: impl IntoIterator<Item = (&'a str, &'a [u8])>,
-    ) -> Result<Self, Vec<Finding>> {
+    pub fn read<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> Result<Self, Vec<Finding>> {
         let mut reading = Reading::default();
         for (name, bytes) in files {
             if binary::is_binary(bytes) {
@@ -247,11 +221,7 @@ impl Archive {
     }
 
     fn from_reading(reading: Reading) -> Result<Self, Vec<Finding>> {
-        let Reading {
-            lines,
-            mut findings,
-            members,
-        } = reading;
+        let Reading { lines, mut findings, members } = reading;
         let mut data = MachineData::default();
         let mut known = Vec::new();
         let mut unknown = BTreeMap::new();
@@ -261,10 +231,7 @@ impl Archive {
                 Ok(None) => {
                     // Only data of a channel differ by the section they stand in.
                     let per_channel = line.name.starts_with("$MC") || line.name.starts_with("$SC");
-                    let key = (
-                        per_channel.then_some(line.channel),
-                        line.name.to_ascii_uppercase(),
-                    );
+                    let key = (per_channel.then_some(line.channel), line.name.to_ascii_uppercase());
                     unknown.insert(key, (order, line));
                 }
                 Err(finding) => findings.push(finding),
@@ -294,33 +261,16 @@ impl Archive {
             };
             given.insert(target, line.place);
         }
-        if findings
-            .iter()
-            .any(|finding| finding.severity == Severity::Error)
-        {
-            findings.sort_by(|a, b| {
-                b.severity
-                    .cmp(&a.severity)
-                    .then_with(|| a.place.cmp(&b.place))
-            });
+        if findings.iter().any(|finding| finding.severity == Severity::Error) {
+            findings.sort_by(|a, b| b.severity.cmp(&a.severity).then_with(|| a.place.cmp(&b.place)));
             return Err(findings);
         }
         let mut unknown: Vec<_> = unknown.into_values().collect();
         unknown.sort_by_key(|(order, _)| *order);
         let unknown: Vec<_> = unknown.into_iter().map(|(_, line)| line.into()).collect();
         findings.extend(unknown_findings(&unknown));
-        let summary = Summary {
-            members,
-            taken: given.len(),
-            unknown: unknown.len(),
-        };
-        Ok(Self {
-            data,
-            given,
-            unknown,
-            findings,
-            summary,
-        })
+        let summary = Summary { members, taken: given.len(), unknown: unknown.len() };
+        Ok(Self { data, given, unknown, findings, summary })
     }
 
     /// Whether this value was given explicitly.
@@ -332,36 +282,20 @@ impl Archive {
     /// Whether any value of this datum was given explicitly for this owner.
     #[must_use]
     pub fn is_given_for(&self, number: u32, owner: Owner) -> bool {
-        self.given
-            .keys()
-            .any(|target| target.datum().number == number && target.owner() == owner)
+        self.given.keys().any(|target| target.datum().number == number && target.owner() == owner)
     }
 
     /// Whether any axis-specific datum was given for this machine axis: the machine has it.
     #[must_use]
     pub fn given_axis(&self, axis: AxisNumber) -> bool {
-        self.given
-            .keys()
-            .any(|target| target.owner() == Owner::Axis(axis))
+        self.given.keys().any(|target| target.owner() == Owner::Axis(axis))
     }
 }
 
 impl From<Line> for Assignment {
     fn from(line: Line) -> Self {
-        let Line {
-            place,
-            number,
-            name,
-            channel,
-            value,
-        } = line;
-        Self {
-            place,
-            number,
-            name,
-            channel,
-            value,
-        }
+        let Line { place, number, name, channel, value } = line;
+        Self { place, number, name, channel, value }
     }
 }
 
@@ -381,20 +315,12 @@ fn known_datum(line: &Line) -> Result<Option<&'static Datum>, Finding> {
         cure,
     };
     // Without a prefix a name means a variable of the user, not a machine datum.
-    let by_name = identifier
-        .starts_with('$')
-        .then(|| by_identifier(identifier))
-        .flatten();
+    let by_name = identifier.starts_with('$').then(|| by_identifier(identifier)).flatten();
     match (by_name, number.and_then(by_number)) {
         (Some(datum), _) if number.is_none_or(|number| number == datum.number) => Ok(Some(datum)),
         (Some(datum), _) => Err(error(
-            format!(
-                "expected N{} before {identifier}, found N{}",
-                datum.number,
-                number.unwrap_or_default()
-            ),
-            "number and identifier must mean the same datum; correct one, or leave the number away"
-                .to_owned(),
+            format!("expected N{} before {identifier}, found N{}", datum.number, number.unwrap_or_default()),
+            "number and identifier must mean the same datum; correct one, or leave the number away".to_owned(),
         )),
         (None, Some(datum)) => Err(error(
             format!("expected {datum} by its number, found {identifier}"),
@@ -411,20 +337,14 @@ fn known_datum(line: &Line) -> Result<Option<&'static Datum>, Finding> {
 fn take(datum: &'static Datum, line: &Line, data: &mut MachineData) -> Result<Target, Problem> {
     let (_, indices) = split_indices(&line.name).ok_or_else(|| {
         Problem::new(
-            format!(
-                "expected at most an index and an axis in brackets, found `{}`",
-                line.name
-            ),
+            format!("expected at most an index and an axis in brackets, found `{}`", line.name),
             "write `[AX1]`, `[0,AX1]` or `[0]`",
         )
     })?;
     let target = resolve(datum, &indices, line.channel, data)?;
     let value = Value::parse(&line.value).ok_or_else(|| {
         Problem::new(
-            format!(
-                "expected a {} for {datum}, found `{}`",
-                datum.kind, line.value
-            ),
+            format!("expected a {} for {datum}, found `{}`", datum.kind, line.value),
             "values are written as 12, 1.5, 1EX-05, 'H1c', TRUE or \"text\"",
         )
     })?;
@@ -444,7 +364,8 @@ fn unknown_findings(unknown: &[Assignment]) -> Vec<Finding> {
                 place: Some(assignment.place.clone()),
                 number: assignment.number,
                 identifier: identifier.to_owned(),
-                what: "expected a machine datum of the catalogue, found an unknown one; it is kept, but does nothing".to_owned(),
+                what: "expected a machine datum of the catalogue, found an unknown one; it is kept, but does nothing"
+                    .to_owned(),
                 cure: String::new(),
             });
         }
@@ -466,22 +387,14 @@ pub fn files_of(machine: &Path) -> Result<Vec<PathBuf>, Problem> {
         files.push(entry.map_err(|error| unreadable(machine, &error))?.path());
     }
     let has = |path: &Path, wanted: &[&str]| {
-        let extension = path
-            .extension()
-            .and_then(|extension| extension.to_str())
-            .unwrap_or_default();
-        wanted
-            .iter()
-            .any(|wanted| extension.eq_ignore_ascii_case(wanted))
+        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+        wanted.iter().any(|wanted| extension.eq_ignore_ascii_case(wanted))
     };
     files.retain(|path| path.is_file() && has(path, &["tea", "ini", "mpf", "arc"]));
     files.sort();
     if files.len() > 1 && files.iter().any(|path| has(path, &["arc"])) {
         return Err(Place::file(&machine.display().to_string()).problem(
-            format!(
-                "expected one binary archive or ASCII archives, found {} archives of both kinds",
-                files.len()
-            ),
+            format!("expected one binary archive or ASCII archives, found {} archives of both kinds", files.len()),
             "keep one `.arc`, or only `.tea`, `.ini` and `.mpf`",
         ));
     }

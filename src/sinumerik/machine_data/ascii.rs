@@ -30,9 +30,7 @@ pub(super) fn read_text(name: &str, text: &str, broken: Broken, reading: &mut Re
     let before = reading.lines.len();
     for (number, line) in (1..).zip(text.lines()) {
         let place = file.at_line(number);
-        let line = line.trim_matches(|letter: char| {
-            letter.is_whitespace() || letter == '\0' || letter == '\u{feff}'
-        });
+        let line = line.trim_matches(|letter: char| letter.is_whitespace() || letter == '\0' || letter == '\u{feff}');
         // A header begins a member, and a member begins with channel 1.
         if line.starts_with('%') {
             channel = ChannelNumber::FIRST;
@@ -42,10 +40,7 @@ pub(super) fn read_text(name: &str, text: &str, broken: Broken, reading: &mut Re
         if line.is_empty() || line.eq_ignore_ascii_case("METRIC") {
             continue;
         }
-        if ["M17", "M02", "M2", "M30"]
-            .iter()
-            .any(|end| line.eq_ignore_ascii_case(end))
-        {
+        if ["M17", "M02", "M2", "M30"].iter().any(|end| line.eq_ignore_ascii_case(end)) {
             channel = ChannelNumber::FIRST;
             continue;
         }
@@ -68,25 +63,19 @@ pub(super) fn read_text(name: &str, text: &str, broken: Broken, reading: &mut Re
                 place: Some(place),
                 number: None,
                 identifier: String::new(),
-                what: "expected METRIC, found INCH: this simulator reads machine data of the metric basic system only".to_owned(),
+                what: "expected METRIC, found INCH: this simulator reads machine data of the metric basic system only"
+                    .to_owned(),
                 cure: "export the archive with MD10240 = 1".to_owned(),
             }),
         }
     }
-    reading.members.push(Member {
-        name: name.to_owned(),
-        assignments: Some(reading.lines.len() - before),
-    });
+    reading.members.push(Member { name: name.to_owned(), assignments: Some(reading.lines.len() - before) });
 }
 
 enum Kind<'a> {
     Channel(ChannelNumber),
     Inch,
-    Assignment {
-        number: Option<u32>,
-        name: &'a str,
-        value: &'a str,
-    },
+    Assignment { number: Option<u32>, name: &'a str, value: &'a str },
     Broken(String, &'static str),
 }
 
@@ -96,24 +85,16 @@ fn kind(line: &str) -> Kind<'_> {
         return Kind::Inch;
     }
     if let Some(inside) = strip_word(line, "CHANDATA") {
-        let number = inside
-            .trim()
-            .strip_prefix('(')
-            .and_then(|inside| inside.strip_suffix(')'));
-        return number
-            .and_then(|number| ChannelNumber::new(number.trim().parse().ok()?))
-            .map_or_else(
-                || {
-                    Kind::Broken(
-                        format!(
-                            "expected CHANDATA(1) to CHANDATA({}), found `{line}`",
-                            ChannelNumber::MAX
-                        ),
-                        "correct the number of the channel",
-                    )
-                },
-                Kind::Channel,
-            );
+        let number = inside.trim().strip_prefix('(').and_then(|inside| inside.strip_suffix(')'));
+        return number.and_then(|number| ChannelNumber::new(number.trim().parse().ok()?)).map_or_else(
+            || {
+                Kind::Broken(
+                    format!("expected CHANDATA(1) to CHANDATA({}), found `{line}`", ChannelNumber::MAX),
+                    "correct the number of the channel",
+                )
+            },
+            Kind::Channel,
+        );
     }
     assignment(line).unwrap_or_else(|| {
         Kind::Broken(
@@ -129,10 +110,7 @@ fn assignment(line: &str) -> Option<Kind<'_>> {
     let (mut name, mut value) = (name.trim(), value.trim());
     let mut number = None;
     if let Some(rest) = name.strip_prefix(['N', 'n']) {
-        let digits = rest.len()
-            - rest
-                .trim_start_matches(|letter: char| letter.is_ascii_digit())
-                .len();
+        let digits = rest.len() - rest.trim_start_matches(|letter: char| letter.is_ascii_digit()).len();
         let (block, after) = rest.split_at(digits);
         if digits > 0 && after.starts_with([' ', '\t', '$']) {
             number = Some(block.parse().ok()?);
@@ -142,13 +120,7 @@ fn assignment(line: &str) -> Option<Kind<'_>> {
     let mut letters = name.chars();
     let first = letters.next()?;
     let sound = (first == '$' || first == '_' || first.is_ascii_alphabetic())
-        && name
-            .split('[')
-            .next()?
-            .trim()
-            .chars()
-            .skip(1)
-            .all(|letter| letter == '_' || letter.is_ascii_alphanumeric());
+        && name.split('[').next()?.trim().chars().skip(1).all(|letter| letter == '_' || letter.is_ascii_alphanumeric());
     // A checksum of the line stands behind the value as `'1f34`.
     if let Some((before, checksum)) = value.rsplit_once([' ', '\t'])
         && let Some(digits) = checksum.strip_prefix('\'')
@@ -157,11 +129,7 @@ fn assignment(line: &str) -> Option<Kind<'_>> {
     {
         value = before.trim();
     }
-    (sound && !value.is_empty()).then_some(Kind::Assignment {
-        number,
-        name,
-        value,
-    })
+    (sound && !value.is_empty()).then_some(Kind::Assignment { number, name, value })
 }
 
 /// What stands behind a word, in capitals or not.

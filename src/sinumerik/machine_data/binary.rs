@@ -30,39 +30,21 @@ pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<()
     while offset < bytes.len() {
         let rest = &bytes[offset..];
         let header = rest.first_chunk::<BLOCK>().ok_or_else(|| {
-            damage(
-                offset,
-                format!(
-                    "expected a member header of {BLOCK} bytes, found {} bytes",
-                    rest.len()
-                ),
-            )
+            damage(offset, format!("expected a member header of {BLOCK} bytes, found {} bytes", rest.len()))
         })?;
         let expected = decimal(&header[148..156]).ok_or_else(|| {
-            damage(
-                offset + 148,
-                "expected a checksum in decimal digits, found something else".to_owned(),
-            )
+            damage(offset + 148, "expected a checksum in decimal digits, found something else".to_owned())
         })?;
         let found = checksum(header);
         if expected != found {
-            return Err(damage(
-                offset,
-                format!("expected the header checksum {expected}, found {found}"),
-            ));
+            return Err(damage(offset, format!("expected the header checksum {expected}, found {found}")));
         }
-        let size = decimal(&header[124..136])
-            .and_then(|size| usize::try_from(size).ok())
-            .ok_or_else(|| {
-                damage(
-                    offset + 124,
-                    "expected a size in decimal digits, found something else".to_owned(),
-                )
-            })?;
+        let size = decimal(&header[124..136]).and_then(|size| usize::try_from(size).ok()).ok_or_else(|| {
+            damage(offset + 124, "expected a size in decimal digits, found something else".to_owned())
+        })?;
         let start = offset + BLOCK;
-        let member = size
-            .checked_next_multiple_of(BLOCK)
-            .and_then(|padded| bytes.get(start..start.checked_add(padded)?));
+        let member =
+            size.checked_next_multiple_of(BLOCK).and_then(|padded| bytes.get(start..start.checked_add(padded)?));
         let Some(member) = member else {
             let name = text(&header[..50]);
             let found = bytes.len() - start;
@@ -75,17 +57,9 @@ pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<()
         let (internal, folder) = (text(&header[..50]), text(&header[384..512]));
         if is_machine_data(&internal, &folder) {
             // The name in the message is the file and the member, its lines are those of the member.
-            read_text(
-                &format!("{name}({})", shown(header)),
-                &decode(data),
-                Broken::Skip,
-                reading,
-            );
+            read_text(&format!("{name}({})", shown(header)), &decode(data), Broken::Skip, reading);
         } else if !internal.starts_with("@@") {
-            reading.members.push(Member {
-                name: format!("{folder}{}", shown(header)),
-                assignments: None,
-            });
+            reading.members.push(Member { name: format!("{folder}{}", shown(header)), assignments: None });
         }
         offset = start + member.len();
     }
@@ -94,47 +68,28 @@ pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<()
 
 fn is_machine_data(internal: &str, folder: &str) -> bool {
     folder == r"\_NC_ACT.DIR\"
-        && (internal == "_N_INITIAL_INI"
-            || (internal.starts_with("_N_CFG_") && internal.ends_with("_INI")))
+        && (internal == "_N_INITIAL_INI" || (internal.starts_with("_N_CFG_") && internal.ends_with("_INI")))
 }
 
 /// The name as people see it, or the internal one.
 fn shown(header: &[u8; BLOCK]) -> String {
     let name = text(&header[50..100]);
-    if name.is_empty() {
-        text(&header[..50])
-    } else {
-        name
-    }
+    if name.is_empty() { text(&header[..50]) } else { name }
 }
 
 /// The sum of the header's bytes, its own field taken as zero.
 fn checksum(header: &[u8; BLOCK]) -> u64 {
-    header[..148]
-        .iter()
-        .chain(&header[156..])
-        .map(|&byte| u64::from(byte))
-        .sum()
+    header[..148].iter().chain(&header[156..]).map(|&byte| u64::from(byte)).sum()
 }
 
 /// A text up to its zero byte.
 fn text(field: &[u8]) -> String {
-    let end = field
-        .iter()
-        .position(|&byte| byte == 0)
-        .unwrap_or(field.len());
-    field[..end]
-        .iter()
-        .map(|&byte| char::from(byte))
-        .collect::<String>()
-        .trim()
-        .to_owned()
+    let end = field.iter().position(|&byte| byte == 0).unwrap_or(field.len());
+    field[..end].iter().map(|&byte| char::from(byte)).collect::<String>().trim().to_owned()
 }
 
 /// A number in decimal digits, ended by zero bytes or blanks.
 fn decimal(field: &[u8]) -> Option<u64> {
     let text = text(field);
-    text.bytes()
-        .all(|byte| byte.is_ascii_digit())
-        .then(|| text.parse().ok())?
+    text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse().ok())?
 }

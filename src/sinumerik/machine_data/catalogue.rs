@@ -18,19 +18,11 @@ static BY_NUMBER: LazyLock<BTreeMap<u32, (&'static Datum, usize)>> = LazyLock::n
     all
 });
 
-static BY_IDENTIFIER: LazyLock<BTreeMap<&'static str, &'static Datum>> = LazyLock::new(|| {
-    BY_NUMBER
-        .values()
-        .map(|(datum, _)| (datum.identifier, *datum))
-        .collect()
-});
+static BY_IDENTIFIER: LazyLock<BTreeMap<&'static str, &'static Datum>> =
+    LazyLock::new(|| BY_NUMBER.values().map(|(datum, _)| (datum.identifier, *datum)).collect());
 
 fn collect<T>(rows: &'static [Row<T>], all: &mut BTreeMap<u32, (&'static Datum, usize)>) {
-    all.extend(
-        rows.iter()
-            .enumerate()
-            .map(|(row, entry)| (entry.datum.number, (&entry.datum, row))),
-    );
+    all.extend(rows.iter().enumerate().map(|(row, entry)| (entry.datum.number, (&entry.datum, row))));
 }
 
 /// Every machine datum, ascending by number.
@@ -49,10 +41,7 @@ pub fn by_number(number: u32) -> Option<&'static Datum> {
 pub fn by_identifier(identifier: &str) -> Option<&'static Datum> {
     let identifier = identifier.to_ascii_uppercase();
     match Scope::split(&identifier) {
-        Some((scope, name)) => BY_IDENTIFIER
-            .get(name)
-            .copied()
-            .filter(|datum| datum.scope == scope),
+        Some((scope, name)) => BY_IDENTIFIER.get(name).copied().filter(|datum| datum.scope == scope),
         None => BY_IDENTIFIER.get(identifier.as_str()).copied(),
     }
 }
@@ -75,11 +64,7 @@ impl Scope {
     pub(super) fn split(identifier: &str) -> Option<(Self, &str)> {
         [Self::General, Self::Setting, Self::Channel, Self::Axis]
             .into_iter()
-            .find_map(|scope| {
-                identifier
-                    .strip_prefix(scope.prefix())
-                    .map(|name| (scope, name))
-            })
+            .find_map(|scope| identifier.strip_prefix(scope.prefix()).map(|name| (scope, name)))
     }
 }
 
@@ -88,9 +73,7 @@ impl Datum {
     #[must_use]
     pub fn default_text(&self) -> String {
         fn text<T: Table>(row: usize, datum: &Datum) -> String {
-            let value = T::rows()
-                .get(row)
-                .and_then(|row| (row.get)(&T::default(), 0));
+            let value = T::rows().get(row).and_then(|row| (row.get)(&T::default(), 0));
             value.map_or_else(String::new, |value| value.export(datum.kind))
         }
         let Some(row) = row(self.number) else {
@@ -114,17 +97,11 @@ mod tests {
     fn a_datum_is_found_by_number_and_by_identifier() {
         let datum = by_number(37100).unwrap();
         assert_eq!(datum.to_string(), "MD37100 $MA_GANTRY_AXIS_TYPE");
-        assert_eq!(
-            (datum.kind, datum.count, datum.effect),
-            (Kind::Byte, 1, Effect::PowerOn)
-        );
+        assert_eq!((datum.kind, datum.count, datum.effect), (Kind::Byte, 1, Effect::PowerOn));
         assert_eq!(by_identifier("$MA_GANTRY_AXIS_TYPE"), Some(datum));
         assert_eq!(by_identifier("gantry_axis_type"), Some(datum));
         assert_eq!(by_identifier("$MC_GANTRY_AXIS_TYPE"), None);
-        assert_eq!(
-            nearest_identifier("$MA_GANTRY_AXIS_TYP"),
-            Some("GANTRY_AXIS_TYPE")
-        );
+        assert_eq!(nearest_identifier("$MA_GANTRY_AXIS_TYP"), Some("GANTRY_AXIS_TYPE"));
     }
 
     #[test]

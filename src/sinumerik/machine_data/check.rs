@@ -24,24 +24,14 @@ pub fn check(archive: &Archive) -> Vec<Finding> {
 }
 
 /// A finding at the place where the datum was given.
-fn finding(
-    archive: &Archive,
-    number: u32,
-    owner: Owner,
-    index: u8,
-    what: String,
-    cure: &str,
-) -> Finding {
-    let place: Option<Place> = Target::new(number, owner, index)
-        .ok()
-        .and_then(|target| archive.given.get(&target).cloned());
+fn finding(archive: &Archive, number: u32, owner: Owner, index: u8, what: String, cure: &str) -> Finding {
+    let place: Option<Place> =
+        Target::new(number, owner, index).ok().and_then(|target| archive.given.get(&target).cloned());
     Finding {
         severity: Severity::Warning,
         place,
         number: Some(number),
-        identifier: by_number(number)
-            .map(Datum::full_identifier)
-            .unwrap_or_default(),
+        identifier: by_number(number).map(Datum::full_identifier).unwrap_or_default(),
         what,
         cure: cure.to_owned(),
     }
@@ -50,34 +40,16 @@ fn finding(
 /// The interpolation cycle is a whole multiple of the position control cycle, and both are times of a control.
 fn cycles(archive: &Archive, findings: &mut Vec<Finding>) {
     let general = &archive.data.general;
-    let (position, interpolation) = (
-        general.posctrl_sysclock_time_ratio,
-        general.ipo_sysclock_time_ratio,
-    );
+    let (position, interpolation) = (general.posctrl_sysclock_time_ratio, general.ipo_sysclock_time_ratio);
     if interpolation % position.max(1) != 0 {
-        let what = format!(
-            "expected a whole multiple of MD10060 = {position} (else alarm 4110), found {interpolation}"
-        );
-        findings.push(finding(
-            archive,
-            10070,
-            Owner::Nck,
-            0,
-            what,
-            "correct MD10070",
-        ));
+        let what =
+            format!("expected a whole multiple of MD10060 = {position} (else alarm 4110), found {interpolation}");
+        findings.push(finding(archive, 10070, Owner::Nck, 0, what, "correct MD10070"));
     }
     let cycle = general.sysclock_cycle_time;
     if !(0.000_1..=0.032).contains(&cycle) {
         let what = format!("expected a basic cycle from 0.0001 to 0.032 s, found {cycle} s");
-        findings.push(finding(
-            archive,
-            10050,
-            Owner::Nck,
-            0,
-            what,
-            "the unit is seconds",
-        ));
+        findings.push(finding(archive, 10050, Owner::Nck, 0, what, "the unit is seconds"));
     }
 }
 
@@ -85,37 +57,19 @@ fn cycles(archive: &Archive, findings: &mut Vec<Finding>) {
 fn names(archive: &Archive, findings: &mut Vec<Finding>) {
     for axis in AxisNumber::all() {
         let name = archive.data.axis_name(axis);
-        let logical =
-            AxisNumber::all().find(|other| *other != axis && name == format!("AX{other}"));
+        let logical = AxisNumber::all().find(|other| *other != axis && name == format!("AX{other}"));
         if let Some(other) = logical {
-            let what = format!(
-                "expected another name than `{name}`, which means axis {other}, for axis {axis}"
-            );
+            let what = format!("expected another name than `{name}`, which means axis {other}, for axis {axis}");
             let cure = "name it AXn with its own number, or otherwise";
-            findings.push(finding(
-                archive,
-                10000,
-                Owner::Nck,
-                axis.number() - 1,
-                what,
-                cure,
-            ));
+            findings.push(finding(archive, 10000, Owner::Nck, axis.number() - 1, what, cure));
         }
         if let Some(other) = archive.data.axis(name)
             && other != axis
         {
-            let what = format!(
-                "expected a name that only machine axis {axis} has, found `{name}`, which axis {other} has"
-            );
+            let what =
+                format!("expected a name that only machine axis {axis} has, found `{name}`, which axis {other} has");
             let index = axis.number() - 1;
-            findings.push(finding(
-                archive,
-                10000,
-                Owner::Nck,
-                index,
-                what,
-                "give every machine axis its own name",
-            ));
+            findings.push(finding(archive, 10000, Owner::Nck, index, what, "give every machine axis its own name"));
         }
     }
 }
@@ -125,9 +79,7 @@ fn gantry_code(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>)
     let code = archive.data.axes[axis].gantry_axis_type;
     if !matches!(code, 0..=8 | 11..=18) {
         let name = archive.data.axis_name(axis);
-        let what = format!(
-            "expected 0, 1 to 8 or 11 to 18 for axis {name}, found {code}: alarm 10650 at power on"
-        );
+        let what = format!("expected 0, 1 to 8 or 11 to 18 for axis {name}, found {code}: alarm 10650 at power on");
         findings.push(finding(
             archive,
             37100,
@@ -143,52 +95,22 @@ fn gantry_code(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>)
 fn gantry_limits(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>) {
     let data = &archive.data.axes[axis];
     let name = archive.data.axis_name(axis);
-    let (warning, trip, reference) = (
-        data.gantry_pos_tol_warning,
-        data.gantry_pos_tol_error,
-        data.gantry_pos_tol_ref,
-    );
+    let (warning, trip, reference) = (data.gantry_pos_tol_warning, data.gantry_pos_tol_error, data.gantry_pos_tol_ref);
     if warning <= 0.0 {
         return;
     }
     let owner = Owner::Axis(axis);
     if trip <= warning {
-        let what =
-            format!("MON-16: expected more than MD37110 = {warning} for axis {name}, found {trip}");
-        findings.push(finding(
-            archive,
-            37120,
-            owner,
-            0,
-            what,
-            "the trip limit lies above the warning limit",
-        ));
+        let what = format!("MON-16: expected more than MD37110 = {warning} for axis {name}, found {trip}");
+        findings.push(finding(archive, 37120, owner, 0, what, "the trip limit lies above the warning limit"));
     }
     if reference <= trip {
-        let what = format!(
-            "MON-16: expected more than MD37120 = {trip} for axis {name}, found {reference}"
-        );
-        findings.push(finding(
-            archive,
-            37130,
-            owner,
-            0,
-            what,
-            "the limit for referencing lies above the trip limit",
-        ));
+        let what = format!("MON-16: expected more than MD37120 = {trip} for axis {name}, found {reference}");
+        findings.push(finding(archive, 37130, owner, 0, what, "the limit for referencing lies above the trip limit"));
     }
     if data.num_encs == 2 && data.enc_change_tol >= warning {
-        let what = format!(
-            "REF-28: expected less than MD37110 = {warning} for axis {name}, found {}",
-            data.enc_change_tol
-        );
-        findings.push(finding(
-            archive,
-            36500,
-            owner,
-            0,
-            what,
-            "a switch-over could warn by itself; lower MD36500",
-        ));
+        let what =
+            format!("REF-28: expected less than MD37110 = {warning} for axis {name}, found {}", data.enc_change_tol);
+        findings.push(finding(archive, 36500, owner, 0, what, "a switch-over could warn by itself; lower MD36500"));
     }
 }

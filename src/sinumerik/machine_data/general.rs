@@ -59,18 +59,12 @@ scope General
 
 /// The override switch with 23 positions; the positions behind keep the last value.
 const FEED_OVERRIDE: [f64; 31] = [
-    0.0, 0.01, 0.02, 0.04, 0.06, 0.08, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9,
-    0.95, 1.0, 1.05, 1.1, 1.15, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2,
+    0.0, 0.01, 0.02, 0.04, 0.06, 0.08, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.05, 1.1,
+    1.15, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2,
 ];
 
 /// X1, Y1, Z1, A1, B1, C1, U1, V1, W1 and, our own continuation, X2 and so on.
 fn default_axis_names() -> [String; 31] {
     let letters = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
-    std::array::from_fn(|index| {
-        format!(
-            "{}{}",
-            letters[index % letters.len()],
-            index / letters.len() + 1
-        )
-    })
+    std::array::from_fn(|index| format!("{}{}", letters[index % letters.len()], index / letters.len() + 1))
 }

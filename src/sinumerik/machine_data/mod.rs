@@ -62,12 +62,7 @@ impl Default for MachineData {
         for (number, channel) in channels.iter_mut() {
             channel.chan_name = format!("CHAN{number}");
         }
-        Self {
-            general: General::default(),
-            setting: Setting::default(),
-            channels,
-            axes: PerAxis::default(),
-        }
+        Self { general: General::default(), setting: Setting::default(), channels, axes: PerAxis::default() }
     }
 }
 
@@ -82,8 +77,7 @@ impl MachineData {
     /// The machine axis of this name (MD10000, exact case) or `AXn`.
     #[must_use]
     pub fn axis(&self, name: &str) -> Option<AxisNumber> {
-        let by_name =
-            AxisNumber::all().find(|axis| self.axis_name(*axis) == name && !name.is_empty());
+        let by_name = AxisNumber::all().find(|axis| self.axis_name(*axis) == name && !name.is_empty());
         by_name.or_else(|| AxisNumber::new(numbered(name, "AX")?))
     }
 
@@ -96,13 +90,8 @@ impl MachineData {
     /// The channel of this name (MD20000, exact case) or `CHANn`.
     #[must_use]
     pub fn channel(&self, name: &str) -> Option<ChannelNumber> {
-        let by_name = self
-            .channels
-            .iter()
-            .find(|(_, channel)| channel.chan_name == name && !name.is_empty());
-        by_name
-            .map(|(number, _)| number)
-            .or_else(|| ChannelNumber::new(numbered(name, "CHAN")?))
+        let by_name = self.channels.iter().find(|(_, channel)| channel.chan_name == name && !name.is_empty());
+        by_name.map(|(number, _)| number).or_else(|| ChannelNumber::new(numbered(name, "CHAN")?))
     }
 
     /// Reads which value is meant: `34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `$MA_REFP_SET_POS[2,AX3]`,
@@ -138,9 +127,7 @@ impl MachineData {
         let datum = target.datum();
         if datum.read_only {
             return Err(Problem::new(
-                format!(
-                    "expected a machine datum that can be written, found {datum}, which only the control writes"
-                ),
+                format!("expected a machine datum that can be written, found {datum}, which only the control writes"),
                 "leave it to the control",
             ));
         }
@@ -152,10 +139,7 @@ impl MachineData {
         let datum = target.datum();
         let refused = |expected: &str| {
             let found = value.export(datum.kind);
-            Problem::new(
-                format!("expected {expected} for {datum}, found {found}"),
-                "correct the value",
-            )
+            Problem::new(format!("expected {expected} for {datum}, found {found}"), "correct the value")
         };
         if let Some(number) = value.number()
             && !datum.range.contains(number)
@@ -172,11 +156,7 @@ impl MachineData {
                 let stored = store_in(axis, target, value);
                 if axis.is_rot_ax != was_rotary {
                     let (linear, rotary) = (Axis::default(), Axis::rotary());
-                    let (from, to) = if was_rotary {
-                        (&rotary, &linear)
-                    } else {
-                        (&linear, &rotary)
-                    };
+                    let (from, to) = if was_rotary { (&rotary, &linear) } else { (&linear, &rotary) };
                     axis.exchange_defaults(from, to);
                 }
                 stored

@@ -103,11 +103,7 @@ pub struct Range {
 
 impl Range {
     /// Any value of the type.
-    pub const ANY: Self = Self {
-        minimum: None,
-        maximum: None,
-        above_minimum: false,
-    };
+    pub const ANY: Self = Self { minimum: None, maximum: None, above_minimum: false };
     /// Larger than any value of a real machine, and small enough that sums of positions in nanometres stay exact.
     const LARGEST: f64 = 1e9;
     /// A position or a way of either sign.
@@ -115,33 +111,21 @@ impl Range {
     /// Zero or more.
     pub const NOT_NEGATIVE: Self = Self::between(0.0, Self::LARGEST);
     /// More than zero.
-    pub const POSITIVE: Self = Self {
-        above_minimum: true,
-        ..Self::NOT_NEGATIVE
-    };
+    pub const POSITIVE: Self = Self { above_minimum: true, ..Self::NOT_NEGATIVE };
     /// A distance that is at least one increment.
     pub const INCREMENT: Self = Self::between(0.000_001, Self::LARGEST);
 
     /// From one value to another, both allowed.
     #[must_use]
     pub const fn between(minimum: f64, maximum: f64) -> Self {
-        Self {
-            minimum: Some(minimum),
-            maximum: Some(maximum),
-            above_minimum: false,
-        }
+        Self { minimum: Some(minimum), maximum: Some(maximum), above_minimum: false }
     }
 
     /// Whether a value is allowed.
     #[must_use]
     pub fn contains(&self, value: f64) -> bool {
-        let low = self.minimum.is_none_or(|minimum| {
-            if self.above_minimum {
-                value > minimum
-            } else {
-                value >= minimum
-            }
-        });
+        let low =
+            self.minimum.is_none_or(|minimum| if self.above_minimum { value > minimum } else { value >= minimum });
         low && self.maximum.is_none_or(|maximum| value <= maximum)
     }
 }
@@ -203,11 +187,7 @@ impl Datum {
 
 /// A number as people write it: setting data have the numbers from 41000 to 43999, all others are machine data.
 pub(super) fn numbered(number: u32) -> String {
-    let kind = if (41_000..44_000).contains(&number) {
-        "SD"
-    } else {
-        "MD"
-    };
+    let kind = if (41_000..44_000).contains(&number) { "SD" } else { "MD" };
     format!("{kind}{number}")
 }
 
@@ -286,10 +266,7 @@ macro_rules! whole_number {
                 Value::Integer(i64::from(*self))
             }
             fn from_value(value: &Value) -> Result<Self, String> {
-                value
-                    .whole()
-                    .and_then(|whole| Self::try_from(whole).ok())
-                    .ok_or_else(|| $expected.to_owned())
+                value.whole().and_then(|whole| Self::try_from(whole).ok()).ok_or_else(|| $expected.to_owned())
             }
         }
     };
@@ -304,10 +281,7 @@ impl Scalar for f64 {
         Value::Real(*self)
     }
     fn from_value(value: &Value) -> Result<Self, String> {
-        value
-            .number()
-            .filter(|number| number.is_finite())
-            .ok_or_else(|| "a finite number".to_owned())
+        value.number().filter(|number| number.is_finite()).ok_or_else(|| "a finite number".to_owned())
     }
 }
 
@@ -351,18 +325,13 @@ impl<T: Scalar> Field for T {
 
 impl<T: Scalar, const N: usize> Field for [T; N] {
     const KIND: Kind = T::KIND;
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "no datum has more than 31 values"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "no datum has more than 31 values")]
     const COUNT: u8 = N as u8;
     fn value(&self, index: usize) -> Option<Value> {
         self.get(index).map(Scalar::value)
     }
     fn store(&mut self, index: usize, value: &Value) -> Result<(), String> {
-        let place = self
-            .get_mut(index)
-            .ok_or_else(|| format!("an index from 0 to {}", N - 1))?;
+        let place = self.get_mut(index).ok_or_else(|| format!("an index from 0 to {}", N - 1))?;
         *place = T::from_value(value)?;
         Ok(())
     }

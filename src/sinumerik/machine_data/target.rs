@@ -43,14 +43,7 @@ impl PartialOrd for Target {
 /// By scope, number, owner, index: the order in which the control exports.
 impl Ord for Target {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        let key = |target: &Self| {
-            (
-                target.datum.scope,
-                target.datum.number,
-                target.owner,
-                target.index,
-            )
-        };
+        let key = |target: &Self| (target.datum.scope, target.datum.number, target.owner, target.index);
         key(self).cmp(&key(other))
     }
 }
@@ -76,11 +69,7 @@ impl Target {
         if index >= datum.count {
             return Err(bad_index(datum, &index.to_string()));
         }
-        Ok(Self {
-            datum,
-            owner,
-            index,
-        })
+        Ok(Self { datum, owner, index })
     }
 
     /// The datum.
@@ -138,9 +127,7 @@ pub(super) fn split_indices(text: &str) -> Option<(&str, Vec<&str>)> {
     };
     let inside = rest.trim_end().strip_suffix(']')?;
     let indices: Vec<_> = inside.split(',').map(str::trim).collect();
-    let sound = !name.trim().is_empty()
-        && indices.len() <= 2
-        && indices.iter().all(|index| !index.is_empty());
+    let sound = !name.trim().is_empty() && indices.len() <= 2 && indices.iter().all(|index| !index.is_empty());
     (sound && !inside.contains(['[', ']'])).then(|| (name.trim(), indices))
 }
 
@@ -161,35 +148,18 @@ pub(super) fn resolve(
     let owner = match (datum.scope, name) {
         (Scope::General | Scope::Setting, None) => Owner::Nck,
         (Scope::Channel, None) => Owner::Channel(channel),
-        (Scope::Channel, Some(name)) => Owner::Channel(
-            data.channel(name)
-                .ok_or_else(|| unknown_channel(datum, name))?,
-        ),
-        (Scope::Axis, Some(name)) => Owner::Axis(
-            data.axis(name)
-                .ok_or_else(|| unknown_axis(datum, name, data))?,
-        ),
+        (Scope::Channel, Some(name)) => Owner::Channel(data.channel(name).ok_or_else(|| unknown_channel(datum, name))?),
+        (Scope::Axis, Some(name)) => Owner::Axis(data.axis(name).ok_or_else(|| unknown_axis(datum, name, data))?),
         (Scope::General | Scope::Setting, Some(name)) => return Err(bad_index(datum, name)),
         (Scope::Axis, None) => {
             return Err(Problem::new(
                 format!("expected a machine axis in the brackets of {datum}, found none"),
-                format!(
-                    "write `{}[AX1]`, or the name of the machine axis",
-                    datum.identifier
-                ),
+                format!("write `{}[AX1]`, or the name of the machine axis", datum.identifier),
             ));
         }
     };
-    let index = number
-        .parse()
-        .ok()
-        .filter(|index| *index < datum.count)
-        .ok_or_else(|| bad_index(datum, number))?;
-    Ok(Target {
-        datum,
-        owner,
-        index,
-    })
+    let index = number.parse().ok().filter(|index| *index < datum.count).ok_or_else(|| bad_index(datum, number))?;
+    Ok(Target { datum, owner, index })
 }
 
 fn owner_in_words(scope: Scope) -> &'static str {
@@ -206,10 +176,7 @@ fn bad_index(datum: &Datum, found: &str) -> Problem {
     } else {
         format!("an index from 0 to {}", datum.count - 1)
     };
-    Problem::new(
-        format!("expected {expected} for {datum}, found `{found}`"),
-        "correct the index",
-    )
+    Problem::new(format!("expected {expected} for {datum}, found `{found}`"), "correct the index")
 }
 
 fn unknown_number(number: u32) -> Problem {
@@ -224,22 +191,13 @@ fn unknown_identifier(name: &str) -> Problem {
         || "the catalogue of machine data lists the known ones".to_owned(),
         |near| format!("did you mean `{near}`?"),
     );
-    Problem::new(
-        format!("expected a known machine datum, found `{name}`"),
-        cure,
-    )
+    Problem::new(format!("expected a known machine datum, found `{name}`"), cure)
 }
 
 fn unknown_axis(datum: &Datum, name: &str, data: &MachineData) -> Problem {
-    let names = data
-        .general
-        .axconf_machax_name_tab
-        .iter()
-        .map(String::as_str);
+    let names = data.general.axconf_machax_name_tab.iter().map(String::as_str);
     Problem::new(
-        format!(
-            "expected a machine axis name (MD10000) or AX1 to AX31 for {datum}, found `{name}`"
-        ),
+        format!("expected a machine axis name (MD10000) or AX1 to AX31 for {datum}, found `{name}`"),
         did_you_mean(name, names, "names are compared in exact case"),
     )
 }

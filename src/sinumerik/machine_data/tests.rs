@@ -13,10 +13,7 @@ fn archive(text: &str) -> Archive {
 /// The findings of a refused archive, each in one line.
 fn refused(text: &str) -> Vec<String> {
     let findings = Archive::read([("a.tea", text.as_bytes())]).unwrap_err();
-    findings
-        .iter()
-        .map(|finding| finding.to_string().replace('\n', " "))
-        .collect()
+    findings.iter().map(|finding| finding.to_string().replace('\n', " ")).collect()
 }
 
 fn axis(number: u8) -> AxisNumber {
@@ -42,10 +39,7 @@ mod values {
                 Scope::Channel => &data["channels"][0],
                 Scope::Axis => &data["axes"][0],
             };
-            assert!(
-                !table[datum.identifier.to_ascii_lowercase()].is_null(),
-                "{datum}"
-            );
+            assert!(!table[datum.identifier.to_ascii_lowercase()].is_null(), "{datum}");
         }
     }
 
@@ -63,10 +57,7 @@ mod values {
                 let value = data.get(&target).unwrap();
                 data.store(&target, &value).unwrap();
             }
-            assert!(
-                Target::new(datum.number, owner, datum.count).is_err(),
-                "{datum}"
-            );
+            assert!(Target::new(datum.number, owner, datum.count).is_err(), "{datum}");
         }
         assert_eq!(data, MachineData::default());
     }
@@ -78,10 +69,7 @@ mod values {
             assert_eq!(data.axis(data.axis_name(number)), Some(number));
             assert_eq!(data.axis(&format!("AX{number}")), Some(number));
         }
-        assert_eq!(
-            (data.axis_name(axis(9)), data.axis_name(axis(10))),
-            ("W1", "X2")
-        );
+        assert_eq!((data.axis_name(axis(9)), data.axis_name(axis(10))), ("W1", "X2"));
     }
 
     #[test]
@@ -98,23 +86,14 @@ mod values {
         set(&mut data, "32020[X1]", &Value::Integer(7));
         set(&mut data, "30300[X1]", &Value::Boolean(true));
         let x = &data.axes[axis(1)];
-        assert_eq!(
-            (x.max_ax_velo, x.jog_velo, x.refp_velo_search_marker),
-            (27.77, 7.0, [0.833; 2])
-        );
+        assert_eq!((x.max_ax_velo, x.jog_velo, x.refp_velo_search_marker), (27.77, 7.0, [0.833; 2]));
         set(&mut data, "30300[X1]", &Value::Boolean(false));
-        assert_eq!(
-            (data.axes[axis(1)].max_ax_velo, data.axes[axis(1)].jog_velo),
-            (10_000.0, 7.0)
-        );
+        assert_eq!((data.axes[axis(1)].max_ax_velo, data.axes[axis(1)].jog_velo), (10_000.0, 7.0));
     }
 
     #[test]
     fn the_interpolation_cycle_is_md10050_times_md10070() {
-        assert_eq!(
-            MachineData::default().interpolation_cycle(),
-            Time::from_millis(12)
-        );
+        assert_eq!(MachineData::default().interpolation_cycle(), Time::from_millis(12));
     }
 }
 
@@ -124,29 +103,14 @@ mod targets {
     #[test]
     fn every_way_of_writing_means_the_same_value() {
         let data = archive("N10000 $MN_AXCONF_MACHAX_NAME_TAB[2]=\"XF\"").data;
-        for text in [
-            "34090[XF]",
-            "34090[0,AX3]",
-            "$MA_REFP_MOVE_DIST_CORR[0,AX3]",
-            "REFP_MOVE_DIST_CORR[ 0 , XF ]",
-        ] {
+        for text in ["34090[XF]", "34090[0,AX3]", "$MA_REFP_MOVE_DIST_CORR[0,AX3]", "REFP_MOVE_DIST_CORR[ 0 , XF ]"] {
             let target = data.parse_target(text).unwrap();
-            assert_eq!(
-                target.to_string(),
-                "$MA_REFP_MOVE_DIST_CORR[0,AX3]",
-                "{text}"
-            );
+            assert_eq!(target.to_string(), "$MA_REFP_MOVE_DIST_CORR[0,AX3]", "{text}");
         }
         assert_eq!(data.parse_target("34100[2,XF]").unwrap().index(), 2);
         assert_eq!(data.parse_target("11300").unwrap().owner(), Owner::Nck);
-        assert_eq!(
-            data.parse_target("20700").unwrap(),
-            data.parse_target("20700[CHAN1]").unwrap()
-        );
-        assert_eq!(
-            data.parse_target("41110").unwrap().to_string(),
-            "$SN_JOG_SET_VELO"
-        );
+        assert_eq!(data.parse_target("20700").unwrap(), data.parse_target("20700[CHAN1]").unwrap());
+        assert_eq!(data.parse_target("41110").unwrap().to_string(), "$SN_JOG_SET_VELO");
     }
 
     #[test]
@@ -167,10 +131,7 @@ mod targets {
         ];
         for (text, part) in cases {
             let problem = data.parse_target(text).unwrap_err().to_string();
-            assert!(
-                problem.starts_with("expected ") && problem.contains(part),
-                "{text}: {problem}"
-            );
+            assert!(problem.starts_with("expected ") && problem.contains(part), "{text}: {problem}");
         }
     }
 
@@ -267,8 +228,7 @@ mod ascii_archives {
 
     #[test]
     fn import_is_as_tolerant_as_the_controls() {
-        let text =
-            b"\xEF\xBB\xBF%_N_INITIAL_INI\r\n;$PATH=/_N_DEF_DIR\r\nMETRIC\r\n\r\nCHANDATA( 2 )\r\n\
+        let text = b"\xEF\xBB\xBF%_N_INITIAL_INI\r\n;$PATH=/_N_DEF_DIR\r\nMETRIC\r\n\r\nCHANDATA( 2 )\r\n\
             n34100 $MA_REFP_SET_POS [ 1 , AX2 ] = 1EX-05 ; comment = 2\r\n\
             $MA_GANTRY_AXIS_TYPE[AX2]=11;'\r\n\
             N37150 $ma_gantry_function_mask[AX2]='B101' 'a3f\r\n\
@@ -278,38 +238,23 @@ mod ascii_archives {
             %_N_COMPLETE_TEA_INI\r\n$MC_REFP_NC_START_LOCK=2\r\nM30\r\n";
         let archive = Archive::read([("x.tea", text.as_slice())]).unwrap();
         let two = &archive.data.axes[axis(2)];
-        assert_eq!(
-            (
-                two.refp_set_pos[1],
-                two.gantry_axis_type,
-                two.gantry_function_mask
-            ),
-            (1e-5, 11, 5)
-        );
+        assert_eq!((two.refp_set_pos[1], two.gantry_axis_type, two.gantry_function_mask), (1e-5, 11, 5));
         assert!(!two.refp_cam_is_active);
         let channel = |number| &archive.data.channels[ChannelNumber::new(number).unwrap()];
-        assert_eq!(
-            (channel(2).refp_nc_start_lock, channel(1).refp_nc_start_lock),
-            (0, 2)
-        );
+        assert_eq!((channel(2).refp_nc_start_lock, channel(1).refp_nc_start_lock), (0, 2));
         assert_eq!(channel(2).chan_name, "A;B");
         assert_eq!(archive.findings, []);
     }
 
     #[test]
     fn latin_1_is_read() {
-        let archive =
-            Archive::read([("x.ini", b"$MC_CHAN_NAME=\"Br\xFCcke\"\n".as_slice())]).unwrap();
-        assert_eq!(
-            archive.data.channels[ChannelNumber::FIRST].chan_name,
-            "Brücke"
-        );
+        let archive = Archive::read([("x.ini", b"$MC_CHAN_NAME=\"Br\xFCcke\"\n".as_slice())]).unwrap();
+        assert_eq!(archive.data.channels[ChannelNumber::FIRST].chan_name, "Brücke");
     }
 
     #[test]
     fn an_axis_may_be_named_before_its_name_is_given() {
-        let archive =
-            archive("$MA_GANTRY_AXIS_TYPE[XF]=11\nN10000 $MN_AXCONF_MACHAX_NAME_TAB[2]=\"XF\"\n");
+        let archive = archive("$MA_GANTRY_AXIS_TYPE[XF]=11\nN10000 $MN_AXCONF_MACHAX_NAME_TAB[2]=\"XF\"\n");
         assert_eq!(archive.data.axes[axis(3)].gantry_axis_type, 11);
         assert!(archive.given_axis(axis(3)) && !archive.given_axis(axis(1)));
         assert!(archive.is_given_for(37100, Owner::Axis(axis(3))));
@@ -318,50 +263,28 @@ mod ascii_archives {
 
     #[test]
     fn a_later_assignment_replaces_an_earlier_one() {
-        let files = [
-            ("a.tea", b"$MA_REFP_VELO_POS[AX1]=1\n".as_slice()),
-            ("b.tea", b"$MA_REFP_VELO_POS[AX1]=2\n"),
-        ];
+        let files = [("a.tea", b"$MA_REFP_VELO_POS[AX1]=1\n".as_slice()), ("b.tea", b"$MA_REFP_VELO_POS[AX1]=2\n")];
         let archive = Archive::read(files).unwrap();
         let summary = &archive.summary;
-        assert_eq!(
-            (
-                archive.data.axes[axis(1)].refp_velo_pos,
-                summary.taken,
-                summary.members.len()
-            ),
-            (2.0, 1, 2)
-        );
+        assert_eq!((archive.data.axes[axis(1)].refp_velo_pos, summary.taken, summary.members.len()), (2.0, 1, 2));
     }
 
     #[test]
     fn what_a_rotary_axis_was_given_stays_and_the_rest_is_rotary() {
         let archive = archive("$MA_MAX_AX_VELO[AX1]=10000\n$MA_IS_ROT_AX[AX1]=1\n");
         let x = &archive.data.axes[axis(1)];
-        assert_eq!(
-            (x.max_ax_velo, x.jog_velo, x.ax_velo_limit),
-            (10_000.0, 5.55, [31.94; 6])
-        );
+        assert_eq!((x.max_ax_velo, x.jog_velo, x.ax_velo_limit), (10_000.0, 5.55, [31.94; 6]));
     }
 
     #[test]
     fn unknown_data_are_kept_and_warned_of() {
-        let text =
-            "N35100 $MA_SPIND_VELO_LIMIT[AX9X]=500\n$TC_DP1[1,1]=120\nN18000 $MN_A=1 \n$MN_A=2\n";
+        let text = "N35100 $MA_SPIND_VELO_LIMIT[AX9X]=500\n$TC_DP1[1,1]=120\nN18000 $MN_A=1 \n$MN_A=2\n";
         let archive = archive(text);
         assert_eq!(archive.unknown.len(), 3);
         assert_eq!(archive.unknown[2].value, "2");
         let warning = archive.findings[0].to_string();
-        assert!(
-            warning.starts_with("a.tea:1: warning: MD35100 $MA_SPIND_VELO_LIMIT: "),
-            "{warning}"
-        );
-        assert!(
-            archive
-                .summary
-                .to_string()
-                .starts_with("0 machine data taken, 3 unknown kept")
-        );
+        assert!(warning.starts_with("a.tea:1: warning: MD35100 $MA_SPIND_VELO_LIMIT: "), "{warning}");
+        assert!(archive.summary.to_string().starts_with("0 machine data taken, 3 unknown kept"));
     }
 
     #[test]
@@ -371,14 +294,10 @@ mod ascii_archives {
         let findings = refused(text);
         assert_eq!(findings.len(), 6);
         assert!(
-            findings[0]
-                .starts_with("a.tea:1: error: MD37110 $MA_GANTRY_AXIS_TYPE: expected N37100"),
+            findings[0].starts_with("a.tea:1: error: MD37110 $MA_GANTRY_AXIS_TYPE: expected N37100"),
             "{findings:?}"
         );
-        assert!(
-            findings[1].contains("found `x`")
-                && findings[1].starts_with("a.tea:2: error: MD37100 ")
-        );
+        assert!(findings[1].contains("found `x`") && findings[1].starts_with("a.tea:2: error: MD37100 "));
         assert!(findings[2].contains("0 to 3") && findings[2].starts_with("a.tea:3: "));
         assert!(findings[3].contains("found `XF`") && findings[3].starts_with("a.tea:4: "));
         assert!(findings[4].contains("did you mean `GANTRY_AXIS_TYPE`?"));
@@ -397,10 +316,7 @@ mod ascii_archives {
     fn the_refusal_tells_the_first_mistake_and_how_many_more() {
         let findings = Archive::read([("a.tea", b"INCH\nG0\n".as_slice())]).unwrap_err();
         let problem = refusal(&findings).to_string();
-        assert!(
-            problem.starts_with("a.tea:1: expected METRIC") && problem.contains("1 more"),
-            "{problem}"
-        );
+        assert!(problem.starts_with("a.tea:1: expected METRIC") && problem.contains("1 more"), "{problem}");
     }
 
     proptest! {
@@ -422,22 +338,9 @@ mod writing {
     use super::*;
 
     /// What a file says, without where it says it.
-    fn said(
-        archive: &Archive,
-    ) -> (
-        MachineData,
-        Vec<Target>,
-        Vec<(String, ChannelNumber, String)>,
-    ) {
-        let unknown = archive
-            .unknown
-            .iter()
-            .map(|one| (one.name.clone(), one.channel, one.value.clone()));
-        (
-            archive.data.clone(),
-            archive.given.keys().copied().collect(),
-            unknown.collect(),
-        )
+    fn said(archive: &Archive) -> (MachineData, Vec<Target>, Vec<(String, ChannelNumber, String)>) {
+        let unknown = archive.unknown.iter().map(|one| (one.name.clone(), one.channel, one.value.clone()));
+        (archive.data.clone(), archive.given.keys().copied().collect(), unknown.collect())
     }
 
     #[test]
@@ -456,7 +359,8 @@ mod writing {
 
     #[test]
     fn what_was_written_is_read_as_the_same() {
-        let text = "$MA_IS_ROT_AX[AX2]=1\n$MA_MAX_AX_VELO[AX2]=10000\n$MN_X=7\nCHANDATA(3)\n$MC_CHAN_NAME=\"Ä\"\n$MC_Y=1\n";
+        let text =
+            "$MA_IS_ROT_AX[AX2]=1\n$MA_MAX_AX_VELO[AX2]=10000\n$MN_X=7\nCHANDATA(3)\n$MC_CHAN_NAME=\"Ä\"\n$MC_Y=1\n";
         let first = archive(text);
         assert_eq!(said(&archive(&first.write())), said(&first));
     }
@@ -498,8 +402,7 @@ mod binary_archives {
     /// A member exactly as the table of the format says.
     fn member(internal: &str, shown: &str, folder: &str, data: &[u8]) -> Vec<u8> {
         let mut header = [0_u8; 512];
-        let mut put =
-            |at: usize, text: &str| header[at..at + text.len()].copy_from_slice(text.as_bytes());
+        let mut put = |at: usize, text: &str| header[at..at + text.len()].copy_from_slice(text.as_bytes());
         put(0, internal);
         put(50, shown);
         put(100, "77777");
@@ -519,12 +422,7 @@ mod binary_archives {
 
     fn small() -> Vec<u8> {
         let nc = r"\_NC_ACT.DIR\";
-        let mut bytes = member(
-            "@@MMCIBN.002",
-            "",
-            "",
-            b";---creation stamp---\n;---components---\nNCKComp\n",
-        );
+        let mut bytes = member("@@MMCIBN.002", "", "", b";---creation stamp---\n;---components---\nNCKComp\n");
         bytes.extend(member(
             "_N_CFG_GLOBAL_INI",
             "CFG_GLOBAL.INI",
@@ -533,12 +431,7 @@ mod binary_archives {
         ));
         bytes.extend(member("_N_INITIAL_INI", "INITIAL.INI", nc, b"METRIC\n\nCHANDATA(1)\nN11300 $MN_JOG_INC_MODE_LEVELTRIGGRD=0\nN37100 $MA_GANTRY_AXIS_TYPE[AX3]=11\nN4 $X=2\nM17\n"));
         bytes.extend(member("@@_N_ADRV_SINAMICS_1", "", "", b""));
-        bytes.extend(member(
-            "_N_PS000001_TEA",
-            "PS000001.TEA",
-            r"\ADRV.DIR\",
-            b"p10=1\n",
-        ));
+        bytes.extend(member("_N_PS000001_TEA", "PS000001.TEA", r"\ADRV.DIR\", b"p10=1\n"));
         bytes
     }
 
@@ -553,19 +446,9 @@ mod binary_archives {
         assert_eq!(archive.data.axes[axis(3)].gantry_axis_type, 11);
         assert_eq!((archive.summary.taken, archive.summary.unknown), (2, 1));
         let summary = archive.summary.to_string();
-        assert!(
-            summary.contains("m.arc(INITIAL.INI): 3 assignments"),
-            "{summary}"
-        );
-        assert!(
-            summary.contains(r"left: \ADRV.DIR\PS000001.TEA"),
-            "{summary}"
-        );
-        assert!(
-            archive.findings[0]
-                .to_string()
-                .starts_with("m.arc(INITIAL.INI):6: warning: ")
-        );
+        assert!(summary.contains("m.arc(INITIAL.INI): 3 assignments"), "{summary}");
+        assert!(summary.contains(r"left: \ADRV.DIR\PS000001.TEA"), "{summary}");
+        assert!(archive.findings[0].to_string().starts_with("m.arc(INITIAL.INI):6: warning: "));
     }
 
     #[test]
@@ -575,9 +458,7 @@ mod binary_archives {
         assert!(cut[0].what.ends_with("at offset 2560"), "{}", cut[0]);
         let cut = read(&bytes[..1_540]).unwrap_err();
         assert!(
-            cut[0]
-                .what
-                .contains("of _N_CFG_GLOBAL_INI and their padding, found 4 bytes at offset 1536"),
+            cut[0].what.contains("of _N_CFG_GLOBAL_INI and their padding, found 4 bytes at offset 1536"),
             "{}",
             cut[0]
         );
@@ -608,36 +489,14 @@ mod binary_archives {
         }
         let mut text = "METRIC\n\nCHANDATA(1)\n".to_owned();
         for number in 0..24_000 {
-            text += &format!(
-                "N{} $MA_FOREIGN_{}[{},AX{}]=0.5\n",
-                40_000 + number / 100,
-                number / 100,
-                number % 100,
-                1
-            );
+            text += &format!("N{} $MA_FOREIGN_{}[{},AX{}]=0.5\n", 40_000 + number / 100, number / 100, number % 100, 1);
         }
         for number in 0..1_000 {
-            text += &format!(
-                "N34100 $MA_REFP_SET_POS[{},AX{}]={number}\n",
-                number % 4,
-                number % 31 + 1
-            );
+            text += &format!("N34100 $MA_REFP_SET_POS[{},AX{}]={number}\n", number % 4, number % 31 + 1);
         }
-        bytes.extend(member(
-            "_N_INITIAL_INI",
-            "INITIAL.INI",
-            r"\_NC_ACT.DIR\",
-            text.as_bytes(),
-        ));
+        bytes.extend(member("_N_INITIAL_INI", "INITIAL.INI", r"\_NC_ACT.DIR\", text.as_bytes()));
         let archive = read(&bytes).unwrap();
-        assert_eq!(
-            (
-                archive.summary.members.len(),
-                archive.summary.unknown,
-                archive.summary.taken
-            ),
-            (299, 24_000, 124)
-        );
+        assert_eq!((archive.summary.members.len(), archive.summary.unknown, archive.summary.taken), (299, 24_000, 124));
         assert_eq!(archive.findings.len(), 240);
     }
 
@@ -673,10 +532,7 @@ mod checking {
     use super::*;
 
     fn found(text: &str) -> Vec<String> {
-        check(&archive(text))
-            .iter()
-            .map(ToString::to_string)
-            .collect()
+        check(&archive(text)).iter().map(ToString::to_string).collect()
     }
 
     /// MON-16
@@ -691,10 +547,7 @@ mod checking {
             "{findings:?}"
         );
         assert!(findings[1].starts_with("a.tea:4: warning: MD37130 "));
-        assert_eq!(
-            found(&text.replace("WARNING[AX1]=2", "WARNING[AX1]=0")),
-            [""; 0]
-        );
+        assert_eq!(found(&text.replace("WARNING[AX1]=2", "WARNING[AX1]=0")), [""; 0]);
         assert_eq!(found(&text.replace("TYPE[AX1]=1", "TYPE[AX1]=0")), [""; 0]);
     }
 
@@ -704,14 +557,8 @@ mod checking {
         let text = "$MA_GANTRY_AXIS_TYPE[AX1]=1\n$MA_GANTRY_POS_TOL_WARNING[AX1]=0.1\n$MA_NUM_ENCS[AX1]=2\n\
             $MA_GANTRY_POS_TOL_ERROR[AX1]=1\n$MA_GANTRY_POS_TOL_REF[AX1]=2\n";
         let findings = found(text);
-        assert!(
-            findings.len() == 1 && findings[0].contains("MD36500 $MA_ENC_CHANGE_TOL: REF-28"),
-            "{findings:?}"
-        );
-        assert_eq!(
-            found(&text.replace("NUM_ENCS[AX1]=2", "NUM_ENCS[AX1]=1")),
-            [""; 0]
-        );
+        assert!(findings.len() == 1 && findings[0].contains("MD36500 $MA_ENC_CHANGE_TOL: REF-28"), "{findings:?}");
+        assert_eq!(found(&text.replace("NUM_ENCS[AX1]=2", "NUM_ENCS[AX1]=1")), [""; 0]);
     }
 
     #[test]
@@ -749,24 +596,10 @@ mod worked_example {
         for (number, code) in [(1, 1), (3, 11)] {
             let axis = &data.axes[axis(number)];
             assert_eq!(axis.gantry_axis_type, code);
-            let limits = [
-                axis.gantry_pos_tol_warning,
-                axis.gantry_pos_tol_error,
-                axis.gantry_pos_tol_ref,
-            ];
+            let limits = [axis.gantry_pos_tol_warning, axis.gantry_pos_tol_error, axis.gantry_pos_tol_ref];
             assert_eq!((limits, axis.gantry_break_up), ([0.0, 1.0, 100.0], false));
-            assert_eq!(
-                (axis.refp_cam_is_active, axis.refp_cam_dir_is_minus),
-                (true, false)
-            );
-            assert_eq!(
-                (
-                    axis.refp_move_dist[0],
-                    axis.refp_move_dist_corr[0],
-                    axis.refp_cam_shift[0]
-                ),
-                (0.0, 0.0, 0.0)
-            );
+            assert_eq!((axis.refp_cam_is_active, axis.refp_cam_dir_is_minus), (true, false));
+            assert_eq!((axis.refp_move_dist[0], axis.refp_move_dist_corr[0], axis.refp_cam_shift[0]), (0.0, 0.0, 0.0));
             assert_eq!((axis.refp_set_pos[0], axis.enc_refp_mode[0]), (0.0, 1));
             assert!(!axis.refp_search_marker_reverse[0]);
         }

@@ -50,8 +50,7 @@ impl Value {
             return Some(Self::Boolean(false));
         }
         let starts_as_number = |text: &str| {
-            text.trim_start_matches(['+', '-'])
-                .starts_with(|first: char| first.is_ascii_digit() || first == '.')
+            text.trim_start_matches(['+', '-']).starts_with(|first: char| first.is_ascii_digit() || first == '.')
         };
         if !starts_as_number(text) {
             return None;
@@ -61,10 +60,7 @@ impl Value {
         }
         // The control writes the exponent of ten as EX, because E1 could be the name of an axis.
         let text = text.replace("EX", "e").replace("ex", "e");
-        text.parse()
-            .ok()
-            .filter(|number: &f64| number.is_finite())
-            .map(Self::Real)
+        text.parse().ok().filter(|number: &f64| number.is_finite()).map(Self::Real)
     }
 
     /// The value that stands in a scenario; a mask may be written as in an archive, `"'H1c'"`.
@@ -80,25 +76,19 @@ impl Value {
                 Ok(Self::parse(text).unwrap_or_else(|| Self::Text(text.clone())))
             }
             source::Value::Text(text) => Ok(Self::Text(text.clone())),
-            source::Value::Array(_) | source::Value::Table(_) => Err(node.expected(
-                "a value of a machine datum",
-                "write one value for one datum",
-            )),
+            source::Value::Array(_) | source::Value::Table(_) => {
+                Err(node.expected("a value of a machine datum", "write one value for one datum"))
+            }
         }
     }
 
     /// The value as a whole number, if it is one.
     #[must_use]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "only a whole number within 2^53 is converted"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "only a whole number within 2^53 is converted")]
     pub fn whole(&self) -> Option<i64> {
         match self {
             Self::Integer(integer) => Some(*integer),
-            Self::Real(real) if real.fract().abs() < f64::MIN_POSITIVE && real.abs() < 9e15 => {
-                Some(*real as i64)
-            }
+            Self::Real(real) if real.fract().abs() < f64::MIN_POSITIVE && real.abs() < 9e15 => Some(*real as i64),
             Self::Real(_) | Self::Boolean(_) | Self::Text(_) => None,
         }
     }
@@ -166,10 +156,7 @@ mod tests {
 
     #[test]
     fn what_is_no_finite_number_is_no_value() {
-        for text in [
-            "", "inf", "-inf", "NaN", "1EX400", "X", "'H'", "'Hxyz'", "'7'", "\"a", "1 2", "--1",
-            "'", "\"",
-        ] {
+        for text in ["", "inf", "-inf", "NaN", "1EX400", "X", "'H'", "'Hxyz'", "'7'", "\"a", "1 2", "--1", "'", "\""] {
             assert_eq!(Value::parse(text), None, "{text}");
         }
     }
@@ -184,13 +171,9 @@ mod tests {
 
     #[test]
     fn a_scenario_may_write_a_mask_as_an_archive_does() {
-        let mut table =
-            source::Table::parse("a = \"'H0F'\"\nb = true\nc = [1]\n", "s.toml").unwrap();
+        let mut table = source::Table::parse("a = \"'H0F'\"\nb = true\nc = [1]\n", "s.toml").unwrap();
         let mut value = |key| Value::from_node(&table.take(key).unwrap());
-        assert_eq!(
-            (value("a"), value("b")),
-            (Ok(Value::Integer(15)), Ok(Value::Boolean(true)))
-        );
+        assert_eq!((value("a"), value("b")), (Ok(Value::Integer(15)), Ok(Value::Boolean(true))));
         assert_eq!(value("c").unwrap_err().place.unwrap().line, 3);
     }
 

@@ -26,19 +26,11 @@ impl Archive {
             };
             let section = sections.entry(channel).or_default();
             // Writing into a String cannot fail.
-            let _ = writeln!(
-                section,
-                "N{} {target}={}",
-                datum.number,
-                value.export(datum.kind)
-            );
+            let _ = writeln!(section, "N{} {target}={}", datum.number, value.export(datum.kind));
         }
         for unknown in &self.unknown {
             let section = sections.entry(unknown.channel).or_default();
-            let number = unknown
-                .number
-                .map(|number| format!("N{number} "))
-                .unwrap_or_default();
+            let number = unknown.number.map(|number| format!("N{number} ")).unwrap_or_default();
             let _ = writeln!(section, "{number}{}={}", unknown.name, unknown.value);
         }
         let mut text = "%_N_INITIAL_INI\n;$PATH=/\nMETRIC\n\n".to_owned();
