@@ -50,6 +50,7 @@ impl Control {
         let causes = axis.causes;
         match (byte, bit) {
             (60, 4 | 5) => causes.reference[usize::from(bit - 4)],
+            (60, 6 | 7) if axis.is_in_motion() => causes.motion,
             (60, 6 | 7) => {
                 let (datum, window) = if bit == 6 { (36000, windows.0) } else { (36010, windows.1) };
                 let measured = Input::Length(Quantity::Deviation, number, axis.deviation());
@@ -57,7 +58,8 @@ impl Control {
                 state.log.note(Place::Axis(number), Rule::ExactStop, [measured, limit, Input::None], causes.motion)
             }
             (61, 1) => state.alarm_event(Some(Place::Axis(number))),
-            (61, 2) => causes.drive,
+            (61, 2) if causes.drive.is_some() => causes.drive,
+            (61, 2) => state.run_up.cause,
             (61, 3 | 5 | 6 | 7) => causes.enabling,
             (61, 4) => {
                 #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]

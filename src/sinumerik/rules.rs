@@ -98,8 +98,8 @@ rules! {
     AlarmCancelled "ALARM" "alarm cancelled";
     AlarmsPending "ALARM" "alarms pending";
     PlcMissing "2000" "no sign of life from the PLC program";
-    ExactStop "MD36010" "deviation";
-    Standstill "MD36060" "velocity";
+    ExactStop "exact stop" "";
+    Standstill "standstill" "";
     ChannelState "DB21" "state of the channel";
     Traverse "SIG-09" "movement commanded";
     Definition "MD" "machine data";
