@@ -13,12 +13,14 @@ use crate::variables::{AlarmNumber, Event, EventId, Input, Place, Quantity};
 impl Control {
     /// The event behind the present value of a bit of the NCK.
     pub fn cause(&mut self, place: Place, byte: u16, bit: u8) -> EventId {
-        match place {
+        let cause = match place {
             Place::Nck => self.state.nck_cause(byte, bit),
             Place::ModeGroup(_) => self.state.mode_group_cause(byte, bit),
             Place::Channel(_) => self.state.channel_cause(byte, bit),
             Place::Axis(axis) => self.axis_cause(axis, byte, bit),
-        }
+        };
+        // What nothing has changed yet is as power on left it.
+        if cause.is_some() { cause } else { self.state.power_on_cause }
     }
 
     /// The event behind a pending alarm.

@@ -21,6 +21,7 @@ macro_rules! rules {
 
 rules! {
     // Start-up and enabling.
+    PowerOn "power on" "as after power on";
     RunUp "O-20" "run-up of control and drives";
     NcNotReady "O-20" "alarm with the reaction NC not ready";
     DriveReady "O-20" "drive ready after its run-up";
