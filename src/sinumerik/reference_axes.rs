@@ -175,6 +175,14 @@ impl State {
         to_nck: &ToNck,
     ) -> Option<(Option<AlarmNumber>, EventId)> {
         let parent = self.axes[number].approach.cause();
+        // A missing enable is named even where alarm 21612, which stops everything, came in the same cycle.
+        if !self.channel.reset
+            && let Some(off) = unit.members().find(|&axis| !to_nck.axes[axis].controller_enable())
+        {
+            let input = axis_bit(off, 2, 1, false);
+            let event = self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, parent);
+            return Some((Some(alarms::APPROACH_ABORTED), event));
+        }
         if let Some(cause) = self.stop_cause() {
             return Some((None, cause));
         }
