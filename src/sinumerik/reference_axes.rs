@@ -156,7 +156,9 @@ impl State {
         axis.approach = approach;
         axis.motion = motion;
         let direction = motion.direction(axis.setpoint.position);
-        let request = if direction == 0 && axis.feed_held { axis.traverse_request } else { direction };
+        // A movement that feed stop or an override of 0 % holds is still wanted.
+        let held = axis.feed_held || motion.is_held();
+        let request = if direction == 0 && held { axis.traverse_request } else { direction };
         if (axis.traverse_request, axis.traverse_command) != (request, direction) {
             axis.causes.motion = approach.cause();
             axis.traverse_request = request;
