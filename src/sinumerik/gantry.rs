@@ -70,6 +70,7 @@ pub const TRANSITIONS: &[Transition] = &[
     row(Phase::ReferencingSynchronousAxis, Rule::WaitWarningLimitZero, Phase::WaitingForStart),
     row(Phase::ReferencingSynchronousAxis, Rule::WaitDifference, Phase::WaitingForStart),
     row(Phase::ReferencingSynchronousAxis, Rule::WaitLocked, Phase::WaitingForStart),
+    row(Phase::ReferencingSynchronousAxis, Rule::ReadyNoMore, Phase::NotSynchronised),
     row(Phase::WaitingForStart, Rule::StartByPlc, Phase::Synchronising),
     row(Phase::WaitingForStart, Rule::ReadyNoMore, Phase::NotSynchronised),
     row(Phase::WaitingForStart, Rule::SynchronismRestored, Phase::Synchronised),
@@ -217,7 +218,8 @@ impl State {
         if idle && self.is_jogging() {
             self.jog(unit, parameters, to_nck);
         } else if idle {
-            let cause = self.groupings[index].cause;
+            // A key that moved the grouping lost its meaning with the mode.
+            let cause = self.mode_group.function_cause;
             self.traverse(leader, 0, 0, cause);
         }
     }
