@@ -190,6 +190,7 @@ impl State {
         let start_rises = start && !self.groupings[index].start_was;
         self.groupings[index].start_was = start;
         self.brake(unit, parameters);
+        self.watch_key(leader, self.groupings[index].is_referencing(), to_nck);
         self.watch_synchronism(index, unit, parameters, to_nck);
         if !self.groupings[index].coupled {
             let rest = unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest());
