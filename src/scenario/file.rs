@@ -90,8 +90,11 @@ impl Scenario {
                 whole.problem(format!("expected the key `{key}`, found none"), format!("write {key} = {example}"))
             })
         };
-        let title = required(table.take("title"), "title", "\"what the scenario shows\"")?;
-        let title = title.text("a title")?.to_owned();
+        let title = match table.take("title") {
+            Some(title) => title.text("a title")?.to_owned(),
+            // A scenario without a title is called as its file.
+            None => path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
+        };
         let machine = required(table.take("machine"), "machine", "\"g1_example\"")?;
         let machine = named(&machine, "the name or directory of a machine")?;
         let scenario = Self {
@@ -133,10 +136,15 @@ pub fn profile_named(name: &str) -> Result<Profile, Problem> {
     match name {
         "840d_sl" => Ok(Profile::Sinumerik840dSl),
         "828d" => Ok(Profile::Sinumerik828d),
-        _ => Err(Problem::new(
-            format!("expected a profile, found `{name}`"),
-            did_you_mean(name, ["840d_sl", "828d"], "profiles are 840d_sl and 828d"),
-        )),
+        _ => {
+            // A shortened name is nearer to the name it begins than any count of letters says.
+            let cure = if name.starts_with("840") || name.is_empty() {
+                "profiles are 840d_sl and 828d".to_owned()
+            } else {
+                did_you_mean(name, ["840d_sl", "828d"], "profiles are 840d_sl and 828d")
+            };
+            Err(Problem::new(format!("expected a profile, found `{name}`"), cure))
+        }
     }
 }
 
