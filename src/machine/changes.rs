@@ -12,7 +12,7 @@ use crate::variables::{EventId, Place};
 pub(super) struct Before {
     parts: Vec<(Part, Vec<u8>)>,
     pub(super) written: Vec<Force>,
-    last_event: EventId,
+    pub(super) last_event: EventId,
 }
 
 /// Room for writes from outside in one step before the list has to grow.
