@@ -218,7 +218,7 @@ impl State {
         if idle && self.is_jogging() {
             self.jog(unit, parameters, to_nck);
         } else if idle {
-            let cause = self.groupings[index].cause;
+            let cause = self.mode_group.cause();
             self.traverse(leader, 0, 0, cause);
         }
     }
