@@ -111,11 +111,11 @@ alarms! {
     GANTRY_TRIP_LIMIT 10653, "gantry-error-limit-exceeded" [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 gantry error limit exceeded";
     /// Waiting for synchronisation start.
-    GANTRY_WAITING 10654, "gantry-waiting-for-synchronisation-start" [DISPLAY] ByItself
-        "channel %1 waiting for synchronisation start of gantry grouping %2";
+    GANTRY_WAITING 10654, "gantry-waiting-for-synchronization-start" [DISPLAY] ByItself
+        "channel %1 waiting for synchronization start of gantry grouping %2";
     /// Synchronisation running.
-    GANTRY_SYNCHRONISING 10655, "gantry-synchronisation-running" [DISPLAY] ByItself
-        "channel %1 synchronisation of gantry grouping %2 running";
+    GANTRY_SYNCHRONISING 10655, "gantry-synchronization-running" [DISPLAY] ByItself
+        "channel %1 synchronization of gantry grouping %2 running";
     /// Reference cam not reached within MD34030.
     CAM_NOT_REACHED 20000, "reference-cam-not-reached" [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 reference cam not reached";
