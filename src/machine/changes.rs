@@ -14,7 +14,7 @@ pub(super) struct Before {
     pub(super) written: Vec<Force>,
     /// Power was switched off and on in this step.
     pub(super) power_on: bool,
-    last_event: EventId,
+    pub(super) last_event: EventId,
 }
 
 /// Room for writes from outside in one step before the list has to grow.

@@ -14,7 +14,7 @@ use crate::sinumerik::{Feedback, SavedControl};
 use crate::source::Problem;
 use crate::trace::Recorder;
 use crate::units::{PerAxis, Time};
-use crate::variables::{Alarms, Variables};
+use crate::variables::{Alarms, EventId, Variables};
 
 /// Which form of saved machine this is.
 const VERSION: u32 = 1;
@@ -32,6 +32,8 @@ struct SavedV1 {
     queue: Vec<Command>,
     cycle: u64,
     time: Time,
+    /// The last event that the record has; those before the first step are recorded with it.
+    recorded: EventId,
     plc: SavedPlc,
 }
 
@@ -62,6 +64,7 @@ impl Machine {
             queue: self.queue.clone(),
             cycle: self.cycle,
             time: self.time,
+            recorded: self.before.last_event,
             plc: SavedPlc {
                 program: self.plc.program.as_ref().map(|program| (program.name().to_owned(), program.save())),
                 stopped: self.plc.stopped,
@@ -118,7 +121,7 @@ impl Machine {
         self.plc.wait = saved.plc.wait;
         self.plc.last_scan = saved.plc.last_scan;
         self.plc.fault = saved.plc.fault;
-        self.before = Before::new(&self.memory, self.control.last_event());
+        self.before = Before::new(&self.memory, saved.recorded);
         self.alarms_before.clear();
         self.alarms_before.extend(self.variables.alarms.iter());
         self.recorder.clear();
@@ -160,7 +163,7 @@ impl Machine {
             cycle: self.cycle,
             time: self.time,
             feedback: self.feedback,
-            before: Before::new(&self.memory, self.control.last_event()),
+            before: Before::new(&self.memory, self.before.last_event),
             alarms_before,
             recorder: Recorder::default(),
         })

@@ -1,1 +1,396 @@
-//! Facts about one step.
+//! What a step promises about order: who sees whom in which cycle, and what survives power off.
+
+use super::{Command, DatumValue, Fault, FaultKind, Machine, OpenOptions};
+use crate::image::Location;
+use crate::plc::{PlcIo, enable_all, program};
+use crate::source::Table;
+use crate::trace::Change;
+use crate::units::{AxisNumber, Position};
+use crate::variables::Describe;
+
+/// The worked example without a PLC program, with tables merged over its plant.
+fn example_with(plant: &str) -> Machine {
+    let plant_over = Some(Table::parse(plant, "test").unwrap());
+    Machine::open_with("g1_example", OpenOptions { plant_over, ..OpenOptions::default() }).unwrap()
+}
+
+fn example() -> Machine {
+    Machine::open("g1_example").unwrap()
+}
+
+/// The worked example with every axis in position control, in JOG.
+fn ready() -> Machine {
+    let mut machine = example();
+    machine.load_program(enable_all().boxed());
+    set(&mut machine, "DB11.DBX0.2", 1);
+    run(&mut machine, 30);
+    assert_eq!(get(&machine, "DB31.DBX61.5"), 1);
+    machine
+}
+
+fn at(machine: &Machine, name: &str) -> Location {
+    machine.names().resolve(machine.memory(), name).unwrap()
+}
+
+fn get(machine: &Machine, name: &str) -> u64 {
+    machine.memory().read(at(machine, name))
+}
+
+/// Queues a write, of a bit of the NCK as well.
+fn set(machine: &mut Machine, name: &str, value: u64) {
+    let location = at(machine, name);
+    machine.queue(Command::Write { location, value }).unwrap();
+}
+
+fn force(machine: &mut Machine, name: &str, value: u64) {
+    let location = at(machine, name);
+    machine.queue(Command::Force { location, value }).unwrap();
+}
+
+fn store(machine: &mut Machine, target: &str, value: DatumValue) {
+    machine.queue(Command::MachineDatum { target: target.to_owned(), value }).unwrap();
+}
+
+fn run(machine: &mut Machine, cycles: u32) {
+    for _ in 0..cycles {
+        machine.step();
+        machine.drain();
+    }
+}
+
+fn setpoint(machine: &Machine, axis: &str) -> Position {
+    machine.variables().axes[machine.axis(axis).unwrap()].setpoint
+}
+
+/// Counts its scans in MB0.
+fn count_scans(_: &mut (), io: &mut PlcIo<'_>) {
+    let count = io.flags.byte(0);
+    io.flags.set_byte(0, count + 1);
+}
+
+#[test]
+fn a_write_acts_in_the_next_step_and_the_control_answers_in_the_same_one() {
+    let mut machine = ready();
+    set(&mut machine, "DB11.DBX1.2", 1);
+    assert_eq!(get(&machine, "DB11.DBX1.2"), 0);
+    machine.step();
+    assert_eq!((get(&machine, "DB11.DBX1.2"), get(&machine, "DB11.DBX7.2")), (1, 1));
+}
+
+#[test]
+fn the_control_sees_the_plc_of_this_cycle_and_the_plc_sees_the_control_of_the_last_one() {
+    let mut machine = ready();
+    // In its third scan the program asks for REF; M1.0 is what it sees of 7.2.
+    machine.load_program(
+        program("ref", (), |(), io| {
+            count_scans(&mut (), io);
+            let third = io.flags.byte(0) >= 3;
+            let active = io.from_nck.mode_groups[crate::units::ModeGroupNumber::FIRST].active_machine_function_ref();
+            io.flags.set_bit(1, 0, active);
+            io.to_nck.mode_groups[crate::units::ModeGroupNumber::FIRST].set_machine_function_ref(third);
+        })
+        .boxed(),
+    );
+    run(&mut machine, 2);
+    assert_eq!((get(&machine, "DB11.DBX7.2"), get(&machine, "M1.0")), (0, 0));
+    run(&mut machine, 1);
+    assert_eq!((get(&machine, "DB11.DBX7.2"), get(&machine, "M1.0")), (1, 0));
+    run(&mut machine, 1);
+    assert_eq!((get(&machine, "DB11.DBX7.2"), get(&machine, "M1.0")), (1, 1));
+}
+
+#[test]
+fn the_plc_program_sees_the_inputs_of_this_cycle() {
+    // The cam of X is wired to I3.4 and the slide stands on it; XF has its cam unwired, and stands on it too.
+    let mut machine = example_with("[X]\nstart = 300.0\n[X.cam]\ninput = \"I3.4\"\n[XF]\nstart = 300.0\n");
+    machine.load_program(
+        program("cams", (), |(), io| {
+            let xf_at_scan = io.to_nck.axes[AxisNumber::new(3).unwrap()].deceleration_reference_point_approach();
+            io.flags.set_bit(1, 3, xf_at_scan);
+            let cam = io.inputs.bit(3, 4);
+            io.to_nck.axes[AxisNumber::FIRST].set_deceleration_reference_point_approach(cam);
+        })
+        .boxed(),
+    );
+    machine.step();
+    assert_eq!((get(&machine, "I3.4"), get(&machine, "DB31.DBX12.7")), (1, 1));
+    // What is not wired is set after the scan: the program sees it one scan later.
+    assert_eq!((get(&machine, "DB33.DBX12.7"), get(&machine, "M1.3")), (1, 0));
+    machine.step();
+    assert_eq!(get(&machine, "M1.3"), 1);
+}
+
+#[test]
+fn a_plc_cycle_of_10_ms_scans_in_every_fifth_cycle_of_2_ms() {
+    let mut machine = example_with("[machine]\nplc_cycle = \"10ms\"\n");
+    machine.load_program(program("count", (), count_scans).boxed());
+    let mut counts = Vec::new();
+    for _ in 0..12 {
+        machine.step();
+        counts.push(get(&machine, "MB0"));
+    }
+    assert_eq!(counts, [1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 3, 3]);
+}
+
+#[test]
+fn a_force_wins_over_the_plc_program_until_it_is_released() {
+    let mut machine = ready();
+    force(&mut machine, "XF.controller_enable", 0);
+    run(&mut machine, 1);
+    assert_eq!(get(&machine, "XF.controller_enable"), 0);
+    run(&mut machine, 5);
+    assert_eq!((get(&machine, "XF.controller_enable"), get(&machine, "XF.position_controller_active")), (0, 0));
+    let location = at(&machine, "XF.controller_enable");
+    machine.queue(Command::Release { location }).unwrap();
+    run(&mut machine, 1);
+    assert_eq!(get(&machine, "XF.controller_enable"), 1);
+}
+
+#[test]
+fn a_write_that_the_plc_program_overwrites_is_noticed_in_the_same_cycle() {
+    let mut machine = ready();
+    let location = at(&machine, "X.controller_enable");
+    set(&mut machine, "X.controller_enable", 0);
+    machine.step();
+    assert_eq!(get(&machine, "X.controller_enable"), 1);
+    let noticed = |row: &crate::trace::Row| {
+        row.cycle == machine.cycle()
+            && row.change == Change::Overwritten { part: location.part, offset: location.offset, bits: 1 << 1 }
+    };
+    assert!(machine.recorder().rows().iter().any(noticed), "{:?}", machine.recorder().rows());
+    assert_eq!(get(&machine, "X.position_controller_active"), 1);
+}
+
+/// SIG-11
+#[test]
+fn what_somebody_else_writes_into_a_bit_of_the_nck_lasts_until_its_next_publication() {
+    let mut machine = ready();
+    machine.load_program(
+        program("look", (), |(), io| {
+            enable(io);
+            let synchronised = io.from_nck.axes[AxisNumber::FIRST].gantry_grouping_is_synchronized();
+            io.flags.set_bit(1, 0, synchronised);
+        })
+        .boxed(),
+    );
+    // 101.5 = 1, 101.7 = 0, and a bit of an axis that there is not; MB200 is plain memory.
+    set(&mut machine, "DB31.DBX101.5", 1);
+    set(&mut machine, "DB31.DBX101.7", 0);
+    set(&mut machine, "DB40.DBX60.4", 1);
+    set(&mut machine, "MB200", 0x5A);
+    machine.step();
+    // The scan comes before the publication and sees what was written.
+    assert_eq!(get(&machine, "M1.0"), 1);
+    assert_eq!((get(&machine, "DB31.DBB101"), get(&machine, "DB40.DBX60.4")), (0b1100_0000, 0));
+    run(&mut machine, 5);
+    assert_eq!((get(&machine, "M1.0"), get(&machine, "MB200")), (0, 0x5A));
+}
+
+fn enable(io: &mut PlcIo<'_>) {
+    for axis in io.axes() {
+        let signals = io.to_nck.axis(axis);
+        signals.set_position_measuring_system_1(true);
+        signals.set_controller_enable(true);
+        signals.set_pulse_enable(true);
+    }
+}
+
+#[test]
+fn power_on_restarts_interface_and_plc_memory_and_keeps_slides_faults_and_machine_data() {
+    let mut machine = ready();
+    let x = machine.axis("X").unwrap();
+    let xf = machine.axis("XF").unwrap();
+    machine.queue(Command::Fault(Fault { axis: xf, kind: FaultKind::Block })).unwrap();
+    machine.queue(Command::Fault(Fault { axis: xf, kind: FaultKind::Push { by: Position::from_user(0.25) } })).unwrap();
+    store(&mut machine, "37130[XF]", DatumValue::Real(50.0));
+    set(&mut machine, "MB10", 7);
+    force(&mut machine, "X.traversing_key_plus", 1);
+    run(&mut machine, 20);
+    let (slide, other) = (machine.variables().axes[x].slide, machine.variables().axes[xf].slide);
+    assert!(slide > Position::from_user(120.0));
+    assert_eq!(other, Position::from_user(120.25));
+    machine.queue(Command::PowerOn).unwrap();
+    machine.step();
+    // Memory, forces and the chain of the run-up start anew; the drives coast at most a cycle.
+    assert_eq!((get(&machine, "MB10"), get(&machine, "X.traversing_key_plus")), (0, 0));
+    assert_eq!(
+        (get(&machine, "DB10.DBX108.7"), get(&machine, "DB31.DBX61.5"), get(&machine, "DB11.DBX0.2")),
+        (0, 0, 0)
+    );
+    // The PLC program starts with OB100 and its first scan in the same step.
+    assert_eq!(get(&machine, "X.controller_enable"), 1);
+    // The slides stay, the fault stays, the stored datum is active.
+    assert_eq!(machine.variables().axes[x].slide, slide);
+    assert_eq!(machine.variables().axes[xf].slide, other);
+    assert_eq!(machine.variables().axes[x].position, Position::ZERO, "an incremental encoder counts from here");
+    assert!((machine.machine_data().axes[xf].gantry_pos_tol_ref - 50.0).abs() < 1e-9);
+    set(&mut machine, "DB11.DBX0.2", 1);
+    set(&mut machine, "X.traversing_key_plus", 1);
+    run(&mut machine, 60);
+    assert!(machine.variables().axes[x].slide > slide);
+    assert_eq!(machine.variables().axes[xf].slide, other, "still blocked");
+}
+
+#[test]
+fn db11_dbx5_2_mirrors_ref_until_somebody_else_writes_the_byte() {
+    let mut machine = ready();
+    set(&mut machine, "DB11.DBX1.2", 1);
+    run(&mut machine, 1);
+    assert_eq!((get(&machine, "DB11.DBX7.2"), get(&machine, "DB11.DBX5.2")), (1, 1));
+    // An HMI strobes DBX5.0: from now on the byte is its own.
+    // That is logged once.
+    let mut logged = 0;
+    for (signal, value, byte) in
+        [("DB11.DBB5", 1, 1), ("DB11.DBX1.2", 0, 1), ("DB11.DBB5", 2, 2), ("DB11.DBX1.2", 1, 2)]
+    {
+        set(&mut machine, signal, value);
+        machine.step();
+        logged += machine.recorder().new_events().iter().filter(|event| machine.rule(event.rule).id == "E-01").count();
+        machine.drain();
+        assert_eq!(get(&machine, "DB11.DBB5"), byte, "{signal} = {value}");
+    }
+    assert_eq!((get(&machine, "DB11.DBX7.2"), logged), (1, 1));
+}
+
+#[test]
+fn plant_toml_fixes_db11_dbx5_2_either_way() {
+    for (fixed, mirrors) in [("mirror", true), ("hmi_strobe", false)] {
+        let mut machine = example_with(&format!("[compatibility]\ndb11_5_2 = \"{fixed}\"\n"));
+        for round in ["opened", "powered on"] {
+            set(&mut machine, "DB11.DBX0.2", 1);
+            set(&mut machine, "DB11.DBX1.2", 1);
+            run(&mut machine, 2);
+            assert_eq!(get(&machine, "DB11.DBX5.2"), u64::from(mirrors), "{fixed}, {round}");
+            // Writing the byte changes nothing in who it belongs to.
+            set(&mut machine, "DB11.DBB5", 1);
+            run(&mut machine, 2);
+            assert_eq!(get(&machine, "DB11.DBX5.2"), u64::from(mirrors), "{fixed}, {round}, written");
+            machine.queue(Command::PowerOn).unwrap();
+            run(&mut machine, 1);
+        }
+    }
+}
+
+#[test]
+fn a_simulated_axis_is_silent_only_where_the_archive_says_so() {
+    let directory = std::env::temp_dir().join(format!("opennck-silent-{}", std::process::id()));
+    std::fs::create_dir_all(&directory).unwrap();
+    for (line, shown) in
+        [("", 1), ("N30350 $MA_SIMU_AX_VDI_OUTPUT[AX1]=0\n", 0), ("N30350 $MA_SIMU_AX_VDI_OUTPUT[AX1]=1\n", 1)]
+    {
+        let text = format!("CHANDATA(1)\nN30130 $MA_CTRLOUT_TYPE[AX1]=0\nN32020 $MA_JOG_VELO[AX1]=2000\n{line}M17\n");
+        let file = directory.join("simulated.tea");
+        std::fs::write(&file, text).unwrap();
+        let mut machine = Machine::open(&file).unwrap();
+        machine.load_program(enable_all().boxed());
+        set(&mut machine, "DB11.DBX0.2", 1);
+        set(&mut machine, "DB31.DBX4.7", 1);
+        run(&mut machine, 100);
+        let (active, moves) = (get(&machine, "DB31.DBX61.5"), get(&machine, "DB31.DBX64.7"));
+        assert_eq!((active, moves), (shown, shown), "{line}");
+        // It moves all the same.
+        assert!(machine.variables().axes[AxisNumber::FIRST].position > Position::from_user(1.0), "{line}");
+    }
+    std::fs::remove_dir_all(&directory).unwrap();
+}
+
+#[test]
+fn the_start_up_chain_comes_in_its_order() {
+    let mut machine = example();
+    machine.load_program(enable_all().boxed());
+    // The control, then each axis (O-20); the last one waits for the drives, which need 20 ms = 10 cycles.
+    let control = ["DB10.DBX104.7", "DB10.DBX108.5", "DB10.DBX108.6", "DB10.DBX108.7"];
+    let axis = ["DB31.DBX93.5", "DB31.DBX93.7", "DB31.DBX61.7", "DB31.DBX61.6", "DB31.DBX61.5"];
+    let mut first = [0_u64; 9];
+    while machine.cycle() < 100 {
+        machine.step();
+        for (cycle, bit) in first.iter_mut().zip(control.into_iter().chain(axis)) {
+            if *cycle == 0 && get(&machine, bit) == 1 {
+                *cycle = machine.cycle();
+            }
+        }
+    }
+    assert!(first.iter().all(|&cycle| cycle > 0), "{first:?}");
+    assert!(first[..4].is_sorted_by(|before, after| before < after), "{first:?}");
+    assert!(first[4..].is_sorted_by(|before, after| before < after), "{first:?}");
+    assert!(first[4] >= 10 && first[2] >= first[4] && first[5] >= first[3], "{first:?}");
+}
+
+/// DYN-01
+#[test]
+fn leading_and_synchronous_axis_move_by_the_same_increments_in_every_cycle() {
+    let mut machine = ready();
+    // Starting, cruising at an odd velocity, turning round in full motion, rapid traverse, braking.
+    let keys = [(0, "X.traversing_key_plus", 1), (90, "X.override_active", 1), (170, "X.traversing_key_plus", 0)];
+    let more =
+        [(170, "X.traversing_key_minus", 1), (200, "X.rapid_traverse_override", 1), (500, "X.traversing_key_minus", 0)];
+    set(&mut machine, "X.feed_override", 9);
+    let (mut moved, mut before) = (0, (setpoint(&machine, "X"), setpoint(&machine, "XF")));
+    for cycle in 0..800 {
+        for &(_, key, value) in keys.iter().chain(&more).filter(|(when, _, _)| *when == cycle) {
+            set(&mut machine, key, value);
+        }
+        run(&mut machine, 1);
+        let after = (setpoint(&machine, "X"), setpoint(&machine, "XF"));
+        assert_eq!(after.0 - before.0, after.1 - before.1, "cycle {cycle}");
+        moved += u32::from(after.0 != before.0);
+        before = after;
+    }
+    assert!(moved > 400, "{moved}");
+    assert_eq!(setpoint(&machine, "X"), before.0);
+}
+
+/// DYN-01, in sections 1 and 2: whoever leads, the other one moves by the same increments in the same cycle.
+#[test]
+fn while_referencing_both_axes_move_by_the_same_increments_whoever_leads() {
+    let mut machine = ready();
+    set(&mut machine, "DB11.DBX1.2", 1);
+    set(&mut machine, "X.traversing_key_plus", 1);
+    let difference = |machine: &Machine| setpoint(machine, "XF") - setpoint(machine, "X");
+    let (mut before, mut jumps) = (difference(&machine), Vec::new());
+    while get(&machine, "DB31.DBX101.4") == 0 {
+        assert!(machine.cycle() < 10_000);
+        run(&mut machine, 1);
+        let after = difference(&machine);
+        if after != before {
+            jumps.push((get(&machine, "DB31.DBX60.4"), get(&machine, "DB33.DBX60.4")));
+        }
+        before = after;
+    }
+    // The two reference points give the places other values; nothing else does.
+    assert_eq!(jumps, [(1, 0), (1, 1)]);
+}
+
+/// SIG-01
+#[test]
+fn a_lost_enable_stops_all_axes_in_the_same_manner_whichever_axis_loses_it() {
+    let mut machine = ready();
+    // Other servo disable delays and emergency ramps: the unit has one manner of stopping for all that.
+    store(&mut machine, "36620[XF]", DatumValue::Real(0.02));
+    store(&mut machine, "36610[XF]", DatumValue::Real(0.2));
+    machine.queue(Command::PowerOn).unwrap();
+    set(&mut machine, "DB11.DBX0.2", 1);
+    set(&mut machine, "X.rapid_traverse_override", 1);
+    set(&mut machine, "X.traversing_key_plus", 1);
+    run(&mut machine, 250);
+    let mut other = machine.fork().unwrap();
+    force(&mut machine, "X.controller_enable", 0);
+    force(&mut other, "XF.controller_enable", 0);
+    let start = (setpoint(&machine, "X"), setpoint(&machine, "XF"));
+    for cycle in 0..300 {
+        for machine in [&mut machine, &mut other] {
+            run(machine, 1);
+            let states =
+                |axis: &str| ["61.3", "61.5", "61.6", "61.7"].map(|bit| get(machine, &format!("DB{axis}.DBX{bit}")));
+            assert_eq!(states("31"), states("33"), "cycle {cycle}");
+            assert!(machine.variables().alarms.find(crate::variables::AlarmNumber(21612), None).is_some());
+        }
+        assert_eq!(setpoint(&machine, "X"), setpoint(&other, "X"), "cycle {cycle}");
+        assert_eq!(setpoint(&machine, "XF"), setpoint(&other, "XF"), "cycle {cycle}");
+        if get(&machine, "DB31.DBX61.5") == 1 {
+            assert_eq!(setpoint(&machine, "X") - start.0, setpoint(&machine, "XF") - start.1, "cycle {cycle}");
+        }
+    }
+    assert_eq!(get(&machine, "DB31.DBX61.5"), 0);
+    assert_eq!(machine.variables().axes[AxisNumber::FIRST].velocity.abs().to_bits(), 0.0_f64.to_bits());
+}

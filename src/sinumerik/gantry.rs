@@ -220,7 +220,7 @@ impl State {
             self.jog(unit, parameters, to_nck);
         } else if idle {
             // A key that moved the grouping lost its meaning with the mode.
-            let cause = self.mode_group.function_cause;
+            let cause = self.mode_group.cause();
             self.traverse(leader, 0, 0, cause);
         }
     }

@@ -41,6 +41,13 @@ pub(super) struct ModeGroup {
     pub strobe_is_the_hmi_s: bool,
 }
 
+impl ModeGroup {
+    /// The latest change of mode or machine function.
+    pub(super) fn cause(&self) -> EventId {
+        self.mode_cause.max(self.function_cause)
+    }
+}
+
 const FIRST: ModeGroupNumber = ModeGroupNumber::FIRST;
 
 fn bit(byte: u16, bit: u8, value: bool) -> Input {

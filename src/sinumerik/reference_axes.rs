@@ -57,7 +57,7 @@ impl State {
         } else if self.is_jogging() {
             self.jog(unit, parameters, to_nck);
         } else {
-            let cause = self.mode_group.function_cause;
+            let cause = self.mode_group.cause();
             self.traverse(number, 0, 0, cause);
             if self.unit_can_move(unit)
                 && !self.is_gantry_axis(number)

@@ -165,10 +165,12 @@ impl State {
                 self.step_grouping(index, rule, [input, Input::None, Input::None], cause);
             }
             (Phase::WaitingForStart | Phase::Synchronising, Some((_, input, cause))) => {
-                self.step_grouping(index, Rule::ReadyNoMore, [input, Input::None, Input::None], cause);
+                self.end_ready(index, unit, input, cause);
             }
-            (Phase::WaitingForStart, None) if self.is_tripped(index) => {
-                self.step_grouping(index, Rule::ReadyNoMore, [Input::None; 3], self.groupings[index].cause);
+            (Phase::WaitingForStart | Phase::Synchronising, None) => {
+                if let Some(cause) = self.trip_cause(index) {
+                    self.end_ready(index, unit, Input::None, cause);
+                }
             }
             (Phase::NotSynchronised, None) => self.make_ready(index, unit, parameters),
             _ => {}
@@ -179,8 +181,18 @@ impl State {
         }
     }
 
-    fn is_tripped(&self, index: usize) -> bool {
-        self.groupings[index].monitored.iter().any(|monitored| monitored.trip)
+    /// Not ready any more; a synchronising motion ends with it.
+    fn end_ready(&mut self, index: usize, unit: &Unit, input: Input, cause: EventId) {
+        self.step_grouping(index, Rule::ReadyNoMore, [input, Input::None, Input::None], cause);
+        for axis in unit.members() {
+            self.traverse(axis, 0, 0, cause);
+        }
+    }
+
+    /// The event behind a difference that is beyond its trip limit.
+    fn trip_cause(&self, index: usize) -> Option<EventId> {
+        let tripped = self.groupings[index].monitored.iter().find(|monitored| monitored.trip)?;
+        Some(tripped.trip_cause)
     }
 
     /// E-13: all referenced, not synchronised, difference within MD37130.
@@ -190,7 +202,7 @@ impl State {
             let difference = self.axes[axis].actual - self.axes[leader].actual;
             difference.abs() <= parameters.axes[axis].gantry.trip_limit_not_synchronised
         });
-        if within && !self.is_tripped(index) {
+        if within && self.trip_cause(index).is_none() {
             let parent = self.groupings[index].cause;
             self.step_grouping(index, Rule::ReadyAgain, [Input::None; 3], parent);
             self.groupings[index].from_referencing = false;

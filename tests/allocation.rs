@@ -1,0 +1,87 @@
+//! A step allocates nothing, so that its time does not depend on anybody's heap.
+//!
+//! What may allocate: a step in which RESET, "set machine data active" or power on makes changed machine data act, the
+//! first write to memory that a clone shares, and the queueing of a command.
+
+use opennck::machine::{Command, Machine};
+use opennck::plc::program;
+
+fn write(machine: &mut Machine, signal: &str, value: u64) {
+    let location = machine.names().resolve(machine.memory(), signal).expect("a signal");
+    machine.queue(Command::Write { location, value }).expect("a write");
+}
+
+/// The worked example with a PLC program that writes its memory, in REF, with everything enabled.
+fn ready() -> Machine {
+    let mut machine = Machine::open("g1_example").expect("it is built in");
+    let plc = program("enable_and_count", 0_u16, |scans, io| {
+        *scans = scans.wrapping_add(1);
+        io.flags.set_word(20, *scans);
+        io.outputs.set_bit(4, 0, *scans & 1 == 1);
+        for axis in io.axes() {
+            let signals = io.to_nck.axis(axis);
+            signals.set_position_measuring_system_1(true);
+            signals.set_controller_enable(true);
+            signals.set_pulse_enable(true);
+        }
+    });
+    machine.load_program(plc.boxed());
+    write(&mut machine, "DB11.DBX0.2", 1);
+    write(&mut machine, "DB11.DBX1.2", 1);
+    for _ in 0..50 {
+        machine.step();
+        machine.drain();
+    }
+    machine
+}
+
+/// Steps until a bit is 1, with the record drained in between, and expects that no step allocates.
+fn step_until(machine: &mut Machine, signal: &str) {
+    let location = machine.names().resolve(machine.memory(), signal).expect("a signal");
+    let mut rows = 0;
+    while machine.memory().read(location) == 0 {
+        assert!(machine.cycle() < 10_000, "{signal} never came");
+        let allocated = allocation_counter::measure(|| machine.step());
+        assert_eq!(allocated.count_total, 0, "cycle {}", machine.cycle());
+        rows += machine.recorder().rows().len();
+        machine.drain();
+    }
+    assert!(rows > 0, "nothing was recorded");
+}
+
+#[test]
+fn what_allocates_is_counted() {
+    let machine = ready();
+    assert!(allocation_counter::measure(|| drop(machine.save())).count_total > 0);
+}
+
+#[test]
+fn no_step_of_referencing_and_synchronising_allocates() {
+    let mut machine = ready();
+    write(&mut machine, "X.traversing_key_plus", 1);
+    step_until(&mut machine, "DB31.DBX60.4");
+    step_until(&mut machine, "DB33.DBX60.4");
+    write(&mut machine, "X.start_gantry_synchronization", 1);
+    step_until(&mut machine, "DB31.DBX101.5");
+}
+
+#[test]
+fn no_step_of_a_fork_or_of_a_restored_machine_allocates() {
+    let origin = ready();
+    let mut fork = origin.fork().expect("a closure over its state");
+    let mut restored = ready();
+    restored.restore(&origin.save()).expect("it was saved on the same machine");
+    drop(origin);
+    for machine in [&mut fork, &mut restored] {
+        write(machine, "X.traversing_key_plus", 1);
+        machine.step();
+        step_until(machine, "DB31.DBX101.4");
+    }
+}
+
+#[test]
+fn a_reset_without_changed_machine_data_does_not_allocate() {
+    let mut machine = ready();
+    write(&mut machine, "DB21.DBX7.7", 1);
+    step_until(&mut machine, "DB21.DBX7.7");
+}

@@ -1,0 +1,197 @@
+//! Same input, same bytes: in one process, in two processes, after save and restore, and in a fork.
+
+use std::path::{Path, PathBuf};
+use std::process::Command as Process;
+
+use opennck::image::Profile;
+use opennck::machine::{Command, DatumValue, Fault, FaultKind, Machine};
+use opennck::plc::{OnDelay, PlcProgram, Programs, program};
+use opennck::scenario::Scenario;
+use opennck::units::{Position, Time};
+
+const SCENARIO: &str = "golden/worked_example/gantry_references_and_synchronises.toml";
+
+/// How many cycles the timeline below has; the grouping is synchronised in it, and lost again.
+const CYCLES: u64 = 5_000;
+
+/// A program with state of its own: pulses come 100 ms after the rest, and MW20 counts scans.
+fn plc() -> Box<dyn PlcProgram> {
+    program("delayed", (OnDelay::default(), 0_u16), |(delay, scans), io| {
+        *scans = scans.wrapping_add(1);
+        io.flags.set_word(20, *scans);
+        let on = delay.scan(true, Time::from_millis(100), io.time);
+        for axis in io.axes() {
+            let signals = io.to_nck.axis(axis);
+            signals.set_position_measuring_system_1(true);
+            signals.set_controller_enable(true);
+            signals.set_pulse_enable(on);
+        }
+    })
+    .boxed()
+}
+
+fn machine() -> Machine {
+    let mut machine = Machine::open("g1_example").expect("it is built in");
+    machine.load_program(plc());
+    machine
+}
+
+fn write(machine: &mut Machine, signal: &str, value: u64) {
+    let location = machine.names().resolve(machine.memory(), signal).expect("a signal");
+    machine.queue(Command::Write { location, value }).expect("a write");
+}
+
+fn fault(machine: &mut Machine, axis: &str, kind: FaultKind) {
+    let axis = machine.axis(axis).expect("an axis");
+    machine.queue(Command::Fault(Fault { axis, kind })).expect("a fault");
+}
+
+/// What happens to a machine before its next step, by its cycle: referencing, faults, machine data, a start, a force.
+fn act(machine: &mut Machine) {
+    let slip = FaultKind::EncoderSlip { by: Position::from_user(0.01) };
+    match machine.cycle() {
+        10 => {
+            write(machine, "DB11.DBX0.2", 1);
+            write(machine, "DB11.DBX1.2", 1);
+        }
+        100 => write(machine, "X.traversing_key_plus", 1),
+        150 => write(machine, "X.traversing_key_plus", 0),
+        900 => fault(machine, "XF", slip),
+        1_500 => fault(machine, "Y", FaultKind::Block),
+        2_000 => {
+            let value = DatumValue::Real(-0.941);
+            machine.queue(Command::MachineDatum { target: "34090[XF]".to_owned(), value }).expect("a datum");
+        }
+        4_000 => write(machine, "X.start_gantry_synchronization", 1),
+        4_400 => {
+            let location = machine.names().resolve(machine.memory(), "X.controller_enable").expect("a signal");
+            machine.queue(Command::Force { location, value: 0 }).expect("a force");
+        }
+        4_600 => machine.queue(Command::PowerOn).expect("power"),
+        _ => {}
+    }
+}
+
+/// One step of a machine, with its record of that step left in it.
+fn step(machine: &mut Machine) {
+    machine.drain();
+    act(machine);
+    machine.step();
+}
+
+/// The first cycle in which two machines differ ends the test, and says what differs.
+fn assert_same(expected: &Machine, found: &Machine, what: &str) {
+    let cycle = expected.cycle();
+    assert_eq!(cycle, found.cycle(), "{what}: another cycle");
+    assert!(expected.memory() == found.memory(), "{what}: memory differs first in cycle {cycle}");
+    assert_eq!(expected.variables(), found.variables(), "{what}: variables differ first in cycle {cycle}");
+    let (rows, events) = (expected.recorder().rows(), expected.recorder().new_events());
+    assert_eq!(rows, found.recorder().rows(), "{what}: the record differs first in cycle {cycle}");
+    assert_eq!(events, found.recorder().new_events(), "{what}: the events differ first in cycle {cycle}");
+}
+
+fn run_to(machine: &mut Machine, cycle: u64) {
+    while machine.cycle() < cycle {
+        step(machine);
+    }
+}
+
+#[test]
+fn the_timeline_of_these_tests_does_reference_synchronise_and_lose_it() {
+    let mut machine = machine();
+    let x = machine.axis("X").expect("an axis");
+    run_to(&mut machine, 4_390);
+    assert!(machine.memory().from_nck.axes[x].gantry_grouping_is_synchronized());
+    run_to(&mut machine, CYCLES);
+    assert!(!machine.memory().from_nck.axes[x].gantry_grouping_is_synchronized());
+}
+
+#[test]
+fn one_scenario_gives_the_same_bytes_twice_in_one_process() {
+    let run = || {
+        let scenario = Scenario::read(Path::new(SCENARIO)).expect("a scenario");
+        let finished = scenario.prepare(Profile::default(), &Programs::ready()).expect("it can be used").run();
+        [finished.golden(), finished.text(), finished.json_lines()]
+    };
+    let (first, second) = (run(), run());
+    assert!(first[2].contains("10654"));
+    for (first, second) in first.iter().zip(&second) {
+        let line = first.lines().zip(second.lines()).find(|(first, second)| first != second);
+        assert!(first == second, "the first line that differs: {line:?}");
+    }
+}
+
+#[test]
+fn one_scenario_gives_the_same_bytes_in_two_processes() {
+    let run = |name: &str| {
+        let trace = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let output = Process::new(env!("CARGO_BIN_EXE_opennck"))
+            .args(["run", SCENARIO, "--trace"])
+            .arg(&trace)
+            .output()
+            .expect("the program was built");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        (output.stdout, std::fs::read(&trace).expect("the trace was written"))
+    };
+    let (first, second) = (run("first.jsonl"), run("second.jsonl"));
+    assert!(first.1.len() > 1_000);
+    assert!(first == second, "two processes wrote different bytes");
+}
+
+#[test]
+fn a_saved_machine_goes_on_elsewhere_byte_for_byte() {
+    // Run-up, searching the cam, on the way to the zero mark, section 2, waiting, synchronising, synchronised, braking.
+    for saved_at in [0, 13, 400, 1_700, 2_300, 3_900, 4_050, 4_399, 4_420, 4_601] {
+        let mut origin = machine();
+        run_to(&mut origin, saved_at);
+        // Writes that wait for the next step are saved, too.
+        write(&mut origin, "MB100", 0xA5);
+        let saved = origin.save();
+        let mut restored = machine();
+        // Whatever the other machine has been through before makes no difference.
+        run_to(&mut restored, 700);
+        restored.restore(&saved).expect("it was saved on the same machine");
+        assert_eq!(origin.cycle(), restored.cycle());
+        while origin.cycle() < CYCLES {
+            step(&mut origin);
+            step(&mut restored);
+            assert_same(&origin, &restored, &format!("saved in cycle {saved_at}"));
+        }
+    }
+}
+
+#[test]
+fn a_fork_goes_on_like_its_origin_and_does_not_disturb_it() {
+    let mut untouched = machine();
+    let mut origin = machine();
+    run_to(&mut untouched, 1_000);
+    run_to(&mut origin, 1_000);
+    let mut fork = origin.fork().expect("a closure over its state");
+    let mut other = origin.fork().expect("a closure over its state");
+    // The other fork goes its own way.
+    fault(&mut other, "X", FaultKind::Block);
+    write(&mut other, "MB100", 1);
+    let location = other.names().resolve(other.memory(), "XF.feed_stop").expect("a signal");
+    other.queue(Command::Force { location, value: 1 }).expect("a force");
+    while origin.cycle() < CYCLES {
+        for machine in [&mut untouched, &mut origin, &mut fork, &mut other] {
+            step(machine);
+        }
+        assert_same(&untouched, &origin, "the origin of a fork");
+        assert_same(&untouched, &fork, "the fork");
+    }
+    assert!(untouched.memory() != other.memory(), "the other fork should have gone its own way");
+}
+
+#[test]
+fn a_machine_refuses_what_was_saved_with_another_program_and_stays_as_it_is() {
+    let mut origin = machine();
+    run_to(&mut origin, 50);
+    let saved = origin.save();
+    let mut other = Machine::open("g1_example").expect("it is built in");
+    let before = other.save();
+    let problem = other.restore(&saved).expect_err("it has no program");
+    assert!(problem.to_string().contains("delayed"), "{problem}");
+    assert!(other.restore(&saved[..saved.len() / 2]).is_err());
+    assert!(other.save() == before, "a refused machine changed");
+}
