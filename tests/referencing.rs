@@ -1,0 +1,137 @@
+//! Referencing a gantry from many places: what the iron is, is what the control finds.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::path::Path;
+
+use opennck::machine::{Machine, OpenOptions};
+use opennck::plc::enable_all;
+use opennck::scenario::{Failure, Session};
+use opennck::source::Table;
+
+/// Where the slides stand and where their zero marks are, in mm; spacing 10, cams from 205 to the end.
+struct Iron {
+    start: [f64; 2],
+    mark: [f64; 2],
+}
+
+impl Iron {
+    /// The last zero mark before the cam.
+    fn reference(&self, axis: usize) -> f64 {
+        self.mark[axis] + ((205.0 - self.mark[axis]) / 10.0).floor() * 10.0
+    }
+
+    fn session(&self) -> Session {
+        let over: String = ["X", "XF"]
+            .iter()
+            .enumerate()
+            .map(|(axis, name)| {
+                let (start, mark) = (self.start[axis], self.mark[axis]);
+                format!("[{name}]\nstart = {start:?}\n[{name}.encoder1]\nzero_mark = {mark:?}\n")
+            })
+            .collect();
+        let options = OpenOptions { plant_over: Some(Table::parse(&over, "over").unwrap()), ..OpenOptions::default() };
+        let machine = Machine::open_with(Path::new("machine_data/g1_example"), options).unwrap();
+        Session::new(machine).with_program(Box::new(enable_all()))
+    }
+}
+
+/// Sections 1 and 2, to the wait for a start.
+fn reference(session: &mut Session) -> Result<(), Failure> {
+    session.set("DB11.DBX0.2", true)?;
+    session.set("DB11.DBX1.2", true)?;
+    session.pulse("X.traversing_key_plus")?;
+    session.wait("DB31.DBX101.4 && alarm(10654) && DB31.DBX60.4 && DB33.DBX60.4", "40s")?;
+    session.run("500ms")
+}
+
+/// After an interruption: nothing moves any more; the key, where a reference is missing, and 29.4 end the job.
+fn recover(session: &mut Session, after: &str) -> Result<(), Failure> {
+    session.expect("!DB31.DBX64.6 && !DB31.DBX64.7 && !DB33.DBX64.6 && !DB33.DBX64.7 && alarms() == alarm(10654)")?;
+    if session.value("DB31.DBX101.4")? == 0.0 {
+        session.expect("!(DB31.DBX60.4 && DB33.DBX60.4)")?;
+        session.pulse("X.traversing_key_plus")?;
+        session.wait("DB31.DBX101.4 && alarm(10654)", "20s")?;
+    } else {
+        session.expect("DB31.DBX60.4 && DB33.DBX60.4")?;
+    }
+    session.set("X.start_gantry_synchronization", true)?;
+    session.wait("DB31.DBX101.5", "5s")?;
+    session.run("500ms")?;
+    let apart = session.value("XF.slide - X.slide")?;
+    assert!((apart - 0.941).abs() < 0.001, "after {after}: {apart}");
+    Ok(())
+}
+
+/// REF-02, REF-04, REF-06, REF-09, REF-10, REF-31: whatever the misalignment of scales and slides, on, before or at the
+/// edge of the cam, positions after section 2 are those of the iron, and section 3 makes them equal.
+#[test]
+fn positions_after_referencing_are_those_of_the_iron() -> Result<(), Failure> {
+    let starts = [[120.0, 120.0], [230.0, 230.0], [205.0, 205.0], [204.9, 204.9], [150.0, 147.5], [260.0, 265.25]];
+    let marks = [[0.3, 1.241], [0.3, 0.3], [1.241, 0.3], [9.5, 5.5], [4.5, 5.5], [0.0, 9.0], [3.33, -7.77]];
+    for start in starts {
+        for mark in marks {
+            let iron = Iron { start, mark };
+            let skew = start[1] - start[0];
+            // X was taken along by XF, from its reference point to where XF has its own.
+            let apart = iron.reference(1) - skew - iron.reference(0);
+            let mut session = iron.session();
+            reference(&mut session)?;
+            let context = format!("slides {start:?}, zero marks {mark:?}");
+            let near = |session: &Session, what: &str, expected: f64| {
+                let found = session.value(what).unwrap();
+                assert!((found - expected).abs() < 0.001, "{context}: {what} is {found}, expected {expected}");
+            };
+            near(&session, "X.position", apart);
+            near(&session, "XF.position", 0.0);
+            near(&session, "XF.synchronism_difference", -apart);
+            session.set("X.start_gantry_synchronization", true)?;
+            session.wait("DB31.DBX101.5", "5s")?;
+            session.run("500ms")?;
+            near(&session, "X.position", 0.0);
+            near(&session, "X.slide", iron.reference(0));
+            near(&session, "XF.slide", iron.reference(1));
+        }
+    }
+    Ok(())
+}
+
+/// REF-12, REF-13: RESET at any moment leaves a grouping that can be started again, and ends at the same place.
+#[test]
+fn a_reset_at_any_moment_can_be_recovered_from() -> Result<(), Failure> {
+    let iron = Iron { start: [120.0, 120.0], mark: [0.3, 1.241] };
+    for tenths in 0..90 {
+        let mut session = iron.session();
+        session.set("DB11.DBX0.2", true)?;
+        session.set("DB11.DBX1.2", true)?;
+        session.pulse("X.traversing_key_plus")?;
+        session.run(&format!("{}ms", 100 * tenths + 37))?;
+        session.pulse("DB21.DBX7.7")?;
+        session.run("1s")?;
+        recover(&mut session, &format!("RESET at {tenths} tenths of a second"))?;
+    }
+    Ok(())
+}
+
+/// REF-12, REF-13: so does an enable that goes at any moment on any axis, or REF that is left.
+#[test]
+fn a_disturbance_at_any_moment_can_be_recovered_from() -> Result<(), Failure> {
+    let iron = Iron { start: [120.0, 120.0], mark: [0.3, 1.241] };
+    let lost = ["X.controller_enable", "XF.controller_enable", "X.pulse_enable", "XF.pulse_enable", "DB11.DBX1.2"];
+    for signal in lost {
+        for step in 0..26 {
+            let mut session = iron.session();
+            session.set("DB11.DBX0.2", true)?;
+            session.set("DB11.DBX1.2", true)?;
+            session.pulse("X.traversing_key_plus")?;
+            session.run(&format!("{}ms", 300 * step + 37))?;
+            session.force(signal, false)?;
+            session.run("700ms")?;
+            session.release(signal)?;
+            session.set("DB11.DBX1.2", true)?;
+            session.pulse("DB21.DBX7.7")?;
+            session.run("300ms")?;
+            recover(&mut session, &format!("{signal} = 0 at step {step}"))?;
+        }
+    }
+    Ok(())
+}
