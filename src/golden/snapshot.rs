@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::source::{Problem, read_text, unreadable};
+use crate::source::{Place, Problem, read_text, unreadable};
 
 /// A golden file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,7 +35,7 @@ impl Snapshot {
             None => rest.split_once("\n---\n").or_else(|| rest.strip_suffix("\n---").map(|head| (head, ""))),
         });
         let Some((header, body)) = parts else {
-            return Err(crate::source::Place::file(&path.display().to_string()).at_line(1).problem(
+            return Err(Place::file(&path.display().to_string()).at_line(1).problem(
                 "expected a header between two lines of ---, found none",
                 "write the file with `opennck test --accept`",
             ));

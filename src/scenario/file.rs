@@ -133,10 +133,15 @@ pub fn profile_named(name: &str) -> Result<Profile, Problem> {
     match name {
         "840d_sl" => Ok(Profile::Sinumerik840dSl),
         "828d" => Ok(Profile::Sinumerik828d),
-        _ => Err(Problem::new(
-            format!("expected a profile, found `{name}`"),
-            did_you_mean(name, ["840d_sl", "828d"], "profiles are 840d_sl and 828d"),
-        )),
+        _ => {
+            // A shortened name is nearer to the name it begins than any count of letters says.
+            let cure = if name.starts_with("840") || name.is_empty() {
+                "profiles are 840d_sl and 828d".to_owned()
+            } else {
+                did_you_mean(name, ["840d_sl", "828d"], "profiles are 840d_sl and 828d")
+            };
+            Err(Problem::new(format!("expected a profile, found `{name}`"), cure))
+        }
     }
 }
 

@@ -9,6 +9,7 @@ mod duration;
 mod expression;
 mod failure;
 mod file;
+mod passing;
 mod run;
 mod session;
 mod steps;

@@ -35,7 +35,7 @@ impl Scenario {
     /// # Errors
     /// Something cannot be used; the problem names file and line.
     pub fn prepare(&self, profile: Profile, programs: &Programs) -> Result<Prepared, Problem> {
-        let machine = self.open(profile, programs)?;
+        let mut machine = self.open(profile)?;
         let watch = self.watch(&machine)?;
         let mut reader = Reader::new(&machine);
         let steps: Vec<Step> = self.steps.iter().map(|step| reader.step(step.clone())).collect::<Result<_, _>>()?;
@@ -51,6 +51,12 @@ impl Scenario {
             profile: (profile != Profile::default()).then(|| profile_name(profile).to_owned()),
             cycle_time: machine.cycle_time(),
         };
+        // Only now, because what was tried out above was tried on copies of the machine, and a program need not
+        // have copies.
+        if let Some(name) = &self.plc {
+            let program = programs.program(&name.text, machine.names());
+            machine.load_program(program.map_err(|problem| problem.at(&name.place))?);
+        }
         let mut session = Session::new(machine);
         session.bound(Some(limit));
         session.set_watch(watch);
@@ -61,16 +67,11 @@ impl Scenario {
         Ok(Prepared { session, steps, head, causes: self.causes })
     }
 
-    fn open(&self, profile: Profile, programs: &Programs) -> Result<Machine, Problem> {
+    fn open(&self, profile: Profile) -> Result<Machine, Problem> {
         let preset = self.plc_image.as_ref().map(|image| self.preset(image)).transpose()?;
         let options = OpenOptions { plant_over: self.plant.clone(), profile, preset };
-        let mut machine = Machine::open_with(self.directory().join(&self.machine.text), options)
-            .map_err(|problem| problem.at(&self.machine.place))?;
-        if let Some(name) = &self.plc {
-            let program = programs.program(&name.text, machine.names());
-            machine.load_program(program.map_err(|problem| problem.at(&name.place))?);
-        }
-        Ok(machine)
+        Machine::open_with(self.directory().join(&self.machine.text), options)
+            .map_err(|problem| problem.at(&self.machine.place))
     }
 
     /// A PLC image: a file, or a name that is looked for in `plc_images` beside the scenario or above it.

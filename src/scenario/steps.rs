@@ -116,9 +116,20 @@ impl<'a> Reader<'a> {
             ));
         }
         let action = self.action(verb, node, &mut table)?;
+        if let Action::Queue(commands) = &action {
+            for command in commands {
+                self.try_out(command, &place)?;
+            }
+        }
         self.refuse_foreign_modifiers(verb, &mut table)?;
         table.finish()?;
         Ok(Step { place, note, action })
+    }
+
+    /// Tries a command on a copy of the machine, so that what it refuses is refused before anything runs.
+    fn try_out(&self, command: &Command, place: &Place) -> Result<(), Problem> {
+        let refused = self.machine.fork()?.queue(command.clone());
+        refused.map_err(|problem| problem.at(place))
     }
 
     fn refuse_foreign_modifiers(&self, verb: &str, table: &mut Table) -> Result<(), Problem> {
@@ -258,8 +269,6 @@ impl<'a> Reader<'a> {
     fn machine_data(&self, node: Node) -> Result<Vec<Command>, Problem> {
         let mut table = node.into_table("machine data with their values")?;
         let mut commands = Vec::new();
-        // Each is tried on a copy of the machine, so that what it refuses is refused before anything runs.
-        let mut trial = self.machine.fork()?;
         for (target, place, node) in table.take_rest() {
             let value = match &node.value {
                 Value::Integer(number) => DatumValue::Integer(*number),
@@ -273,7 +282,7 @@ impl<'a> Reader<'a> {
                 }
             };
             let command = Command::MachineDatum { target, value };
-            trial.queue(command.clone()).map_err(|problem| problem.at(&place))?;
+            self.try_out(&command, &place)?;
             commands.push(command);
         }
         Ok(commands)

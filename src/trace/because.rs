@@ -4,7 +4,7 @@ use super::places::signal_at;
 use super::{AxisValue, six_decimals};
 use crate::image::Names;
 use crate::units::AxisNumber;
-use crate::variables::{Describe, Event, Input, Place, Quantity};
+use crate::variables::{AlarmNumber, Describe, Event, Input, Place, Quantity};
 
 /// Whose it is, by name: `X`, `CHAN1`, `mode_group_1`, `nck`.
 #[must_use]
@@ -56,6 +56,6 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
             };
             Some(format!("{axis}.{name} = {}", six_decimals(value)))
         }
-        Input::Alarm(number) => Some(format!("alarm {}", describe.alarm_name(crate::variables::AlarmNumber(number)))),
+        Input::Alarm(number) => Some(format!("alarm {}", describe.alarm_name(AlarmNumber(number)))),
     }
 }

@@ -9,7 +9,7 @@ use super::places::{Order, Places, Printable, Shown, mask_in_byte, shown};
 use super::{By, Change, Row, Trace, Watch, decimals, place_name};
 use crate::image::{Format, Location, Memory};
 use crate::units::Time;
-use crate::variables::{AlarmNumber, Describe, EventId, Parameter, RaisedAlarm};
+use crate::variables::{AlarmNumber, Describe, EventId, Parameter, Place, RaisedAlarm};
 
 /// One line of a trace.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,7 +87,8 @@ impl Trace {
         // Ordered by cycle and by kind; lines of equal rank stay in the order in which they came.
         let mut ranked: Vec<(u64, u8, Line)> = Vec::new();
         let mut push = |cycle, rank, kind| {
-            ranked.push((cycle, rank, Line { time: self.time(cycle), kind }));
+            let time = self.time(cycle);
+            ranked.push((cycle, rank, Line { time, kind }));
         };
         for (cycle, text) in &self.notes {
             push(*cycle, 0, LineKind::Note(text.clone()));
@@ -111,7 +112,7 @@ impl Trace {
             for Draft { printable, old, by, cause } in drafts.into_values() {
                 let new = shown(&memory, printable.location);
                 if old != new {
-                    let because = self.event(cause).map(|event| because(event, describe));
+                    let because = self.event(cause, cycle).map(|event| because(event, describe));
                     let Printable { symbol, address, .. } = printable;
                     let rank = if by == By::Nck { 2 } else { 1 };
                     push(cycle, rank, LineKind::Signal(SignalLine { symbol, address, old, new, by, because }));
@@ -126,12 +127,12 @@ impl Trace {
                 .collect();
             alarms.sort_by_key(|(alarm, ..)| (alarm.number, alarm.place));
             for (alarm, raised, cause) in alarms {
-                push(cycle, 3, LineKind::Alarm(self.alarm(&alarm, raised, cause, describe)));
+                push(cycle, 3, LineKind::Alarm(self.alarm(&alarm, raised, (cause, cycle), describe)));
             }
         }
         for row in &self.values {
             let watched = &self.watched[row.index];
-            let axis = place_name(crate::variables::Place::Axis(watched.axis), names);
+            let axis = place_name(Place::Axis(watched.axis), names);
             let name = format!("{axis}.{}", watched.value);
             push(row.cycle, 4, LineKind::Value(name, row.old.map(decimals), decimals(row.new)));
         }
@@ -139,12 +140,18 @@ impl Trace {
         ranked.into_iter().map(|(_, _, line)| line).collect()
     }
 
-    fn alarm(&self, alarm: &RaisedAlarm, raised: bool, cause: EventId, describe: &dyn Describe) -> AlarmLine {
+    fn alarm(
+        &self,
+        alarm: &RaisedAlarm,
+        raised: bool,
+        (cause, cycle): (EventId, u64),
+        describe: &dyn Describe,
+    ) -> AlarmLine {
         let names = describe.names();
         let parameter = |parameter: &Parameter| match *parameter {
             Parameter::None => None,
-            Parameter::Channel(channel) => Some(Err(place_name(crate::variables::Place::Channel(channel), names))),
-            Parameter::Axis(axis) => Some(Err(place_name(crate::variables::Place::Axis(axis), names))),
+            Parameter::Channel(channel) => Some(Err(place_name(Place::Channel(channel), names))),
+            Parameter::Axis(axis) => Some(Err(place_name(Place::Axis(axis), names))),
             Parameter::Number(number) => Some(Ok(number)),
         };
         AlarmLine {
@@ -154,7 +161,7 @@ impl Trace {
             place: place_name(alarm.place, names),
             parameters: alarm.parameters.iter().filter_map(parameter).collect(),
             text: describe.alarm_text(alarm),
-            because: self.event(cause).map(|event| because(event, describe)),
+            because: self.event(cause, cycle).map(|event| because(event, describe)),
         }
     }
 }

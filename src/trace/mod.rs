@@ -110,11 +110,14 @@ impl Trace {
         &self.rows
     }
 
-    /// An event of this record.
+    /// The event of this number that was there at the end of a cycle; numbers may begin anew at a power on.
     #[must_use]
-    pub fn event(&self, id: EventId) -> Option<&Event> {
-        let index = self.events.binary_search_by_key(&id, |event| event.id).ok()?;
-        self.events.get(index)
+    pub fn event(&self, id: EventId, cycle: u64) -> Option<&Event> {
+        let so_far = self.events.partition_point(|event| event.cycle <= cycle);
+        if !id.is_some() {
+            return None;
+        }
+        self.events[..so_far].iter().rev().find(|event| event.id == id)
     }
 
     /// How many rows the recorder lost because nobody drained it.

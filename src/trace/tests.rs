@@ -1,1 +1,222 @@
+//! A trace of a few rows, in all its forms, by literal expectation.
 
+use super::*;
+use crate::image::{Location, Names};
+use crate::units::{ChannelNumber, Position};
+use crate::variables::{AlarmNumber, Input, Parameter, Place, RaisedAlarm, Rule, RuleNumber};
+
+struct Control(Names);
+
+impl Control {
+    fn new() -> Self {
+        let mut names = Names::default();
+        names.axes[AxisNumber::FIRST] = Some("X".to_owned());
+        names.axes[AxisNumber::new(3).unwrap()] = Some("XF".to_owned());
+        names.channels[ChannelNumber::FIRST] = Some("CHAN1".to_owned());
+        Self(names)
+    }
+
+    fn location(&self, name: &str) -> Location {
+        self.0.resolve(&Memory::new(), name).unwrap()
+    }
+}
+
+impl Describe for Control {
+    fn names(&self) -> &Names {
+        &self.0
+    }
+    fn alarm_text(&self, alarm: &RaisedAlarm) -> String {
+        format!("text of {}", alarm.number.0)
+    }
+    fn alarm_name(&self, number: AlarmNumber) -> String {
+        if number.0 == AlarmNumber::OWN { "gantry-stage-1".to_owned() } else { number.0.to_string() }
+    }
+    fn alarm_number(&self, _: &str) -> Option<AlarmNumber> {
+        None
+    }
+    fn rule(&self, rule: RuleNumber) -> Rule {
+        match rule.0 {
+            0 => Rule { id: "REF-11", text: "" },
+            _ => Rule { id: "O-19", text: "mode taken" },
+        }
+    }
+}
+
+/// What one byte was and is.
+fn byte(location: Location, cycle: u64, old: u8, new: u8, by: By, cause: EventId) -> Row {
+    let (part, offset) = (location.part, location.offset);
+    Row { cycle, change: Change::Byte { part, offset, old, new, by: [by; 8], causes: [cause; 8] } }
+}
+
+fn recorded(control: &Control) -> Trace {
+    let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10);
+    let watch = Watch::parse(&["X.position"], &control.0, &Memory::new()).unwrap();
+    let mut variables = Variables::default();
+    variables.axes[AxisNumber::FIRST].position = Position::from_user(120.0);
+    trace.watch_values(&watch, 10, &variables);
+    trace.note(11, "REF");
+    let mut recorder = Recorder::default();
+    let event = |id, rule, input| Event {
+        id: EventId(id),
+        cycle: 11,
+        place: Place::Axis(AxisNumber::FIRST),
+        rule: RuleNumber(rule),
+        inputs: [input, Input::None, Input::None],
+        parent: EventId::NONE,
+    };
+    let datum = Input::Datum(37110, AxisNumber::new(3), 0.0);
+    recorder.events([event(1, 0, datum), event(2, 1, Input::None)].iter());
+    let alarm = RaisedAlarm {
+        number: AlarmNumber(10654),
+        place: Place::Axis(AxisNumber::FIRST),
+        parameters: [Parameter::Channel(ChannelNumber::FIRST), Parameter::Number(1), Parameter::None, Parameter::None],
+    };
+    // Out of order on purpose: a trace has its own order within a cycle.
+    recorder.push(Row { cycle: 11, change: Change::Alarm { alarm, raised: true, cause: EventId(1) } });
+    let ready = control.location("X.gantry_synchronization_ready_to_start");
+    recorder.push(byte(ready, 11, 0, 1 << ready.bit, By::Nck, EventId(1)));
+    let key = control.location("X.traversing_key_plus");
+    recorder.push(byte(key, 11, 0, 1 << key.bit, By::Outside, EventId::NONE));
+    recorder.push(byte(control.location("QB4"), 11, 0, 0b10, By::Plc, EventId::NONE));
+    recorder.push(byte(control.location("MB7"), 11, 0, 9, By::Plc, EventId::NONE));
+    recorder.push(byte(control.location("X.feed_override"), 12, 0, 13, By::Plc, EventId::NONE));
+    let (part, offset) = (key.part, key.offset);
+    recorder.push(Row { cycle: 12, change: Change::Overwritten { part, offset, bits: 1 << key.bit } });
+    let own = RaisedAlarm { number: AlarmNumber(AlarmNumber::OWN), ..alarm };
+    recorder.push(Row { cycle: 12, change: Change::Alarm { alarm: own, raised: false, cause: EventId::NONE } });
+    trace.extend(&recorder);
+    variables.axes[AxisNumber::FIRST].position = Position::from_user(120.0004);
+    trace.note_values(12, &variables);
+    trace
+}
+
+#[test]
+fn the_text_has_one_row_a_change_in_aligned_columns() {
+    let control = Control::new();
+    let trace = recorded(&control);
+    let expected = "
+    time  what                                      address           change                    by       because
+   0.000  X.position                                                  120.000000
+   0.002  # REF
+   0.002  Q4.1                                                        0 -> 1                    plc
+   0.002  X.traversing_key_plus                     DB31.DBX4.7       0 -> 1                    outside
+   0.002  X.gantry_synchronization_ready_to_start   DB31.DBX101.4     0 -> 1                    nck      REF-11: MD37110[XF] = 0
+   0.002  alarm 10654                               X                 raised                    nck      text of 10654  (REF-11: MD37110[XF] = 0)
+   0.004  # the PLC program overwrote what was set: X.traversing_key_plus (DB31.DBX4.7)
+   0.004  X.feed_override                           DB31.DBB0         0 -> 13                   plc
+   0.004  alarm gantry-stage-1                      X                 cleared                   nck      text of 1000000
+   0.004  X.position                                                  120.000000 -> 120.000400
+";
+    assert_eq!(format!("\n{}", trace.text(&control, &Watch::default(), true)), expected);
+    assert!(!trace.text(&control, &Watch::default(), false).contains("REF-11"));
+}
+
+#[test]
+fn the_json_lines_have_the_promised_keys_in_the_promised_order() {
+    let control = Control::new();
+    let expected = r#"{"t":0.000,"symbol":"X.position","value":120.000000}
+{"t":0.002,"note":"REF"}
+{"t":0.002,"signal":"Q4.1","value":1,"by":"plc"}
+{"t":0.002,"signal":"DB31.DBX4.7","symbol":"X.traversing_key_plus","value":1,"by":"outside"}
+{"t":0.002,"signal":"DB31.DBX101.4","symbol":"X.gantry_synchronization_ready_to_start","value":1,"by":"nck","because":"REF-11: MD37110[XF] = 0"}
+{"t":0.002,"alarm":10654,"state":"raised","where":"X","parameters":["CHAN1",1],"text":"text of 10654","because":"REF-11: MD37110[XF] = 0"}
+{"t":0.004,"note":"the PLC program overwrote what was set: X.traversing_key_plus (DB31.DBX4.7)"}
+{"t":0.004,"signal":"DB31.DBB0","symbol":"X.feed_override","value":13,"by":"plc"}
+{"t":0.004,"alarm":"gantry-stage-1","state":"cleared","where":"X","parameters":["CHAN1",1],"text":"text of 1000000"}
+{"t":0.004,"symbol":"X.position","value":120.000400}
+"#;
+    let json = recorded(&control).json_lines(&control, &Watch::default());
+    assert_eq!(json, expected);
+    for line in json.lines() {
+        serde_json::from_str::<serde_json::Value>(line).unwrap();
+    }
+}
+
+#[test]
+fn a_watch_chooses_signals_plain_memory_and_values() {
+    let control = Control::new();
+    let trace = recorded(&control);
+    let rows = |entries: &[&str]| {
+        let watch = Watch::parse(entries, &control.0, &Memory::new()).unwrap();
+        let lines = trace.lines(&control, &watch);
+        let address = |line: &Line| match &line.kind {
+            LineKind::Signal(signal) => Some(format!("{} {} -> {}", signal.address, signal.old, signal.new)),
+            LineKind::Note(_) | LineKind::Alarm(_) | LineKind::Value(..) => None,
+        };
+        lines.iter().filter_map(address).collect::<Vec<_>>()
+    };
+    assert_eq!(rows(&["X.gantry*"]), ["DB31.DBX101.4 0 -> 1"]);
+    assert_eq!(rows(&["DB31.DBX101.*", "MB7"]), ["MB7 0 -> 9", "DB31.DBX101.4 0 -> 1"]);
+    assert_eq!(rows(&["M7.*"]), ["M7.0 0 -> 1", "M7.3 0 -> 1"]);
+    assert_eq!(rows(&["MW6"]), ["MW6 0 -> 9"]);
+    assert_eq!(rows(&["MB*"]), ["MB7 0 -> 9"]);
+    assert_eq!(rows(&["X.feed_override"]), ["DB31.DBB0 0 -> 13"]);
+    assert_eq!(rows(&["DB31.DBX0.2"]), ["DB31.DBX0.2 0 -> 1"]);
+    assert_eq!(rows(&["XF.*"]), [""; 0]);
+}
+
+#[test]
+fn a_watch_that_names_nothing_is_refused() {
+    let control = Control::new();
+    for (entry, cure) in [
+        ("Z.*", "did you mean `X`?"),
+        ("X.gantri*x", "patterns are"),
+        ("Z.position", "did you mean `X`?"),
+        ("X.traversing_key_pls", "traversing_key_plus"),
+        ("DB99.DBX0.0", "PLC image"),
+    ] {
+        let (index, problem) = Watch::parse(&["X.*", entry], &control.0, &Memory::new()).unwrap_err();
+        assert!(index == 1 && problem.cure.contains(cure), "{entry}: {problem}");
+    }
+}
+
+#[test]
+fn causes_name_signals_machine_data_and_lengths() {
+    let control = Control::new();
+    let x = AxisNumber::FIRST;
+    let signal = crate::variables::SignalBit { place: Place::Axis(x), byte: 4, bit: 7 };
+    let event = Event {
+        id: EventId(1),
+        cycle: 1,
+        place: Place::Axis(x),
+        rule: RuleNumber(0),
+        inputs: [
+            Input::Bit(signal, true),
+            Input::Length(crate::variables::Quantity::SynchronismDifference, x, Position::from_user(-0.941)),
+            Input::Alarm(10653),
+        ],
+        parent: EventId::NONE,
+    };
+    assert_eq!(
+        because::because(&event, &control),
+        "REF-11: X.traversing_key_plus = 1, X.synchronism_difference = -0.941000, alarm 10653"
+    );
+    let told = Event { rule: RuleNumber(1), ..event };
+    assert!(because::because(&told, &control).starts_with("O-19: mode taken, X.traversing_key_plus = 1, "));
+    let bare = Event { rule: RuleNumber(1), inputs: [Input::None; 3], ..event };
+    assert_eq!(because::because(&bare, &control), "O-19: mode taken");
+}
+
+#[test]
+fn the_first_difference_is_told_in_words() {
+    assert_eq!(difference("a\nb\n", "a\nb"), None);
+    assert_eq!(
+        difference("a\nb\n", "a\nc\nd\n").as_deref(),
+        Some("first difference in line 2\n  expected  b\n  found     c")
+    );
+    assert_eq!(
+        difference("a", "a\nb").as_deref(),
+        Some("first difference in line 2\n  expected  (the end)\n  found     b")
+    );
+}
+
+#[test]
+fn a_sequence_may_be_compared_without_times_or_with_a_tolerance() {
+    let (golden, late) = ("  0.002  X.a  0 -> 1\n", "     0.010  X.a    0 -> 1\n");
+    assert!(difference(golden, late).is_some());
+    assert_eq!(difference_in_sequence(golden, late, None), None);
+    assert_eq!(difference_in_sequence(golden, late, Some(Time::from_millis(8))), None);
+    assert!(difference_in_sequence(golden, late, Some(Time::from_millis(7))).is_some());
+    assert!(difference_in_sequence(golden, "  0.002  X.b  0 -> 1\n", None).is_some());
+    assert!(difference_in_sequence(golden, "", None).is_some());
+}

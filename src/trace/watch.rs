@@ -2,8 +2,8 @@
 
 use super::AxisValue;
 use super::places::Printable;
-use crate::image::{Location, Memory, Names, Part, signals};
-use crate::source::{Problem, did_you_mean};
+use crate::image::{Block, Location, Memory, Names, Part, signals};
+use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 use crate::variables::Place;
 
@@ -81,7 +81,8 @@ impl Chosen {
             return Ok(());
         }
         if !entry.contains('*') {
-            self.locations.push(names.resolve(memory, entry)?);
+            let location = names.resolve(memory, entry).map_err(|problem| nearest_value(problem, entry, names));
+            self.locations.push(location?);
             return Ok(());
         }
         if !looks_like_addresses(entry) {
@@ -93,13 +94,14 @@ impl Chosen {
             });
             if !matching {
                 let head = entry.split('.').next().unwrap_or(entry);
+                let known = owners.iter().map(|(_, owner)| owner.as_str());
+                let fallback = "patterns are like `X.*` or `DB31.DBX101.*`";
                 return Err(Problem::new(
                     format!("expected a pattern that fits a signal, found `{entry}`"),
-                    did_you_mean(
-                        head,
-                        owners.iter().map(|(_, owner)| owner.as_str()),
-                        "patterns are like `X.*` or `DB31.DBX101.*`",
-                    ),
+                    match known.clone().any(|owner| owner == head) {
+                        true => fallback.to_owned(),
+                        false => did_you_mean(head, known, fallback),
+                    },
                 ));
             }
         }
@@ -116,6 +118,15 @@ impl Chosen {
     }
 }
 
+/// The problem of an unknown name, with the nearest value of an axis in its cure if one is near.
+fn nearest_value(problem: Problem, entry: &str, names: &Names) -> Problem {
+    let near = entry.rsplit_once('.').filter(|(head, _)| axes(names).any(|(_, name)| name == *head));
+    match near.and_then(|(head, tail)| Some((head, nearest(tail, AxisValue::ALL.map(AxisValue::name))?))) {
+        Some((head, value)) => Problem { cure: format!("did you mean `{head}.{value}`?"), ..problem },
+        None => problem,
+    }
+}
+
 fn axes(names: &Names) -> impl Iterator<Item = (AxisNumber, &str)> {
     AxisNumber::all().filter_map(|axis| names.axes[axis].as_deref().map(|name| (axis, name)))
 }
@@ -125,8 +136,7 @@ fn names_of_axes(names: &Names) -> impl Iterator<Item = &str> {
 }
 
 /// Everything that can stand before the point of a symbol.
-fn owners(names: &Names) -> Vec<(crate::image::Block, String)> {
-    use crate::image::Block;
+fn owners(names: &Names) -> Vec<(Block, String)> {
     let place = |block, place| (block, super::place_name(place, names));
     let mut owners = vec![place(Block::Nck, Place::Nck)];
     owners.extend(ModeGroupNumber::all().map(|group| place(Block::ModeGroup, Place::ModeGroup(group))));

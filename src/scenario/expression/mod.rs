@@ -9,7 +9,7 @@ mod tokens;
 
 use crate::image::{Location, Memory, Names};
 use crate::source::Problem;
-use crate::trace::{AxisValue, six_decimals};
+use crate::trace::{AxisValue, place_name, six_decimals};
 use crate::units::{AxisNumber, Time};
 use crate::variables::{AlarmNumber, Describe, Parameter, Place, Variables};
 
@@ -226,7 +226,7 @@ impl Term {
             Self::Captured(_, name) => name.clone(),
             Self::Alarm(alarm, None) => format!("alarm({})", describe.alarm_name(*alarm)),
             Self::Alarm(alarm, Some(place)) => {
-                format!("alarm({}, {})", describe.alarm_name(*alarm), crate::trace::place_name(*place, names))
+                format!("alarm({}, {})", describe.alarm_name(*alarm), place_name(*place, names))
             }
             Self::AlarmParameter(alarm, index) => {
                 format!("alarm_parameter({}, {})", describe.alarm_name(*alarm), index + 1)
@@ -249,7 +249,7 @@ fn shown(value: f64, measured: bool) -> String {
 }
 
 fn axis_name(names: &Names, axis: AxisNumber) -> String {
-    crate::trace::place_name(Place::Axis(axis), names)
+    place_name(Place::Axis(axis), names)
 }
 
 impl Operator {

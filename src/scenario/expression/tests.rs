@@ -1,1 +1,248 @@
+//! Expressions by table: values, precedence, names, mistakes.
 
+use super::*;
+use crate::units::{ChannelNumber, Position};
+use crate::variables::{RaisedAlarm, Rule, RuleNumber};
+
+/// Axes X and X2, channel CHAN1; one alarm without a number.
+struct Machine(Names);
+
+impl Machine {
+    fn new() -> Self {
+        let mut names = Names::default();
+        names.axes[AxisNumber::FIRST] = Some("X".to_owned());
+        names.axes[AxisNumber::new(2).unwrap()] = Some("X2".to_owned());
+        names.channels[ChannelNumber::FIRST] = Some("CHAN1".to_owned());
+        Self(names)
+    }
+}
+
+impl Describe for Machine {
+    fn names(&self) -> &Names {
+        &self.0
+    }
+    fn alarm_text(&self, _: &RaisedAlarm) -> String {
+        String::new()
+    }
+    fn alarm_name(&self, number: AlarmNumber) -> String {
+        number.0.to_string()
+    }
+    fn alarm_number(&self, name: &str) -> Option<AlarmNumber> {
+        (name == "gantry-stage-1").then_some(AlarmNumber(AlarmNumber::OWN))
+    }
+    fn rule(&self, _: RuleNumber) -> Rule {
+        Rule { id: "", text: "" }
+    }
+}
+
+/// A memory and variables in which every name of the tests has a value of its own.
+fn state(machine: &Machine) -> (Memory, Variables) {
+    let mut memory = Memory::new();
+    let mut write = |name: &str, raw| {
+        let location = machine.0.resolve(&memory, name).unwrap();
+        memory.write(location, raw);
+    };
+    write("X.traversing_key_plus", 1);
+    write("DB32.DBX101.5", 1);
+    write("MB20", 0xFE);
+    write("MW22", 0xFFFE);
+    write("MD24", u64::from(1.5_f32.to_bits()));
+    write("M10.3", 1);
+    let mut variables = Variables::default();
+    variables.axes[AxisNumber::FIRST].position = Position::from_user(120.5);
+    variables.axes[AxisNumber::FIRST].velocity = 600.0;
+    variables.axes[AxisNumber::new(2).unwrap()].synchronism_difference = Position::from_user(-0.941);
+    let alarm = RaisedAlarm {
+        number: AlarmNumber(10651),
+        place: Place::Axis(AxisNumber::FIRST),
+        parameters: [
+            Parameter::Channel(ChannelNumber::FIRST),
+            Parameter::Number(4001),
+            Parameter::None,
+            Parameter::None,
+        ],
+    };
+    let own = RaisedAlarm { number: AlarmNumber(AlarmNumber::OWN), ..alarm };
+    variables.alarms.publish([alarm, own].into_iter());
+    (memory, variables)
+}
+
+fn parsed(source: &str) -> Result<Expression, Problem> {
+    let machine = Machine::new();
+    let (memory, _) = state(&machine);
+    let captured = ["start".to_owned()];
+    Expression::parse(source, Scope { memory: &memory, describe: &machine, captured: &captured })
+}
+
+fn value(source: &str) -> f64 {
+    let machine = Machine::new();
+    let (memory, variables) = state(&machine);
+    let now = Moment { memory: &memory, variables: &variables, time: Time::from_millis(1_500), captured: &[7.0] };
+    parsed(source).unwrap_or_else(|problem| panic!("{problem}")).value(&View { now, last: now, before: now })
+}
+
+#[test]
+fn operators_have_the_precedence_of_rust() {
+    for (source, expected) in [
+        ("1 || 0 && 0", 1.0),
+        ("(1 || 0) && 0", 0.0),
+        ("0 == 1 || 1 == 1", 1.0),
+        ("1 && 2 == 3", 0.0),
+        ("1 + 1 == 2", 1.0),
+        ("2 < 1 + 2", 1.0),
+        ("1 + 2 * 3", 7.0),
+        ("(1 + 2) * 3", 9.0),
+        ("7 - 2 - 1", 4.0),
+        ("8 / 4 / 2", 1.0),
+        ("-2 * -3", 6.0),
+        ("1 - -1", 2.0),
+        ("!0 == 1", 1.0),
+        ("!(0 == 0)", 0.0),
+        ("!!5", 1.0),
+        ("-!0", -1.0),
+        ("2 >= 2 && 2 <= 2 && 3 > 2 && 2 != 3", 1.0),
+        ("0 / 0 || 0", 0.0),
+    ] {
+        assert!((value(source) - expected).abs() < 1e-12, "{source} = {}", value(source));
+    }
+}
+
+#[test]
+fn numbers_are_read_with_base_point_and_underscore() {
+    for (source, expected) in
+        [("1.5", 1.5), ("2#1101_0000", 208.0), ("16#D0", 208.0), ("16#d0", 208.0), ("1_000", 1000.0), ("007", 7.0)]
+    {
+        assert!((value(source) - expected).abs() < 1e-12, "{source}");
+    }
+}
+
+#[test]
+fn names_mean_signals_addresses_values_and_captured_values() {
+    for (source, expected) in [
+        ("X.traversing_key_plus", 1.0),
+        ("DB31.DBX4.7", 1.0),
+        ("DB32.DBX101.5", 1.0),
+        ("X2.gantry_grouping_is_synchronized || DB32.DBX101.5", 1.0),
+        ("M10.3 && !M10.4", 1.0),
+        ("MB20", 254.0),
+        ("MW22:INT", -2.0),
+        ("MD24:REAL", 1.5),
+        ("IB0", 0.0),
+        ("X.position", 120.5),
+        ("X.velocity", 600.0),
+        ("abs(X2.synchronism_difference)", 0.941),
+        ("time", 1.5),
+        ("start", 7.0),
+        ("min(3, start, 5)", 3.0),
+        ("max(3, start)", 7.0),
+    ] {
+        assert!((value(source) - expected).abs() < 1e-6, "{source} = {}", value(source));
+    }
+}
+
+#[test]
+fn alarms_are_found_by_number_place_and_own_name() {
+    for (source, expected) in [
+        ("alarm(10651)", 1.0),
+        ("alarm(10651, X)", 1.0),
+        ("alarm(10651, X2)", 0.0),
+        ("alarm(10651, CHAN1)", 0.0),
+        ("alarm(10652)", 0.0),
+        ("alarm('gantry-stage-1')", 1.0),
+        ("alarm_parameter(10651, 1)", 1.0),
+        ("alarm_parameter(10651, 2)", 4001.0),
+        ("alarm_parameter(10652, 2)", 0.0),
+        ("alarms()", 2.0),
+    ] {
+        assert!((value(source) - expected).abs() < 1e-12, "{source}");
+    }
+}
+
+#[test]
+fn an_edge_lies_between_the_last_two_cycles_and_not_in_pending_writes() {
+    let machine = Machine::new();
+    let (memory, variables) = state(&machine);
+    let empty = Memory::new();
+    let at = |memory| Moment { memory, variables: &variables, time: Time::ZERO, captured: &[] };
+    let scope = Scope { memory: &empty, describe: &machine, captured: &[] };
+    let rose = Expression::parse("rose(M10.3 && time == 0)", scope).unwrap();
+    let fell = Expression::parse("fell(M10.3)", scope).unwrap();
+    let up = View { now: at(&empty), last: at(&memory), before: at(&empty) };
+    assert!(rose.holds(&up) && !fell.holds(&up));
+    let down = View { now: at(&memory), last: at(&empty), before: at(&memory) };
+    assert!(!rose.holds(&down) && fell.holds(&down));
+    let only_written = View { now: at(&memory), last: at(&empty), before: at(&empty) };
+    assert!(!rose.holds(&only_written) && !fell.holds(&only_written));
+    assert!(rose.looks_back() && !parsed("M10.3").unwrap().looks_back());
+}
+
+#[test]
+fn a_mistake_says_what_was_expected_where_and_what_to_do() {
+    for (source, cause, cure) in [
+        ("1 < 2 < 3", "one comparison, found `<` at character 7", "do not chain"),
+        ("1 == 1 == 1", "one comparison", "do not chain"),
+        ("1 +", "found the end at character 4", "operators are"),
+        ("(1", "expected `)`, found the end", "operators are"),
+        ("1)", "an operator or the end, found `)`", "operators are"),
+        ("1 2", "an operator or the end", "operators are"),
+        ("", "found the end at character 1", "operators are"),
+        ("a & b", "found `&`", "&&"),
+        ("a | b", "found `|`", "||"),
+        ("1 = 1", "found `=`", "=="),
+        ("1 % 2", "found `%`", "operators are"),
+        ("12abc", "a number, found `12abc`", "numbers are written"),
+        ("1__0", "a number", "numbers are written"),
+        ("2#2", "a number", "numbers are written"),
+        ("1.", "a number", "numbers are written"),
+        ("strat", "`strat`", "did you mean `start`?"),
+        ("X.positoin", "`X.positoin`", "did you mean `X.position`?"),
+        ("X.traversing_key_pls", "`X.traversing_key_pls`", "traversing_key_plus"),
+        ("alarm", "`alarm`", "parentheses"),
+        ("alram(10653)", "a function, found `alram`", "did you mean `alarm`?"),
+        ("alarm(x)", "the number of an alarm", "quotes"),
+        ("alarm('nothing')", "the number of an alarm, found 'nothing'", "give a number"),
+        ("alarm(1.5)", "the number of an alarm", "operators are"),
+        ("alarm('open)", "a closing quote", "operators are"),
+        ("alarm(10653, X3)", "an axis or a channel", "did you mean `X"),
+        ("alarm_parameter(10651)", "expected `,`", "operators are"),
+        ("alarm_parameter(10651, 5)", "1 to 4", "operators are"),
+        ("alarms(1)", "expected `)`", "operators are"),
+        ("min(1)", "expected `,`", "operators are"),
+        ("rose(fell(M10.3))", "found `fell`", "not nested"),
+        ("DB99.DBX0.0", "DB99", "PLC image"),
+        ("DB31.DBX148.0", "148 bytes", "the last byte is 147"),
+    ] {
+        let problem = parsed(source).expect_err(source);
+        assert!(problem.what.contains(cause), "{source}: {}", problem.what);
+        assert!(problem.cure.contains(cure), "{source}: {}", problem.cure);
+    }
+}
+
+#[test]
+fn nesting_has_an_end() {
+    let deep = |depth: usize| format!("{}1{}", "(".repeat(depth), ")".repeat(depth));
+    assert!(parsed(&deep(50)).is_ok());
+    assert!(parsed(&deep(100_000)).is_err());
+    assert!(parsed(&"!".repeat(100_000)).is_err());
+    assert!(parsed(&"-(".repeat(100_000)).is_err());
+    assert!(parsed(&vec!["1"; 1_000].join(" + ")).is_ok());
+}
+
+#[test]
+fn the_operands_of_a_failed_expression_are_shown_once_each_with_symbol_and_address() {
+    let machine = Machine::new();
+    let (memory, variables) = state(&machine);
+    let now = Moment { memory: &memory, variables: &variables, time: Time::ZERO, captured: &[7.0] };
+    let source = "X.traversing_key_plus && M10.3 && X.position > start && alarm(10651, X) && !X.traversing_key_plus";
+    let lines = parsed(source).unwrap().operands(&View { now, last: now, before: now }, &machine);
+    assert_eq!(
+        lines,
+        [
+            "X.traversing_key_plus (DB31.DBX4.7) = 1",
+            "M10.3 = 1",
+            "X.position = 120.500000",
+            "start = 7",
+            "alarm(10651, X) = 1",
+        ]
+    );
+}

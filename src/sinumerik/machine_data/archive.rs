@@ -244,7 +244,12 @@ impl Archive {
             _ => 2,
         });
         let mut given = BTreeMap::new();
+        let mut named = false;
         for (datum, line) in known {
+            if !named && !matches!(datum.number, 10000 | 20000) {
+                named = true;
+                keep_default_names_apart(&mut data, &given);
+            }
             let target = match take(datum, &line, &mut data) {
                 Ok(target) => target,
                 Err(problem) => {
@@ -260,6 +265,9 @@ impl Archive {
                 }
             };
             given.insert(target, line.place);
+        }
+        if !named {
+            keep_default_names_apart(&mut data, &given);
         }
         if findings.iter().any(|finding| finding.severity == Severity::Error) {
             findings.sort_by(|a, b| b.severity.cmp(&a.severity).then_with(|| a.place.cmp(&b.place)));
@@ -371,6 +379,19 @@ fn unknown_findings(unknown: &[Assignment]) -> Vec<Finding> {
         }
     }
     findings
+}
+
+/// An axis whose default name was given to another one is called `AXn`: a given name always means the axis it was given to.
+fn keep_default_names_apart(data: &mut MachineData, given: &BTreeMap<Target, Place>) {
+    let names = &mut data.general.axconf_machax_name_tab;
+    let is_given =
+        |index: usize| given.keys().any(|target| target.datum().number == 10000 && usize::from(target.index()) == index);
+    let taken: Vec<String> = (0..names.len()).filter(|&index| is_given(index)).map(|index| names[index].clone()).collect();
+    for (index, name) in names.iter_mut().enumerate() {
+        if !is_given(index) && taken.contains(name) {
+            *name = format!("AX{}", index + 1);
+        }
+    }
 }
 
 /// The archive files of a machine: the file itself, or in a directory all `*.tea`, `*.ini`, `*.mpf` by name, or one `*.arc`.

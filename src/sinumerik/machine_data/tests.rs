@@ -262,6 +262,15 @@ mod ascii_archives {
     }
 
     #[test]
+    fn a_name_that_was_given_is_not_taken_by_the_default_of_another_axis() {
+        // By default machine axis 2 is Y1 and machine axis 11 is Y2.
+        let archive = archive("N10000 $MN_AXCONF_MACHAX_NAME_TAB[0]=\"Y1\"\nN37100 $MA_GANTRY_AXIS_TYPE[Y1]=1\n");
+        assert_eq!(archive.data.axis_name(axis(2)), "AX2");
+        assert_eq!(archive.data.axis("Y1"), Some(axis(1)));
+        assert_eq!(archive.data.axes[axis(1)].gantry_axis_type, 1);
+    }
+
+    #[test]
     fn a_later_assignment_replaces_an_earlier_one() {
         let files = [("a.tea", b"$MA_REFP_VELO_POS[AX1]=1\n".as_slice()), ("b.tea", b"$MA_REFP_VELO_POS[AX1]=2\n")];
         let archive = Archive::read(files).unwrap();

@@ -1,0 +1,158 @@
+//! The program as its users call it: commands, exit codes, what goes to which output.
+
+use std::fs;
+use std::io::Read;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+/// A directory of its own for a test.
+fn directory(name: &str) -> PathBuf {
+    let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&directory);
+    fs::create_dir_all(&directory).expect("the target directory is ours");
+    directory
+}
+
+fn opennck(arguments: &[&str], directory: &PathBuf) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_opennck"))
+        .args(arguments)
+        .current_dir(directory)
+        .output()
+        .expect("the program was built")
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).expect("text")
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).expect("text")
+}
+
+const GOOD: &str = "title = \"A flag\"\nmachine = \"g1_example\"\nwatch = [\"M0.*\"]\n\
+    [[step]]\nnote = \"now\"\nset = { \"M0.0\" = 1 }\n[[step]]\nrun = \"10ms\"\n";
+
+#[test]
+fn without_arguments_the_worked_example_runs_and_says_what_to_try_next() {
+    let output = opennck(&[], &directory("example"));
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert!(out(&output).contains("X.traversing_key_plus"));
+    assert!(out(&output).contains("held, after") && out(&output).contains("What to try next"));
+}
+
+#[test]
+fn run_prints_the_sequence_and_the_result_and_writes_the_trace() {
+    let directory = directory("run");
+    fs::write(directory.join("good.toml"), GOOD).unwrap();
+    let output = opennck(&["run", "good.toml", "--trace", "t.jsonl"], &directory);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert!(out(&output).contains("0.002  # now") && out(&output).contains("held, after 0.010 s"));
+    let trace = fs::read_to_string(directory.join("t.jsonl")).unwrap();
+    assert!(trace.starts_with("{\"t\":0.002,\"note\":\"now\"}\n"), "{trace}");
+    assert!(trace.contains("{\"t\":0.002,\"signal\":\"M0.0\",\"value\":1,\"by\":\"outside\"}\n"), "{trace}");
+    let output = opennck(&["run", "good.toml", "good.toml", "--trace", "t.jsonl"], &directory);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("expected one scenario"), "{}", err(&output));
+}
+
+#[test]
+fn a_failed_expectation_ends_with_1_and_says_what_was_instead() {
+    let directory = directory("failed");
+    fs::write(directory.join("bad.toml"), format!("{GOOD}[[step]]\nexpect = \"M0.1\"\n")).unwrap();
+    let output = opennck(&["run", "bad.toml"], &directory);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("bad.toml:10: expected `M0.1`, found it false"), "{}", err(&output));
+    assert!(out(&output).contains("failed, after 0.010 s"));
+}
+
+#[test]
+fn one_unusable_file_and_nothing_runs() {
+    let directory = directory("unusable");
+    fs::write(directory.join("good.toml"), GOOD).unwrap();
+    fs::write(directory.join("bad.toml"), GOOD.replace("M0.0", "X.nonsense")).unwrap();
+    let output = opennck(&["run", "good.toml", "bad.toml", "missing.toml"], &directory);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(out(&output), "");
+    assert!(err(&output).contains("bad.toml:6: ") && err(&output).contains("missing.toml"), "{}", err(&output));
+}
+
+#[test]
+fn test_compares_accepts_and_reports() {
+    let directory = directory("test");
+    fs::create_dir_all(directory.join("golden/area")).unwrap();
+    fs::write(directory.join("golden/area/flag.toml"), GOOD).unwrap();
+    let output = opennck(&["test"], &directory);
+    assert_eq!(output.status.code(), Some(1), "a missing golden file is a failure");
+    assert!(err(&output).contains("expected the golden file"), "{}", err(&output));
+    let output = opennck(&["test", "--accept"], &directory);
+    assert_eq!((output.status.code(), out(&output).lines().count()), (Some(0), 2), "{}", out(&output));
+    let output = opennck(&["test", "golden/area/flag.toml", "--jobs", "2", "--junit", "r.xml"], &directory);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert_eq!(out(&output), "1 scenarios: 1 held\n");
+    assert!(fs::read_to_string(directory.join("r.xml")).unwrap().contains("tests=\"1\" failures=\"0\" errors=\"0\""));
+    // The usable ones run beside an unusable one, and the highest code is that of the program.
+    fs::write(directory.join("golden/area/bad.toml"), "title = 1").unwrap();
+    let output = opennck(&["test"], &directory);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(out(&output), "2 scenarios: 1 held, 1 unusable\n");
+}
+
+#[test]
+fn signals_are_listed_as_table_json_and_csv() {
+    let directory = directory("signals");
+    let output = opennck(&["signals", "start_gantry"], &directory);
+    assert!(out(&output).contains("DB31.DBX29.4  AX1.start_gantry_synchronization  plc"), "{}", out(&output));
+    let output = opennck(&["signals", "--format", "csv"], &directory);
+    assert!(out(&output).starts_with("address,symbol,writer,name\n"));
+    let csv = out(&output).lines().count();
+    let output = opennck(&["signals", "--format", "json"], &directory);
+    let json: serde_json::Value = serde_json::from_str(&out(&output)).unwrap();
+    assert_eq!(json.as_array().unwrap().len() + 1, csv);
+    let output = opennck(&["signals", "start_gantry", "--profile", "828d"], &directory);
+    assert!(out(&output).contains("DB3800.DBX5005.4"), "{}", out(&output));
+    assert_eq!(opennck(&["signals", "--profile", "802d"], &directory).status.code(), Some(2));
+    let output = opennck(&["signals", "no such signal", "--format", "csv"], &directory);
+    assert_eq!(out(&output), "address,symbol,writer,name\n");
+}
+
+#[test]
+fn machine_data_are_checked_with_file_line_and_identifier() {
+    let directory = directory("machine_data");
+    fs::write(directory.join("m.tea"), "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=99\nM17\n").unwrap();
+    let output = opennck(&["machine-data", "check", "m.tea"], &directory);
+    assert_eq!(output.status.code(), Some(1), "{}{}", out(&output), err(&output));
+    assert!(out(&output).contains("m.tea:1") && out(&output).contains("37100"), "{}", out(&output));
+    let output = opennck(&["machine-data", "check", "nowhere"], &directory);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn every_command_has_help_and_a_mistyped_one_ends_with_2() {
+    let directory = directory("help");
+    for arguments in [
+        &["--help"][..],
+        &["run", "--help"],
+        &["test", "--help"],
+        &["signals", "--help"],
+        &["machine-data", "check", "--help"],
+    ] {
+        let output = opennck(arguments, &directory);
+        assert!(output.status.code() == Some(0) && out(&output).contains("Usage:"), "{arguments:?}");
+    }
+    assert_eq!(opennck(&["rum"], &directory).status.code(), Some(2));
+    assert_eq!(opennck(&["run"], &directory).status.code(), Some(2));
+}
+
+#[test]
+fn a_reader_who_goes_away_is_no_panic() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_opennck"))
+        .args(["signals", "--format", "json"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let mut errors = String::new();
+    child.stderr.take().unwrap().read_to_string(&mut errors).unwrap();
+    assert!(child.wait().unwrap().code().is_some() && errors.is_empty(), "{errors}");
+}
