@@ -384,9 +384,11 @@ fn unknown_findings(unknown: &[Assignment]) -> Vec<Finding> {
 /// An axis whose default name was given to another one is called `AXn`: a given name always means the axis it was given to.
 fn keep_default_names_apart(data: &mut MachineData, given: &BTreeMap<Target, Place>) {
     let names = &mut data.general.axconf_machax_name_tab;
-    let is_given =
-        |index: usize| given.keys().any(|target| target.datum().number == 10000 && usize::from(target.index()) == index);
-    let taken: Vec<String> = (0..names.len()).filter(|&index| is_given(index)).map(|index| names[index].clone()).collect();
+    let is_given = |index: usize| {
+        given.keys().any(|target| target.datum().number == 10000 && usize::from(target.index()) == index)
+    };
+    let taken: Vec<String> =
+        (0..names.len()).filter(|&index| is_given(index)).map(|index| names[index].clone()).collect();
     for (index, name) in names.iter_mut().enumerate() {
         if !is_given(index) && taken.contains(name) {
             *name = format!("AX{}", index + 1);
