@@ -16,6 +16,7 @@ use crate::sinumerik::{AxisPresence, Control};
 use crate::source::{Place, Problem, Table, did_you_mean, read_text};
 use crate::trace::Recorder;
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel, Position, Time};
+use crate::variables::EventId;
 
 /// How to open a machine other than as its files say.
 #[derive(Debug, Default)]
@@ -105,7 +106,7 @@ pub(super) fn open(path: &Path, options: OpenOptions) -> Result<Machine, Problem
 fn assemble(definition: Definition, mut control: Control, memory: Memory) -> Machine {
     let plant = Plant::new(&definition.layout);
     definition.strobe.apply(&mut control);
-    let before = Before::new(&memory, control.last_event());
+    let before = Before::new(&memory, EventId::NONE);
     let mut machine = Machine {
         plant,
         memory,

@@ -90,8 +90,11 @@ impl Scenario {
                 whole.problem(format!("expected the key `{key}`, found none"), format!("write {key} = {example}"))
             })
         };
-        let title = required(table.take("title"), "title", "\"what the scenario shows\"")?;
-        let title = title.text("a title")?.to_owned();
+        let title = match table.take("title") {
+            Some(title) => title.text("a title")?.to_owned(),
+            // A scenario without a title is called as its file.
+            None => path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
+        };
         let machine = required(table.take("machine"), "machine", "\"g1_example\"")?;
         let machine = named(&machine, "the name or directory of a machine")?;
         let scenario = Self {

@@ -13,12 +13,14 @@ use crate::variables::{AlarmNumber, Event, EventId, Input, Place, Quantity};
 impl Control {
     /// The event behind the present value of a bit of the NCK.
     pub fn cause(&mut self, place: Place, byte: u16, bit: u8) -> EventId {
-        match place {
+        let cause = match place {
             Place::Nck => self.state.nck_cause(byte, bit),
             Place::ModeGroup(_) => self.state.mode_group_cause(byte, bit),
             Place::Channel(_) => self.state.channel_cause(byte, bit),
             Place::Axis(axis) => self.axis_cause(axis, byte, bit),
-        }
+        };
+        // What nothing has changed yet is as power on left it.
+        if cause.is_some() { cause } else { self.state.power_on_cause }
     }
 
     /// The event behind a pending alarm.
@@ -50,6 +52,7 @@ impl Control {
         let causes = axis.causes;
         match (byte, bit) {
             (60, 4 | 5) => causes.reference[usize::from(bit - 4)],
+            (60, 6 | 7) if axis.is_in_motion() => causes.motion,
             (60, 6 | 7) => {
                 let (datum, window) = if bit == 6 { (36000, windows.0) } else { (36010, windows.1) };
                 let measured = Input::Length(Quantity::Deviation, number, axis.deviation());
@@ -57,7 +60,8 @@ impl Control {
                 state.log.note(Place::Axis(number), Rule::ExactStop, [measured, limit, Input::None], causes.motion)
             }
             (61, 1) => state.alarm_event(Some(Place::Axis(number))),
-            (61, 2) => causes.drive,
+            (61, 2) if causes.drive.is_some() => causes.drive,
+            (61, 2) => state.run_up.cause,
             (61, 3 | 5 | 6 | 7) => causes.enabling,
             (61, 4) => {
                 #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]

@@ -70,6 +70,7 @@ pub const TRANSITIONS: &[Transition] = &[
     row(Phase::ReferencingSynchronousAxis, Rule::WaitWarningLimitZero, Phase::WaitingForStart),
     row(Phase::ReferencingSynchronousAxis, Rule::WaitDifference, Phase::WaitingForStart),
     row(Phase::ReferencingSynchronousAxis, Rule::WaitLocked, Phase::WaitingForStart),
+    row(Phase::ReferencingSynchronousAxis, Rule::ReadyNoMore, Phase::NotSynchronised),
     row(Phase::WaitingForStart, Rule::StartByPlc, Phase::Synchronising),
     row(Phase::WaitingForStart, Rule::ReadyNoMore, Phase::NotSynchronised),
     row(Phase::WaitingForStart, Rule::SynchronismRestored, Phase::Synchronised),
@@ -255,8 +256,7 @@ impl State {
         let grouping = &mut self.groupings[index];
         grouping.key = key;
         grouping.coupling.lead_with(leader);
-        let cause = grouping.cause;
-        self.start_approach(leader, f64::from(direction), cause);
+        self.start_approach(leader, f64::from(direction), event);
     }
 
     /// Sections 1 and 2.

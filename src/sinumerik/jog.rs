@@ -45,7 +45,7 @@ impl State {
         let signals = &to_nck.axes[number];
         let direction = key_direction(signals);
         let axis_parameters = &parameters.axes[number];
-        let blocked = self.stop_cause().is_some();
+        let stopped = self.stop_cause();
         let axis = &mut self.axes[number];
         let velocity = if signals.rapid_traverse_override() {
             axis_parameters.jog_rapid_velocity
@@ -53,7 +53,12 @@ impl State {
             axis_parameters.jog_velocity
         };
         let velocity = (velocity * axis.feed_factor).min(axis_parameters.maximum_velocity);
-        let held = axis.feed_held || blocked || velocity <= 0.0;
+        if let Some(cause) = stopped {
+            // The unit brakes as it was told (O-04); what is wanted stays visible.
+            self.traverse(number, direction, 0, cause);
+            return;
+        }
+        let held = axis.feed_held || velocity <= 0.0;
         if direction != 0 && !held && axis.enabling.is_on() {
             axis.motion = Motion::Run {
                 velocity: velocity * f64::from(direction),

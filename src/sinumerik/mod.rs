@@ -108,6 +108,7 @@ struct State {
     units: ArrayVec<Unit, { AxisNumber::MAX as usize }>,
     alarms: alarms::Pending,
     feedback: PerAxis<Feedback>,
+    power_on_cause: EventId,
     definition_cause: EventId,
     plc_missing: bool,
     plc_cause: EventId,
@@ -154,7 +155,7 @@ impl Control {
         let events = std::mem::take(&mut self.state.log.events);
         *self.state = State::new(&self.parameters);
         self.state.log = Log { cycle, events };
-        self.state.definition_cause = self.state.log.note_plain(Place::Nck, Rule::GroupingDefined, EventId::NONE);
+        self.state.note_power_on();
     }
 
     /// What the stages work with.
@@ -306,14 +307,20 @@ impl State {
             units: ArrayVec::new(),
             alarms: alarms::Pending::default(),
             feedback: PerAxis::default(),
+            power_on_cause: EventId::NONE,
             definition_cause: EventId::NONE,
             plc_missing: false,
             plc_cause: EventId::NONE,
             overwritten: true,
         };
-        state.definition_cause = state.log.note_plain(Place::Nck, Rule::GroupingDefined, EventId::NONE);
+        state.note_power_on();
         state.form_units(parameters);
         state
+    }
+
+    fn note_power_on(&mut self) {
+        self.power_on_cause = self.log.note_plain(Place::Nck, Rule::PowerOn, EventId::NONE);
+        self.definition_cause = self.log.note_plain(Place::Nck, Rule::GroupingDefined, self.power_on_cause);
     }
 
     /// Closed groupings and single axes; an open grouping is single axes that are still run as a grouping.

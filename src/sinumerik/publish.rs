@@ -104,7 +104,8 @@ impl State {
         signals.set_position_reached_exact_stop_fine(within(parameters.exact_stop_fine));
         signals.set_axis_specific_alarm(alarm);
         signals.set_axis_ready(axis.drive_ready && axis.measuring_system.is_some() && !alarm);
-        signals.set_follow_up_active(axis.enabling.follow_up);
+        // A parked axis has no actual value that it could follow.
+        signals.set_follow_up_active(axis.enabling.follow_up && axis.measuring_system.is_some());
         signals.set_axis_stationary(axis.velocity.abs() < parameters.standstill_velocity);
         signals.set_position_controller_active(position);
         signals.set_speed_controller_active(speed);

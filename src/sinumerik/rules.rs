@@ -21,6 +21,7 @@ macro_rules! rules {
 
 rules! {
     // Start-up and enabling.
+    PowerOn "power on" "as after power on";
     RunUp "O-20" "run-up of control and drives";
     NcNotReady "O-20" "alarm with the reaction NC not ready";
     DriveReady "O-20" "drive ready after its run-up";
@@ -98,8 +99,8 @@ rules! {
     AlarmCancelled "ALARM" "alarm cancelled";
     AlarmsPending "ALARM" "alarms pending";
     PlcMissing "2000" "no sign of life from the PLC program";
-    ExactStop "MD36010" "deviation";
-    Standstill "MD36060" "velocity";
+    ExactStop "exact stop" "";
+    Standstill "standstill" "";
     ChannelState "DB21" "state of the channel";
     Traverse "SIG-09" "movement commanded";
     Definition "MD" "machine data";

@@ -24,9 +24,17 @@ impl State {
         let all = self.log.note_plain(Place::Axis(leader), Rule::AllReferenced, event);
         let mut wait = None;
         for follower in coupling.followers() {
-            let limit = parameters.axes[follower].gantry.warning_limit;
+            let limits = &parameters.axes[follower].gantry;
+            let limit = limits.warning_limit;
             let difference = self.axes[follower].actual - self.axes[leader].actual;
             let datum = Input::Datum(37110, Some(follower), limit.user());
+            if difference.abs() > limits.trip_limit_not_synchronised {
+                // Never ready beyond MD37130 (E-13); monitoring trips in this cycle.
+                let measured = Input::Length(Quantity::SynchronismDifference, follower, difference);
+                let datum = Input::Datum(37130, Some(follower), limits.trip_limit_not_synchronised.user());
+                self.step_grouping(index, Rule::ReadyNoMore, [measured, datum, Input::None], all);
+                return;
+            }
             if limit == Position::ZERO {
                 wait = wait.or(Some((Rule::WaitWarningLimitZero, [datum, Input::None, Input::None])));
             } else if difference.abs() >= limit {
