@@ -218,7 +218,11 @@ impl Pending {
 
     /// The event behind the first pending alarm with this reaction that concerns this place (or all).
     #[must_use]
+    #[inline]
     pub(super) fn with_reaction(&self, reaction: Reaction, place: Option<Place>) -> Option<EventId> {
+        if self.entries.is_empty() {
+            return None;
+        }
         self.entries
             .iter()
             .find(|entry| {

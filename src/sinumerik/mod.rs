@@ -91,8 +91,8 @@ impl Unit {
         self.axes[0]
     }
 
-    fn members(&self) -> impl Iterator<Item = AxisNumber> + use<> {
-        self.axes.into_iter().take(usize::from(self.count))
+    fn members(&self) -> impl Iterator<Item = AxisNumber> {
+        self.axes.iter().take(usize::from(self.count)).copied()
     }
 }
 
