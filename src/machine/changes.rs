@@ -12,6 +12,8 @@ use crate::variables::{EventId, Place};
 pub(super) struct Before {
     parts: Vec<(Part, Vec<u8>)>,
     pub(super) written: Vec<Force>,
+    /// Power was switched off and on in this step.
+    pub(super) power_on: bool,
     last_event: EventId,
 }
 
@@ -33,7 +35,7 @@ impl Before {
         ];
         let own = memory.blocks.iter().map(|block| Part::Block(block.number));
         let parts = fixed.into_iter().chain(own).map(|part| (part, memory.part(part).to_vec())).collect();
-        Self { parts, written: Vec::with_capacity(WRITES), last_event }
+        Self { parts, written: Vec::with_capacity(WRITES), power_on: false, last_event }
     }
 }
 
@@ -132,7 +134,10 @@ impl Machine {
         if self.before.written.iter().rev().find(meant).is_some_and(written) {
             return By::Outside;
         }
+        let preset =
+            self.definition.memory.part(part).get(offset as usize).is_some_and(|byte| (byte >> bit & 1 == 1) == value);
         match part {
+            _ if self.before.power_on && preset => By::PowerOn,
             Part::Hmi => By::Nck,
             Part::Inputs => By::Plant,
             _ => By::Plc,

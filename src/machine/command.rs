@@ -84,6 +84,7 @@ impl Machine {
     pub(super) fn take_commands(&mut self) -> Taken {
         let mut taken = Taken::default();
         self.before.written.clear();
+        self.before.power_on = false;
         let mut queue = std::mem::take(&mut self.queue);
         for command in queue.drain(..) {
             match command {
@@ -140,6 +141,7 @@ impl Machine {
         self.variables = crate::variables::Variables::default();
         self.forces.clear();
         self.before.written.clear();
+        self.before.power_on = true;
         self.plc.power_on();
         self.definition.strobe.apply(&mut self.control);
         self.sense();

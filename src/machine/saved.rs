@@ -14,7 +14,7 @@ use crate::sinumerik::{Feedback, SavedControl};
 use crate::source::Problem;
 use crate::trace::Recorder;
 use crate::units::{PerAxis, Time};
-use crate::variables::Variables;
+use crate::variables::{Alarms, Variables};
 
 /// Which form of saved machine this is.
 const VERSION: u32 = 1;
@@ -42,6 +42,7 @@ struct SavedPlc {
     started: bool,
     wait: u64,
     last_scan: Time,
+    fault: Option<String>,
 }
 
 impl Machine {
@@ -67,6 +68,7 @@ impl Machine {
                 started: self.plc.started,
                 wait: self.plc.wait,
                 last_scan: self.plc.last_scan,
+                fault: self.plc.fault.clone(),
             },
         };
         postcard::to_stdvec(&saved).expect("plain data can always be written")
@@ -115,6 +117,7 @@ impl Machine {
         self.plc.started = saved.plc.started;
         self.plc.wait = saved.plc.wait;
         self.plc.last_scan = saved.plc.last_scan;
+        self.plc.fault = saved.plc.fault;
         self.before = Before::new(&self.memory, self.control.last_event());
         self.alarms_before.clear();
         self.alarms_before.extend(self.variables.alarms.iter());
@@ -142,6 +145,9 @@ impl Machine {
         plc.started = self.plc.started;
         plc.wait = self.plc.wait;
         plc.last_scan = self.plc.last_scan;
+        plc.fault.clone_from(&self.plc.fault);
+        let mut alarms_before = Vec::with_capacity(Alarms::CAPACITY);
+        alarms_before.extend_from_slice(&self.alarms_before);
         Ok(Self {
             definition: Arc::clone(&self.definition),
             control: self.control.clone(),
@@ -155,7 +161,7 @@ impl Machine {
             time: self.time,
             feedback: self.feedback,
             before: Before::new(&self.memory, self.control.last_event()),
-            alarms_before: self.alarms_before.clone(),
+            alarms_before,
             recorder: Recorder::default(),
         })
     }

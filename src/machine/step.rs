@@ -17,7 +17,7 @@ pub(super) struct Plc {
     /// NC cycles until the next scan.
     pub(super) wait: u64,
     pub(super) last_scan: Time,
-    fault: Option<String>,
+    pub(super) fault: Option<String>,
 }
 
 impl Plc {

@@ -66,9 +66,8 @@ fn every_mistake_in_the_head_names_its_line_and_a_cure() {
 }
 
 #[test]
-fn a_file_without_title_machine_or_steps_is_refused() {
+fn a_file_without_machine_or_steps_is_refused_and_without_title_is_called_as_the_file() {
     for (text, cause) in [
-        ("machine = \"g1_example\"\n[[step]]\nrun = \"1s\"", "the key `title`"),
         ("title = \"t\"\n[[step]]\nrun = \"1s\"", "the key `machine`"),
         ("title = \"t\"\nmachine = \"g1_example\"", "at least one `[[step]]`"),
         ("title = \"t\"\nmachine = \"g1_example\"\n[step]\nrun = \"1s\"", "a list of steps"),
@@ -77,6 +76,8 @@ fn a_file_without_title_machine_or_steps_is_refused() {
         let problem = Scenario::parse(text, Path::new("s.toml")).unwrap_err();
         assert!(problem.to_string().starts_with("s.toml") && problem.what.contains(cause), "{problem}");
     }
+    let untitled = "machine = \"g1_example\"\n[[step]]\nrun = \"1s\"";
+    assert_eq!(Scenario::parse(untitled, Path::new("a/cold_start.toml")).unwrap().title, "cold_start");
     let nowhere =
         Scenario::parse("title = \"t\"\nmachine = \"no/such/machine\"\n[[step]]\nrun = \"1s\"", Path::new("s.toml"));
     let problem = nowhere.unwrap().prepare(Profile::default(), &Programs::ready()).err().unwrap();

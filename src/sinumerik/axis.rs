@@ -53,6 +53,15 @@ pub(super) enum Motion {
 }
 
 impl Motion {
+    /// A movement that an override of 0 % holds.
+    #[must_use]
+    pub(super) fn is_held(&self) -> bool {
+        match *self {
+            Self::Run { velocity, .. } | Self::GoTo { velocity, .. } => velocity.abs() <= 0.0,
+            Self::Brake { .. } | Self::Track | Self::Hold => false,
+        }
+    }
+
     /// The direction that is commanded: +1, −1, or 0.
     #[must_use]
     pub(super) fn direction(&self, from: Position) -> i8 {

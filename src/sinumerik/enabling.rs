@@ -157,8 +157,11 @@ impl State {
                 let cause = [channel, Parameter::Axis(axis), Parameter::Number(cause), Parameter::None];
                 self.alarms.raise(alarms::ENABLE_RESET, Place::Axis(axis), cause, event);
             }
+            // The axis that is switched off first switches all of them off: they stop in the same manner (SIG-01).
+            let disable_cycles =
+                unit.members().map(|axis| parameters.axes[axis].servo_disable_cycles).min().unwrap_or_default();
             for axis in unit.members() {
-                self.step_control(axis, &conditions, parameters.axes[axis].servo_disable_cycles);
+                self.step_control(axis, &conditions, disable_cycles);
             }
         }
     }

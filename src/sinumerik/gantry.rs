@@ -190,6 +190,7 @@ impl State {
         let start_rises = start && !self.groupings[index].start_was;
         self.groupings[index].start_was = start;
         self.brake(unit, parameters);
+        self.watch_key(leader, self.groupings[index].is_referencing(), to_nck);
         self.watch_synchronism(index, unit, parameters, to_nck);
         if !self.groupings[index].coupled {
             let rest = unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest());
@@ -218,7 +219,8 @@ impl State {
         if idle && self.is_jogging() {
             self.jog(unit, parameters, to_nck);
         } else if idle {
-            let cause = self.groupings[index].cause;
+            // A key that moved the grouping lost its meaning with the mode.
+            let cause = self.mode_group.function_cause;
             self.traverse(leader, 0, 0, cause);
         }
     }

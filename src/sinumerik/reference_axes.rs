@@ -1,7 +1,8 @@
 //! Which axis is referenced when: by the traversing key, or by the channel; and what an approach means for the rest.
 //!
 //! Called in the stage "referencing and gantry". A key that is held starts one approach; it must be released before
-//! it starts another. A key that is pressed before the axes are in position control stays pending until they are.
+//! it starts another, also when it was pressed while the approach ran or while JOG was active without REF. A
+//! key that is pressed before the axes are in position control stays pending until they are.
 
 use serde::{Deserialize, Serialize};
 
@@ -50,6 +51,7 @@ impl State {
     pub(super) fn run_single(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let number = unit.leader();
         self.brake(unit, parameters);
+        self.watch_key(number, self.axes[number].approach.is_running(), to_nck);
         if self.axes[number].approach.is_running() {
             self.reference_single(unit, parameters, to_nck);
         } else if self.is_jogging() {
@@ -92,6 +94,13 @@ impl State {
         }
     }
 
+    /// A key that jogs, or is pressed while an approach is on its way, must be released before it starts one.
+    pub(super) fn watch_key(&mut self, number: AxisNumber, busy: bool, to_nck: &ToNck) {
+        let pressed = key_direction(&to_nck.axes[number]) != 0;
+        let used = self.axes[number].key_used || busy || self.is_jogging();
+        self.axes[number].key_used = pressed && used;
+    }
+
     /// An approach of the unit's first axis is asked for, by its key in the right direction or by the channel.
     pub(super) fn approach_wanted(
         &mut self,
@@ -103,9 +112,6 @@ impl State {
         let reference = &parameters.axes[number].reference;
         let signals = &to_nck.axes[number];
         let key = key_direction(signals);
-        if key == 0 {
-            self.axes[number].key_used = false;
-        }
         let has_zero_mark =
             self.axes[number].measuring_system.is_some_and(|active| reference.mode[usize::from(active)] == 1);
         let disabled = signals.axis_spindle_disable() || self.axes[number].feed_disabled;
@@ -156,7 +162,9 @@ impl State {
         axis.approach = approach;
         axis.motion = motion;
         let direction = motion.direction(axis.setpoint.position);
-        let request = if direction == 0 && axis.feed_held { axis.traverse_request } else { direction };
+        // A movement that feed stop or an override of 0 % holds is still wanted.
+        let held = axis.feed_held || motion.is_held();
+        let request = if direction == 0 && held { axis.traverse_request } else { direction };
         if (axis.traverse_request, axis.traverse_command) != (request, direction) {
             axis.causes.motion = approach.cause();
             axis.traverse_request = request;
@@ -175,6 +183,14 @@ impl State {
         to_nck: &ToNck,
     ) -> Option<(Option<AlarmNumber>, EventId)> {
         let parent = self.axes[number].approach.cause();
+        // A missing enable is named even where alarm 21612, which stops everything, came in the same cycle.
+        if !self.channel.reset
+            && let Some(off) = unit.members().find(|&axis| !to_nck.axes[axis].controller_enable())
+        {
+            let input = axis_bit(off, 2, 1, false);
+            let event = self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, parent);
+            return Some((Some(alarms::APPROACH_ABORTED), event));
+        }
         if let Some(cause) = self.stop_cause() {
             return Some((None, cause));
         }

@@ -23,18 +23,23 @@ impl State {
         self.groupings[index].waited = 0;
         let all = self.log.note_plain(Place::Axis(leader), Rule::AllReferenced, event);
         let mut wait = None;
+        let apart = coupling.followers().find(|&axis| {
+            let difference = self.axes[axis].actual - self.axes[leader].actual;
+            difference.abs() > parameters.axes[axis].gantry.trip_limit_not_synchronised
+        });
+        if let Some(axis) = apart {
+            // E-13: beyond MD37130 nothing is ready to be started; monitoring trips in this cycle.
+            let difference = self.axes[axis].actual - self.axes[leader].actual;
+            let limit = parameters.axes[axis].gantry.trip_limit_not_synchronised;
+            let measured = Input::Length(Quantity::SynchronismDifference, axis, difference);
+            let inputs = [measured, Input::Datum(37130, Some(axis), limit.user()), Input::None];
+            self.step_grouping(index, Rule::ReadyNoMore, inputs, all);
+            return;
+        }
         for follower in coupling.followers() {
-            let limits = &parameters.axes[follower].gantry;
-            let limit = limits.warning_limit;
+            let limit = parameters.axes[follower].gantry.warning_limit;
             let difference = self.axes[follower].actual - self.axes[leader].actual;
             let datum = Input::Datum(37110, Some(follower), limit.user());
-            if difference.abs() > limits.trip_limit_not_synchronised {
-                // Never ready beyond MD37130 (E-13); monitoring trips in this cycle.
-                let measured = Input::Length(Quantity::SynchronismDifference, follower, difference);
-                let datum = Input::Datum(37130, Some(follower), limits.trip_limit_not_synchronised.user());
-                self.step_grouping(index, Rule::ReadyNoMore, [measured, datum, Input::None], all);
-                return;
-            }
             if limit == Position::ZERO {
                 wait = wait.or(Some((Rule::WaitWarningLimitZero, [datum, Input::None, Input::None])));
             } else if difference.abs() >= limit {

@@ -19,6 +19,8 @@ pub enum By {
     Force,
     /// The simulator's own cams, switches and inputs.
     Plant,
+    /// Power on: presets.
+    PowerOn,
 }
 
 /// What changed.

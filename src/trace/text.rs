@@ -35,6 +35,7 @@ pub(super) fn by_in_words(by: By) -> &'static str {
         By::Outside => "outside",
         By::Force => "force",
         By::Plant => "plant",
+        By::PowerOn => "power on",
     }
 }
 
