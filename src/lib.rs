@@ -24,7 +24,7 @@
 //! gantry.wait("X.gantry_synchronization_ready_to_start && alarm(10654)", "60s")?;
 //! gantry.set("X.start_gantry_synchronization", 1)?;
 //! gantry.wait("X.gantry_grouping_is_synchronized", "60s")?;
-//! gantry.expect("X.position == XF.position")?;
+//! gantry.wait("X.position == XF.position", "1s")?;
 //! assert!(gantry.text().contains("DB31.DBX101.5     0 -> 1"), "{}", gantry.text());
 //! # Ok::<(), opennck::scenario::Failure>(())
 //! ```

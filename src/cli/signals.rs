@@ -27,6 +27,11 @@ pub(super) fn signals(filter: Option<&str>, profile: &str, format: Format, outpu
     let wanted = filter.map(str::to_lowercase);
     let mut entries = entries(profile);
     entries.retain(|entry| wanted.as_ref().is_none_or(|wanted| entry.holds(wanted)));
+    if let (true, Some(filter)) = (entries.is_empty(), filter) {
+        output.warning(format!(
+            "no signal has `{filter}` in its address, symbol or name; without a filter all are listed"
+        ));
+    }
     match printed(&entries, format) {
         Ok(text) => {
             output.print(&text);

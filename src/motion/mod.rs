@@ -1,4 +1,4 @@
-//! The axis, dialect-free: setpoint profiles, position control, the drive's answer, encoders, and the one
+//! THE AXIS, dialect-free: setpoint profiles, position control, the drive's answer, encoders, and the one
 //! [`Coupling`] core that every gantry uses.
 //!
 //! Everything here is stepped by whole cycles with a cycle time in seconds; positions are whole increments, and a
