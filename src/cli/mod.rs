@@ -10,7 +10,9 @@
 //! Exit codes: 0 all held; 1 an expectation failed, a limit was reached, a trace differs, a golden file is missing,
 //! machine data have findings; 2 unusable input.
 
+mod alarms;
 pub mod example;
+mod list;
 mod machine_data;
 mod output;
 mod run;
@@ -90,6 +92,14 @@ enum Command {
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
     },
+    /// Lists the alarm catalogue: number, whether the model raises it, what cancels it, its reactions, its text.
+    Alarms {
+        /// Shows only alarms in whose row this text occurs.
+        filter: Option<String>,
+        /// How the list is printed.
+        #[arg(long, value_enum, default_value = "table")]
+        format: Format,
+    },
     /// Works with machine data.
     MachineData {
         #[command(subcommand)]
@@ -129,6 +139,7 @@ pub fn main(programs: Programs) -> ExitCode {
         Some(Command::Signals { filter, profile, format }) => {
             signals::signals(filter.as_deref(), &profile, format, &mut output)
         }
+        Some(Command::Alarms { filter, format }) => alarms::alarms(filter.as_deref(), format, &mut output),
         Some(Command::MachineData { command: MachineData::Check { machine } }) => {
             machine_data::check(&machine, &mut output)
         }

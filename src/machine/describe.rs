@@ -2,7 +2,7 @@
 
 use super::Machine;
 use crate::image::Names;
-use crate::sinumerik::{ALARMS, Alarm, Rule as ControlRule};
+use crate::sinumerik::{Alarm, Rule as ControlRule};
 use crate::variables::{AlarmNumber, Describe, Parameter, RaisedAlarm, Rule, RuleNumber};
 
 impl Describe for Machine {
@@ -22,14 +22,11 @@ impl Describe for Machine {
     }
 
     fn alarm_name(&self, number: AlarmNumber) -> String {
-        match Alarm::find(number) {
-            Some(row) if number.0 >= AlarmNumber::OWN => row.name.to_owned(),
-            _ => number.0.to_string(),
-        }
+        Alarm::name(number)
     }
 
     fn alarm_number(&self, name: &str) -> Option<AlarmNumber> {
-        ALARMS.iter().find(|alarm| alarm.name == name).map(|alarm| alarm.number)
+        Alarm::named(name)
     }
 
     fn rule(&self, rule: RuleNumber) -> Rule {

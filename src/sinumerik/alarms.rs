@@ -4,6 +4,8 @@
 //! "monitoring and alarms"; its reactions act from the next cycle on and its bits are published in the same one.
 //! A new alarm is a row of [`alarms!`] and a call of [`Pending::raise`].
 
+use std::fmt;
+
 use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +16,8 @@ use crate::variables::{AlarmNumber, Alarms, EventId, Parameter, Place, RaisedAla
 pub struct Reaction(u16);
 
 impl Reaction {
+    /// Nothing but its entry in the list.
+    pub const NONE: Self = Self(0);
     /// NC not ready: DB10.DBX108.7 = 0, all axes stop.
     pub const NC_NOT_READY: Self = Self(1);
     /// Mode group not ready: DB11.DBX6.3 = 0.
@@ -33,13 +37,26 @@ impl Reaction {
     /// Only the axis concerned stops.
     pub const LOCAL: Self = Self(1 << 8);
 
+    /// Mode group not ready, also for single axes that the PLC or a command moves.
+    pub const MODE_GROUP_AND_AXES_NOT_READY: Self = Self(1 << 1 | 1 << 9);
+    /// Axes must be referenced again.
+    pub const REFERENCE_AGAIN: Self = Self(1 << 10);
+    /// NC stop at the end of the block.
+    pub const STOP_AT_BLOCK_END: Self = Self(1 << 11);
+    /// The block can be corrected.
+    pub const CORRECTION_BLOCK: Self = Self(1 << 12);
+    /// The interpreter stops.
+    pub const INTERPRETER_STOP: Self = Self(1 << 13);
+    /// Delayed reactions act at once.
+    pub const NO_DELAY: Self = Self(1 << 14);
+
     /// Whether it has all of these.
     #[must_use]
     pub const fn has(self, other: Self) -> bool {
         self.0 & other.0 == other.0
     }
 
-    const fn and(self, other: Self) -> Self {
+    pub(super) const fn and(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 }
@@ -51,6 +68,8 @@ pub enum Cancel {
     ByItself,
     /// The alarm-cancel key, or NC start.
     CancelKey,
+    /// NC start, or RESET.
+    NcStart,
     /// RESET in the channel.
     Reset,
     /// RESET in all channels of the mode group.
@@ -59,13 +78,49 @@ pub enum Cancel {
     PowerOn,
 }
 
+/// As the operator says it: `RESET`, `alarm cancel`.
+impl fmt::Display for Cancel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::ByItself => "itself",
+            Self::CancelKey => "alarm cancel",
+            Self::NcStart => "NC start",
+            Self::Reset => "RESET",
+            Self::ModeGroupReset => "mode group RESET",
+            Self::PowerOn => "POWER ON",
+        })
+    }
+}
+
+/// The reactions in words, in the order of the Diagnostics Manual.
+impl fmt::Display for Reaction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let words = [
+            (Self::NC_NOT_READY, "NC not ready"),
+            (Self::MODE_GROUP_NOT_READY, "mode group not ready"),
+            (Self::CHANNEL_NOT_READY, "channel not ready"),
+            (Self::START_DISABLED, "NC start disabled"),
+            (Self::FOLLOW_UP, "follow-up"),
+            (Self::REFERENCE_AGAIN, "reference again"),
+            (Self::CORRECTION_BLOCK, "correction block"),
+            (Self::INTERPRETER_STOP, "interpreter stop"),
+            (Self::INTERFACE_SIGNALS, "interface signals"),
+            (Self::DISPLAY, "shown"),
+            (Self::STOP, "NC stop"),
+            (Self::STOP_AT_BLOCK_END, "NC stop at block end"),
+            (Self::LOCAL, "local"),
+            (Self::NO_DELAY, "without delay"),
+        ];
+        let words: Vec<_> = words.iter().filter(|(flag, _)| self.has(*flag)).map(|(_, word)| *word).collect();
+        f.pad(&words.join(", "))
+    }
+}
+
 /// A row of the alarm list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Alarm {
     /// Its number, or one beyond [`AlarmNumber::OWN`].
     pub number: AlarmNumber,
-    /// Its name in words, which is how an alarm of our own is called.
-    pub name: &'static str,
     /// Its text with `%1` to `%4`.
     pub text: &'static str,
     /// What it does.
@@ -74,73 +129,96 @@ pub struct Alarm {
     pub cancel: Cancel,
 }
 
-/// Makes a constant and a catalogue entry of each row:
-/// `NAME number "name" [REACTIONS] Cancel "text";`
+/// Makes a constant and a catalogue entry of each row, `NAME number [REACTIONS] Cancel "text";`, and a list without
+/// constants of rows without names.
 macro_rules! alarms {
-    ($($(#[$doc:meta])* $constant:ident $number:expr, $name:literal [$($reaction:ident)*] $cancel:ident $text:literal;)*) => {
+    ($(#[$about:meta])* $catalogue:ident: $($(#[$doc:meta])* $constant:ident $number:literal
+        [$($reaction:ident)*] $cancel:ident $text:literal;)*) => {
         $($(#[$doc])* pub(super) const $constant: AlarmNumber = AlarmNumber($number);)*
 
-        /// All alarms that can be raised, ascending by number.
-        pub const CATALOGUE: &[Alarm] = &[$(Alarm {
-            number: $constant,
-            name: $name,
+        alarms! { $(#[$about])* $catalogue; $($number [$($reaction)*] $cancel $text;)* }
+    };
+    ($(#[$about:meta])* $catalogue:ident; $($number:literal [$($reaction:ident)*] $cancel:ident $text:literal;)*) => {
+        $(#[$about])*
+        pub const $catalogue: &[$crate::sinumerik::Alarm] = &[$($crate::sinumerik::Alarm {
+            number: AlarmNumber($number),
             text: $text,
-            reaction: Reaction(0)$(.and(Reaction::$reaction))*,
+            reaction: Reaction::NONE$(.and(Reaction::$reaction))*,
             cancel: Cancel::$cancel,
         }),*];
     };
 }
+pub(super) use alarms;
 
 alarms! {
+    /// All alarms that can be raised, ascending by number.
+    CATALOGUE:
     /// The PLC program stopped or faulted.
-    PLC_SIGN_OF_LIFE 2000, "plc-sign-of-life"
+    PLC_SIGN_OF_LIFE 2000
         [NC_NOT_READY LOCAL CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
         "sign-of-life monitoring: the PLC program does not run";
     /// Wrong gantry machine data. Code 1: wrong grouping number or designation; 2: leading axis declared more than once.
-    GANTRY_MACHINE_DATA 10650, "gantry-machine-data"
-        [NC_NOT_READY MODE_GROUP_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
+    GANTRY_MACHINE_DATA 10650
+        [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
         "channel %1 axis %2 wrong gantry machine data, error code %3";
     /// Illegal gantry configuration, reason and grouping in one number.
-    GANTRY_CONFIGURATION 10651, "gantry-configuration"
-        [NC_NOT_READY MODE_GROUP_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
+    GANTRY_CONFIGURATION 10651
+        [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
         "channel %1 illegal gantry configuration, reason %2";
     /// Warning limit exceeded.
-    GANTRY_WARNING_LIMIT 10652, "gantry-warning-limit-exceeded" [DISPLAY] ByItself
+    GANTRY_WARNING_LIMIT 10652 [DISPLAY] ByItself
         "channel %1 axis %2 gantry warning limit exceeded";
     /// Trip limit exceeded; the axes brake in position control and stay under control.
-    GANTRY_TRIP_LIMIT 10653, "gantry-error-limit-exceeded" [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+    GANTRY_TRIP_LIMIT 10653 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 gantry error limit exceeded";
     /// Waiting for synchronisation start.
-    GANTRY_WAITING 10654, "gantry-waiting-for-synchronisation-start" [DISPLAY] ByItself
-        "channel %1 waiting for synchronisation start of gantry grouping %2";
+    GANTRY_WAITING 10654 [DISPLAY] ByItself
+        "channel %1 waiting for synchronization start of gantry grouping %2";
     /// Synchronisation running.
-    GANTRY_SYNCHRONISING 10655, "gantry-synchronisation-running" [DISPLAY] ByItself
-        "channel %1 synchronisation of gantry grouping %2 running";
+    GANTRY_SYNCHRONISING 10655 [DISPLAY] ByItself
+        "channel %1 synchronization of gantry grouping %2 running";
     /// Reference cam not reached within MD34030.
-    CAM_NOT_REACHED 20000, "reference-cam-not-reached" [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+    CAM_NOT_REACHED 20000 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 reference cam not reached";
     /// At rest after section 1 and not on the cam.
-    CAM_SIGNAL_MISSING 20001, "cam-signal-missing" [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+    CAM_SIGNAL_MISSING 20001 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 cam signal missing";
     /// No zero mark within MD34060.
-    REFERENCE_MARK_NOT_FOUND 20002, "reference-mark-not-found" [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+    REFERENCE_MARK_NOT_FOUND 20002 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 zero reference mark not found";
     /// Approach aborted.
-    APPROACH_ABORTED 20005, "reference-approach-aborted" [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+    APPROACH_ABORTED 20005 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 reference point approach aborted";
     /// Creep velocity not reached at the cam edge, twice.
-    CREEP_VELOCITY_NOT_REACHED 20006, "creep-velocity-not-reached" [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+    CREEP_VELOCITY_NOT_REACHED 20006 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 reference point creep velocity not reached";
     /// Enable reset during motion. Cause 1: servo enable; 2: pulse enable; 3: pulses enabled; 4: drive ready.
-    ENABLE_RESET 21612, "enable-reset" [FOLLOW_UP START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] CancelKey
+    ENABLE_RESET 21612 [FOLLOW_UP START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] CancelKey
         "channel %1 axis %2 enable reset during motion, cause %3";
     /// Linear and rotary axes in one grouping; the manuals give no number (O-18).
-    GANTRY_MIXED_AXIS_TYPES AlarmNumber::OWN, "gantry-mixed-axis-types"
-        [NC_NOT_READY MODE_GROUP_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
+    GANTRY_MIXED_AXIS_TYPES 1_000_000
+        [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
         "channel %1 axis %2 gantry grouping %3 mixes linear and rotary axes";
 }
 
+/// The names of the alarms for which no source gives a number (O-18), in order of their own numbers.
+const OWN_NAMES: &[&str] = &["gantry-mixed-axis-types"];
+
 impl Alarm {
+    /// As it is called: its number, or its name where no source gives a number.
+    #[must_use]
+    pub fn name(number: AlarmNumber) -> String {
+        let own = number.0.checked_sub(AlarmNumber::OWN).and_then(|index| OWN_NAMES.get(index as usize));
+        own.map_or_else(|| number.0.to_string(), |name| (*name).to_owned())
+    }
+
+    /// The number behind a name of our own.
+    #[must_use]
+    pub fn named(name: &str) -> Option<AlarmNumber> {
+        let index = OWN_NAMES.iter().position(|known| *known == name)?;
+        u32::try_from(index).ok().map(|index| AlarmNumber(AlarmNumber::OWN + index))
+    }
+
     /// The row of a number.
     #[must_use]
     pub fn find(number: AlarmNumber) -> Option<&'static Self> {
@@ -250,6 +328,15 @@ mod tests {
         assert!(CATALOGUE.windows(2).all(|pair| pair[0].number < pair[1].number));
         assert_eq!(Alarm::find(GANTRY_WAITING).map(|alarm| alarm.cancel), Some(Cancel::ByItself));
         assert_eq!(Alarm::find(AlarmNumber(1)), None);
+    }
+
+    #[test]
+    fn an_alarm_is_raised_or_not_yet_and_never_both() {
+        let not_yet = super::super::alarm_list::NOT_RAISED;
+        assert!(not_yet.windows(2).all(|pair| pair[0].number < pair[1].number));
+        assert!(not_yet.iter().all(|alarm| Alarm::find(alarm.number).is_none()));
+        assert_eq!(Alarm::named("gantry-mixed-axis-types"), Some(GANTRY_MIXED_AXIS_TYPES));
+        assert_eq!(Alarm::name(GANTRY_MIXED_AXIS_TYPES), "gantry-mixed-axis-types");
     }
 
     #[test]

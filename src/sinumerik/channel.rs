@@ -48,7 +48,9 @@ impl Control {
         let pressed = by_channel || by_mode_group;
         let rises = pressed && !self.state.channel.reset;
         self.state.channel.reset = pressed;
-        if cancel_key || to_nck.channels[ChannelNumber::FIRST].nc_start() {
+        if to_nck.channels[ChannelNumber::FIRST].nc_start() {
+            self.state.alarms.cancel(Cancel::NcStart);
+        } else if cancel_key {
             self.state.alarms.cancel(Cancel::CancelKey);
         }
         if !rises {

@@ -15,6 +15,7 @@
 //! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `referencing.rs` or `gantry.rs` |
 //! | a signal that the control shows | a line in `publish.rs`, and its cause in `causes.rs` |
 
+mod alarm_list;
 mod alarms;
 mod axis;
 mod causes;
@@ -36,6 +37,7 @@ mod run_up;
 mod setpoints;
 mod synchronisation;
 
+pub use alarm_list::NOT_RAISED as ALARMS_NOT_RAISED;
 pub use alarms::{Alarm, CATALOGUE as ALARMS, Cancel, Reaction};
 pub use axis::Feedback;
 pub use gantry::{Phase as GroupingPhase, TRANSITIONS as GROUPING_TRANSITIONS};

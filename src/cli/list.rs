@@ -1,0 +1,81 @@
+//! Lists for people and programs: the same rows as an aligned table, as JSON, or as CSV.
+
+use super::Format;
+use super::output::Output;
+use crate::source::Problem;
+
+/// Rows under heads; every row has as many texts as there are heads.
+pub(super) struct List {
+    pub(super) heads: &'static [&'static str],
+    pub(super) rows: Vec<Vec<String>>,
+}
+
+impl List {
+    /// Keeps the rows in which a text occurs, whatever its case; warns where none is left.
+    pub(super) fn retain_with(&mut self, filter: Option<&str>, output: &mut Output) {
+        let Some(filter) = filter else { return };
+        let wanted = filter.to_lowercase();
+        self.rows.retain(|row| row.iter().any(|text| text.to_lowercase().contains(&wanted)));
+        if self.rows.is_empty() {
+            output.warning(format!("no row contains `{filter}`; without a filter all are listed"));
+        }
+    }
+
+    /// Prints it; the exit code.
+    pub(super) fn print(&self, format: Format, output: &mut Output) -> u8 {
+        match self.text(format) {
+            Ok(text) => {
+                output.print(&text);
+                0
+            }
+            Err(problem) => {
+                output.error(problem);
+                2
+            }
+        }
+    }
+
+    fn text(&self, format: Format) -> Result<String, Problem> {
+        let failed =
+            |error: String| Problem::new(format!("the list cannot be written: {error}"), "choose another format");
+        match format {
+            Format::Table => Ok(self.table()),
+            Format::Json => {
+                let text = serde_json::to_string_pretty(&self.objects()).map_err(|error| failed(error.to_string()))?;
+                Ok(text + "\n")
+            }
+            Format::Csv => {
+                let mut writer = csv::Writer::from_writer(Vec::new());
+                writer.write_record(self.heads).map_err(|error| failed(error.to_string()))?;
+                for row in &self.rows {
+                    writer.write_record(row).map_err(|error| failed(error.to_string()))?;
+                }
+                let bytes = writer.into_inner().map_err(|error| failed(error.to_string()))?;
+                String::from_utf8(bytes).map_err(|error| failed(error.to_string()))
+            }
+        }
+    }
+
+    fn objects(&self) -> Vec<serde_json::Map<String, serde_json::Value>> {
+        let object = |row: &Vec<String>| {
+            self.heads.iter().zip(row).map(|(head, text)| ((*head).to_owned(), text.as_str().into())).collect()
+        };
+        self.rows.iter().map(object).collect()
+    }
+
+    /// Columns as wide as their longest text; the last one is not padded.
+    fn table(&self) -> String {
+        let heads: Vec<String> = self.heads.iter().map(|head| (*head).to_owned()).collect();
+        let lines = || std::iter::once(&heads).chain(&self.rows);
+        let widths: Vec<usize> = (0..heads.len())
+            .map(|column| lines().map(|line| line[column].chars().count()).max().unwrap_or(0))
+            .collect();
+        let mut text = String::new();
+        for line in lines() {
+            let cells: Vec<String> = line.iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}")).collect();
+            text.push_str(cells.join("  ").trim_end());
+            text.push('\n');
+        }
+        text
+    }
+}
