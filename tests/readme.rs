@@ -9,7 +9,7 @@ use opennck::plc::Programs;
 use opennck::scenario::Scenario;
 
 fn read(path: &str) -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap()
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).expect("it is in the project")
 }
 
 /// What stands between the fences of the blocks in this language.
