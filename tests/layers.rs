@@ -293,6 +293,7 @@ fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
 }
 
 #[track_caller]
+#[expect(clippy::needless_pass_by_value, reason = "a check ends with its findings")]
 fn report(findings: Vec<String>) {
     assert!(findings.is_empty(), "{} findings:\n{}", findings.len(), findings.join("\n"));
 }
@@ -307,8 +308,8 @@ fn a_wrong_import_is_found_with_file_and_line() {
         findings,
         ["src/plc/x.rs:3: plc may not import sinumerik: it may import image, source, units".to_owned()]
     );
-    assert_eq!(imports("src/cli/x.rs", text), [String::new(); 0]);
-    assert_eq!(imports("src/lib.rs", text), [String::new(); 0]);
+    assert!(imports("src/cli/x.rs", text).is_empty());
+    assert!(imports("src/lib.rs", text).is_empty());
     assert_eq!(imports("src/units/x.rs", "fn f() -> crate::image::Bytes {}").len(), 1);
     assert_eq!(imports("src/attic/x.rs", "").len(), 1);
 }
