@@ -394,3 +394,25 @@ fn a_lost_enable_stops_all_axes_in_the_same_manner_whichever_axis_loses_it() {
     assert_eq!(get(&machine, "DB31.DBX61.5"), 0);
     assert_eq!(machine.variables().axes[AxisNumber::FIRST].velocity.abs().to_bits(), 0.0_f64.to_bits());
 }
+
+/// Machine data that are legal and senseless: the loop is unstable, and the axis runs away.
+#[test]
+fn an_axis_that_runs_away_stays_within_numbers_that_can_be_reckoned_with() {
+    let mut machine = example();
+    for (target, value) in [("32200[0,X]", 1e9), ("32000[X]", 1e9), ("32300[0,X]", 1e9), ("32020[X]", 1e9)] {
+        store(&mut machine, target, DatumValue::Real(value));
+    }
+    machine.queue(Command::PowerOn).unwrap();
+    machine.load_program(enable_all().boxed());
+    set(&mut machine, "DB11.DBX0.2", 1);
+    run(&mut machine, 50);
+    set(&mut machine, "X.traversing_key_plus", 1);
+    run(&mut machine, 500);
+    // Without position control in follow-up, the setpoint goes wherever the axis is.
+    force(&mut machine, "X.follow_up_mode", 1);
+    force(&mut machine, "X.controller_enable", 0);
+    run(&mut machine, 500);
+    let farthest = Position::from_user(5e9);
+    let values = machine.variables().axes[AxisNumber::FIRST];
+    assert!(values.slide.abs() < farthest && values.position.abs() < farthest, "{values:?}");
+}

@@ -155,10 +155,10 @@ impl Position {
         self.0 as f64 / Self::PER_USER_UNIT
     }
 
-    /// Without its sign.
+    /// Without its sign; the one position that has no positive counterpart becomes the largest.
     #[must_use]
     pub const fn abs(self) -> Self {
-        Self(self.0.abs())
+        Self(self.0.saturating_abs())
     }
 }
 
