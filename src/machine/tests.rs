@@ -416,3 +416,21 @@ fn an_axis_that_runs_away_stays_within_numbers_that_can_be_reckoned_with() {
     let values = machine.variables().axes[AxisNumber::FIRST];
     assert!(values.slide.abs() < farthest && values.position.abs() < farthest, "{values:?}");
 }
+
+/// MD36060 = 0 is legal: an axis that does not move at all is stationary.
+#[test]
+fn without_a_standstill_tolerance_an_axis_at_rest_is_stationary_and_is_referenced() {
+    let mut machine = example();
+    for axis in ["X", "XF"] {
+        store(&mut machine, &format!("36060[{axis}]"), DatumValue::Real(0.0));
+    }
+    machine.queue(Command::PowerOn).unwrap();
+    machine.load_program(enable_all().boxed());
+    set(&mut machine, "DB11.DBX0.2", 1);
+    set(&mut machine, "DB11.DBX1.2", 1);
+    run(&mut machine, 50);
+    assert_eq!((get(&machine, "DB31.DBX61.4"), get(&machine, "DB21.DBX36.3")), (1, 1));
+    set(&mut machine, "X.traversing_key_plus", 1);
+    run(&mut machine, 6_000);
+    assert_eq!((get(&machine, "DB31.DBX60.4"), get(&machine, "DB33.DBX60.4")), (1, 1));
+}
