@@ -434,3 +434,33 @@ fn without_a_standstill_tolerance_an_axis_at_rest_is_stationary_and_is_reference
     run(&mut machine, 6_000);
     assert_eq!((get(&machine, "DB31.DBX60.4"), get(&machine, "DB33.DBX60.4")), (1, 1));
 }
+
+/// O-12: a measuring system that is not referenced says nothing about a difference that was none before.
+#[test]
+fn a_switch_to_an_unreferenced_measuring_system_makes_no_synchronism_difference() {
+    let mut machine = example();
+    for (target, value) in [("30200[XF]", 2), ("34200[1,XF]", 1)] {
+        store(&mut machine, target, DatumValue::Integer(value));
+    }
+    machine.queue(Command::PowerOn).unwrap();
+    machine.load_program(enable_all().boxed());
+    set(&mut machine, "DB11.DBX0.2", 1);
+    set(&mut machine, "DB11.DBX1.2", 1);
+    run(&mut machine, 50);
+    set(&mut machine, "X.traversing_key_plus", 1);
+    run(&mut machine, 6_000);
+    assert_eq!(get(&machine, "DB31.DBX101.4"), 1);
+    let difference = |machine: &Machine| machine.variables().axes[machine.axis("XF").unwrap()].synchronism_difference;
+    let before = difference(&machine);
+    force(&mut machine, "XF.position_measuring_system_1", 0);
+    force(&mut machine, "XF.position_measuring_system_2", 1);
+    run(&mut machine, 2);
+    assert_eq!(get(&machine, "DB33.DBX102.6"), 1);
+    assert!((difference(&machine) - before).abs() < Position::from_user(0.001), "{before}, {}", difference(&machine));
+    assert!(machine.variables().alarms.find(crate::variables::AlarmNumber(10653), None).is_none());
+    // The first system is still referenced: with it the difference is absolute again.
+    force(&mut machine, "XF.position_measuring_system_1", 1);
+    force(&mut machine, "XF.position_measuring_system_2", 0);
+    run(&mut machine, 2);
+    assert!((difference(&machine) - before).abs() < Position::from_user(0.001), "{before}, {}", difference(&machine));
+}
