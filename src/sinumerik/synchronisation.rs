@@ -267,7 +267,13 @@ impl State {
         let number = match grouping.phase {
             Phase::WaitingForStart if grouping.message => alarms::GANTRY_WAITING,
             Phase::Synchronising if !suppressed => alarms::GANTRY_SYNCHRONISING,
-            _ => return,
+            Phase::WaitingForStart
+            | Phase::Synchronising
+            | Phase::NotSynchronised
+            | Phase::ReferencingLeadingAxis
+            | Phase::ReferencingSynchronousAxis
+            | Phase::Synchronised
+            | Phase::Open => return,
         };
         let cause = grouping.cause;
         self.alarms.raise(number, Place::Axis(leader), shown, cause);
