@@ -192,6 +192,21 @@ fn a_machine_refuses_what_was_saved_with_another_program_and_stays_as_it_is() {
     let before = other.save();
     let problem = other.restore(&saved).expect_err("it has no program");
     assert!(problem.to_string().contains("delayed"), "{problem}");
-    assert!(other.restore(&saved[..saved.len() / 2]).is_err());
     assert!(other.save() == before, "a refused machine changed");
+}
+
+#[test]
+fn a_machine_refuses_damaged_bytes_and_stays_as_it_is() {
+    let mut machine = machine();
+    run_to(&mut machine, 50);
+    let saved = machine.save();
+    for length in [0, 3, 4, 11, 12, saved.len() / 2, saved.len() - 1] {
+        assert!(machine.restore(&saved[..length]).is_err(), "{length} bytes");
+    }
+    for place in (0..saved.len()).step_by(97) {
+        let mut damaged = saved.clone();
+        damaged[place] ^= 0x04;
+        assert!(machine.restore(&damaged).is_err(), "byte {place}");
+    }
+    assert!(machine.save() == saved, "a refused machine changed");
 }

@@ -17,11 +17,10 @@ use crate::units::{PerAxis, Time};
 use crate::variables::{Alarms, EventId, Variables};
 
 /// Which form of saved machine this is.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 #[derive(Serialize, Deserialize)]
-struct SavedV1 {
-    version: u32,
+struct SavedV2 {
     names: Names,
     control: SavedControl,
     plant: Plant,
@@ -52,8 +51,7 @@ impl Machine {
     #[must_use]
     #[expect(clippy::missing_panics_doc, reason = "plain data is always written")]
     pub fn save(&self) -> Vec<u8> {
-        let saved = SavedV1 {
-            version: VERSION,
+        let saved = SavedV2 {
             names: self.definition.names.clone(),
             control: self.control.save(),
             plant: self.plant.clone(),
@@ -74,7 +72,8 @@ impl Machine {
                 fault: self.plc.fault.clone(),
             },
         };
-        postcard::to_stdvec(&saved).expect("plain data can always be written")
+        let content = postcard::to_stdvec(&saved).expect("plain data can always be written");
+        [&VERSION.to_le_bytes()[..], &checksum(&content).to_le_bytes(), &content].concat()
     }
 
     /// Goes on from where [`Machine::save`] was called, on a machine of the same files with the same PLC program.
@@ -84,14 +83,9 @@ impl Machine {
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Problem> {
         let damaged =
             |what: String| Problem::new(what, "restore what `save` of this version gave, on the same machine");
-        let saved: SavedV1 = postcard::from_bytes(bytes)
+        let content = content(bytes).map_err(damaged)?;
+        let saved: SavedV2 = postcard::from_bytes(content)
             .map_err(|error| damaged(format!("expected a saved machine, found damaged bytes: {error}")))?;
-        if saved.version != VERSION {
-            return Err(damaged(format!(
-                "expected a saved machine of version {VERSION}, found version {}",
-                saved.version
-            )));
-        }
         if saved.names != self.definition.names {
             return Err(damaged("expected a saved machine with the same axes and channels, found others".to_owned()));
         }
@@ -168,4 +162,25 @@ impl Machine {
             recorder: Recorder::default(),
         })
     }
+}
+
+/// What stands behind version and checksum: whole and of this version, so that every index and length in it is one
+/// that a machine has written.
+fn content(bytes: &[u8]) -> Result<&[u8], String> {
+    let too_short = || "expected a saved machine, found too few bytes".to_owned();
+    let (version, rest) = bytes.split_first_chunk().ok_or_else(too_short)?;
+    let version = u32::from_le_bytes(*version);
+    if version != VERSION {
+        return Err(format!("expected a saved machine of version {VERSION}, found version {version}"));
+    }
+    let (written, content) = rest.split_first_chunk().ok_or_else(too_short)?;
+    if u64::from_le_bytes(*written) != checksum(content) {
+        return Err("expected a saved machine, found damaged bytes: their checksum differs".to_owned());
+    }
+    Ok(content)
+}
+
+/// FNV-1a, 64 bits.
+fn checksum(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xCBF2_9CE4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
 }

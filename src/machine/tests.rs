@@ -394,3 +394,80 @@ fn a_lost_enable_stops_all_axes_in_the_same_manner_whichever_axis_loses_it() {
     assert_eq!(get(&machine, "DB31.DBX61.5"), 0);
     assert_eq!(machine.variables().axes[AxisNumber::FIRST].velocity.abs().to_bits(), 0.0_f64.to_bits());
 }
+
+/// Machine data that are legal and senseless: the loop is unstable, and the axis runs away.
+#[test]
+fn an_axis_that_runs_away_stays_within_numbers_that_can_be_reckoned_with() {
+    let mut machine = example();
+    for (target, value) in [("32200[0,X]", 1e9), ("32000[X]", 1e9), ("32300[0,X]", 1e9), ("32020[X]", 1e9)] {
+        store(&mut machine, target, DatumValue::Real(value));
+    }
+    machine.queue(Command::PowerOn).unwrap();
+    machine.load_program(enable_all().boxed());
+    set(&mut machine, "DB11.DBX0.2", 1);
+    run(&mut machine, 50);
+    set(&mut machine, "X.traversing_key_plus", 1);
+    run(&mut machine, 500);
+    // Without position control in follow-up, the setpoint goes wherever the axis is.
+    force(&mut machine, "X.follow_up_mode", 1);
+    force(&mut machine, "X.controller_enable", 0);
+    run(&mut machine, 500);
+    let farthest = Position::from_user(5e9);
+    let values = machine.variables().axes[AxisNumber::FIRST];
+    assert!(values.slide.abs() < farthest && values.position.abs() < farthest, "{values:?}");
+}
+
+/// MD36060 = 0 is legal: an axis that does not move at all is stationary.
+#[test]
+fn without_a_standstill_tolerance_an_axis_at_rest_is_stationary_and_is_referenced() {
+    let mut machine = example();
+    for axis in ["X", "XF"] {
+        store(&mut machine, &format!("36060[{axis}]"), DatumValue::Real(0.0));
+    }
+    machine.queue(Command::PowerOn).unwrap();
+    machine.load_program(enable_all().boxed());
+    set(&mut machine, "DB11.DBX0.2", 1);
+    set(&mut machine, "DB11.DBX1.2", 1);
+    run(&mut machine, 50);
+    assert_eq!((get(&machine, "DB31.DBX61.4"), get(&machine, "DB21.DBX36.3")), (1, 1));
+    set(&mut machine, "X.traversing_key_plus", 1);
+    run(&mut machine, 6_000);
+    assert_eq!((get(&machine, "DB31.DBX60.4"), get(&machine, "DB33.DBX60.4")), (1, 1));
+}
+
+/// O-12: a measuring system that is not referenced says nothing about a difference that was none before.
+#[test]
+fn a_switch_to_an_unreferenced_measuring_system_makes_no_synchronism_difference() {
+    let mut machine = example();
+    for (target, value) in [("30200[XF]", 2), ("34200[1,XF]", 1)] {
+        store(&mut machine, target, DatumValue::Integer(value));
+    }
+    machine.queue(Command::PowerOn).unwrap();
+    machine.load_program(enable_all().boxed());
+    set(&mut machine, "DB11.DBX0.2", 1);
+    set(&mut machine, "DB11.DBX1.2", 1);
+    run(&mut machine, 50);
+    set(&mut machine, "X.traversing_key_plus", 1);
+    run(&mut machine, 6_000);
+    assert_eq!(get(&machine, "DB31.DBX101.4"), 1);
+    let difference = |machine: &Machine| machine.variables().axes[machine.axis("XF").unwrap()].synchronism_difference;
+    let before = difference(&machine);
+    force(&mut machine, "XF.position_measuring_system_1", 0);
+    force(&mut machine, "XF.position_measuring_system_2", 1);
+    run(&mut machine, 2);
+    assert_eq!(get(&machine, "DB33.DBX102.6"), 1);
+    assert!((difference(&machine) - before).abs() < Position::from_user(0.001), "{before}, {}", difference(&machine));
+    assert!(machine.variables().alarms.find(crate::variables::AlarmNumber(10653), None).is_none());
+    // The first system is still referenced: with it the difference is absolute again.
+    force(&mut machine, "XF.position_measuring_system_1", 1);
+    force(&mut machine, "XF.position_measuring_system_2", 0);
+    run(&mut machine, 2);
+    assert!((difference(&machine) - before).abs() < Position::from_user(0.001), "{before}, {}", difference(&machine));
+}
+
+#[test]
+fn what_the_files_ask_for_and_nobody_does_is_said() {
+    let machine = example_with("[XF.encoder1]\nkind = \"absolute\"\n");
+    assert_eq!(machine.warnings(), ["axis XF: the kind of encoder 1 is not modelled; it is incremental"]);
+    assert!(example().warnings().is_empty(), "{:?}", example().warnings());
+}

@@ -15,7 +15,11 @@ pub use encoder::{Encoder, EncoderSignal};
 pub use profile::{Limits, Setpoint};
 pub use servo::{Drive, velocity_command};
 
-/// Adds a movement in increments to a position, carrying the fraction; no movement changes neither.
+/// How far an axis can run away, in increments: beyond every position that machine data can say, and near enough to zero
+/// for sums, differences and fine interpolation of positions.
+const FARTHEST: i64 = 1 << 52;
+
+/// Adds a movement in increments to a position, carrying the fraction; it ends at [`FARTHEST`]. No movement changes neither.
 pub(crate) fn advance(position: crate::units::Position, carry: &mut f64, movement: f64) -> crate::units::Position {
     if movement == 0.0 {
         return position;
@@ -23,7 +27,7 @@ pub(crate) fn advance(position: crate::units::Position, carry: &mut f64, movemen
     let wanted = movement + *carry;
     let whole = wanted.round();
     *carry = wanted - whole;
-    #[expect(clippy::cast_possible_truncation, reason = "a cycle's movement fits by far; the cast saturates")]
+    #[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
     let whole = whole as i64;
-    crate::units::Position::new(position.increments().wrapping_add(whole))
+    crate::units::Position::new(position.increments().saturating_add(whole).clamp(-FARTHEST, FARTHEST))
 }

@@ -127,6 +127,7 @@ impl State {
         let event = self.log.note(Place::Axis(number), rule, inputs, EventId::NONE);
         let aborts = self.axes[number].approach.is_running();
         let axis = &mut self.axes[number];
+        let before = axis.actual;
         axis.measuring_system = wanted;
         axis.causes.measuring_system = event;
         if wanted.is_none() {
@@ -135,6 +136,8 @@ impl State {
         }
         axis.sense(&self.feedback[number]);
         axis.setpoint = crate::motion::Setpoint::at(axis.actual);
+        let shift = axis.actual - before;
+        self.value_shifted(number, shift);
         if aborts {
             self.abort_approach(number, event);
         }

@@ -102,7 +102,7 @@ pub struct AxisParameters {
     pub positioning_cycles: u64,
     /// MD36030 × MD36012.
     pub standstill_tolerance: Position,
-    /// MD36060.
+    /// MD36060; where that is 0, what does not move at all is below it.
     pub standstill_velocity: f64,
     /// MD32000 / MD36610.
     pub emergency_deceleration: f64,
@@ -218,7 +218,7 @@ fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresence, cycle: T
         exact_stop_fine: Position::from_user(md.stop_limit_fine * factor),
         positioning_cycles: cycles(md.positioning_time),
         standstill_tolerance: Position::from_user(md.standstill_pos_tol * factor),
-        standstill_velocity: velocity(md.standstill_velo_tol),
+        standstill_velocity: velocity(md.standstill_velo_tol).max(f64::MIN_POSITIVE),
         emergency_deceleration: (maximum_velocity / md.ax_emergency_stop_time.max(cycle.seconds())).max(1.0),
         servo_disable_cycles: cycles(md.servo_disable_delay_time),
         reference: reference(md, maximum_velocity, &velocity),

@@ -230,6 +230,12 @@ impl State {
             axis.referenced[usize::from(active)] = true;
             axis.causes.reference[usize::from(active)] = event;
         }
+        self.value_shifted(number, shift);
+    }
+
+    /// The actual value of an axis became another without a movement: no synchronism difference comes from it, unless
+    /// both axes are referenced (O-12).
+    pub(super) fn value_shifted(&mut self, number: AxisNumber, shift: Position) {
         let axes = &self.axes;
         for grouping in &mut self.groupings {
             let leader = grouping.coupling.leader();

@@ -155,10 +155,10 @@ impl Position {
         self.0 as f64 / Self::PER_USER_UNIT
     }
 
-    /// Without its sign.
+    /// Without its sign; the one position that has no positive counterpart becomes the largest.
     #[must_use]
     pub const fn abs(self) -> Self {
-        Self(self.0.abs())
+        Self(self.0.saturating_abs())
     }
 }
 
@@ -211,7 +211,16 @@ macro_rules! number_from_one {
     ($(#[$doc:meta])* $name:ident, $table:ident, $max:literal) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+        #[serde(try_from = "u8")]
         pub struct $name(u8);
+
+        /// A saved number is checked when it is read, because it is used as a place in a table.
+        impl TryFrom<u8> for $name {
+            type Error = &'static str;
+            fn try_from(number: u8) -> Result<Self, Self::Error> {
+                Self::new(number).ok_or(concat!("a ", stringify!($name), " is from 1 to ", $max))
+            }
+        }
 
         impl $name {
             /// The largest number there is.
@@ -356,5 +365,7 @@ mod tests {
         assert_eq!(AxisNumber::new(0), None);
         assert_eq!(AxisNumber::new(32), None);
         assert_eq!(AxisNumber::new(3).map(AxisNumber::index), Some(2));
+        assert_eq!(postcard::from_bytes(&[31]), Ok(AxisNumber(31)));
+        assert!([0, 32].iter().all(|&byte| postcard::from_bytes::<AxisNumber>(&[byte]).is_err()));
     }
 }
