@@ -62,9 +62,12 @@ impl Control {
             }
             (61, 1) => state.alarm_event(Reaction::INTERFACE_SIGNALS, Some(Place::Axis(number))),
             (61, 2) => {
-                let place = Some(Place::Axis(number));
-                let ready = state.run_up.cause.max(causes.drive).max(causes.measuring_system);
-                state.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, place).unwrap_or(ready)
+                let alarm = state.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, Some(Place::Axis(number)));
+                alarm.unwrap_or_else(|| match axis.measuring_system {
+                    None => causes.measuring_system,
+                    Some(_) if !axis.drive_ready => state.run_up.cause,
+                    Some(_) => state.run_up.cause.max(causes.measuring_system).max(state.channel.cancel_cause),
+                })
             }
             (61, 3 | 5 | 6 | 7) => causes.enabling,
             (61, 4) => {
@@ -121,7 +124,7 @@ impl State {
 
     /// The first alarm with the reaction that a signal sums up; once there is none any more, what cancelled the last.
     fn alarm_event(&self, reaction: Reaction, place: Option<Place>) -> EventId {
-        self.alarms.with_reaction(reaction, place).unwrap_or(self.channel.reset_cause)
+        self.alarms.with_reaction(reaction, place).unwrap_or(self.channel.cancel_cause)
     }
 
     /// The latest movement of any axis.
