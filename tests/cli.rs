@@ -122,6 +122,14 @@ fn machine_data_are_checked_with_file_line_and_identifier() {
     let output = opennck(&["machine-data", "check", "m.tea"], &directory);
     assert_eq!(output.status.code(), Some(1), "{}{}", out(&output), err(&output));
     assert!(out(&output).contains("m.tea:1") && out(&output).contains("37100"), "{}", out(&output));
+    fs::write(directory.join("n.tea"), "N10000 $MN_AXCONF_MACHAX_NAME_TAB[0]=\"nck\"\n").unwrap();
+    let output = opennck(&["machine-data", "check", "n.tea"], &directory);
+    assert_eq!(output.status.code(), Some(1), "a run refuses it: {}{}", out(&output), err(&output));
+    assert!(out(&output).contains("n.tea: expected different names, found `nck`"), "{}", out(&output));
+    fs::write(directory.join("empty.arc"), "").unwrap();
+    let output = opennck(&["machine-data", "check", "empty.arc"], &directory);
+    assert_eq!(output.status.code(), Some(2), "{}{}", out(&output), err(&output));
+    assert!(err(&output).contains("empty.arc: expected members, found an empty file at offset 0"), "{}", err(&output));
     let output = opennck(&["machine-data", "check", "nowhere"], &directory);
     assert_eq!(output.status.code(), Some(2));
 }

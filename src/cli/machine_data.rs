@@ -5,7 +5,7 @@ use std::path::Path;
 use super::output::Output;
 use crate::machine::Machine;
 use crate::sinumerik::machine_data::{Archive, Finding, Severity, check as look_through, files_of};
-use crate::source::Problem;
+use crate::source::{Place, Problem};
 
 pub(super) fn check(path: &Path, output: &mut Output) -> u8 {
     let findings = match findings(path) {
@@ -32,8 +32,13 @@ fn findings(path: &Path) -> Result<Vec<String>, Problem> {
         // The name of a built-in machine, or nothing.
         return Machine::open(path).map(|machine| machine.warnings().to_vec());
     }
+    let mut refused = None;
     let findings = match Archive::load(&files_of(path)?) {
-        Ok(archive) => look_through(&archive),
+        Ok(archive) => {
+            // What a run refuses although every datum is right, as names that clash.
+            refused = Machine::open(path).err();
+            look_through(&archive)
+        }
         Err(findings) => findings,
     };
     let unreadable = |finding: &Finding| finding.severity == Severity::Error && finding.number.is_none();
@@ -42,6 +47,14 @@ fn findings(path: &Path) -> Result<Vec<String>, Problem> {
         Some(Finding { place, what, cure, .. }) if findings.len() == 1 => {
             Err(Problem { place: place.clone(), what: what.clone(), cure: cure.clone() })
         }
-        _ => Ok(findings.iter().map(ToString::to_string).collect()),
+        _ => {
+            Ok(findings.iter().map(ToString::to_string).chain(refused.map(|problem| in_file(path, problem))).collect())
+        }
     }
+}
+
+/// A refusal as a finding; one that names no file is about the machine.
+fn in_file(path: &Path, mut problem: Problem) -> String {
+    problem.place.get_or_insert_with(|| Place::file(&path.display().to_string()));
+    problem.to_string()
 }

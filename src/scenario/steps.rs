@@ -274,7 +274,11 @@ impl<'a> Reader<'a> {
                 Value::Integer(number) => DatumValue::Integer(*number),
                 Value::Float(number) => DatumValue::Real(*number),
                 Value::Boolean(value) => DatumValue::Boolean(*value),
-                Value::Text(text) => DatumValue::Text(text.clone()),
+                // Bits are written as in an archive, 'H0F' or 'B101', where the datum wants bits.
+                Value::Text(text) => match DatumValue::parse(text) {
+                    Some(bits @ DatumValue::Integer(_)) if text.starts_with('\'') => bits,
+                    _ => DatumValue::Text(text.clone()),
+                },
                 Value::Array(_) | Value::Table(_) => {
                     return Err(
                         node.expected("a value of a machine datum", "one value per index: \"34100[2,XF]\" = 5.0")

@@ -399,6 +399,15 @@ fn power_on_empties_the_memory_and_keeps_stored_machine_data_refused_ones_never_
 }
 
 #[test]
+fn bits_of_a_machine_datum_are_written_as_in_an_archive() {
+    held("[[step]]\nmachine_data = { \"37150[XF]\" = \"'H5'\", \"37150[X]\" = \"'B101'\", \"37150[Y]\" = 5 }\n");
+    let step = "[[step]]\nmachine_data = { \"37150[XF]\" = \"H5\" }\n";
+    let problem = prepared(step).err().unwrap();
+    assert_eq!(problem.place.as_ref().unwrap().line, 4);
+    assert!(problem.to_string().contains("'H0F'"), "{problem}");
+}
+
+#[test]
 fn a_plc_image_is_found_by_its_name_above_the_scenario_or_by_its_file() {
     let directory = std::env::temp_dir().join(format!("opennck-image-{}", std::process::id()));
     std::fs::create_dir_all(directory.join("plc_images")).unwrap();

@@ -256,14 +256,16 @@ impl Pending {
         }
     }
 
-    /// Removes what this way of cancelling removes.
-    pub(super) fn cancel(&mut self, by: Cancel) {
+    /// Removes what this way of cancelling removes; whether that was any.
+    pub(super) fn cancel(&mut self, by: Cancel) -> bool {
         let before = self.entries.len();
         self.entries.retain(|entry| {
             let class = Alarm::find(entry.alarm.number).map_or(Cancel::PowerOn, |alarm| alarm.cancel);
             class == Cancel::ByItself || class > by
         });
-        self.changed |= self.entries.len() != before;
+        let removed = self.entries.len() != before;
+        self.changed |= removed;
+        removed
     }
 
     /// Ends a cycle: what goes by itself and was not raised in it goes.

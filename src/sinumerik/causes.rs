@@ -3,6 +3,7 @@
 //! States have their events; what follows from a value at the moment (exact stop, standstill, sums over axes and alarms)
 //! is noted when its edge is seen.
 
+use super::alarms::Reaction;
 use super::axis::Axis;
 use super::gantry::Grouping;
 use super::rules::Rule;
@@ -59,9 +60,15 @@ impl Control {
                 let limit = Input::Datum(datum, Some(number), window.user());
                 state.log.note(Place::Axis(number), Rule::ExactStop, [measured, limit, Input::None], causes.motion)
             }
-            (61, 1) => state.alarm_event(Some(Place::Axis(number))),
-            (61, 2) if causes.drive.is_some() => causes.drive,
-            (61, 2) => state.run_up.cause,
+            (61, 1) => state.alarm_event(Reaction::INTERFACE_SIGNALS, Some(Place::Axis(number))),
+            (61, 2) => {
+                let alarm = state.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, Some(Place::Axis(number)));
+                alarm.unwrap_or_else(|| match axis.measuring_system {
+                    None => causes.measuring_system,
+                    Some(_) if !axis.drive_ready => state.run_up.cause,
+                    Some(_) => state.run_up.cause.max(causes.measuring_system).max(state.channel.cancel_cause),
+                })
+            }
             (61, 3 | 5 | 6 | 7) => causes.enabling,
             (61, 4) => {
                 #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
@@ -85,8 +92,10 @@ impl Control {
 impl State {
     fn nck_cause(&self, byte: u16, bit: u8) -> EventId {
         match (byte, bit) {
-            (109, _) => self.alarm_event(None),
-            (108, 7) if self.run_up.is_nc_ready() && !self.is_nc_ready() => self.alarm_event(None),
+            (109, _) => self.alarm_event(Reaction::INTERFACE_SIGNALS, None),
+            (108, 7) if self.run_up.is_nc_ready() && !self.is_nc_ready() => {
+                self.alarm_event(Reaction::NC_NOT_READY, None)
+            }
             _ => self.run_up.cause,
         }
     }
@@ -94,8 +103,7 @@ impl State {
     fn mode_group_cause(&mut self, byte: u16, bit: u8) -> EventId {
         match (byte, bit) {
             (6, 0..=2) => self.mode_group.mode_cause,
-            (6, 3) if self.alarms.is_empty() => self.run_up.cause,
-            (6, 3) => self.alarm_event(None),
+            (6, 3) => self.alarm_event(Reaction::MODE_GROUP_NOT_READY, None).max(self.run_up.cause),
             (6, 7) => self.motion_event(),
             (5 | 7, _) => self.mode_group.function_cause,
             _ => EventId::NONE,
@@ -107,17 +115,16 @@ impl State {
             (33, 0) => self.channel.referencing.cause,
             (35, 5..=7) | (36, 3) => self.motion_event(),
             (36, 2) => self.reference_event(),
-            (36, 5) if self.alarms.is_empty() => self.run_up.cause,
-            (36, 5..=7) => self.alarm_event(None),
+            (36, 5) => self.alarm_event(Reaction::CHANNEL_NOT_READY, None).max(self.run_up.cause),
+            (36, 6) => self.alarm_event(Reaction::INTERFACE_SIGNALS, None),
+            (36, 7) => self.alarm_event(Reaction::STOP, None),
             _ => EventId::NONE,
         }
     }
 
-    /// The alarm that is behind a sum over alarms; once they are gone, what cancelled them.
-    fn alarm_event(&self, place: Option<Place>) -> EventId {
-        let of_place = |alarm: Place| place.is_none_or(|place| alarm == place);
-        let pending = self.alarms.iter().find(|(alarm, _)| of_place(alarm.place));
-        pending.map_or(self.channel.reset_cause, |(_, cause)| cause)
+    /// The first alarm with the reaction that a signal sums up; once there is none any more, what cancelled the last.
+    fn alarm_event(&self, reaction: Reaction, place: Option<Place>) -> EventId {
+        self.alarms.with_reaction(reaction, place).unwrap_or(self.channel.cancel_cause)
     }
 
     /// The latest movement of any axis.

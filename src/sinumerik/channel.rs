@@ -22,6 +22,8 @@ pub(super) struct Channel {
     pub reset: bool,
     /// The latest RESET.
     pub reset_cause: EventId,
+    /// What took alarms away last: RESET, the cancel key or NC start.
+    pub cancel_cause: EventId,
     /// Channel-specific referencing.
     pub referencing: ChannelReferencing,
 }
@@ -49,9 +51,9 @@ impl Control {
         let rises = pressed && !self.state.channel.reset;
         self.state.channel.reset = pressed;
         if to_nck.channels[ChannelNumber::FIRST].nc_start() {
-            self.state.alarms.cancel(Cancel::NcStart);
+            self.state.cancel(Cancel::NcStart);
         } else if cancel_key {
-            self.state.alarms.cancel(Cancel::CancelKey);
+            self.state.cancel(Cancel::CancelKey);
         }
         if !rises {
             return;
@@ -64,6 +66,7 @@ impl Control {
         let channel = Place::Channel(ChannelNumber::FIRST);
         let event = self.state.log.note_one(channel, Rule::ResetDone, Input::Bit(bit, true), EventId::NONE);
         self.state.channel.reset_cause = event;
+        self.state.channel.cancel_cause = event;
         self.state.alarms.cancel(Cancel::ModeGroupReset);
         self.activate(Effect::Reset);
         for index in 0..self.state.groupings.len() {
@@ -73,6 +76,14 @@ impl Control {
 }
 
 impl State {
+    /// The cancel key or NC start.
+    fn cancel(&mut self, by: Cancel) {
+        if self.alarms.cancel(by) {
+            let channel = Place::Channel(ChannelNumber::FIRST);
+            self.channel.cancel_cause = self.log.note_plain(channel, Rule::AlarmCancelled, EventId::NONE);
+        }
+    }
+
     /// What stops every movement: RESET, or an alarm with the reaction NC stop or NC not ready.
     pub(super) fn stop_cause(&self) -> Option<EventId> {
         if self.channel.reset {

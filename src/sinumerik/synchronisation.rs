@@ -54,17 +54,20 @@ impl State {
         if let Some((rule, inputs)) = wait {
             self.step_grouping(index, rule, inputs, all);
         } else {
-            self.set_target(index);
+            self.set_target(index, parameters);
             self.step_grouping(index, Rule::AutomaticStart, [Input::None; 3], all);
         }
     }
 
-    /// The common position: MD34100 of the leading axis after referencing, else its actual position (REF-15).
-    fn set_target(&mut self, index: usize) {
+    /// The common position: MD34100 of the leading axis after referencing, else its actual position (REF-15). A
+    /// leading axis that has not come to rest there returns to it, or its actual value would not be that of the others.
+    fn set_target(&mut self, index: usize, parameters: &Parameters) {
         let leader = self.groupings[index].coupling.leader();
         let from_referencing = self.groupings[index].from_referencing;
+        let axis = &self.axes[leader];
+        let runs_out = !axis.setpoint.is_at_rest() || axis.deviation().abs() > parameters.axes[leader].exact_stop_fine;
         let grouping = &mut self.groupings[index];
-        grouping.leading_axis_moves = from_referencing;
+        grouping.leading_axis_moves = from_referencing || runs_out;
         grouping.waited = 0;
         grouping.target =
             if from_referencing { self.axes[leader].approach.set_position() } else { self.axes[leader].actual };
@@ -73,7 +76,7 @@ impl State {
     pub(super) fn start_synchronising(&mut self, index: usize, parameters: &Parameters) {
         let leader = self.groupings[index].coupling.leader();
         let parent = self.groupings[index].cause;
-        self.set_target(index);
+        self.set_target(index, parameters);
         let inputs = [axis_bit(leader, 29, 4, true), Input::None, Input::None];
         self.step_grouping(index, Rule::StartByPlc, inputs, parent);
         let unit = Unit::of(&self.groupings[index].coupling, index);

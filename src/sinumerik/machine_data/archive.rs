@@ -209,7 +209,7 @@ impl Archive {
     pub fn read<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> Result<Self, Vec<Finding>> {
         let mut reading = Reading::default();
         for (name, bytes) in files {
-            if binary::is_binary(bytes) {
+            if binary::is_binary(name, bytes) {
                 if let Err(problem) = binary::read(name, bytes, &mut reading) {
                     reading.findings.push(problem.into());
                 }

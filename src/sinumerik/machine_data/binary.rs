@@ -4,6 +4,8 @@
 //! definitions, programs and PLC parts travel in the same file, are listed and left alone. A truncated file or a
 //! wrong checksum is damage and is named with its offset.
 
+use std::path::Path;
+
 use crate::source::{Place, Problem, decode};
 
 use super::archive::{Member, Reading};
@@ -12,9 +14,9 @@ use super::ascii::{Broken, read_text};
 /// Headers are this long, and data are padded to a multiple of it.
 const BLOCK: usize = 512;
 
-/// Whether a file is a binary archive.
-pub(super) fn is_binary(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"@@MMCIBN")
+/// Whether a file is a binary archive, or what a copy that failed left of one: an `.arc` without a byte.
+pub(super) fn is_binary(name: &str, bytes: &[u8]) -> bool {
+    bytes.starts_with(b"@@MMCIBN") || bytes.is_empty() && Path::new(name).extension().is_some_and(|arc| arc == "arc")
 }
 
 /// Reads an archive.
@@ -26,6 +28,9 @@ pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<()
             "the archive is damaged; copy it again from the control, in binary mode",
         )
     };
+    if bytes.is_empty() {
+        return Err(damage(0, "expected members, found an empty file".to_owned()));
+    }
     let mut offset = 0;
     while offset < bytes.len() {
         let rest = &bytes[offset..];

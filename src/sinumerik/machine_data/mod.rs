@@ -78,7 +78,8 @@ impl MachineData {
     #[must_use]
     pub fn axis(&self, name: &str) -> Option<AxisNumber> {
         let by_name = AxisNumber::all().find(|axis| self.axis_name(*axis) == name && !name.is_empty());
-        by_name.or_else(|| AxisNumber::new(numbered(name, "AX")?))
+        // The language of the archives knows no case: `ax3` is AX3. Names keep theirs.
+        by_name.or_else(|| AxisNumber::new(numbered(&name.to_ascii_uppercase(), "AX")?))
     }
 
     /// The name of a machine axis (MD10000).
@@ -91,7 +92,7 @@ impl MachineData {
     #[must_use]
     pub fn channel(&self, name: &str) -> Option<ChannelNumber> {
         let by_name = self.channels.iter().find(|(_, channel)| channel.chan_name == name && !name.is_empty());
-        by_name.map(|(number, _)| number).or_else(|| ChannelNumber::new(numbered(name, "CHAN")?))
+        by_name.map(|(number, _)| number).or_else(|| ChannelNumber::new(numbered(&name.to_ascii_uppercase(), "CHAN")?))
     }
 
     /// Reads which value is meant: `34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `$MA_REFP_SET_POS[2,AX3]`,

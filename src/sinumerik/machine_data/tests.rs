@@ -271,6 +271,17 @@ mod ascii_archives {
     }
 
     #[test]
+    fn the_language_knows_no_case_but_names_do() {
+        let archive = archive(
+            "$mn_axconf_machax_name_tab[0]=\"Xa\"\n$ma_gantry_axis_type[ax1]=1\n$ma_gantry_axis_type[Ax31]=11\n",
+        );
+        assert_eq!(archive.data.axes[axis(1)].gantry_axis_type, 1);
+        assert_eq!(archive.data.axes[axis(31)].gantry_axis_type, 11);
+        assert_eq!((archive.data.axis("Xa"), archive.data.axis("XA")), (Some(axis(1)), None));
+        assert_eq!(archive.data.channel("chan2"), archive.data.channel("CHAN2"));
+    }
+
+    #[test]
     fn a_later_assignment_replaces_an_earlier_one() {
         let files = [("a.tea", b"$MA_REFP_VELO_POS[AX1]=1\n".as_slice()), ("b.tea", b"$MA_REFP_VELO_POS[AX1]=2\n")];
         let archive = Archive::read(files).unwrap();
