@@ -11,7 +11,7 @@ pub(super) fn alarms(filter: Option<&str>, format: Format, output: &mut Output) 
     all.sort_by_key(|(alarm, _)| alarm.number);
     let rows = all.into_iter().map(|(alarm, raised)| row(alarm, raised)).collect();
     let mut list = List { heads: &["alarm", "raised", "cancelled by", "reaction", "text"], rows };
-    list.retain_with(filter);
+    list.retain_with(filter, output);
     list.print(format, output)
 }
 

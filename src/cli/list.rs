@@ -11,10 +11,14 @@ pub(super) struct List {
 }
 
 impl List {
-    /// Keeps the rows in which a text occurs, whatever its case.
-    pub(super) fn retain_with(&mut self, filter: Option<&str>) {
-        let Some(wanted) = filter.map(str::to_lowercase) else { return };
+    /// Keeps the rows in which a text occurs, whatever its case; warns where none is left.
+    pub(super) fn retain_with(&mut self, filter: Option<&str>, output: &mut Output) {
+        let Some(filter) = filter else { return };
+        let wanted = filter.to_lowercase();
         self.rows.retain(|row| row.iter().any(|text| text.to_lowercase().contains(&wanted)));
+        if self.rows.is_empty() {
+            output.warning(format!("no row contains `{filter}`; without a filter all are listed"));
+        }
     }
 
     /// Prints it; the exit code.

@@ -33,11 +33,7 @@ fn findings(path: &Path) -> Result<Vec<String>, Problem> {
         return Machine::open(path).map(|machine| machine.warnings().to_vec());
     }
     let findings = match Archive::load(&files_of(path)?) {
-        Ok(archive) => {
-            let mut findings = archive.findings.clone();
-            findings.extend(look_through(&archive));
-            findings
-        }
+        Ok(archive) => look_through(&archive),
         Err(findings) => findings,
     };
     let unreadable = |finding: &Finding| finding.severity == Severity::Error && finding.number.is_none();

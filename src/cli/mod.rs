@@ -27,6 +27,10 @@ use clap::{Parser, Subcommand, ValueEnum};
 use crate::plc::Programs;
 use output::Output;
 
+/// What scripts ask for.
+const EXIT_CODES: &str = "Exit codes: 0 all held; 1 an expectation failed, a limit was reached, a trace differs, a golden \
+    file is missing, machine data have findings; 2 unusable input.";
+
 /// How a list is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
@@ -42,7 +46,7 @@ enum Format {
 ///
 /// Without a command it runs the worked example of the gantry manual and shows its signal sequence.
 #[derive(Debug, Parser)]
-#[command(name = "opennck", version)]
+#[command(name = "opennck", version, after_help = EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,

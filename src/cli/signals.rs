@@ -16,7 +16,7 @@ pub(super) fn signals(filter: Option<&str>, profile: &str, format: Format, outpu
         }
     };
     let mut list = List { heads: &["address", "symbol", "writer", "name"], rows: rows(profile) };
-    list.retain_with(filter);
+    list.retain_with(filter, output);
     list.print(format, output)
 }
 

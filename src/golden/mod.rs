@@ -1,6 +1,7 @@
 //! Golden traces: every scenario below a directory runs, and its trace must be the one in the `.snap` beside it.
 //!
-//! `opennck test` and [`check`], which is for `cargo test`, do the same. The files have insta's format, so that
+//! `opennck test` and [`check`], which is for `cargo test`, do the same. It reads `name.toml` and `name.snap`, and writes
+//! the latter only where it is told to accept, or `name.snap.new` for review. The files have insta's format, so that
 //! insta's tools show and accept what changed: `cargo insta review`.
 
 mod snapshot;

@@ -104,7 +104,10 @@ impl Names {
         found.ok_or_else(|| {
             let known = signals().filter(|signal| signal.block == block).map(|signal| signal.name);
             let cure = did_you_mean(name, known, "`opennck signals` lists them all");
-            Problem::new(format!("expected a signal of {}, found `{owner}.{name}`", described(block, number)), cure)
+            Problem::new(
+                format!("expected a signal of `{owner}` ({}), found `{owner}.{name}`", described(block, number)),
+                cure,
+            )
         })
     }
 

@@ -154,7 +154,7 @@ fn read_built_in(path: &Path) -> Result<(Archive, Table), Problem> {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let names: Vec<&str> = BUILT_IN.iter().map(|machine| machine.name).collect();
     let Some(machine) = BUILT_IN.iter().find(|machine| machine.name == name) else {
-        let built_in = format!("a directory, an archive file, or a built-in machine: {}", names.join(", "));
+        let built_in = format!("name a directory, an archive file, or a built-in machine: {}", names.join(", "));
         return Err(Problem::new(
             format!("expected a machine, found nothing at {}", path.display()),
             did_you_mean(name, names.iter().copied(), &built_in),

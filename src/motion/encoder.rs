@@ -68,7 +68,9 @@ impl Encoder {
         EncoderSignal { value: self.value(after), zero_mark: passed.map(|mark| self.value(mark)) }
     }
 
-    fn value(&self, slide: Position) -> Position {
+    /// The count at a position of the slide.
+    #[must_use]
+    pub fn value(&self, slide: Position) -> Position {
         let count = self.resolution.increments();
         let distance = (slide - self.origin).increments();
         Position::new((distance + count / 2).div_euclid(count) * count) + self.slip

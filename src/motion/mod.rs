@@ -1,4 +1,4 @@
-//! The axis, dialect-free: setpoint profiles, position control, the drive's answer, encoders, and the one
+//! THE AXIS, dialect-free: setpoint profiles, position control, the drive's answer, encoders, and the one
 //! [`Coupling`] core that every gantry uses.
 //!
 //! Everything here is stepped by whole cycles with a cycle time in seconds; positions are whole increments, and a
@@ -19,8 +19,11 @@ pub use servo::{Drive, velocity_command};
 /// for sums, differences and fine interpolation of positions.
 const FARTHEST: i64 = 1 << 52;
 
-/// Adds a movement in increments to a position, carrying the fraction; it ends at [`FARTHEST`].
+/// Adds a movement in increments to a position, carrying the fraction; it ends at [`FARTHEST`]. No movement changes neither.
 pub(crate) fn advance(position: crate::units::Position, carry: &mut f64, movement: f64) -> crate::units::Position {
+    if movement == 0.0 {
+        return position;
+    }
     let wanted = movement + *carry;
     let whole = wanted.round();
     *carry = wanted - whole;

@@ -32,6 +32,9 @@ pub struct Drive {
 impl Drive {
     /// The speed loop's answer to a command, one position-control cycle later.
     pub fn answer(&mut self, command: f64, time_constant: f64, cycle: f64) {
+        if command == 0.0 && self.velocity == 0.0 {
+            return;
+        }
         let share = cycle / (time_constant + cycle);
         self.velocity += share * (command - self.velocity);
         // Far below one increment per hour: nothing moves any more, and arithmetic stays away from denormals.

@@ -58,6 +58,8 @@ struct Slide {
     position: Position,
     /// Where it was at the last [`Plant::tell`].
     told: Position,
+    /// What the encoders count there: most slides rest most of the time.
+    counts: [Position; 2],
     drive: Drive,
     encoders: [Encoder; 2],
     ready_in: Time,
@@ -89,6 +91,7 @@ impl Plant {
                 for encoder in &mut slide.encoders {
                     encoder.restart(slide.position);
                 }
+                slide.count();
             }
         }
     }
@@ -103,6 +106,7 @@ impl Plant {
             FaultKind::Push { by } => slide.position += by,
             FaultKind::EncoderSlip { by } => {
                 slide.encoders[usize::from(active.unwrap_or(0))].slip(by);
+                slide.count();
             }
             FaultKind::ZeroMarkMissing => slide.zero_mark_missing = true,
             FaultKind::SwitchStuck { which, at } => slide.stuck[which as usize] = Some(at),
@@ -180,23 +184,29 @@ impl Plant {
         let Some(slide) = &mut self.slides[axis] else {
             return [EncoderSignal::default(); 2];
         };
-        let signals = slide.encoders.map(|encoder| {
-            let mut signal = encoder.signal(slide.told, slide.position);
+        if slide.position == slide.told {
+            return slide.counts.map(|value| EncoderSignal { value, zero_mark: None });
+        }
+        let signals = [0, 1].map(|index| {
+            let mut signal = slide.encoders[index].signal(slide.told, slide.position);
             if slide.zero_mark_missing {
                 signal.zero_mark = None;
             }
             signal
         });
         slide.told = slide.position;
+        slide.counts = signals.map(|signal| signal.value);
         signals
     }
 
     /// The counts of both encoders of an axis at the moment.
     #[must_use]
     pub fn values(&self, axis: AxisNumber) -> [Position; 2] {
-        self.slides[axis].map_or([Position::ZERO; 2], |slide| {
-            slide.encoders.map(|encoder| encoder.signal(slide.position, slide.position).value)
-        })
+        match &self.slides[axis] {
+            None => [Position::ZERO; 2],
+            Some(slide) if slide.position == slide.told => slide.counts,
+            Some(slide) => [0, 1].map(|index| slide.encoders[index].value(slide.position)),
+        }
     }
 
     /// The drives run up.
@@ -211,25 +221,27 @@ impl Plant {
     /// The drive has run up.
     #[must_use]
     pub fn is_drive_ready(&self, axis: AxisNumber) -> bool {
-        self.slides[axis].is_some_and(|slide| slide.ready_in == Time::ZERO)
+        self.slides[axis].as_ref().is_some_and(|slide| slide.ready_in == Time::ZERO)
     }
 
     /// Velocity of the motor, in increments per second at the slide.
     #[must_use]
     pub fn velocity(&self, axis: AxisNumber) -> f64 {
-        self.slides[axis].map_or(0.0, |slide| slide.drive.velocity())
+        self.slides[axis].as_ref().map_or(0.0, |slide| slide.drive.velocity())
     }
 
     /// Half a count of both encoders.
     #[must_use]
     pub fn half_counts(&self, axis: AxisNumber) -> [Position; 2] {
-        self.slides[axis].map_or([Position::ZERO; 2], |slide| slide.encoders.map(|encoder| encoder.half_count()))
+        self.slides[axis]
+            .as_ref()
+            .map_or([Position::ZERO; 2], |slide| [slide.encoders[0].half_count(), slide.encoders[1].half_count()])
     }
 
     /// True position of a slide.
     #[must_use]
     pub fn slide(&self, axis: AxisNumber) -> Position {
-        self.slides[axis].map_or(Position::ZERO, |slide| slide.position)
+        self.slides[axis].as_ref().map_or(Position::ZERO, |slide| slide.position)
     }
 
     /// Whether a switch is pressed; false for one that there is not.
@@ -255,6 +267,7 @@ impl Slide {
         Self {
             position: iron.start,
             told: iron.start,
+            counts: iron.encoders.map(|encoder| encoder.value(iron.start)),
             drive: Drive::default(),
             encoders: iron.encoders,
             ready_in: iron.ready_after,
@@ -262,6 +275,11 @@ impl Slide {
             zero_mark_missing: false,
             stuck: [None; 3],
         }
+    }
+
+    /// The encoders count from somewhere else.
+    fn count(&mut self) {
+        self.counts = self.encoders.map(|encoder| encoder.value(self.told));
     }
 
     fn advance(&mut self, command: f64, time_constant: f64, cycle: f64) {

@@ -1,4 +1,4 @@
-//! Files that act: scenarios with their steps and expressions, and the session in which they and a user's tests run.
+//! FILES THAT ACT: scenarios with their steps and expressions, and the session in which they and a user's tests run.
 //!
 //! A scenario is read ([`Scenario::read`]), prepared for a profile ([`Scenario::prepare`]: here the machine is opened,
 //! every name looked up and every value checked), and run ([`Prepared::run`]). What can be wrong with a

@@ -81,8 +81,10 @@ impl Scenario {
         } else {
             let name = Path::new("plc_images").join(format!("{}.toml", image.text));
             let above = self.directory().ancestors().map(|directory| directory.join(&name));
-            let here = Some(PathBuf::from(&name));
-            above.chain(here).find(|file| file.is_file()).ok_or_else(|| {
+            // A relative path ends at the folder where the program was started; the folders above it count, too.
+            let start = Path::new(".").join(self.directory()).canonicalize().unwrap_or_default();
+            let further: Vec<PathBuf> = start.ancestors().map(|directory| directory.join(&name)).collect();
+            above.chain(further).find(|file| file.is_file()).ok_or_else(|| {
                 image.place.problem(
                     format!("expected a PLC image, found no plc_images/{}.toml here or above", image.text),
                     "name a file that ends in .toml, relative to the scenario",

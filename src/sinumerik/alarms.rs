@@ -296,7 +296,11 @@ impl Pending {
 
     /// The event behind the first pending alarm with this reaction that concerns this place (or all).
     #[must_use]
+    #[inline]
     pub(super) fn with_reaction(&self, reaction: Reaction, place: Option<Place>) -> Option<EventId> {
+        if self.entries.is_empty() {
+            return None;
+        }
         self.entries
             .iter()
             .find(|entry| {
@@ -328,7 +332,7 @@ mod tests {
 
     #[test]
     fn an_alarm_is_raised_or_not_yet_and_never_both() {
-        let not_yet = super::super::alarm_list::NOT_RAISED;
+        let not_yet = crate::sinumerik::alarm_list::NOT_RAISED;
         assert!(not_yet.windows(2).all(|pair| pair[0].number < pair[1].number));
         assert!(not_yet.iter().all(|alarm| Alarm::find(alarm.number).is_none()));
         assert_eq!(Alarm::named("gantry-mixed-axis-types"), Some(GANTRY_MIXED_AXIS_TYPES));

@@ -93,7 +93,8 @@ struct Conditions {
 impl State {
     /// The measuring systems that 1.5 and 1.6 select; parking is common to all axes of a unit.
     pub(super) fn select_measuring_systems(&mut self, parameters: &Parameters, to_nck: &ToNck) {
-        for unit in self.units.clone() {
+        for index in 0..self.units.len() {
+            let unit = self.units[index];
             let selected = |axis: AxisNumber| -> Option<u8> {
                 let (signals, count) = (&to_nck.axes[axis], parameters.axes[axis].encoders);
                 if signals.position_measuring_system_1() && count >= 1 {
@@ -147,7 +148,8 @@ impl State {
         for (number, _) in parameters.existing() {
             self.enable_pulses(number, to_nck.axes[number].pulse_enable());
         }
-        for unit in self.units.clone() {
+        for index in 0..self.units.len() {
+            let unit = self.units[index];
             let conditions = self.conditions(&unit, parameters, to_nck);
             let lost = !conditions.enable || !conditions.healthy;
             if lost && conditions.moving && self.unit_is_on(&unit) {

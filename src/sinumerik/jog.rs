@@ -69,10 +69,10 @@ impl State {
         }
         // Without controller enable the command stays pending and runs when the enable returns.
         let command = if held { 0 } else { direction };
-        self.note_keys(number, direction, command, key_inputs(number, signals));
+        self.note_keys(number, direction, command, signals);
     }
 
-    fn note_keys(&mut self, number: AxisNumber, request: i8, command: i8, inputs: [Input; 3]) {
+    fn note_keys(&mut self, number: AxisNumber, request: i8, command: i8, signals: &AxisToNck) {
         let axis = &self.axes[number];
         if (axis.traverse_request, axis.traverse_command) == (request, command) {
             return;
@@ -84,7 +84,7 @@ impl State {
         } else {
             Rule::TraversingKey
         };
-        let event = self.log.note(Place::Axis(number), rule, inputs, axis.causes.motion);
+        let event = self.log.note(Place::Axis(number), rule, key_inputs(number, signals), axis.causes.motion);
         self.traverse(number, request, command, event);
     }
 

@@ -93,8 +93,8 @@ impl Unit {
         self.axes[0]
     }
 
-    fn members(&self) -> impl Iterator<Item = AxisNumber> + use<> {
-        self.axes.into_iter().take(usize::from(self.count))
+    fn members(&self) -> impl Iterator<Item = AxisNumber> {
+        self.axes.iter().take(usize::from(self.count)).copied()
     }
 }
 
@@ -230,8 +230,12 @@ impl Control {
         let state = &self.state.axes[axis];
         let active = usize::from(state.measuring_system.filter(|_| state.enabling.is_powered())?);
         let actual = encoders[active] + state.offset[active];
-        let way = (state.setpoint.position - state.before).increments();
-        let setpoint = state.before + Position::new(way * i64::from(part) / i64::from(count));
+        let setpoint = if part == count {
+            state.setpoint.position
+        } else {
+            let way = (state.setpoint.position - state.before).increments();
+            state.before + Position::new(way * i64::from(part) / i64::from(count))
+        };
         let gain = self.parameters.axes[axis].gain;
         Some(velocity_command(setpoint - actual, gain, state.half_count, state.setpoint.velocity(), 0.0))
     }
@@ -258,7 +262,8 @@ impl Control {
         state.select_measuring_systems(&parameters, to_nck);
         state.enable(&parameters, to_nck);
         state.reference_by_channel(&parameters, to_nck);
-        for unit in state.units.clone() {
+        for index in 0..state.units.len() {
+            let unit = state.units[index];
             state.take_feed(&unit, &parameters, to_nck);
             match unit.grouping {
                 Some(index) => state.run_grouping(usize::from(index), &unit, &parameters, to_nck),

@@ -1,4 +1,4 @@
-//! The record: what changed when, by whom and why; as text for people, as JSON lines for programs.
+//! THE RECORD: what changed when, by whom and why; as text for people, as JSON lines for programs.
 //!
 //! The machine writes plain rows ([`Recorder`]); a [`Trace`] keeps them together with notes, watched values and
 //! the events that caused them. Only when somebody prints it do numbers become names. The same trace prints

@@ -1,4 +1,4 @@
-//! What the control shows beside bits: axis values, raised alarms, and events with their causes.
+//! WHAT THE CONTROL SHOWS BESIDES BITS: axis values, raised alarms, and events with their causes.
 //!
 //! The control writes all of it once in each cycle, in the stage "publish"; traces, expressions and clients read it.
 //! Nothing here knows a particular control: alarms and rules are numbers, whose texts the control gives

@@ -60,7 +60,7 @@ fn a_misspelt_symbol_names_its_neighbour() {
 fn case_counts_and_other_kinds_of_block_do_not() {
     assert!(refused("x.controller_enable").contains("found `x`"));
     assert!(refused("Z.controller_enable").contains("found `Z`"));
-    assert!(refused("X.channel_reset").contains("a signal of axis 1"));
+    assert!(refused("X.channel_reset").contains("a signal of `X` (axis 1)"));
     assert!(refused("X").contains("signal name"));
     assert!(refused("nonsense").contains("absolute address"));
 }

@@ -269,14 +269,14 @@ impl Archive {
         if !named {
             keep_default_names_apart(&mut data, &given);
         }
-        if findings.iter().any(|finding| finding.severity == Severity::Error) {
-            findings.sort_by(|a, b| b.severity.cmp(&a.severity).then_with(|| a.place.cmp(&b.place)));
-            return Err(findings);
-        }
         let mut unknown: Vec<_> = unknown.into_values().collect();
         unknown.sort_by_key(|(order, _)| *order);
         let unknown: Vec<_> = unknown.into_iter().map(|(_, line)| line.into()).collect();
         findings.extend(unknown_findings(&unknown));
+        if findings.iter().any(|finding| finding.severity == Severity::Error) {
+            findings.sort_by(|a, b| b.severity.cmp(&a.severity).then_with(|| a.place.cmp(&b.place)));
+            return Err(findings);
+        }
         let summary = Summary { members, taken: given.len(), unknown: unknown.len() };
         Ok(Self { data, given, unknown, findings, summary })
     }

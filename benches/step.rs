@@ -1,0 +1,178 @@
+//! What a step costs: a machine of 31 axes with one gantry jogging to and fro, beside the same arithmetic written by hand;
+//! and the worked example, from opening to its last row. `benches/README.md` says how to run it and what it gave.
+
+use std::fs;
+use std::path::PathBuf;
+
+use divan::Bencher;
+use divan::counter::ItemsCount;
+use opennck::machine::Machine;
+use opennck::plc::{ClosureProgram, Programs, program};
+use opennck::units::{AxisNumber, Time};
+
+/// Steps of one sample: two seconds of the machine, one to and one fro.
+const STEPS: u64 = 1_000;
+const CYCLE: f64 = 0.002;
+
+fn main() {
+    divan::main();
+}
+
+/// The machine, its PLC program, the record, and somebody who drains it.
+#[divan::bench]
+fn step(bencher: Bencher<'_, '_>) {
+    let mut machine = jogging_machine();
+    bencher.counter(ItemsCount::new(STEPS)).bench_local(|| {
+        let mut rows = 0;
+        for _ in 0..STEPS {
+            machine.step();
+            rows += machine.recorder().rows().len();
+            machine.drain();
+        }
+        rows
+    });
+}
+
+/// The same, and nobody drains the record: it is full from the start, and rows are only counted.
+#[divan::bench]
+fn step_with_a_full_record(bencher: Bencher<'_, '_>) {
+    let mut machine = jogging_machine();
+    while machine.recorder().lost() == 0 {
+        machine.step();
+    }
+    bencher.counter(ItemsCount::new(STEPS)).bench_local(|| {
+        for _ in 0..STEPS {
+            machine.step();
+        }
+        machine.cycle()
+    });
+}
+
+/// The peer: setpoint, coupling, position control, drive and encoder of 31 axes, and no interface around them.
+#[divan::bench]
+fn arithmetic_by_hand(bencher: Bencher<'_, '_>) {
+    let mut axes = [ByHand::default(); 31];
+    let mut cycle = 0_u64;
+    bencher.counter(ItemsCount::new(STEPS)).bench_local(|| {
+        let mut marks = 0;
+        for _ in 0..STEPS {
+            cycle += 1;
+            let to = if (cycle / 500).is_multiple_of(2) { 2_000.0 } else { -2_000.0 };
+            let wanted = divan::black_box(to * 1e6 / 60.0);
+            let before = axes[0].setpoint;
+            axes[0].lead(wanted);
+            let (movement, velocity) = (axes[0].setpoint - before, axes[0].velocity);
+            axes[1].setpoint += movement;
+            axes[1].velocity = velocity;
+            for axis in &mut axes[2..] {
+                axis.lead(divan::black_box(0.0));
+            }
+            for axis in &mut axes {
+                marks += axis.control();
+            }
+        }
+        marks
+    });
+}
+
+/// A fork of the machine in mid-run.
+#[divan::bench]
+fn fork(bencher: Bencher<'_, '_>) {
+    let machine = jogging_machine();
+    bencher.bench_local(|| machine.fork());
+}
+
+/// The worked example, from its text to the last row of its trace.
+#[divan::bench]
+fn worked_example(bencher: Bencher<'_, '_>) {
+    let programs = Programs::ready();
+    bencher.bench_local(|| {
+        let scenario = opennck::cli::example::scenario().expect("the program holds a good one");
+        let profile = scenario.profiles.first().copied().unwrap_or_default();
+        let prepared = scenario.prepare(profile, &programs).expect("the program holds a good one");
+        prepared.run().text().len()
+    });
+}
+
+/// 31 axes, of which AX1 leads AX2, with a program that enables all and jogs the gantry to and fro each second.
+fn jogging_machine() -> Machine {
+    let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("thirty_one_axes");
+    fs::create_dir_all(&directory).expect("the target directory is ours");
+    let mut archive = String::from("CHANDATA(1)\nN10050 $MN_SYSCLOCK_CYCLE_TIME=0.002\n");
+    for axis in 1..=31 {
+        archive += &format!("N30130 $MA_CTRLOUT_TYPE[AX{axis}]=1\nN30200 $MA_NUM_ENCS[AX{axis}]=1\n");
+        archive += &format!("N30240 $MA_ENC_TYPE[0,AX{axis}]=1\nN32020 $MA_JOG_VELO[AX{axis}]=2000\n");
+    }
+    archive += "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1\nN37100 $MA_GANTRY_AXIS_TYPE[AX2]=11\n";
+    archive += "N37120 $MA_GANTRY_POS_TOL_ERROR[AX2]=1\nN37130 $MA_GANTRY_POS_TOL_REF[AX2]=1\nM17\n";
+    fs::write(directory.join("thirty_one_axes.tea"), archive).expect("the target directory is ours");
+    let mut machine = Machine::open(&directory).expect("the archive is a good one");
+    machine.load_program(jogging_program().boxed());
+    for _ in 0..STEPS {
+        machine.step();
+        machine.drain();
+    }
+    let moving = &machine.memory().from_nck.axes[AxisNumber::FIRST];
+    assert!(moving.traverse_command_plus() || moving.traverse_command_minus(), "AX1 does not move");
+    assert_eq!(machine.names().axes.iter().filter(|(_, name)| name.is_some()).count(), 31);
+    assert_eq!(machine.variables().alarms.count(), 0, "{:?}", machine.variables().alarms);
+    machine
+}
+
+fn jogging_program() -> ClosureProgram<()> {
+    program("jogging", (), |(), io| {
+        for axis in io.axes() {
+            let signals = io.to_nck.axis(axis);
+            signals.set_position_measuring_system_1(true);
+            signals.set_controller_enable(true);
+            signals.set_pulse_enable(true);
+        }
+        let seconds = io.time.nanos() / Time::from_millis(1_000).nanos();
+        let leader = io.to_nck.axis(AxisNumber::FIRST);
+        leader.set_traversing_key_plus(seconds % 2 == 0);
+        leader.set_traversing_key_minus(seconds % 2 == 1);
+    })
+}
+
+/// One axis as somebody would write it who needs nothing but the movement; nanometres and seconds.
+#[derive(Clone, Copy, Default)]
+struct ByHand {
+    setpoint: i64,
+    setpoint_carry: f64,
+    velocity: f64,
+    motor: f64,
+    slide: i64,
+    slide_carry: f64,
+}
+
+impl ByHand {
+    fn lead(&mut self, wanted: f64) {
+        let step = 1e9 * CYCLE;
+        self.velocity += (wanted - self.velocity).clamp(-step, step);
+        advance(&mut self.setpoint, &mut self.setpoint_carry, self.velocity * CYCLE);
+    }
+
+    /// Position control, drive, slide and encoder; gives how many zero marks went by.
+    fn control(&mut self) -> u32 {
+        let (count, spacing) = (divan::black_box(1_000_i64), divan::black_box(10_000_000_i64));
+        let actual = (self.slide + count / 2).div_euclid(count) * count;
+        let deviation = self.setpoint - actual;
+        let command = if deviation.abs() <= count / 2 { 0.0 } else { deviation as f64 * 1_000.0 / 60.0 };
+        self.motor += CYCLE / (0.003 + CYCLE) * (command - self.motor);
+        if self.motor.abs() < 1e-4 {
+            self.motor = 0.0;
+        }
+        let before = self.slide;
+        advance(&mut self.slide, &mut self.slide_carry, self.motor * CYCLE);
+        u32::from(before != self.slide && before.div_euclid(spacing) != self.slide.div_euclid(spacing))
+    }
+}
+
+fn advance(position: &mut i64, carry: &mut f64, movement: f64) {
+    let exact = movement + *carry;
+    let whole = exact.round();
+    *carry = exact - whole;
+    #[expect(clippy::cast_possible_truncation, reason = "a cycle's movement fits by far")]
+    let whole = whole as i64;
+    *position += whole;
+}

@@ -1,0 +1,1 @@
+//! The tests of this crate are the example: `tests/gantry.rs`.
