@@ -20,10 +20,12 @@ mod alarms;
 mod axis;
 mod causes;
 mod channel;
+mod emergency_stop;
 mod enabling;
 mod gantry;
 mod gantry_definition;
 mod jog;
+mod limits;
 mod log;
 pub mod machine_data;
 mod mode_group;
@@ -58,6 +60,7 @@ use crate::variables::{EventId, Place};
 
 use axis::{Axis, Motion};
 use channel::Channel;
+use emergency_stop::EmergencyStop;
 use gantry::Grouping;
 use gantry_definition::GROUPINGS;
 use log::Log;
@@ -104,6 +107,7 @@ struct State {
     log: Log,
     run_up: RunUp,
     mode_group: ModeGroup,
+    emergency_stop: EmergencyStop,
     channel: Channel,
     axes: PerAxis<Axis>,
     groupings: ArrayVec<Grouping, GROUPINGS>,
@@ -255,6 +259,7 @@ impl Control {
         self.state.log.cycle = cycle;
         self.state.run_up(&Arc::clone(&self.parameters));
         self.state.select_mode(to_nck);
+        self.state.watch_emergency_stop(to_nck);
         self.reset_and_cancel(to_nck, cancel_key);
         let parameters = Arc::clone(&self.parameters);
         let state = &mut *self.state;
@@ -270,6 +275,7 @@ impl Control {
                 None => state.run_single(&unit, &parameters, to_nck),
             }
             state.set_setpoints(&unit, &parameters);
+            state.watch_software_limits(&unit, &parameters, to_nck);
         }
     }
 
@@ -308,6 +314,7 @@ impl State {
             log: Log::default(),
             run_up: RunUp::default(),
             mode_group: ModeGroup::default(),
+            emergency_stop: EmergencyStop::default(),
             channel: Channel::default(),
             axes: PerAxis::default(),
             groupings: parameters.groupings.groupings.iter().map(Grouping::new).collect(),

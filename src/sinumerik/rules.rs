@@ -35,6 +35,12 @@ rules! {
     FollowUpEnds "SIG-02" "follow-up ended";
     MeasuringSystem "REF-33" "measuring system selected";
     Parking "SYN-01" "both measuring systems off";
+    // Emergency stop.
+    EmergencyStop "E-06" "emergency stop";
+    EmergencyStopAcknowledged "E-06" "emergency stop acknowledged";
+    // Limits.
+    HardwareLimitSwitch "MON-14" "hardware limit switch";
+    SoftwareLimit "MON-13" "on the software limit switch";
     // Modes.
     ModeSelected "O-19" "mode";
     MachineFunction "O-19" "machine function";
