@@ -10,7 +10,7 @@ use super::changes::Before;
 use super::step::{Plc, first_variables};
 use super::{Definition, Machine};
 use crate::image::{Location, Memory, Names, OverrideCoding, Part, Preset, Profile};
-use crate::plant::{Db11Byte5Bit2, Hints, Layout, Plant, PlantDefinition};
+use crate::plant::{Db11Byte5Bit2, EncoderKind, Hints, Layout, Plant, PlantDefinition};
 use crate::sinumerik::machine_data::{Archive, Finding, MachineData, Owner, Target, files_of, refusal};
 use crate::sinumerik::{AxisPresence, Control};
 use crate::source::{Place, Problem, Table, did_you_mean, read_text};
@@ -97,7 +97,7 @@ pub(super) fn open(path: &Path, options: OpenOptions) -> Result<Machine, Problem
     check_plc_cycle(plant.plc_cycle, control.parameters().cycle, &plant_place)?;
     let layout = layout(&plant, &archive, &control, &names);
     let mut warnings: Vec<String> = archive.findings.iter().map(Finding::to_string).collect();
-    warnings.extend(not_modelled(&control, &names));
+    warnings.extend(not_modelled(&control, &names, &plant));
     let strobe = Strobe { fixed: plant.db11_5_2, byte: strobe_byte(&memory) };
     let definition = Definition { plc_cycle: plant.plc_cycle, layout, names, memory: memory.clone(), strobe, warnings };
     Ok(assemble(definition, control, memory))
@@ -195,7 +195,7 @@ fn layout(plant: &PlantDefinition, archive: &Archive, control: &Control, names: 
                 (true, true) => 1,
                 (true, false) => -1,
             },
-            zero_mark_spacing: Position::from_user(archive.data.axes[axis].enc_refp_marker_dist[0]),
+            zero_mark_spacing: archive.data.axes[axis].enc_refp_marker_dist.map(Position::from_user),
         }
     });
     let groupings: Vec<_> = parameters
@@ -223,16 +223,27 @@ fn strobe_byte(memory: &Memory) -> u32 {
     location.map_or(u32::MAX, |location| location.offset)
 }
 
-/// What the machine data ask for and this version does not do, so that nobody waits for it in vain.
-fn not_modelled(control: &Control, names: &Names) -> Vec<String> {
+/// What machine data and plant ask for and this version does not do, so that nobody waits for it in vain.
+fn not_modelled(control: &Control, names: &Names, plant: &PlantDefinition) -> Vec<String> {
     let mut warnings = Vec::new();
     for (number, axis) in control.parameters().existing() {
         let name = names.axes[number].as_deref().unwrap_or_default();
-        let mode = axis.reference.mode[0];
-        if mode != 1 && axis.encoders > 0 {
-            warnings.push(format!(
-                "axis {name}: MD34200 = {mode} is not modelled; incremental encoders with zero marks (1) are referenced"
-            ));
+        for (index, &mode) in axis.reference.mode.iter().enumerate().take(usize::from(axis.encoders)) {
+            if mode != 1 {
+                let which = if index == 0 { "MD34200" } else { "MD34200[1]" };
+                warnings.push(format!(
+                    "axis {name}: {which} = {mode} is not modelled; incremental encoders with zero marks (1) are referenced"
+                ));
+            }
+        }
+        for (index, encoder) in plant.axes.get(name).into_iter().flat_map(|axis| axis.encoders.iter().enumerate()) {
+            if matches!(encoder.kind, Some(EncoderKind::Absolute | EncoderKind::DistanceCoded)) {
+                let number = index + 1;
+                warnings.push(format!("axis {name}: the kind of encoder {number} is not modelled; it is incremental"));
+            }
+        }
+        if control.active().axes[number].gantry_function_mask & 1 != 0 {
+            warnings.push(format!("axis {name}: MD37150 bit 0, extended monitoring, is not modelled"));
         }
     }
     warnings

@@ -464,3 +464,10 @@ fn a_switch_to_an_unreferenced_measuring_system_makes_no_synchronism_difference(
     run(&mut machine, 2);
     assert!((difference(&machine) - before).abs() < Position::from_user(0.001), "{before}, {}", difference(&machine));
 }
+
+#[test]
+fn what_the_files_ask_for_and_nobody_does_is_said() {
+    let machine = example_with("[XF.encoder1]\nkind = \"absolute\"\n");
+    assert_eq!(machine.warnings(), ["axis XF: the kind of encoder 1 is not modelled; it is incremental"]);
+    assert!(example().warnings().is_empty(), "{:?}", example().warnings());
+}

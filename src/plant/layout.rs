@@ -11,8 +11,8 @@ pub struct Hints {
     pub exists: bool,
     /// Direction of the cam search, −1 or +1; 0 for an axis without cam (MD34000).
     pub cam_direction: i8,
-    /// Distance of the zero marks, where `plant.toml` does not say it.
-    pub zero_mark_spacing: Position,
+    /// Distance of the zero marks of both encoders, where `plant.toml` does not say it.
+    pub zero_mark_spacing: [Position; 2],
 }
 
 /// One axis.
@@ -99,7 +99,7 @@ fn iron(definition: &PlantDefinition, name: &str, hints: Hints) -> Iron {
     let said = definition.axes.get(name).unwrap_or(&default);
     let encoders = [0, 1].map(|index| {
         let encoder = &said.encoders[index];
-        let spacing = encoder.zero_mark_spacing.unwrap_or(hints.zero_mark_spacing);
+        let spacing = encoder.zero_mark_spacing.unwrap_or(hints.zero_mark_spacing[index]);
         Encoder::new(encoder.resolution, encoder.zero_mark, spacing, said.start)
     });
     let cam = match &said.cam {

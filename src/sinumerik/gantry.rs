@@ -171,7 +171,11 @@ impl Grouping {
         match self.phase {
             Phase::ReferencingLeadingAxis => Some(self.coupling.leader()),
             Phase::ReferencingSynchronousAxis => self.coupling.followers().nth(usize::from(self.turn)),
-            _ => None,
+            Phase::NotSynchronised
+            | Phase::WaitingForStart
+            | Phase::Synchronising
+            | Phase::Synchronised
+            | Phase::Open => None,
         }
     }
 
@@ -237,7 +241,7 @@ impl State {
             Phase::WaitingForStart => (grouping.message, grouping.waited_for) = (true, true),
             Phase::Synchronising => grouping.coupled = false,
             Phase::ReferencingLeadingAxis => grouping.waited_for = false,
-            _ => {}
+            Phase::NotSynchronised | Phase::ReferencingSynchronousAxis | Phase::Synchronised | Phase::Open => {}
         }
     }
 
@@ -300,9 +304,10 @@ impl State {
 
     /// After a reference point of sections 1 and 2: the next synchronous axis (O-10: ascending), or section 3.
     fn next_section(&mut self, index: usize, event: EventId, parameters: &Parameters, to_nck: &ToNck) {
-        let (by, turn) = match self.groupings[index].phase {
-            Phase::ReferencingLeadingAxis => (Rule::LeadingAxisReferenced, 0),
-            _ => (Rule::NextSynchronousAxis, self.groupings[index].turn + 1),
+        let (by, turn) = if self.groupings[index].phase == Phase::ReferencingLeadingAxis {
+            (Rule::LeadingAxisReferenced, 0)
+        } else {
+            (Rule::NextSynchronousAxis, self.groupings[index].turn + 1)
         };
         let leader = self.groupings[index].coupling.leader();
         let Some(next) = self.groupings[index].coupling.followers().nth(usize::from(turn)) else {

@@ -112,7 +112,7 @@ fn check(
     }
     let members = || leaders.iter().chain(followers);
     if members().any(|&axis| data.axes[axis].spind_assign_to_machax != 0) {
-        faults.push(Fault { ..configuration_fault(13_000, 0) });
+        faults.push(configuration_fault(13_000, 0));
     }
 }
 

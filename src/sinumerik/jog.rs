@@ -42,6 +42,7 @@ impl State {
     /// Traversing keys of the unit's first axis.
     pub(super) fn jog(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let number = unit.leader();
+        self.watch_software_limits(unit, parameters, to_nck);
         let signals = &to_nck.axes[number];
         let direction = key_direction(signals);
         let axis_parameters = &parameters.axes[number];

@@ -257,25 +257,23 @@ impl Control {
     /// Takes what the PLC wrote and commands setpoints.
     pub fn decide(&mut self, cycle: u64, to_nck: &ToNck, cancel_key: bool) {
         self.state.log.cycle = cycle;
-        self.state.run_up(&Arc::clone(&self.parameters));
+        self.state.run_up(&self.parameters);
         self.state.select_mode(to_nck);
         self.state.watch_emergency_stop(to_nck);
         self.reset_and_cancel(to_nck, cancel_key);
-        let parameters = Arc::clone(&self.parameters);
-        let state = &mut *self.state;
-        state.form_units(&parameters);
-        state.select_measuring_systems(&parameters, to_nck);
-        state.enable(&parameters, to_nck);
-        state.reference_by_channel(&parameters, to_nck);
+        let (parameters, state) = (&*self.parameters, &mut *self.state);
+        state.form_units(parameters);
+        state.select_measuring_systems(parameters, to_nck);
+        state.enable(parameters, to_nck);
+        state.reference_by_channel(parameters, to_nck);
         for index in 0..state.units.len() {
             let unit = state.units[index];
-            state.take_feed(&unit, &parameters, to_nck);
+            state.take_feed(&unit, parameters, to_nck);
             match unit.grouping {
-                Some(index) => state.run_grouping(usize::from(index), &unit, &parameters, to_nck),
-                None => state.run_single(&unit, &parameters, to_nck),
+                Some(index) => state.run_grouping(usize::from(index), &unit, parameters, to_nck),
+                None => state.run_single(&unit, parameters, to_nck),
             }
-            state.set_setpoints(&unit, &parameters);
-            state.watch_software_limits(&unit, &parameters, to_nck);
+            state.set_setpoints(&unit, parameters);
         }
     }
 

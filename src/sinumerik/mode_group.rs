@@ -31,8 +31,6 @@ pub(super) struct ModeGroup {
     pub mode: Mode,
     /// Machine function REF is active within JOG.
     pub reference: bool,
-    /// DB11.DBX0.7 in the last cycle.
-    pub reset: bool,
     /// The event behind the mode.
     pub mode_cause: EventId,
     /// The event behind the machine function.

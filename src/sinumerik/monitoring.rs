@@ -14,11 +14,10 @@ use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 impl Control {
     /// Monitoring and alarms.
     pub(super) fn monitor(&mut self) {
-        let parameters = std::sync::Arc::clone(&self.parameters);
-        let state = &mut self.state;
+        let (parameters, state) = (&*self.parameters, &mut *self.state);
         for index in 0..state.groupings.len() {
-            state.monitor_grouping(index, &parameters);
-            state.raise_grouping_messages(index, &parameters);
+            state.monitor_grouping(index, parameters);
+            state.raise_grouping_messages(index, parameters);
         }
         for fault in &parameters.groupings.faults {
             let cause = state.definition_cause;

@@ -23,16 +23,12 @@ rules! {
     // Start-up and enabling.
     PowerOn "power on" "as after power on";
     RunUp "O-20" "run-up of control and drives";
-    NcNotReady "O-20" "alarm with the reaction NC not ready";
-    DriveReady "O-20" "drive ready after its run-up";
     PulsesEnabled "O-20" "pulses enabled";
     PulsesDisabled "O-20" "pulses disabled";
     ControllerOn "O-20" "controller enable";
     ControllerOff "SIG-01" "controller enable missing in the unit";
-    BrakedWithoutEnable "MD36620" "braked after the controller enable went";
     FollowUp "SIG-02" "follow-up mode without controller enable";
     FollowUpByAlarm "SYN-01" "alarm with the reaction follow-up";
-    FollowUpEnds "SIG-02" "follow-up ended";
     MeasuringSystem "REF-33" "measuring system selected";
     Parking "SYN-01" "both measuring systems off";
     // Emergency stop.
@@ -70,7 +66,6 @@ rules! {
     ReferencePointReached "REF-31" "at the reference point";
     Referenced "REF-03" "reference point reached";
     ApproachAborted "REF-12" "reference point approach aborted";
-    ReferenceLost "REF-01" "no reference";
     NewApproach "REF-32" "a new approach of this measuring system began";
     // Gantry.
     GroupingDefined "DEF-10" "MD37100 defines the grouping";
@@ -89,7 +84,6 @@ rules! {
     SynchronismRestored "SYN-06" "back in position control within the standstill tolerance";
     SynchronismLostFollowUp "SYN-05" "follow-up";
     SynchronismLostReference "SYN-01" "reference lost";
-    SynchronismLostApproach "SYN-01" "an axis is referenced anew";
     ReadyAgain "O-09" "all axes referenced, not synchronised";
     ReadyNoMore "E-13" "not ready for synchronisation any more";
     Opened "BRK-01" "grouping opened";
@@ -101,15 +95,9 @@ rules! {
     TripGone "MON-04" "within the trip limit";
     // Alarms and states that follow from values.
     EnableLostInMotion "21612" "enable reset during motion";
-    AlarmRaised "ALARM" "alarm raised";
-    AlarmCancelled "ALARM" "alarm cancelled";
-    AlarmsPending "ALARM" "alarms pending";
     PlcMissing "2000" "no sign of life from the PLC program";
     ExactStop "exact stop" "";
     Standstill "standstill" "";
-    ChannelState "DB21" "state of the channel";
-    Traverse "SIG-09" "movement commanded";
-    Definition "MD" "machine data";
 }
 
 impl Rule {

@@ -157,8 +157,9 @@ impl State {
             .map(|axis| (Rule::SynchronismLostFollowUp, axis_bit(axis, 61, 3, true), self.axes[axis].causes.enabling))
             .or_else(|| {
                 let axis = unreferenced?;
-                let cause = self.axes[axis].causes.reference[0];
-                Some((Rule::SynchronismLostReference, axis_bit(axis, 60, 4, false), cause))
+                let (causes, active) = (self.axes[axis].causes, self.axes[axis].measuring_system.unwrap_or(0));
+                let cause = causes.reference[usize::from(active)].max(causes.measuring_system);
+                Some((Rule::SynchronismLostReference, axis_bit(axis, 60, 4 + active, false), cause))
             });
         match (phase, lost) {
             (Phase::Synchronised, Some((rule, input, cause))) => {
@@ -266,7 +267,13 @@ impl State {
         let number = match grouping.phase {
             Phase::WaitingForStart if grouping.message => alarms::GANTRY_WAITING,
             Phase::Synchronising if !suppressed => alarms::GANTRY_SYNCHRONISING,
-            _ => return,
+            Phase::WaitingForStart
+            | Phase::Synchronising
+            | Phase::NotSynchronised
+            | Phase::ReferencingLeadingAxis
+            | Phase::ReferencingSynchronousAxis
+            | Phase::Synchronised
+            | Phase::Open => return,
         };
         let cause = grouping.cause;
         self.alarms.raise(number, Place::Axis(leader), shown, cause);

@@ -98,14 +98,11 @@ impl Table {
         Err(place.problem(format!("expected one of `{known}`, found the unknown key `{name}`"), cure))
     }
 
-    /// Merges another table over this one: tables merge, everything else is replaced, `false` removes a table.
+    /// Merges another table over this one: tables merge, everything else is replaced, a table by `false`, too.
     pub fn merge(&mut self, over: Self) {
         for (name, place, node) in over.entries {
             let existing = self.entries.iter().position(|(other, ..)| *other == name);
             match existing {
-                None if matches!(node.value, Value::Boolean(false)) => {
-                    self.entries.push((name, place, node));
-                }
                 None => self.entries.push((name, place, node)),
                 Some(index) => {
                     let (.., old) = &mut self.entries[index];
