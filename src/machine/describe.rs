@@ -41,5 +41,6 @@ fn shown(machine: &Machine, parameter: Parameter) -> String {
         Parameter::Channel(number) => names.channels[number].clone().unwrap_or_else(|| format!("CHAN{number}")),
         Parameter::Axis(number) => names.axes[number].clone().unwrap_or_else(|| format!("AX{number}")),
         Parameter::Number(number) => number.to_string(),
+        Parameter::Direction(direction) => if direction < 0 { "-" } else { "+" }.to_owned(),
     }
 }

@@ -9,7 +9,6 @@ alarms! {
     NOT_RAISED;
     2001 [NC_NOT_READY LOCAL CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "PLC has not started up";
     2900 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY STOP NO_DELAY] PowerOn "reboot is delayed";
-    3000 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP NO_DELAY] ModeGroupReset "emergency stop";
     4000 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 machine datum %2[%3] has a gap in the axis assignment";
     4001 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 axis %2 defined for more than one channel";
     4002 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 axis %2 not defined in the channel";
@@ -29,7 +28,6 @@ alarms! {
     4300 [DISPLAY] Reset "axis %2 machine datum %1: declaration not allowed";
     10203 [INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 NC start without reference point, action %2";
     10620 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %3 axis %2 reaches software limit switch %4";
-    10621 [DISPLAY] ByItself "channel %1 axis %2 rests on software limit switch %3 %4";
     10630 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %2 axis %3 reaches working area limit %4";
     10631 [DISPLAY] ByItself "channel %1 axis %2 rests on working area limit %3";
     10656 [MODE_GROUP_NOT_READY LOCAL CHANNEL_NOT_READY INTERFACE_SIGNALS DISPLAY] ModeGroupReset "channel %1 axis %2 gantry synchronized axis dynamically overloaded";
@@ -80,7 +78,6 @@ alarms! {
     21550 [START_DISABLED DISPLAY] Reset "channel %1 axis %2 motion off the hardware limit switch not possible, cause %3";
     21610 [MODE_GROUP_NOT_READY CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset "channel %1 axis %2 encoder %3 frequency exceeded";
     21613 [DISPLAY] ByItself "axis %1 encoder switchover";
-    21614 [START_DISABLED DISPLAY] Reset "channel %1 axis %2 hardware limit switch %3";
     21615 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 taken from motion into follow-up";
     21620 [START_DISABLED LOCAL FOLLOW_UP INTERFACE_SIGNALS DISPLAY] Reset "channel %1 axis %2 emergency braking ramp active";
     22060 [DISPLAY] ByItself "channel %1 axis %2 position control expected";

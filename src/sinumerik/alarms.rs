@@ -157,6 +157,13 @@ alarms! {
     PLC_SIGN_OF_LIFE 2000
         [NC_NOT_READY LOCAL CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
         "sign-of-life monitoring: the PLC program does not run";
+    /// Emergency stop; it ends with its acknowledgement together with mode group RESET.
+    EMERGENCY_STOP 3000
+        [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP NO_DELAY] ModeGroupReset
+        "emergency stop";
+    /// JOG: the axis rests on a software limit switch. %3: + or −.
+    ON_SOFTWARE_LIMIT 10621 [DISPLAY] ByItself
+        "channel %1 axis %2 rests on software limit switch %3";
     /// Wrong gantry machine data. Code 1: wrong grouping number or designation; 2: leading axis declared more than once.
     GANTRY_MACHINE_DATA 10650
         [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
@@ -195,6 +202,9 @@ alarms! {
     /// Enable reset during motion. Cause 1: servo enable; 2: pulse enable; 3: pulses enabled; 4: drive ready.
     ENABLE_RESET 21612 [FOLLOW_UP START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] CancelKey
         "channel %1 axis %2 enable reset during motion, cause %3";
+    /// Hardware limit switch. %3: + or −.
+    HARDWARE_LIMIT_SWITCH 21614 [START_DISABLED DISPLAY] Reset
+        "channel %1 axis %2 hardware limit switch %3";
     /// Linear and rotary axes in one grouping; the manuals give no number (O-18).
     GANTRY_MIXED_AXIS_TYPES 1_000_000
         [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn

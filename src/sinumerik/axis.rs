@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::enabling::Enabling;
+use super::limits::LimitSwitches;
 use super::parameters::AxisParameters;
 use super::referencing::Approach;
 use crate::motion::{EncoderSignal, Limits, Setpoint};
@@ -142,6 +143,8 @@ pub(super) struct Axis {
     pub feed_held: bool,
     /// Feed disable of its channel.
     pub feed_disabled: bool,
+    /// Hardware limit switches.
+    pub(super) limits: LimitSwitches,
     /// Why.
     pub causes: Causes,
 }
@@ -171,6 +174,7 @@ impl Default for Axis {
             feed_factor: 1.0,
             feed_held: false,
             feed_disabled: false,
+            limits: LimitSwitches::default(),
             causes: Causes::default(),
         }
     }

@@ -92,6 +92,7 @@ impl Control {
 impl State {
     fn nck_cause(&self, byte: u16, bit: u8) -> EventId {
         match (byte, bit) {
+            (106, 1) => self.emergency_stop.cause,
             (109, _) => self.alarm_event(Reaction::INTERFACE_SIGNALS, None),
             (108, 7) if self.run_up.is_nc_ready() && !self.is_nc_ready() => {
                 self.alarm_event(Reaction::NC_NOT_READY, None)

@@ -86,6 +86,9 @@ impl State {
 
     /// What stops every movement: RESET, or an alarm with the reaction NC stop or NC not ready.
     pub(super) fn stop_cause(&self) -> Option<EventId> {
+        if let Some(cause) = self.emergency_stop.active_cause() {
+            return Some(cause);
+        }
         if self.channel.reset {
             return Some(self.channel.reset_cause);
         }

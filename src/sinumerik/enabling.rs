@@ -190,7 +190,7 @@ impl State {
             enable: true,
             follow_up: false,
             healthy: true,
-            alarm: EventId::NONE,
+            alarm: self.emergency_stop.active_cause().unwrap_or(EventId::NONE),
             standing: true,
             moving: false,
             missing: Input::None,

@@ -194,6 +194,7 @@ impl State {
         let start_rises = start && !self.groupings[index].start_was;
         self.groupings[index].start_was = start;
         self.brake(unit, parameters);
+        self.watch_limit_switches(unit, to_nck);
         self.watch_key(leader, self.groupings[index].is_referencing(), to_nck);
         self.watch_synchronism(index, unit, parameters, to_nck);
         if !self.groupings[index].coupled {
@@ -252,7 +253,8 @@ impl State {
 
     /// REF active, no referencing of the channel running (REF-14), all axes in position control, nothing stops.
     fn may_synchronise(&self, unit: &Unit) -> bool {
-        self.mode_group.reference && !self.channel.is_referencing() && self.unit_can_move(unit)
+        let free = self.unit_can_move(unit) && self.on_limit_switch(unit).is_none();
+        self.mode_group.reference && !self.channel.is_referencing() && free
     }
 
     fn start_grouping_approach(&mut self, index: usize, direction: i8, event: EventId) {

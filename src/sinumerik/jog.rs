@@ -42,6 +42,7 @@ impl State {
     /// Traversing keys of the unit's first axis.
     pub(super) fn jog(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let number = unit.leader();
+        self.watch_software_limits(unit, parameters, to_nck);
         let signals = &to_nck.axes[number];
         let direction = key_direction(signals);
         let axis_parameters = &parameters.axes[number];
@@ -58,14 +59,25 @@ impl State {
             self.traverse(number, direction, 0, cause);
             return;
         }
+        if let Some(cause) = self.limited(unit, direction) {
+            // Towards a pressed switch nothing moves; away from it everything does.
+            self.brake_at_limit(unit, parameters);
+            self.traverse(number, direction, 0, cause);
+            return;
+        }
+        let axis = &mut self.axes[number];
         let held = axis.feed_held || velocity <= 0.0;
+        let acceleration = axis_parameters.jog_acceleration;
+        axis.motion = Motion::Brake { deceleration: acceleration };
         if direction != 0 && !held && axis.enabling.is_on() {
-            axis.motion = Motion::Run {
-                velocity: velocity * f64::from(direction),
-                acceleration: axis_parameters.jog_acceleration,
+            let run = Motion::Run { velocity: velocity * f64::from(direction), acceleration };
+            let Some(motion) = self.within_software_limit(number, run, direction, parameters, to_nck) else {
+                let cause = self.axes[number].causes.motion;
+                let event = self.log.note_plain(Place::Axis(number), Rule::SoftwareLimit, cause);
+                self.traverse(number, direction, 0, event);
+                return;
             };
-        } else {
-            axis.motion = Motion::Brake { deceleration: axis_parameters.jog_acceleration };
+            self.axes[number].motion = motion;
         }
         // Without controller enable the command stays pending and runs when the enable returns.
         let command = if held { 0 } else { direction };

@@ -20,10 +20,12 @@ mod alarms;
 mod axis;
 mod causes;
 mod channel;
+mod emergency_stop;
 mod enabling;
 mod gantry;
 mod gantry_definition;
 mod jog;
+mod limits;
 mod log;
 pub mod machine_data;
 mod mode_group;
@@ -58,6 +60,7 @@ use crate::variables::{EventId, Place};
 
 use axis::{Axis, Motion};
 use channel::Channel;
+use emergency_stop::EmergencyStop;
 use gantry::Grouping;
 use gantry_definition::GROUPINGS;
 use log::Log;
@@ -104,6 +107,7 @@ struct State {
     log: Log,
     run_up: RunUp,
     mode_group: ModeGroup,
+    emergency_stop: EmergencyStop,
     channel: Channel,
     axes: PerAxis<Axis>,
     groupings: ArrayVec<Grouping, GROUPINGS>,
@@ -255,6 +259,7 @@ impl Control {
         self.state.log.cycle = cycle;
         self.state.run_up(&self.parameters);
         self.state.select_mode(to_nck);
+        self.state.watch_emergency_stop(to_nck);
         self.reset_and_cancel(to_nck, cancel_key);
         let (parameters, state) = (&*self.parameters, &mut *self.state);
         state.form_units(parameters);
@@ -307,6 +312,7 @@ impl State {
             log: Log::default(),
             run_up: RunUp::default(),
             mode_group: ModeGroup::default(),
+            emergency_stop: EmergencyStop::default(),
             channel: Channel::default(),
             axes: PerAxis::default(),
             groupings: parameters.groupings.groupings.iter().map(Grouping::new).collect(),

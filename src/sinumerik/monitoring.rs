@@ -23,6 +23,9 @@ impl Control {
             let cause = state.definition_cause;
             state.alarms.raise(fault.alarm, fault.place, fault.parameters, cause);
         }
+        if let Some(cause) = state.emergency_stop.active_cause() {
+            state.alarms.raise(alarms::EMERGENCY_STOP, Place::Nck, [Parameter::None; 4], cause);
+        }
         if state.plc_missing {
             let cause = state.plc_cause;
             state.alarms.raise(alarms::PLC_SIGN_OF_LIFE, Place::Nck, [Parameter::None; 4], cause);

@@ -104,6 +104,12 @@ pub struct AxisParameters {
     pub standstill_tolerance: Position,
     /// MD36060; where that is 0, what does not move at all is below it.
     pub standstill_velocity: f64,
+    /// MD36600: a hardware limit switch sets the setpoint velocity to 0 without a ramp.
+    pub limit_without_ramp: bool,
+    /// MD30310: a modulo rotary axis has no software limits.
+    pub modulo: bool,
+    /// MD36100 and MD36120, MD36110 and MD36130.
+    pub software_limits: [[Position; 2]; 2],
     /// MD32000 / MD36610.
     pub emergency_deceleration: f64,
     /// MD36620 in cycles.
@@ -219,6 +225,12 @@ fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresence, cycle: T
         positioning_cycles: cycles(md.positioning_time),
         standstill_tolerance: Position::from_user(md.standstill_pos_tol * factor),
         standstill_velocity: velocity(md.standstill_velo_tol).max(f64::MIN_POSITIVE),
+        limit_without_ramp: md.brake_mode_choice == 1,
+        modulo: md.is_rot_ax && md.rot_is_modulo,
+        software_limits: [
+            [md.pos_limit_minus, md.pos_limit_minus2].map(Position::from_user),
+            [md.pos_limit_plus, md.pos_limit_plus2].map(Position::from_user),
+        ],
         emergency_deceleration: (maximum_velocity / md.ax_emergency_stop_time.max(cycle.seconds())).max(1.0),
         servo_disable_cycles: cycles(md.servo_disable_delay_time),
         reference: reference(md, maximum_velocity, &velocity),

@@ -43,6 +43,7 @@ impl State {
         signals.set_nc_cpu_ready(self.run_up.is_cpu_ready());
         signals.set_drives_in_cyclic_operation(self.run_up.are_drives_cyclic());
         signals.set_drives_ready(self.run_up.are_drives_ready());
+        signals.set_emergency_stop_active(self.emergency_stop.is_active());
         signals.set_nc_ready(self.is_nc_ready());
         signals.set_nc_alarm_active(self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, None).is_some());
     }

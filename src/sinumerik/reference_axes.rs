@@ -51,6 +51,7 @@ impl State {
     pub(super) fn run_single(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let number = unit.leader();
         self.brake(unit, parameters);
+        self.watch_limit_switches(unit, to_nck);
         self.watch_key(number, self.axes[number].approach.is_running(), to_nck);
         if self.axes[number].approach.is_running() {
             self.reference_single(unit, parameters, to_nck);
@@ -193,6 +194,12 @@ impl State {
         }
         if let Some(cause) = self.stop_cause() {
             return Some((None, cause));
+        }
+        // A hardware limit switch in the way ends the approach; its own alarm says so.
+        let direction = unit.members().map(|axis| self.axes[axis].traverse_command).find(|&command| command != 0);
+        if let Some(cause) = self.limited(unit, direction.unwrap_or(0)) {
+            self.brake_at_limit(unit, parameters);
+            return Some((None, self.log.note_plain(Place::Axis(number), Rule::ApproachAborted, cause)));
         }
         if !self.mode_group.reference {
             let cause = self.mode_group.function_cause;

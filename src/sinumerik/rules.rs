@@ -31,6 +31,12 @@ rules! {
     FollowUpByAlarm "SYN-01" "alarm with the reaction follow-up";
     MeasuringSystem "REF-33" "measuring system selected";
     Parking "SYN-01" "both measuring systems off";
+    // Emergency stop.
+    EmergencyStop "E-06" "emergency stop";
+    EmergencyStopAcknowledged "E-06" "emergency stop acknowledged";
+    // Limits.
+    HardwareLimitSwitch "MON-14" "hardware limit switch";
+    SoftwareLimit "MON-13" "on the software limit switch";
     // Modes.
     ModeSelected "O-19" "mode";
     MachineFunction "O-19" "machine function";
@@ -90,6 +96,7 @@ rules! {
     // Alarms and states that follow from values.
     EnableLostInMotion "21612" "enable reset during motion";
     PlcMissing "2000" "no sign of life from the PLC program";
+    AlarmCancelled "ALARM" "alarm cancelled";
     ExactStop "exact stop" "";
     Standstill "standstill" "";
 }

@@ -85,7 +85,7 @@ impl State {
 
     /// The decoupled motion of section 3: each axis with its own MD34040 (E-12).
     pub(super) fn synchronise(&mut self, index: usize, unit: &Unit, parameters: &Parameters) {
-        if !self.mode_group.reference || !self.unit_can_move(unit) {
+        if !self.mode_group.reference || !self.unit_can_move(unit) || self.on_limit_switch(unit).is_some() {
             let cause = self.stop_cause().unwrap_or(self.groupings[index].cause);
             self.step_grouping(index, Rule::SynchronisationAborted, [Input::None; 3], cause);
             self.groupings[index].from_referencing = false;

@@ -153,6 +153,7 @@ impl Trace {
             Parameter::Channel(channel) => Some(Err(place_name(Place::Channel(channel), names))),
             Parameter::Axis(axis) => Some(Err(place_name(Place::Axis(axis), names))),
             Parameter::Number(number) => Some(Ok(number)),
+            Parameter::Direction(direction) => Some(Err(if direction < 0 { "-" } else { "+" }.to_owned())),
         };
         AlarmLine {
             name: describe.alarm_name(alarm.number),

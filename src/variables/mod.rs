@@ -56,6 +56,8 @@ pub enum Parameter {
     Axis(AxisNumber),
     /// A number: a reason, a code, a grouping.
     Number(i64),
+    /// A direction, shown as `+` or `-`.
+    Direction(i8),
 }
 
 /// Number of an alarm in the manual's list; from [`AlarmNumber::OWN`] on, one that has only a name of our own (O-18).

@@ -152,6 +152,7 @@ fn parameter(parameter: Parameter) -> f64 {
         Parameter::Channel(channel) => f64::from(channel.number()),
         Parameter::Axis(axis) => f64::from(axis.number()),
         Parameter::Number(number) => number as f64,
+        Parameter::Direction(direction) => f64::from(direction),
     }
 }
 
