@@ -53,9 +53,8 @@ enum Command {
         /// Scenario files.
         #[arg(required = true, value_name = "SCENARIO")]
         scenarios: Vec<PathBuf>,
-        /// Writes the trace as JSON lines; one scenario only.
-        #[arg(long, value_name = "F.jsonl")]
-        trace: Option<PathBuf>,
+        #[command(flatten)]
+        files: run::Files,
     },
     /// Runs every scenario below the paths and compares each trace with the golden one beside it.
     Test {
@@ -117,7 +116,7 @@ pub fn main(programs: Programs) -> ExitCode {
     let mut output = Output::default();
     let code = match arguments.command {
         None => example::run(&programs, &mut output),
-        Some(Command::Run { scenarios, trace }) => run::run(&scenarios, trace.as_deref(), &programs, &mut output),
+        Some(Command::Run { scenarios, files }) => run::run(&scenarios, &files, &programs, &mut output),
         Some(Command::Test { paths, accept, junit, jobs }) => {
             let options = test::Options { accept, junit, jobs };
             test::test(&paths, &options, &programs, &mut output)

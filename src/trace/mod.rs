@@ -5,13 +5,17 @@
 //! the same bytes on every machine: nothing in it depends on a clock or on the order of a hash.
 
 mod because;
+mod causes;
 mod json;
 mod lines;
 mod places;
 mod record;
+mod svg;
 mod text;
 mod value;
+mod vcd;
 mod watch;
+mod waves;
 
 pub use because::place_name;
 pub use lines::{AlarmLine, Line, LineKind, SignalLine};
@@ -38,6 +42,8 @@ pub struct Trace {
     watched: Vec<WatchedValue>,
     values: Vec<ValueRow>,
     lost: u64,
+    /// The last cycle that was noted.
+    last_cycle: u64,
 }
 
 /// A value that is noted in every cycle in which it changes.
@@ -71,6 +77,7 @@ impl Trace {
             watched: Vec::new(),
             values: Vec::new(),
             lost: 0,
+            last_cycle: cycle,
         }
     }
 
@@ -90,6 +97,7 @@ impl Trace {
 
     /// Notes the watched values after a cycle.
     pub fn note_values(&mut self, cycle: u64, variables: &Variables) {
+        self.last_cycle = self.last_cycle.max(cycle);
         for (index, watched) in self.watched.iter_mut().enumerate() {
             let new = millionths(watched.value.of(watched.axis, variables));
             if watched.last != Some(new) {
@@ -113,11 +121,25 @@ impl Trace {
     /// The event of this number that was there at the end of a cycle; numbers may begin anew at a power on.
     #[must_use]
     pub fn event(&self, id: EventId, cycle: u64) -> Option<&Event> {
+        self.events.get(self.event_index(id, cycle)?)
+    }
+
+    fn event_index(&self, id: EventId, cycle: u64) -> Option<usize> {
         let so_far = self.events.partition_point(|event| event.cycle <= cycle);
         if !id.is_some() {
             return None;
         }
-        self.events[..so_far].iter().rev().find(|event| event.id == id)
+        self.events[..so_far].iter().rposition(|event| event.id == id)
+    }
+
+    /// The number of an event in this trace, in which numbers never begin anew: from one; zero for none.
+    fn event_number(&self, id: EventId, cycle: u64) -> u32 {
+        self.event_index(id, cycle).map_or(0, |index| u32::try_from(index + 1).unwrap_or(0))
+    }
+
+    /// The event of this number in this trace.
+    fn event_numbered(&self, number: u32) -> Option<&Event> {
+        self.events.get((number as usize).checked_sub(1)?)
     }
 
     /// How many rows the recorder lost because nobody drained it.
@@ -140,7 +162,30 @@ impl Trace {
     /// The trace for programs: JSON lines in order of time.
     #[must_use]
     pub fn json_lines(&self, describe: &dyn Describe, watch: &Watch) -> String {
-        self.lines(describe, watch).iter().map(json::line).collect()
+        let lines = self.lines(describe, watch);
+        json::lines(&lines, &self.causes_of(&lines, describe))
+    }
+
+    /// The trace as a waveform (Value Change Dump, IEEE 1364) for viewers such as GTKWave.
+    ///
+    /// Each owner of signals (`nck`, `mode_group_1`, a channel, an axis) is a scope; what has no owner is in `memory`. Bits are
+    /// wires, numbers vectors, REALs and watched values reals. An alarm is a wire, `alarm_10654` in the scope of its
+    /// axis or channel; `note` in scope `scenario` is a string. The time unit is the largest decimal one that the cycle is a whole
+    /// number of; at time 0 stands what the memory held before the first cycle. What is in it follows `watch`: every signal that
+    /// changed and that it shows, signals that it names one by one even if they did not, and its values.
+    #[must_use]
+    pub fn vcd(&self, describe: &dyn Describe, watch: &Watch) -> String {
+        vcd::text(&self.waves(describe, watch))
+    }
+
+    /// The trace as a timing diagram (SVG 1.1 with a style for light and one for dark), showing what `watch` shows.
+    ///
+    /// Bits are waves and values curves with their extremes; alarms are bars with their number; notes are numbered flags with a
+    /// legend below. Stretches in which nothing that is shown changes are shortened at a visible break, which says how long
+    /// they are. Whoever points at an edge reads its time, its writer and its cause.
+    #[must_use]
+    pub fn svg(&self, describe: &dyn Describe, watch: &Watch, head: &Head) -> String {
+        svg::document(&self.waves(describe, watch), head)
     }
 }
 

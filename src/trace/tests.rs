@@ -118,8 +118,9 @@ fn the_json_lines_have_the_promised_keys_in_the_promised_order() {
 {"t":0.002,"note":"REF"}
 {"t":0.002,"signal":"Q4.1","value":1,"by":"plc"}
 {"t":0.002,"signal":"DB31.DBX4.7","symbol":"X.traversing_key_plus","value":1,"by":"outside"}
-{"t":0.002,"signal":"DB31.DBX101.4","symbol":"X.gantry_synchronization_ready_to_start","value":1,"by":"nck","because":"REF-11: MD37110[XF] = 0"}
-{"t":0.002,"alarm":10654,"state":"raised","where":"X","parameters":["CHAN1",1],"text":"text of 10654","because":"REF-11: MD37110[XF] = 0"}
+{"t":0.002,"event":1,"where":"X","rule":"REF-11","because":"REF-11: MD37110[XF] = 0","inputs":[{"machine_data":"37110[XF]","value":0}]}
+{"t":0.002,"signal":"DB31.DBX101.4","symbol":"X.gantry_synchronization_ready_to_start","value":1,"by":"nck","because":"REF-11: MD37110[XF] = 0","event":1}
+{"t":0.002,"alarm":10654,"state":"raised","where":"X","parameters":["CHAN1",1],"text":"text of 10654","because":"REF-11: MD37110[XF] = 0","event":1}
 {"t":0.004,"note":"the PLC program overwrote what was set: X.traversing_key_plus (DB31.DBX4.7)"}
 {"t":0.004,"signal":"DB31.DBB0","symbol":"X.feed_override","value":13,"by":"plc"}
 {"t":0.004,"alarm":"gantry-stage-1","state":"cleared","where":"X","parameters":["CHAN1",1],"text":"text of 1000000"}
