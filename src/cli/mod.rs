@@ -16,6 +16,7 @@ mod output;
 mod run;
 mod signals;
 mod test;
+mod why;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -85,6 +86,17 @@ enum Command {
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
     },
+    /// Tells why a signal has its value: the chain of causes behind an edge, back to what was written from outside the control.
+    ///
+    /// Each line has the time; then a change with who made it, or the event behind it with its rule and what it tested. The signals
+    /// that an event tested are followed to their last edge before it.
+    Why {
+        /// A trace (JSON lines, from `run --trace`), or a scenario (*.toml), which is then run.
+        trace: PathBuf,
+        /// A symbol, an address or `alarm(NUMBER)`, and a time in seconds: the last edge then or before is meant.
+        #[arg(value_name = "ADDRESS@TIME")]
+        edge: String,
+    },
     /// Works with machine data.
     MachineData {
         #[command(subcommand)]
@@ -124,6 +136,7 @@ pub fn main(programs: Programs) -> ExitCode {
         Some(Command::Signals { filter, profile, format }) => {
             signals::signals(filter.as_deref(), &profile, format, &mut output)
         }
+        Some(Command::Why { trace, edge }) => why::why(&trace, &edge, &programs, &mut output),
         Some(Command::MachineData { command: MachineData::Check { machine } }) => {
             machine_data::check(&machine, &mut output)
         }

@@ -16,6 +16,7 @@ mod value;
 mod vcd;
 mod watch;
 mod waves;
+mod why;
 
 pub use because::place_name;
 pub use lines::{AlarmLine, Line, LineKind, SignalLine};
@@ -24,6 +25,7 @@ pub use record::{By, Change, Recorder, Row};
 pub use text::{Head, difference, difference_in_sequence};
 pub use value::{AxisValue, six_decimals};
 pub use watch::Watch;
+pub use why::Story;
 
 use crate::image::Memory;
 use crate::units::{AxisNumber, Time};

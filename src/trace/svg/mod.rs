@@ -141,8 +141,8 @@ fn title(drawing: &mut Drawing, head: &Head) {
         drawing.y += 190;
         drawing.text("title", (MARGIN, drawing.y), &line);
     }
-    let profile = head.profile.as_ref().map(|profile| format!("   profile {profile}")).unwrap_or_default();
-    let machine = format!("machine {}{profile}   cycle {} ms", head.machine, head.cycle_time.seconds() * 1e3);
+    let profile = head.profile.as_ref().map(|profile| format!(" \u{b7} profile {profile}")).unwrap_or_default();
+    let machine = format!("machine {}{profile} \u{b7} cycle {} ms", head.machine, head.cycle_time.seconds() * 1e3);
     drawing.y += 190;
     drawing.text("small", (MARGIN, drawing.y), &machine);
     drawing.y += 160;

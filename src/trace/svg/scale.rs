@@ -103,7 +103,7 @@ impl Scale {
         self.right
     }
 
-    /// The ticks: where, and the time; each stretch between two breaks has one at least.
+    /// The ticks: where, and the time.
     fn ticks(&self) -> Vec<(Tenths, String)> {
         let even = self.stretches.iter().filter(|stretch| !stretch.is_break);
         let Some(widest) = even.clone().max_by_key(|stretch| stretch.right - stretch.left) else {
@@ -113,27 +113,38 @@ impl Scale {
         let span = (nanos(widest.to) - nanos(widest.from)).max(1);
         let least = span * i128::from(TICKS) / i128::from((widest.right - widest.left).max(1));
         let step = round_step(least).max(i128::from(self.cycle_time.nanos()));
+        let exactly = |cycle: u64| self.cycle_time.times(cycle).to_string();
         let mut ticks: Vec<(Tenths, String)> = Vec::new();
+        // The ends of every break are told exactly, round times only where they have room.
+        for stretch in self.stretches.iter().filter(|stretch| stretch.is_break) {
+            for (x, cycle) in [(stretch.left, stretch.from), (stretch.right, stretch.to)] {
+                ticks.push((x, exactly(cycle)));
+            }
+        }
+        ticks.dedup();
+        ticks.retain({
+            let mut before = None;
+            move |(x, text)| {
+                let fits = before.is_none_or(|before| x - before >= width_of(text, SMALL_LETTER) + 40);
+                before = if fits { Some(*x) } else { before };
+                fits
+            }
+        });
         for stretch in even {
             let (from, to) = (nanos(stretch.from), nanos(stretch.to));
             let width = i128::from(stretch.right - stretch.left);
             let place = |at: i128| stretch.left + i64::try_from(width * (at - from) / (to - from).max(1)).unwrap_or(0);
             let mut at = (from + step - 1) / step * step;
-            let mut own = Vec::new();
             while at <= to {
-                own.push((place(at), time_text(at, step)));
-                at += step;
-            }
-            if own.is_empty() {
-                own.push((stretch.left, self.cycle_time.times(stretch.from).to_string()));
-            }
-            for (x, text) in own {
-                let wide = width_of(&text, SMALL_LETTER) + 80;
-                if ticks.last().is_none_or(|(before, _)| x - before >= wide) {
+                let (x, text) = (place(at), time_text(at, step));
+                let wide = width_of(&text, SMALL_LETTER) + 160;
+                if ticks.iter().all(|(other, _)| (x - other).abs() >= wide) {
                     ticks.push((x, text));
                 }
+                at += step;
             }
         }
+        ticks.sort();
         ticks
     }
 
@@ -172,8 +183,7 @@ impl Scale {
             if stretch.is_break {
                 let length = self.cycle_time.times(stretch.to - stretch.from);
                 let middle = i64::midpoint(stretch.left, stretch.right);
-                let text = format!("{} s", shortened(&length.to_string()));
-                drawing.text("small middle", (middle + 15, y + 300), &text);
+                drawing.text("small middle", (middle + 15, y + 300), shortened(&length.to_string()));
                 drawing.text("small middle", (middle + 15, y + 40), "//");
             } else {
                 drawing.line("axis", (stretch.left, y), (stretch.right, y));
@@ -183,9 +193,9 @@ impl Scale {
             drawing.line("axis", (x, y), (x, y + 50));
             drawing.text("small middle", (x, y + 160), &text);
         }
-        drawing.text("small right", (drawing.left - 140, y + 160), "time in s");
+        drawing.text("small right", (drawing.left - 280, y + 160), "time in s");
         if self.stretches.iter().any(|stretch| stretch.is_break) {
-            drawing.text("small right", (drawing.left - 140, y + 300), "left out");
+            drawing.text("small right", (drawing.left - 280, y + 300), "left out, s");
             drawing.y += 140;
         }
         drawing.y += 260;
