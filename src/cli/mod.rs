@@ -10,6 +10,7 @@
 //! Exit codes: 0 all held; 1 an expectation failed, a limit was reached, a trace differs, a golden file is missing,
 //! machine data have findings; 2 unusable input.
 
+mod diff;
 pub mod example;
 mod machine_data;
 mod output;
@@ -86,6 +87,16 @@ enum Command {
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
     },
+    /// Tells the first difference of two traces in words; ends with 0 where they are the same, with 1 where they differ.
+    ///
+    /// It shows the signal, its time, what was expected and found, and the last changes before it. Causes may differ: that is told, and
+    /// the traces are still the same.
+    Diff {
+        /// The trace that was expected: JSON lines (from `run --trace`) or a golden file (*.snap).
+        expected: PathBuf,
+        /// The trace that was found, in the same form.
+        found: PathBuf,
+    },
     /// Tells why a signal has its value: the chain of causes behind an edge, back to what was written from outside the control.
     ///
     /// Each line has the time; then a change with who made it, or the event behind it with its rule and what it tested. The signals
@@ -136,6 +147,7 @@ pub fn main(programs: Programs) -> ExitCode {
         Some(Command::Signals { filter, profile, format }) => {
             signals::signals(filter.as_deref(), &profile, format, &mut output)
         }
+        Some(Command::Diff { expected, found }) => diff::diff(&expected, &found, &mut output),
         Some(Command::Why { trace, edge }) => why::why(&trace, &edge, &programs, &mut output),
         Some(Command::MachineData { command: MachineData::Check { machine } }) => {
             machine_data::check(&machine, &mut output)

@@ -25,17 +25,20 @@ pub(super) struct Files {
     svg: Option<PathBuf>,
 }
 
+/// What makes the text of a file from what has run.
+type Form = fn(&Finished) -> String;
+
 /// A file that waits for its text.
 struct Waiting {
     path: PathBuf,
     file: File,
-    text: fn(&Finished) -> String,
+    text: Form,
 }
 
 impl Files {
     /// Opens them all, before anything runs.
     fn open(&self, runs: usize) -> Result<Vec<Waiting>, Problem> {
-        let wanted: [(&str, &Option<PathBuf>, fn(&Finished) -> String); 3] = [
+        let wanted: [(&str, &Option<PathBuf>, Form); 3] = [
             ("--trace", &self.trace, Finished::json_lines),
             ("--vcd", &self.vcd, Finished::vcd),
             ("--svg", &self.svg, Finished::svg),

@@ -46,7 +46,8 @@ fn run(scenario: &Path, programs: &Programs) -> Result<Story, Problem> {
 /// `X.controller_enable@7.466`, the time in seconds or with a unit.
 fn asked(edge: &str) -> Result<(&str, Time), Problem> {
     let parsed = edge.rsplit_once('@').and_then(|(what, time)| {
-        let seconds = || time.parse::<f64>().ok().filter(|seconds| (0.0..9e9).contains(seconds)).map(Time::from_seconds);
+        let seconds =
+            || time.parse::<f64>().ok().filter(|seconds| (0.0..9e9).contains(seconds)).map(Time::from_seconds);
         Some((what, Time::parse(time).or_else(seconds)?))
     });
     parsed.filter(|(what, _)| !what.is_empty()).ok_or_else(|| {

@@ -6,6 +6,7 @@
 
 mod because;
 mod causes;
+mod compare;
 mod json;
 mod lines;
 mod places;
@@ -19,6 +20,7 @@ mod waves;
 mod why;
 
 pub use because::place_name;
+pub use compare::{Comparison, Reading};
 pub use lines::{AlarmLine, Line, LineKind, SignalLine};
 pub use places::Shown;
 pub use record::{By, Change, Recorder, Row};

@@ -84,7 +84,7 @@ fn timescale(cycle_nanos: u64) -> (u64, u32, TimescaleUnit) {
     let units = [(1_000_000_000, TimescaleUnit::S), (1_000_000, TimescaleUnit::MS), (1_000, TimescaleUnit::US)];
     for (nanos, unit) in units {
         for number in [100, 10, 1] {
-            if cycle_nanos > 0 && cycle_nanos % (nanos * u64::from(number)) == 0 {
+            if cycle_nanos > 0 && cycle_nanos.is_multiple_of(nanos * u64::from(number)) {
                 return (nanos * u64::from(number), number, unit);
             }
         }

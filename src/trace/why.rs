@@ -288,6 +288,6 @@ fn plain(value: Option<&Value>) -> String {
 }
 
 /// Whether an address is that of one bit: `DB31.DBX4.7`, `M0.3`.
-fn is_bit(address: &str) -> bool {
+pub(super) fn is_bit(address: &str) -> bool {
     address.rsplit_once('.').is_some_and(|(_, bit)| bit.len() == 1 && bit.as_bytes()[0].is_ascii_digit())
 }
