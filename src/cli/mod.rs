@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Exit codes: 0 all held; 1 an expectation failed, a limit was reached, a trace differs, a golden file is missing,
-//! machine data have findings; 2 unusable input.
+//! machine data have findings, two traces differ (`diff`); 2 unusable input.
 
 mod diff;
 pub mod example;

@@ -316,9 +316,10 @@ fn json(text: &str) -> Result<Reading, (usize, Problem)> {
         if let Some(entry) = entry.as_mut().filter(|entry| !entry.new.is_empty()) {
             // JSON lines say what a signal becomes; what it was stands in its line before.
             let old = last.insert(entry.what.clone(), entry.new.clone());
-            let old =
-                old.or_else(|| is_bit(&entry.address).then(|| if entry.new == "1" { "0" } else { "1" }.to_owned()));
-            entry.change = format!("{} -> {}", old.unwrap_or_else(|| "?".to_owned()), entry.new);
+            let address = if entry.address.is_empty() { &entry.what } else { &entry.address };
+            let opposite = || is_bit(address).then(|| if entry.new == "1" { "0" } else { "1" }.to_owned());
+            let new = &entry.new;
+            entry.change = old.or_else(opposite).map_or_else(|| new.clone(), |old| format!("{old} -> {new}"));
         }
         entries.extend(entry);
     }

@@ -1,8 +1,34 @@
-//! The record: what changed when, by whom and why; as text for people, as JSON lines for programs.
+//! The record: what changed when, by whom and why; as text, waveform and timing diagram for people, as JSON lines for programs.
 //!
 //! The machine writes plain rows ([`Recorder`]); a [`Trace`] keeps them together with notes, watched values and
 //! the events that caused them. Only when somebody prints it do numbers become names. The same trace prints
 //! the same bytes on every machine: nothing in it depends on a clock or on the order of a hash.
+//!
+//! # JSON lines
+//!
+//! One object a line, in order of time `t` (seconds); within one time notes, writes by address, events, bits of the NCK by
+//! address, alarms by number, values. Readers skip keys and kinds of lines that they do not know.
+//!
+//! | line | keys behind `t` |
+//! |---|---|
+//! | a signal changed | `signal` (address), `symbol` where there is one, `value`, `by`, `because` (words), `event` |
+//! | an alarm came or went | `alarm`, `state`, `where`, `parameters`, `text`, `because`, `event` |
+//! | a note | `note` |
+//! | a watched value changed | `symbol`, `value` |
+//! | an event of the control | `event`, `where`, `rule`, `because`, `inputs`, `parent` |
+//!
+//! `event` is a number that is given once in a trace; a change names the event behind it, an event names as `parent` the one that
+//! led to it. Only events behind changes that the trace shows are in it. `inputs` is what the event tested: objects
+//! with `signal`, `symbol` and `value`, with `machine_data` (`37110[XF]`) and `value`, with `symbol` and `value` for a length or a
+//! velocity, or with `alarm`. So the chain of causes can be followed without the machine ([`Story`], `opennck why`), as far as
+//! the trace watches the signals in it. [`Reading`] compares two traces (`opennck diff`).
+//!
+//! ```text
+//! {"t":7.596,"signal":"DB31.DBX29.4","symbol":"X.start_gantry_synchronization","value":1,"by":"outside"}
+//! {"t":7.596,"event":57,"where":"X","rule":"REF-14","because":"REF-14: start, X.start_gantry_synchronization = 1",
+//!  "inputs":[{"signal":"DB31.DBX29.4","symbol":"X.start_gantry_synchronization","value":1}],"parent":55}
+//! {"t":7.596,"signal":"DB31.DBX64.6","symbol":"X.traverse_command_minus","value":1,"by":"nck","because":"REF-14: ...","event":57}
+//! ```
 
 mod because;
 mod causes;

@@ -147,12 +147,16 @@ fn alarm(drawing: &mut Drawing, waves: &Waves, wave: &Wave, scale: &Scale, middl
         // Even an alarm of one cycle must be seen.
         let width = (to - from).max(30);
         drawing.rect("alarm", (from, middle - WAVE / 2 - 10), (width, WAVE + 20), "");
-        if width >= wide + 60 {
-            drawing.text("alarm-text middle", (from + width / 2, middle + 36), number);
-        } else if from + width + wide + 60 < scale.right() {
-            drawing.text("alarm-name", (from + width + 40, middle + 38), number);
+        let (left, right) = scale.clear(from, from + width);
+        let beside = from + width + 40;
+        let is_free = beside + wide < scale.right() && scale.clear(beside, beside + wide) == (beside, beside + wide);
+        if right - left >= wide + 20 {
+            drawing.text("alarm-text middle", (i64::midpoint(left, right), middle + 36), number);
+        } else if is_free {
+            drawing.text("alarm-name", (beside, middle + 38), number);
         } else {
-            drawing.text("alarm-name right", (from - 40, middle + 38), number);
+            let end = scale.clear(from - 2 * wide, from - 40).1;
+            drawing.text("alarm-name right", (end, middle + 38), number);
         }
     }
     touches(drawing, waves, wave, scale, middle);
@@ -184,8 +188,9 @@ fn number(drawing: &mut Drawing, waves: &Waves, wave: &Wave, scale: &Scale, midd
         );
         let _ = writeln!(drawing.text, r#"<path class="wave {colour} {colour}-fill" d="{path}"/>"#);
         let text = value.to_string();
-        if to - from > width_of(&text, LETTER) + 60 {
-            drawing.text("small middle", (i64::midpoint(from, to), middle + 36), &text);
+        let (left, right) = scale.clear(from, to);
+        if right - left > width_of(&text, LETTER) + 60 {
+            drawing.text("small middle", (i64::midpoint(left, right), middle + 36), &text);
         }
     }
     touches(drawing, waves, wave, scale, middle);

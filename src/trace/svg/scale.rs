@@ -7,11 +7,17 @@ use super::{Drawing, SMALL_LETTER, Tenths, px, width_of};
 use crate::units::Time;
 
 /// Width of a stretch that has been shortened.
-const BREAK: Tenths = 440;
+const BREAK: Tenths = 520;
 /// How many stretches are shortened at most.
 const BREAKS: usize = 8;
 /// A stretch is shortened only if it would be this wide at least.
 const WORTH_IT: Tenths = 3 * BREAK;
+/// Once half of the stretches between changes are this wide, nothing more is shortened.
+const LEGIBLE: Tenths = 300;
+/// A stretch of fewer cycles is never shortened.
+const LONG: u64 = 25;
+/// Half the width of what is torn out at a break.
+const TEAR: Tenths = 75;
 /// Least distance of two ticks.
 const TICKS: Tenths = 640;
 
@@ -56,7 +62,12 @@ impl Scale {
             let even = room - BREAK * i64::try_from(broken.len()).unwrap_or(0);
             // As wide as it would be if the ones before it were shortened and it were not.
             let would_be = i128::from(length) * i128::from(even) / i128::from(rest.max(1));
-            if would_be < i128::from(WORTH_IT) || rest == length {
+            // As they come by length, the middle one of the rest is the median.
+            let middle = quiet.get(usize::midpoint(broken.len(), quiet.len()));
+            let median =
+                middle.map_or(0, |(from, to)| i128::from(to - from) * i128::from(even) / i128::from(rest.max(1)));
+            let is_legible = median >= i128::from(LEGIBLE);
+            if would_be < i128::from(WORTH_IT) || rest == length || to - from < LONG || is_legible {
                 break;
             }
             rest -= length;
@@ -101,6 +112,23 @@ impl Scale {
 
     pub(super) const fn right(&self) -> Tenths {
         self.right
+    }
+
+    /// The widest part of a span that no break tears.
+    pub(super) fn clear(&self, from: Tenths, to: Tenths) -> (Tenths, Tenths) {
+        let (mut best, mut start) = ((from, from), from);
+        let tears = self.stretches.iter().filter(|stretch| stretch.is_break).map(|stretch| {
+            let middle = i64::midpoint(stretch.left, stretch.right);
+            (middle - TEAR, middle + TEAR)
+        });
+        for (left, right) in tears.chain([(to, to)]).filter(|(left, right)| *right > from && *left <= to) {
+            let end = left.min(to);
+            if end - start > best.1 - best.0 {
+                best = (start, end);
+            }
+            start = right;
+        }
+        best
     }
 
     /// The ticks: where, and the time.
