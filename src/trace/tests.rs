@@ -326,5 +326,6 @@ fn other_causes_are_no_difference_and_a_missing_row_is_one() {
     };
     assert!(words.contains("Q4.1 0 -> 1 is new"), "{words}");
     let table = recorded(&control).text(&control, &Watch::default(), true);
-    assert_eq!(reading(&table).compare(&reading(&table.replace("   0.00", " 0.00"))), Comparison::Same);
+    let wider: String = table.lines().map(|row| format!("  {row}\n")).collect();
+    assert_eq!(reading(&table).compare(&reading(&wider)), Comparison::Same, "the width of a column tells nothing");
 }
