@@ -155,7 +155,8 @@ fn alarm(drawing: &mut Drawing, waves: &Waves, wave: &Wave, scale: &Scale, middl
         } else if is_free {
             drawing.text("alarm-name", (beside, middle + 38), number);
         } else {
-            let end = scale.clear(from - 2 * wide, from - 40).1;
+            // Far enough to the left for a part that holds the number even if a break is near.
+            let end = scale.clear(from - 4 * wide, from - 40).1;
             drawing.text("alarm-name right", (end, middle + 38), number);
         }
     }
