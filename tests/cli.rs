@@ -56,6 +56,94 @@ fn run_prints_the_sequence_and_the_result_and_writes_the_trace() {
 }
 
 #[test]
+fn run_writes_the_trace_as_waveform_and_as_diagram() {
+    let directory = directory("pictures");
+    fs::write(directory.join("good.toml"), GOOD.replace("A flag", "A <flag> & more")).unwrap();
+    let output = opennck(&["run", "good.toml", "--vcd", "f.vcd", "--svg", "f.svg"], &directory);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let vcd = fs::read_to_string(directory.join("f.vcd")).unwrap();
+    assert!(vcd.contains("$scope module memory $end") && vcd.contains(" M0_0 $end") && vcd.ends_with("#10\n"), "{vcd}");
+    let svg = fs::read_to_string(directory.join("f.svg")).unwrap();
+    assert!(svg.contains("A &lt;flag&gt; &amp; more") && svg.contains(">M0.0</text>"), "{svg}");
+    for option in ["--vcd", "--svg"] {
+        let output = opennck(&["run", "good.toml", "good.toml", option, "f"], &directory);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(err(&output).contains(&format!("expected one scenario under one profile with {option}")));
+        let output = opennck(&["run", "good.toml", option, "nowhere/f"], &directory);
+        assert_eq!((output.status.code(), out(&output).as_str()), (Some(2), ""), "nothing runs");
+    }
+}
+
+#[test]
+fn diff_tells_the_first_difference_in_words() {
+    let directory = directory("diff");
+    let write = |name: &str, text: &str| fs::write(directory.join(name), text).unwrap();
+    let key =
+        "{\"t\":0.002,\"signal\":\"DB31.DBX4.7\",\"symbol\":\"X.traversing_key_plus\",\"value\":1,\"by\":\"plc\"}\n";
+    write("a.jsonl", &format!("{key}{}", key.replace("2,", "8,").replace(":1", ":0")));
+    write("b.jsonl", &format!("{key}{}", key.replace("0.002,", "0.012,").replace(":1", ":0")));
+    write("c.jsonl", "{\"t\":0.002}\nno JSON\n");
+    let output = opennck(&["diff", "a.jsonl", "a.jsonl"], &directory);
+    assert_eq!((output.status.code(), out(&output).as_str()), (Some(0), "the traces are the same\n"));
+    let output = opennck(&["diff", "a.jsonl", "b.jsonl"], &directory);
+    assert_eq!(output.status.code(), Some(1));
+    let words = "X.traversing_key_plus (DB31.DBX4.7) 1 -> 0 comes 0.004 s later (0.012 s instead of 0.008 s)";
+    assert!(out(&output).contains(words), "{}", out(&output));
+    let output = opennck(&["diff", "a.jsonl", "c.jsonl"], &directory);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("c.jsonl:2: expected one line of a trace"), "{}", err(&output));
+    write(
+        "t.snap",
+        "---\nsource: x\n---\nscenario  A\n\n    time  what  address  change  by\n   0.002  M0.0           0 -> 1  plc\n",
+    );
+    for (one, other) in [("a.jsonl", "t.snap"), ("a.jsonl", "missing")] {
+        assert_eq!(opennck(&["diff", one, other], &directory).status.code(), Some(2), "{one} {other}");
+    }
+    write("u.snap", &fs::read_to_string(directory.join("t.snap")).unwrap().replace("plc", "outside"));
+    let output = opennck(&["diff", "t.snap", "u.snap"], &directory);
+    assert_eq!(output.status.code(), Some(1));
+    let words = "first difference in line 7, at 0.002 s\n  M0.0 0 -> 1 was expected by plc, it is by outside\n";
+    assert!(out(&output).starts_with(words), "{}", out(&output));
+}
+
+#[test]
+fn why_follows_an_edge_back_to_what_was_written() {
+    let directory = directory("why");
+    let scenario = include_str!("../golden/worked_example/gantry_references_and_synchronises.toml");
+    fs::write(directory.join("s.toml"), scenario.replace("../../machine_data/", "")).unwrap();
+    assert_eq!(opennck(&["run", "s.toml", "--trace", "t.jsonl"], &directory).status.code(), Some(0));
+    for trace in ["s.toml", "t.jsonl"] {
+        for edge in ["X.gantry_grouping_is_synchronized@8", "DB31.DBX101.5@7972ms"] {
+            let output = opennck(&["why", trace, edge], &directory);
+            assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+            for words in [
+                "7.972  X.gantry_grouping_is_synchronized (DB31.DBX101.5)  0 -> 1  by nck\n",
+                "7.972    because REF-10: ",
+                "7.596    after REF-14: start, X.start_gantry_synchronization = 1  [X]\n",
+                "7.596      X.start_gantry_synchronization (DB31.DBX29.4)  0 -> 1  by outside\n",
+                "0.040      X.traversing_key_plus (DB31.DBX4.7)  0 -> 1  by outside\n",
+            ] {
+                assert!(out(&output).contains(words), "{words} in {}", out(&output));
+            }
+        }
+    }
+    let output = opennck(&["why", "t.jsonl", "alarm(10654)@7.5"], &directory);
+    assert!(out(&output).contains("alarm(10654) (X)  raised  by nck\n    7.466    because REF-11"), "{}", out(&output));
+    for (trace, edge, cause) in [
+        ("t.jsonl", "X.gantry_axis", "expected a signal or an alarm and a time"),
+        ("t.jsonl", "X.gantry_axis@soon", "expected a signal or an alarm and a time"),
+        ("t.jsonl", "X.gantri_axis@1", "did you mean `X.gantry_axis`?"),
+        ("t.jsonl", "DB31.DBX101.5@1", "its first edge is at 7.972 s"),
+        ("missing.jsonl", "X.gantry_axis@1", "cannot be read"),
+        ("missing.toml", "X.gantry_axis@1", "missing.toml"),
+    ] {
+        let output = opennck(&["why", trace, edge], &directory);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(err(&output).contains(cause), "{cause} in {}", err(&output));
+    }
+}
+
+#[test]
 fn a_failed_expectation_ends_with_1_and_says_what_was_instead() {
     let directory = directory("failed");
     fs::write(directory.join("bad.toml"), format!("{GOOD}[[step]]\nexpect = \"M0.1\"\n")).unwrap();
@@ -141,6 +229,8 @@ fn every_command_has_help_and_a_mistyped_one_ends_with_2() {
         &["--help"][..],
         &["run", "--help"],
         &["test", "--help"],
+        &["diff", "--help"],
+        &["why", "--help"],
         &["signals", "--help"],
         &["machine-data", "check", "--help"],
     ] {

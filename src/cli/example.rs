@@ -19,6 +19,9 @@ What to try next:
   opennck signals gantry                  the signals of gantry axes, with addresses
   opennck signals --format csv            the whole catalogue
   opennck run SCENARIO                    a scenario of your own; golden/worked_example has some to start from
+  opennck run SCENARIO --svg F.svg        its timing diagram; --vcd F.vcd for GTKWave, --trace F.jsonl for programs
+  opennck why SCENARIO X.gantry_axis@1    why a signal has its value, back to what was written from outside
+  opennck diff A.jsonl B.jsonl            the first difference of two traces in words
   opennck test                            all scenarios below golden, each against its golden trace
   opennck machine-data check DIRECTORY    your own machine data
   opennck --help                          everything else

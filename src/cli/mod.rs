@@ -8,9 +8,10 @@
 //! ```
 //!
 //! Exit codes: 0 all held; 1 an expectation failed, a limit was reached, a trace differs, a golden file is missing,
-//! machine data have findings; 2 unusable input.
+//! machine data have findings, two traces differ (`diff`); 2 unusable input.
 
 mod alarms;
+mod diff;
 pub mod example;
 mod list;
 mod machine_data;
@@ -18,6 +19,7 @@ mod output;
 mod run;
 mod signals;
 mod test;
+mod why;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -59,9 +61,8 @@ enum Command {
         /// Scenario files.
         #[arg(required = true, value_name = "SCENARIO")]
         scenarios: Vec<PathBuf>,
-        /// Writes the trace as JSON lines; one scenario only.
-        #[arg(long, value_name = "F.jsonl")]
-        trace: Option<PathBuf>,
+        #[command(flatten)]
+        files: run::Files,
     },
     /// Runs every scenario below the paths and compares each trace with the golden one beside it.
     Test {
@@ -100,6 +101,27 @@ enum Command {
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
     },
+    /// Tells the first difference of two traces in words; ends with 0 where they are the same, with 1 where they differ.
+    ///
+    /// It shows the signal, its time, what was expected and found, and the last changes before it. Causes may differ: that is told, and
+    /// the traces are still the same.
+    Diff {
+        /// The trace that was expected: JSON lines (from `run --trace`) or a golden file (*.snap).
+        expected: PathBuf,
+        /// The trace that was found, in the same form.
+        found: PathBuf,
+    },
+    /// Tells why a signal has its value: the chain of causes behind an edge, back to what was written from outside the control.
+    ///
+    /// Each line has the time; then a change with who made it, or the event behind it with its rule and what it tested. The signals
+    /// that an event tested are followed to their last edge before it.
+    Why {
+        /// A trace (JSON lines, from `run --trace`), or a scenario (*.toml), which is then run.
+        trace: PathBuf,
+        /// A symbol, an address or `alarm(NUMBER)`, and a time in seconds: the last edge then or before is meant.
+        #[arg(value_name = "ADDRESS@TIME")]
+        edge: String,
+    },
     /// Works with machine data.
     MachineData {
         #[command(subcommand)]
@@ -131,7 +153,7 @@ pub fn main(programs: Programs) -> ExitCode {
     let mut output = Output::default();
     let code = match arguments.command {
         None => example::run(&programs, &mut output),
-        Some(Command::Run { scenarios, trace }) => run::run(&scenarios, trace.as_deref(), &programs, &mut output),
+        Some(Command::Run { scenarios, files }) => run::run(&scenarios, &files, &programs, &mut output),
         Some(Command::Test { paths, accept, junit, jobs }) => {
             let options = test::Options { accept, junit, jobs };
             test::test(&paths, &options, &programs, &mut output)
@@ -140,6 +162,8 @@ pub fn main(programs: Programs) -> ExitCode {
             signals::signals(filter.as_deref(), &profile, format, &mut output)
         }
         Some(Command::Alarms { filter, format }) => alarms::alarms(filter.as_deref(), format, &mut output),
+        Some(Command::Diff { expected, found }) => diff::diff(&expected, &found, &mut output),
+        Some(Command::Why { trace, edge }) => why::why(&trace, &edge, &programs, &mut output),
         Some(Command::MachineData { command: MachineData::Check { machine } }) => {
             machine_data::check(&machine, &mut output)
         }

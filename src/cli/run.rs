@@ -4,16 +4,68 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use clap::Args;
+
 use super::output::Output;
 use crate::plc::Programs;
 use crate::scenario::{Failure, Finished, Prepared, Scenario};
 use crate::source::{Problem, unreadable};
 
+/// The files in which the trace is written, too.
+#[derive(Clone, Debug, Default, Args)]
+pub(super) struct Files {
+    /// Writes the trace as JSON lines, for programs; one scenario only.
+    #[arg(long, value_name = "F.jsonl")]
+    trace: Option<PathBuf>,
+    /// Writes the trace as a waveform, for GTKWave and its kind; one scenario only.
+    #[arg(long, value_name = "F.vcd")]
+    vcd: Option<PathBuf>,
+    /// Writes the trace as a timing diagram, which shows what the scenario watches; one scenario only.
+    #[arg(long, value_name = "F.svg")]
+    svg: Option<PathBuf>,
+}
+
+/// What makes the text of a file from what has run.
+type Form = fn(&Finished) -> String;
+
+/// A file that waits for its text.
+struct Waiting {
+    path: PathBuf,
+    file: File,
+    text: Form,
+}
+
+impl Files {
+    /// Opens them all, before anything runs.
+    fn open(&self, runs: usize) -> Result<Vec<Waiting>, Problem> {
+        let wanted: [(&str, &Option<PathBuf>, Form); 3] = [
+            ("--trace", &self.trace, Finished::json_lines),
+            ("--vcd", &self.vcd, Finished::vcd),
+            ("--svg", &self.svg, Finished::svg),
+        ];
+        let mut waiting = Vec::new();
+        for (option, path, text) in wanted {
+            let Some(path) = path else {
+                continue;
+            };
+            if runs != 1 {
+                return Err(Problem::new(
+                    format!("expected one scenario under one profile with {option}, found {runs} runs"),
+                    "run them one by one, each with its own file",
+                ));
+            }
+            let file = File::create(path).map_err(|error| unreadable(path, &error))?;
+            waiting.push(Waiting { path: path.clone(), file, text });
+        }
+        Ok(waiting)
+    }
+}
+
 /// Reads all files before anything runs: one unusable file and nothing runs.
-pub(super) fn run(files: &[PathBuf], trace: Option<&Path>, programs: &Programs, output: &mut Output) -> u8 {
+pub(super) fn run(scenarios: &[PathBuf], files: &Files, programs: &Programs, output: &mut Output) -> u8 {
     let mut ready = Vec::new();
     let mut usable = true;
-    for file in files {
+    for file in scenarios {
         match prepare(file, programs) {
             Ok(prepared) => ready.extend(prepared),
             Err(problem) => {
@@ -25,8 +77,8 @@ pub(super) fn run(files: &[PathBuf], trace: Option<&Path>, programs: &Programs, 
     if !usable {
         return 2;
     }
-    let trace = match trace.map(|path| open(path, ready.len())).transpose() {
-        Ok(trace) => trace,
+    let mut waiting = match files.open(ready.len()) {
+        Ok(waiting) => waiting,
         Err(problem) => {
             output.error(problem);
             return 2;
@@ -43,11 +95,11 @@ pub(super) fn run(files: &[PathBuf], trace: Option<&Path>, programs: &Programs, 
         let finished = prepared.run();
         output.print(&finished.text());
         code = code.max(result(&finished, output));
-        if let Some((path, file)) = &trace
-            && let Err(error) = (&*file).write_all(finished.json_lines().as_bytes())
-        {
-            output.error(Problem::new(format!("{} cannot be written: {error}", path.display()), "check the disk"));
-            code = 2;
+        for Waiting { path, file, text } in &mut waiting {
+            if let Err(error) = file.write_all(text(&finished).as_bytes()) {
+                output.error(Problem::new(format!("{} cannot be written: {error}", path.display()), "check the disk"));
+                code = 2;
+            }
         }
     }
     code
@@ -57,18 +109,6 @@ pub(super) fn run(files: &[PathBuf], trace: Option<&Path>, programs: &Programs, 
 fn prepare(file: &Path, programs: &Programs) -> Result<Vec<Prepared>, Problem> {
     let scenario = Scenario::read(file)?;
     scenario.profiles.iter().map(|profile| scenario.prepare(*profile, programs)).collect()
-}
-
-/// The file of the trace, opened before anything runs.
-fn open(path: &Path, runs: usize) -> Result<(PathBuf, File), Problem> {
-    if runs != 1 {
-        return Err(Problem::new(
-            format!("expected one scenario under one profile with --trace, found {runs} runs"),
-            "run them one by one, each with its own file",
-        ));
-    }
-    let file = File::create(path).map_err(|error| unreadable(path, &error))?;
-    Ok((path.to_owned(), file))
 }
 
 /// Prints how a scenario ended, and gives the exit code for it.

@@ -3,6 +3,7 @@
 use super::Machine;
 use crate::image::Names;
 use crate::sinumerik::{Alarm, Rule as ControlRule};
+use crate::units::AxisNumber;
 use crate::variables::{AlarmNumber, Describe, Parameter, RaisedAlarm, Rule, RuleNumber};
 
 impl Describe for Machine {
@@ -31,6 +32,10 @@ impl Describe for Machine {
 
     fn rule(&self, rule: RuleNumber) -> Rule {
         ControlRule::text(rule)
+    }
+
+    fn is_rotary(&self, axis: AxisNumber) -> bool {
+        self.machine_data().axes[axis].is_rot_ax
     }
 }
 

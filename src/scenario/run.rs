@@ -203,6 +203,18 @@ impl Finished {
         self.session.json_lines()
     }
 
+    /// The trace as a waveform, for GTKWave and its kind.
+    #[must_use]
+    pub fn vcd(&self) -> String {
+        self.session.vcd()
+    }
+
+    /// The trace as a timing diagram.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        self.session.svg(&self.head)
+    }
+
     /// The machine as it ended, with its trace.
     #[must_use]
     pub fn session(&self) -> &Session {

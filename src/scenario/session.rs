@@ -15,7 +15,7 @@ use crate::image::Location;
 use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine};
 use crate::plc::PlcProgram;
 use crate::source::{Place, Problem};
-use crate::trace::{Trace, Watch};
+use crate::trace::{Head, Trace, Watch};
 use crate::units::Time;
 
 /// A machine with its growing trace.
@@ -121,6 +121,18 @@ impl Session {
     #[must_use]
     pub fn json_lines(&self) -> String {
         self.trace.json_lines(&self.machine, &self.watch)
+    }
+
+    /// The trace as a waveform, for GTKWave and its kind.
+    #[must_use]
+    pub fn vcd(&self) -> String {
+        self.trace.vcd(&self.machine, &self.watch)
+    }
+
+    /// The trace as a timing diagram.
+    #[must_use]
+    pub fn svg(&self, head: &Head) -> String {
+        self.trace.svg(&self.machine, &self.watch, head)
     }
 
     /// Since the start of the session.

@@ -3,7 +3,7 @@
 use super::places::signal_at;
 use super::{AxisValue, six_decimals};
 use crate::image::Names;
-use crate::units::AxisNumber;
+use crate::units::{AxisNumber, Position};
 use crate::variables::{AlarmNumber, Describe, Event, Input, Place, Quantity};
 
 /// Whose it is, by name: `X`, `CHAN1`, `mode_group_1`, `nck`.
@@ -46,16 +46,21 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
         Input::Datum(number, Some(axis), value) => Some(format!("MD{number}[{}] = {value}", axis_name(axis, names))),
         Input::Length(quantity, axis, length) => {
             let axis = axis_name(axis, names);
-            let (name, value) = match quantity {
-                Quantity::SynchronismDifference => (AxisValue::SynchronismDifference.name(), length.user()),
-                Quantity::Position => (AxisValue::Position.name(), length.user()),
-                Quantity::Deviation => ("deviation", length.user()),
-                Quantity::Distance => ("distance", length.user()),
-                // Events carry user units per second, everything that people read has them per minute.
-                Quantity::Velocity => (AxisValue::Velocity.name(), length.user() * 60.0),
-            };
+            let (name, value) = input_name(quantity, length);
             Some(format!("{axis}.{name} = {}", six_decimals(value)))
         }
         Input::Alarm(number) => Some(format!("alarm {}", describe.alarm_name(AlarmNumber(number)))),
+    }
+}
+
+/// What a length is called, and what it is in the units that people read.
+pub(super) fn input_name(quantity: Quantity, length: Position) -> (&'static str, f64) {
+    match quantity {
+        Quantity::SynchronismDifference => (AxisValue::SynchronismDifference.name(), length.user()),
+        Quantity::Position => (AxisValue::Position.name(), length.user()),
+        Quantity::Deviation => ("deviation", length.user()),
+        Quantity::Distance => ("distance", length.user()),
+        // Events carry user units per second, everything that people read has them per minute.
+        Quantity::Velocity => (AxisValue::Velocity.name(), length.user() * 60.0),
     }
 }

@@ -1,11 +1,71 @@
-//! One line of a trace as JSON, with the keys that `interface` promises.
+//! A trace as JSON lines. What the lines are and which keys they have stands in the docs of [`super`].
 
+use super::causes::{Cause, CauseInput};
 use super::places::Shown;
 use super::text::by_in_words;
-use super::{Line, LineKind};
+use super::{By, Line, LineKind};
+
+/// All lines; events stand before the bits of the NCK that they explain.
+pub(super) fn lines(lines: &[Line], causes: &[Cause]) -> String {
+    let mut text = String::new();
+    let mut causes = causes.iter().peekable();
+    for one in lines {
+        let before = |cause: &Cause| match cause.time == one.time {
+            true => follows_events(&one.kind),
+            false => cause.time < one.time,
+        };
+        while let Some(next) = causes.next_if(|next| before(next)) {
+            text += &cause(next);
+        }
+        text += &line(one);
+    }
+    text
+}
+
+/// Within one time notes and writes come first, then events, then what the control made of them.
+fn follows_events(kind: &LineKind) -> bool {
+    match kind {
+        LineKind::Note(_) => false,
+        LineKind::Signal(signal) => signal.by == By::Nck,
+        LineKind::Alarm(_) | LineKind::Value(..) => true,
+    }
+}
+
+fn cause(cause: &Cause) -> String {
+    let mut fields = vec![
+        ("t", cause.time.to_string()),
+        ("event", cause.number.to_string()),
+        ("where", quoted(&cause.place)),
+        ("rule", quoted(&cause.rule)),
+        ("because", quoted(&cause.because)),
+        ("inputs", format!("[{}]", cause.inputs.iter().map(input).collect::<Vec<_>>().join(","))),
+    ];
+    if cause.parent != 0 {
+        fields.push(("parent", cause.parent.to_string()));
+    }
+    object(&fields)
+}
+
+fn input(input: &CauseInput) -> String {
+    match input {
+        CauseInput::Signal { address, symbol, value } => {
+            let symbol = symbol.as_ref().map(|symbol| format!(",\"symbol\":{}", quoted(symbol))).unwrap_or_default();
+            format!("{{\"signal\":{}{symbol},\"value\":{}}}", quoted(address), u8::from(*value))
+        }
+        CauseInput::Datum(name, value) => {
+            let value = if value.is_finite() { value.to_string() } else { "null".to_owned() };
+            format!("{{\"machine_data\":{},\"value\":{value}}}", quoted(name))
+        }
+        CauseInput::Value(name, value) => format!("{{\"symbol\":{},\"value\":{value}}}", quoted(name)),
+        CauseInput::Alarm(name) => match name.parse::<u32>() {
+            Ok(number) => format!("{{\"alarm\":{number}}}"),
+            Err(_) => format!("{{\"alarm\":{}}}", quoted(name)),
+        },
+    }
+}
 
 /// One JSON object and a newline.
-pub(super) fn line(line: &Line) -> String {
+fn line(line: &Line) -> String {
     let mut fields = vec![("t", line.time.to_string())];
     match &line.kind {
         LineKind::Note(text) => fields.push(("note", quoted(text))),
@@ -18,6 +78,9 @@ pub(super) fn line(line: &Line) -> String {
             fields.push(("by", quoted(by_in_words(signal.by))));
             if let Some(because) = &signal.because {
                 fields.push(("because", quoted(because)));
+            }
+            if signal.event != 0 {
+                fields.push(("event", signal.event.to_string()));
             }
         }
         LineKind::Alarm(alarm) => {
@@ -38,13 +101,20 @@ pub(super) fn line(line: &Line) -> String {
             if let Some(because) = &alarm.because {
                 fields.push(("because", quoted(because)));
             }
+            if alarm.event != 0 {
+                fields.push(("event", alarm.event.to_string()));
+            }
         }
         LineKind::Value(name, _, new) => {
             fields.push(("symbol", quoted(name)));
             fields.push(("value", new.clone()));
         }
     }
-    let fields: Vec<_> = fields.into_iter().map(|(key, value)| format!("\"{key}\":{value}")).collect();
+    object(&fields)
+}
+
+fn object(fields: &[(&str, String)]) -> String {
+    let fields: Vec<_> = fields.iter().map(|(key, value)| format!("\"{key}\":{value}")).collect();
     format!("{{{}}}\n", fields.join(","))
 }
 

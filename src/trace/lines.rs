@@ -48,6 +48,10 @@ pub struct SignalLine {
     pub by: By,
     /// Why, where that is known.
     pub because: Option<String>,
+    /// The event behind it, as the trace counts events: from one; zero where none is known.
+    pub event: u32,
+    /// Where it lies.
+    pub location: Location,
 }
 
 /// An alarm came or went.
@@ -67,6 +71,8 @@ pub struct AlarmLine {
     pub text: String,
     /// Why, where that is known.
     pub because: Option<String>,
+    /// The event behind it, as the trace counts events: from one; zero where none is known.
+    pub event: u32,
 }
 
 /// A signal that changed in the cycle that is being read.
@@ -113,9 +119,11 @@ impl Trace {
                 let new = shown(&memory, printable.location);
                 if old != new {
                     let because = self.event(cause, cycle).map(|event| because(event, describe));
-                    let Printable { symbol, address, .. } = printable;
+                    let event = self.event_number(cause, cycle);
+                    let Printable { symbol, address, location, .. } = printable;
                     let rank = if by == By::Nck { 2 } else { 1 };
-                    push(cycle, rank, LineKind::Signal(SignalLine { symbol, address, old, new, by, because }));
+                    let line = SignalLine { symbol, address, old, new, by, because, event, location };
+                    push(cycle, rank, LineKind::Signal(line));
                 }
             }
             let mut alarms: Vec<_> = rows
@@ -163,6 +171,7 @@ impl Trace {
             parameters: alarm.parameters.iter().filter_map(parameter).collect(),
             text: describe.alarm_text(alarm),
             because: self.event(cause, cycle).map(|event| because(event, describe)),
+            event: self.event_number(cause, cycle),
         }
     }
 }

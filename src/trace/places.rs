@@ -104,13 +104,13 @@ fn found(names: &Names, watch: &Watch, part: Part, offset: u32) -> Vec<Printable
     printables
 }
 
-fn printable(names: &Names, location: Location) -> Printable {
+pub(super) fn printable(names: &Names, location: Location) -> Printable {
     let address = names.address(location).to_string();
     Printable { location, symbol: names.symbol(location), order: order(&address), address }
 }
 
 /// The order of an address, from its text: the letters of its area, then its numbers.
-fn order(address: &str) -> Order {
+pub(super) fn order(address: &str) -> Order {
     let mut numbers = address
         .split(|c: char| !c.is_ascii_digit())
         .filter(|digits| !digits.is_empty())

@@ -118,8 +118,9 @@ fn the_json_lines_have_the_promised_keys_in_the_promised_order() {
 {"t":0.002,"note":"REF"}
 {"t":0.002,"signal":"Q4.1","value":1,"by":"plc"}
 {"t":0.002,"signal":"DB31.DBX4.7","symbol":"X.traversing_key_plus","value":1,"by":"outside"}
-{"t":0.002,"signal":"DB31.DBX101.4","symbol":"X.gantry_synchronization_ready_to_start","value":1,"by":"nck","because":"REF-11: MD37110[XF] = 0"}
-{"t":0.002,"alarm":10654,"state":"raised","where":"X","parameters":["CHAN1",1],"text":"text of 10654","because":"REF-11: MD37110[XF] = 0"}
+{"t":0.002,"event":1,"where":"X","rule":"REF-11","because":"REF-11: MD37110[XF] = 0","inputs":[{"machine_data":"37110[XF]","value":0}]}
+{"t":0.002,"signal":"DB31.DBX101.4","symbol":"X.gantry_synchronization_ready_to_start","value":1,"by":"nck","because":"REF-11: MD37110[XF] = 0","event":1}
+{"t":0.002,"alarm":10654,"state":"raised","where":"X","parameters":["CHAN1",1],"text":"text of 10654","because":"REF-11: MD37110[XF] = 0","event":1}
 {"t":0.004,"note":"the PLC program overwrote what was set: X.traversing_key_plus (DB31.DBX4.7)"}
 {"t":0.004,"signal":"DB31.DBB0","symbol":"X.feed_override","value":13,"by":"plc"}
 {"t":0.004,"alarm":"gantry-stage-1","state":"cleared","where":"X","parameters":["CHAN1",1],"text":"text of 1000000"}
@@ -219,4 +220,112 @@ fn a_sequence_may_be_compared_without_times_or_with_a_tolerance() {
     assert!(difference_in_sequence(golden, late, Some(Time::from_millis(7))).is_some());
     assert!(difference_in_sequence(golden, "  0.002  X.b  0 -> 1\n", None).is_some());
     assert!(difference_in_sequence(golden, "", None).is_some());
+}
+
+#[test]
+fn a_waveform_has_scopes_start_values_and_a_unit_that_fits_the_cycle() {
+    let control = Control::new();
+    let watch = Watch::parse(&["X.*", "MB7", "X.position", "XF.feed_override"], &control.0, &Memory::new()).unwrap();
+    let trace = recorded(&control);
+    let text = trace.vcd(&control, &watch);
+    assert!(!text.contains("$date") && !text.contains("$version"), "{text}");
+    assert!(text.contains("$timescale 1 ms $end"), "{text}");
+    let changes = text.split_once("$enddefinitions $end\n").unwrap().1;
+    let expected = "#0
+$dumpvars
+b00000000 !
+0\"
+0#
+r120 $
+0%
+1&
+b00000000 '
+b00000000 (
+s- )
+$end
+#2
+1\"
+1#
+1%
+b00001001 (
+sREF )
+#4
+b00001101 !
+r120.0004 $
+0&
+sthe_PLC_program_overwrote_what_was_set:_X.traversing_key_plus_(DB31.DBX4.7) )
+";
+    assert_eq!(changes, expected);
+    for (cycle, unit) in
+        [(Time::from_micros(1500), "100 us"), (Time::from_millis(10), "10 ms"), (Time::from_nanos(7), "1 ns")]
+    {
+        let trace = Trace::begin(&Memory::new(), cycle, 0);
+        assert!(trace.vcd(&control, &watch).contains(&format!("$timescale {unit} $end")), "{unit}");
+    }
+}
+
+#[test]
+fn a_diagram_shows_names_extremes_alarms_and_notes() {
+    let control = Control::new();
+    let watch = Watch::parse(&["X.*", "MB7", "X.position"], &control.0, &Memory::new()).unwrap();
+    let head = Head { title: "a < b".into(), machine: "m".into(), profile: None, cycle_time: Time::from_millis(2) };
+    let svg = recorded(&control).svg(&control, &watch, &head);
+    for words in [
+        "<title>a &lt; b</title>",
+        ">X.traversing_key_plus</text>",
+        ">DB31.DBX4.7</text>",
+        ">120.000</text>",
+        ">10654</text>",
+        ">text of 10654</text>",
+        ">REF</text>",
+        "0.002 s  X.gantry_synchronization_ready_to_start becomes 1 by nck: REF-11: MD37110[XF] = 0",
+        "prefers-color-scheme: dark",
+    ] {
+        assert!(svg.contains(words), "{words} in {svg}");
+    }
+    assert!(!svg.contains("NaN") && svg.ends_with("</svg>\n"));
+    let empty = Trace::begin(&Memory::new(), Time::from_millis(2), 0);
+    assert!(empty.svg(&control, &Watch::default(), &head).ends_with("</svg>\n"), "even nothing can be drawn");
+}
+
+#[test]
+fn why_leads_from_an_edge_to_its_event_and_says_what_is_not_there() {
+    let control = Control::new();
+    let trace = recorded(&control);
+    let ready = control.location("X.gantry_synchronization_ready_to_start");
+    let expected = "    0.002  X.gantry_synchronization_ready_to_start (DB31.DBX101.4)  0 -> 1  by nck
+    0.002    because REF-11: MD37110[XF] = 0  [X]
+";
+    assert_eq!(trace.why(ready, Time::from_millis(2), &control).unwrap(), expected);
+    let read = Story::read(&trace.json_lines(&control, &Watch::default())).unwrap();
+    assert_eq!(read.why("DB31.DBX101.4", Time::from_millis(9)).unwrap(), expected);
+    let early = trace.why(ready, Time::ZERO, &control).unwrap_err();
+    assert_eq!(early.cure, "its first edge is at 0.002 s");
+}
+
+#[test]
+fn other_causes_are_no_difference_and_a_missing_row_is_one() {
+    let control = Control::new();
+    let json = recorded(&control).json_lines(&control, &Watch::default());
+    let reading = |text: &str| Reading::read(text).unwrap();
+    assert_eq!(reading(&json).compare(&reading(&json)), Comparison::Same);
+    let Comparison::OtherCauses(words) = reading(&json).compare(&reading(&json.replace("REF-11", "REF-07"))) else {
+        panic!("only the causes differ");
+    };
+    assert!(
+        words.starts_with("another cause in line 6, at 0.002 s: X.gantry_synchronization_ready_to_start"),
+        "{words}"
+    );
+    let less: String = json.lines().filter(|line| !line.contains("Q4.1")).map(|line| format!("{line}\n")).collect();
+    let Comparison::Different(words) = reading(&json).compare(&reading(&less)) else {
+        panic!("a row is missing");
+    };
+    assert!(words.contains("Q4.1 0 -> 1 does not come any more"), "{words}");
+    let Comparison::Different(words) = reading(&less).compare(&reading(&json)) else {
+        panic!("a row is new");
+    };
+    assert!(words.contains("Q4.1 0 -> 1 is new"), "{words}");
+    let table = recorded(&control).text(&control, &Watch::default(), true);
+    let wider: String = table.lines().map(|row| format!("  {row}\n")).collect();
+    assert_eq!(reading(&table).compare(&reading(&wider)), Comparison::Same, "the width of a column tells nothing");
 }

@@ -1,5 +1,6 @@
 //! The trace for people: a head, then one row a change, in aligned columns; and the first difference of two traces, in words.
 
+use super::compare::{self, Reading};
 use super::{By, Line, LineKind};
 use crate::units::Time;
 
@@ -154,45 +155,44 @@ fn columns(line: &Line, causes: bool) -> Result<Columns, &Line> {
     Ok(row)
 }
 
-/// The first difference of two texts, in words; nothing if they are equal.
+/// The first difference of two texts, in words; nothing if they are equal. Tables of traces are told row by row.
 #[must_use]
 pub fn difference(expected: &str, found: &str) -> Option<String> {
-    let mut expected = expected.lines();
-    let mut found = found.lines();
-    let mut line = 0;
-    loop {
-        line += 1;
-        match (expected.next(), found.next()) {
-            (None, None) => return None,
-            (one, other) if one == other => {}
-            (one, other) => return Some(in_words(line, one, other)),
-        }
-    }
+    first_difference(expected, found, |one, other| one == other)
 }
 
 /// The first difference of two traces in the order of their rows; times may differ by `tolerance`, or by anything without one.
 #[must_use]
 pub fn difference_in_sequence(expected: &str, found: &str, tolerance: Option<Time>) -> Option<String> {
-    let mut expected = expected.lines();
-    let mut found = found.lines();
+    first_difference(expected, found, |one, other| match (timed(one), timed(other)) {
+        (Some((one, expected)), Some((other, found))) => {
+            let apart = Time::from_nanos((one - other).nanos().abs());
+            expected.eq(found) && tolerance.is_none_or(|tolerance| apart <= tolerance)
+        }
+        _ => one.split_whitespace().eq(other.split_whitespace()),
+    })
+}
+
+fn first_difference(expected: &str, found: &str, same: impl Fn(&str, &str) -> bool) -> Option<String> {
+    let (mut ones, mut others) = (expected.lines(), found.lines());
     let mut line = 0;
     loop {
         line += 1;
-        let (one, other) = (expected.next(), found.next());
-        let (Some(expected), Some(found)) = (one, other) else {
-            return (one != other).then(|| in_words(line, one, other));
-        };
-        let equal = match (timed(expected), timed(found)) {
-            (Some((one, expected)), Some((other, found))) => {
-                let apart = Time::from_nanos((one - other).nanos().abs());
-                expected.eq(found) && tolerance.is_none_or(|tolerance| apart <= tolerance)
-            }
-            _ => expected.split_whitespace().eq(found.split_whitespace()),
-        };
-        if !equal {
-            return Some(in_words(line, one, other));
+        match (ones.next(), others.next()) {
+            (None, None) => return None,
+            (Some(one), Some(other)) if same(one, other) => {}
+            (one, other) => return Some(told(expected, found, line).unwrap_or_else(|| in_words(line, one, other))),
         }
     }
+}
+
+/// The difference as that of two traces, if both are tables and a row begins there in both, or one has ended.
+fn told(expected: &str, found: &str, line: usize) -> Option<String> {
+    let (expected, found) = (Reading::read(expected).ok()?, Reading::read(found).ok()?);
+    let row = |all: &Reading| all.entries.iter().position(|entry| entry.line >= line).unwrap_or(all.entries.len());
+    let index = row(&expected);
+    let differs = expected.entries.get(index) != found.entries.get(index);
+    (index == row(&found) && differs && !expected.is_json()).then(|| compare::in_words(&expected, &found, index))
 }
 
 /// A row as its time and the words after it.

@@ -135,8 +135,8 @@ fn names_of_axes(names: &Names) -> impl Iterator<Item = &str> {
     axes(names).map(|(_, name)| name)
 }
 
-/// Everything that can stand before the point of a symbol.
-fn owners(names: &Names) -> Vec<(Block, String)> {
+/// Everything that can stand before the point of a symbol, in the order of the data blocks.
+pub(super) fn owners(names: &Names) -> Vec<(Block, String)> {
     let place = |block, place| (block, super::place_name(place, names));
     let mut owners = vec![place(Block::Nck, Place::Nck)];
     owners.extend(ModeGroupNumber::all().map(|group| place(Block::ModeGroup, Place::ModeGroup(group))));

@@ -138,4 +138,8 @@ pub trait Describe {
     fn alarm_number(&self, name: &str) -> Option<AlarmNumber>;
     /// A rule by its number.
     fn rule(&self, rule: RuleNumber) -> Rule;
+    /// Whether the lengths of an axis are degrees.
+    fn is_rotary(&self, _axis: AxisNumber) -> bool {
+        false
+    }
 }

@@ -1,0 +1,59 @@
+//! `opennck why`: the chain of causes behind an edge, back to what was written from outside the control.
+
+use std::path::Path;
+
+use super::output::Output;
+use crate::plc::Programs;
+use crate::scenario::Scenario;
+use crate::source::{Place, Problem, read_text};
+use crate::trace::Story;
+use crate::units::Time;
+
+pub(super) fn why(trace: &Path, edge: &str, programs: &Programs, output: &mut Output) -> u8 {
+    match told(trace, edge, programs) {
+        Ok(text) => {
+            output.print(&text);
+            0
+        }
+        Err(problem) => {
+            output.error(problem);
+            2
+        }
+    }
+}
+
+fn told(trace: &Path, edge: &str, programs: &Programs) -> Result<String, Problem> {
+    let (what, time) = asked(edge)?;
+    let is_scenario = trace.extension().is_some_and(|extension| extension == "toml");
+    let story = if is_scenario { run(trace, programs)? } else { read(trace)? };
+    story.why(what, time).map_err(|problem| problem.at(&Place::file(&trace.display().to_string())))
+}
+
+fn read(trace: &Path) -> Result<Story, Problem> {
+    let place = Place::file(&trace.display().to_string());
+    let at = |line| place.at_line(u32::try_from(line).unwrap_or(0));
+    Story::read(&read_text(trace)?).map_err(|(line, problem)| problem.at(&at(line)))
+}
+
+fn run(scenario: &Path, programs: &Programs) -> Result<Story, Problem> {
+    let scenario = Scenario::read(scenario)?;
+    let profile = scenario.profiles.first().copied().unwrap_or_default();
+    let finished = scenario.prepare(profile, programs)?.run();
+    let session = finished.session();
+    Ok(session.trace().story(session.machine()))
+}
+
+/// `X.controller_enable@7.466`, the time in seconds or with a unit.
+fn asked(edge: &str) -> Result<(&str, Time), Problem> {
+    let parsed = edge.rsplit_once('@').and_then(|(what, time)| {
+        let seconds =
+            || time.parse::<f64>().ok().filter(|seconds| (0.0..9e9).contains(seconds)).map(Time::from_seconds);
+        Some((what, Time::parse(time).or_else(seconds)?))
+    });
+    parsed.filter(|(what, _)| !what.is_empty()).ok_or_else(|| {
+        Problem::new(
+            format!("expected a signal or an alarm and a time, found `{edge}`"),
+            "write `X.gantry_grouping_is_synchronized@7.972`, `DB31.DBX101.5@8s` or `alarm(10654)@7.5`",
+        )
+    })
+}

@@ -1,0 +1,107 @@
+//! Events as a trace tells them: numbered through, each with what it tested and what led to it.
+
+use std::collections::BTreeSet;
+
+use super::because::{because, input_name, place_name};
+use super::lines::{Line, LineKind};
+use super::places::signal_at;
+use super::{Trace, six_decimals};
+use crate::image::Names;
+use crate::units::Time;
+use crate::variables::{AlarmNumber, Describe, Event, Input, Place};
+
+/// An event: a transition of the control, with its rule, its inputs and the event that led to it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Cause {
+    /// Its number in the trace, from one.
+    pub(super) number: u32,
+    pub(super) time: Time,
+    /// Whose it is: `X`, `CHAN1`.
+    pub(super) place: String,
+    /// Where the rule is written: `REF-11`.
+    pub(super) rule: String,
+    /// Rule and inputs, as everywhere in a trace.
+    pub(super) because: String,
+    pub(super) inputs: Vec<CauseInput>,
+    /// The event that led to it; zero for none.
+    pub(super) parent: u32,
+}
+
+/// Something that was tested, and what it was.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum CauseInput {
+    /// A signal by address, and by symbol if it has one.
+    Signal { address: String, symbol: Option<String>, value: bool },
+    /// A machine datum, as scenarios name it: `37110[XF]`.
+    Datum(String, f64),
+    /// A value beside signals, with six decimals.
+    Value(String, String),
+    /// An alarm: its number, or its own name.
+    Alarm(String),
+}
+
+impl CauseInput {
+    fn of(input: &Input, describe: &dyn Describe) -> Option<Self> {
+        let names = describe.names();
+        Some(match *input {
+            Input::None => return None,
+            Input::Bit(bit, value) => {
+                let signal = signal_at(bit)?;
+                let number = match bit.place {
+                    Place::Nck => 1,
+                    Place::ModeGroup(group) => group.number(),
+                    Place::Channel(channel) => channel.number(),
+                    Place::Axis(axis) => axis.number(),
+                };
+                let location = signal.location(number)?;
+                let address = names.address(location).to_string();
+                Self::Signal { address, symbol: names.symbol(location), value }
+            }
+            Input::Datum(number, axis, value) => {
+                let axis = axis.map(|axis| format!("[{}]", place_name(Place::Axis(axis), names)));
+                Self::Datum(format!("{number}{}", axis.unwrap_or_default()), value)
+            }
+            Input::Length(quantity, axis, length) => {
+                let (name, value) = input_name(quantity, length);
+                Self::Value(format!("{}.{name}", place_name(Place::Axis(axis), names)), six_decimals(value))
+            }
+            Input::Alarm(number) => Self::Alarm(describe.alarm_name(AlarmNumber(number))),
+        })
+    }
+}
+
+impl Trace {
+    /// The event of this number in words.
+    pub(super) fn cause(&self, number: u32, describe: &dyn Describe) -> Option<Cause> {
+        let event: &Event = self.event_numbered(number)?;
+        let names: &Names = describe.names();
+        Some(Cause {
+            number,
+            time: self.time(event.cycle),
+            place: place_name(event.place, names),
+            rule: describe.rule(event.rule).id.to_owned(),
+            because: because(event, describe),
+            inputs: event.inputs.iter().filter_map(|input| CauseInput::of(input, describe)).collect(),
+            parent: self.event_number(event.parent, event.cycle),
+        })
+    }
+
+    /// The events behind these lines, and what led to them, in order.
+    pub(super) fn causes_of(&self, lines: &[Line], describe: &dyn Describe) -> Vec<Cause> {
+        let mut wanted = BTreeSet::new();
+        for line in lines {
+            let mut number = match &line.kind {
+                LineKind::Signal(signal) => signal.event,
+                LineKind::Alarm(alarm) => alarm.event,
+                LineKind::Note(_) | LineKind::Value(..) => 0,
+            };
+            while let Some(event) = self.event_numbered(number) {
+                if !wanted.insert(number) {
+                    break;
+                }
+                number = self.event_number(event.parent, event.cycle);
+            }
+        }
+        wanted.into_iter().filter_map(|number| self.cause(number, describe)).collect()
+    }
+}

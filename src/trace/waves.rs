@@ -1,0 +1,194 @@
+//! The trace turned by ninety degrees: one row a signal, with its value at the start and its changes.
+//!
+//! Waveform files and timing diagrams are made from this.
+
+use std::collections::BTreeMap;
+
+use super::lines::LineKind;
+use super::places::{order, printable, shown};
+use super::watch::owners;
+use super::{AxisValue, By, Shown, Trace, Watch, place_name};
+use crate::image::Location;
+use crate::units::Time;
+use crate::variables::{Describe, Place};
+
+/// All rows of a trace, in the order of owners and addresses.
+#[derive(Clone, Debug)]
+pub(super) struct Waves {
+    pub(super) cycle_time: Time,
+    /// How many cycles there were.
+    pub(super) cycles: u64,
+    pub(super) rows: Vec<Wave>,
+    /// Notes, with the cycle to which each belongs.
+    pub(super) notes: Vec<(u64, String)>,
+}
+
+/// One row.
+#[derive(Clone, Debug)]
+pub(super) struct Wave {
+    /// Whose it is; `memory` for what belongs to nobody.
+    pub(super) owner: String,
+    /// What it is called among its owner's.
+    pub(super) name: String,
+    /// Its address; of an alarm, its text; of a value, its unit.
+    pub(super) beside: String,
+    pub(super) kind: WaveKind,
+    pub(super) start: Level,
+    pub(super) changes: Vec<Step>,
+}
+
+/// What a row is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum WaveKind {
+    Bit,
+    /// A number without sign, of so many bits.
+    Number(u8),
+    /// A number with sign, or a REAL.
+    Real,
+    /// A value beside signals.
+    Value,
+    Alarm,
+}
+
+/// What a row shows at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Level {
+    Signal(Shown),
+    /// In millionths.
+    Value(i64),
+}
+
+impl Level {
+    /// Whether a bit is 1 or an alarm pending.
+    pub(super) fn is_high(self) -> bool {
+        self == Self::Signal(Shown::Bit(true))
+    }
+}
+
+/// A change.
+#[derive(Clone, Debug)]
+pub(super) struct Step {
+    /// Cycles since the start of the trace.
+    pub(super) cycle: u64,
+    pub(super) level: Level,
+    /// Who; values are nobody's.
+    pub(super) by: Option<By>,
+    pub(super) because: Option<String>,
+}
+
+/// Owner, then signals, values, alarms; then the address, or the number of the alarm.
+type Key = (usize, u8, super::places::Order, String);
+
+const MEMORY: &str = "memory";
+
+/// The rows that are being made, and where each owner comes.
+struct Rows {
+    owners: Vec<String>,
+    rows: BTreeMap<Key, Wave>,
+}
+
+impl Rows {
+    fn rank(&self, owner: &str) -> usize {
+        self.owners.iter().position(|known| known == owner).unwrap_or(usize::MAX)
+    }
+
+    /// The row of a signal, with this value at the start if it is new.
+    fn signal(&mut self, symbol: Option<&str>, address: &str, location: Location, start: Shown) -> &mut Wave {
+        let (owner, name) = symbol.and_then(|symbol| symbol.split_once('.')).unwrap_or((MEMORY, address));
+        let kind = match start {
+            Shown::Bit(_) => WaveKind::Bit,
+            Shown::Unsigned(_) => WaveKind::Number(location.width),
+            Shown::Number(_) => WaveKind::Real,
+        };
+        self.rows.entry((self.rank(owner), 0, order(address), address.to_owned())).or_insert_with(|| Wave {
+            owner: owner.to_owned(),
+            name: name.to_owned(),
+            beside: if symbol.is_some() { address.to_owned() } else { String::new() },
+            kind,
+            start: Level::Signal(start),
+            changes: Vec::new(),
+        })
+    }
+}
+
+impl Trace {
+    /// One row for each signal, value and alarm that the watch shows.
+    pub(super) fn waves(&self, describe: &dyn Describe, watch: &Watch) -> Waves {
+        let names = describe.names();
+        let owners = owners(names).into_iter().map(|(_, name)| name).collect();
+        let mut rows = Rows { owners, rows: BTreeMap::new() };
+        for &location in watch.locations() {
+            let printable = printable(names, location);
+            rows.signal(printable.symbol.as_deref(), &printable.address, location, shown(&self.start, location));
+        }
+        let mut notes = Vec::new();
+        for line in self.lines(describe, watch) {
+            let cycle = line.time.nanos().unsigned_abs() / self.cycle_time.nanos().max(1).unsigned_abs();
+            match line.kind {
+                LineKind::Note(text) => notes.push((cycle, text)),
+                LineKind::Value(..) => {}
+                LineKind::Signal(signal) => {
+                    let wave = rows.signal(signal.symbol.as_deref(), &signal.address, signal.location, signal.old);
+                    let level = Level::Signal(signal.new);
+                    wave.changes.push(Step { cycle, level, by: Some(signal.by), because: signal.because });
+                }
+                LineKind::Alarm(alarm) => {
+                    let number = alarm.name.parse().unwrap_or(u32::MAX);
+                    let key = (rows.rank(&alarm.place), 2, (0, number, 0, 0), alarm.name.clone() + &alarm.text);
+                    let wave = rows.rows.entry(key).or_insert_with(|| Wave {
+                        owner: alarm.place,
+                        name: format!("alarm {}", alarm.name),
+                        beside: alarm.text,
+                        kind: WaveKind::Alarm,
+                        start: Level::Signal(Shown::Bit(!alarm.raised)),
+                        changes: Vec::new(),
+                    });
+                    let level = Level::Signal(Shown::Bit(alarm.raised));
+                    wave.changes.push(Step { cycle, level, by: Some(By::Nck), because: alarm.because });
+                }
+            }
+        }
+        for (index, watched) in self.watched.iter().enumerate() {
+            let mut changes = self.values.iter().filter(|row| row.index == index);
+            let Some(first) = changes.next() else {
+                continue;
+            };
+            let owner = place_name(Place::Axis(watched.axis), names);
+            let key = (rows.rank(&owner), 1, (watched.value as u8, 0, 0, 0), String::new());
+            let step = |row: &super::ValueRow| Step {
+                cycle: row.cycle.saturating_sub(self.first_cycle),
+                level: Level::Value(row.new),
+                by: None,
+                because: None,
+            };
+            let unit = match (watched.value, describe.is_rotary(watched.axis)) {
+                (AxisValue::Velocity, false) => "mm/min",
+                (AxisValue::Velocity, true) => "rev/min",
+                (_, false) => "mm",
+                (_, true) => "\u{b0}",
+            };
+            let wave = Wave {
+                owner,
+                name: watched.value.name().to_owned(),
+                beside: unit.to_owned(),
+                kind: WaveKind::Value,
+                start: Level::Value(first.new),
+                changes: changes.map(step).collect(),
+            };
+            rows.rows.insert(key, wave);
+        }
+        Waves {
+            cycle_time: self.cycle_time,
+            cycles: self.last_cycle.saturating_sub(self.first_cycle),
+            rows: rows.rows.into_values().collect(),
+            notes,
+        }
+    }
+}
+
+impl Waves {
+    /// The time at the end of a cycle.
+    pub(super) fn time(&self, cycle: u64) -> Time {
+        self.cycle_time.times(cycle)
+    }
+}

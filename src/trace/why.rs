@@ -1,0 +1,293 @@
+//! Why a signal has its value: from an edge through the events of the control back to what was written from outside it.
+//!
+//! The same questions are put to a trace in memory and to one that was written as JSON lines, so both become a [`Story`].
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use serde_json::Value;
+
+use super::causes::{Cause, CauseInput};
+use super::text::by_in_words;
+use super::{Line, LineKind, Shown, Trace, Watch};
+use crate::image::Location;
+use crate::source::{Problem, did_you_mean};
+use crate::units::Time;
+use crate::variables::Describe;
+
+/// The changes of a trace and the events behind them.
+#[derive(Clone, Debug, Default)]
+pub struct Story {
+    edges: Vec<Edge>,
+    causes: Vec<Cause>,
+}
+
+/// A change of a signal or an alarm.
+#[derive(Clone, Debug, PartialEq)]
+struct Edge {
+    time: Time,
+    /// The symbol, or the address where there is none; `alarm(10654)`.
+    name: String,
+    /// The address; the place of an alarm.
+    address: String,
+    /// What it is since then, as `1`, `raised`.
+    new: String,
+    /// `0 -> 1`, `raised`.
+    change: String,
+    by: String,
+    /// In words.
+    because: Option<String>,
+    /// Number of the event; zero for none.
+    event: u32,
+}
+
+impl Trace {
+    /// The chain of causes behind the last edge of a place at a time or before it: each event of the control with its rule and inputs,
+    /// each input followed to its own last edge, back to what PLC, plant or a scenario wrote.
+    ///
+    /// # Errors
+    /// The place has no edge up to then.
+    pub fn why(&self, location: Location, time: Time, describe: &dyn Describe) -> Result<String, Problem> {
+        self.story(describe).why(&describe.names().address(location).to_string(), time)
+    }
+
+    /// Everything that changed, with the events behind it.
+    #[must_use]
+    pub fn story(&self, describe: &dyn Describe) -> Story {
+        let lines = self.lines(describe, &Watch::default());
+        let numbers = 1..=u32::try_from(self.events.len()).unwrap_or(u32::MAX);
+        Story {
+            edges: lines.iter().filter_map(Edge::of).collect(),
+            causes: numbers.filter_map(|number| self.cause(number, describe)).collect(),
+        }
+    }
+}
+
+impl Edge {
+    fn of(line: &Line) -> Option<Self> {
+        let time = line.time;
+        match &line.kind {
+            LineKind::Note(_) | LineKind::Value(..) => None,
+            LineKind::Signal(signal) => Some(Self {
+                time,
+                name: signal.symbol.clone().unwrap_or_else(|| signal.address.clone()),
+                address: signal.address.clone(),
+                new: signal.new.to_string(),
+                change: format!("{} -> {}", signal.old, signal.new),
+                by: by_in_words(signal.by).to_owned(),
+                because: signal.because.clone(),
+                event: signal.event,
+            }),
+            LineKind::Alarm(alarm) => {
+                let state = if alarm.raised { "raised" } else { "cleared" };
+                Some(Self {
+                    time,
+                    name: format!("alarm({})", alarm.name),
+                    address: alarm.place.clone(),
+                    new: state.to_owned(),
+                    change: state.to_owned(),
+                    by: "nck".to_owned(),
+                    because: alarm.because.clone(),
+                    event: alarm.event,
+                })
+            }
+        }
+    }
+}
+
+impl Story {
+    /// Reads JSON lines, as `opennck run --trace` writes them; lines of other kinds are passed over.
+    ///
+    /// # Errors
+    /// A line is no JSON object, or has no time.
+    pub fn read(text: &str) -> Result<Self, (usize, Problem)> {
+        let mut story = Self::default();
+        for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
+            let wrong = |found: String| {
+                let cure = "write the trace anew with `opennck run SCENARIO --trace F.jsonl`";
+                (index + 1, Problem::new(format!("expected one line of a trace, found {found}"), cure))
+            };
+            let value: Value = serde_json::from_str(line).map_err(|error| wrong(format!("no JSON: {error}")))?;
+            let time = value.get("t").and_then(Value::as_f64).map(Time::from_seconds);
+            let time = time.ok_or_else(|| wrong("a line without the time `t`".to_owned()))?;
+            story.take(time, &value);
+        }
+        Ok(story)
+    }
+
+    fn take(&mut self, time: Time, line: &Value) {
+        let text = |key: &str| line.get(key).and_then(Value::as_str).map(str::to_owned);
+        let number = |key: &str| line.get(key).and_then(Value::as_u64).and_then(|n| u32::try_from(n).ok()).unwrap_or(0);
+        let (because, event) = (text("because"), number("event"));
+        if let Some(address) = text("signal") {
+            let new = plain(line.get("value"));
+            let known = self.edges.iter().rev().find(|edge| edge.address == address).map(|edge| edge.new.clone());
+            let old = known.unwrap_or_else(|| match (new.as_str(), is_bit(&address)) {
+                ("1", true) => "0".to_owned(),
+                ("0", true) => "1".to_owned(),
+                _ => "?".to_owned(),
+            });
+            let change = format!("{old} -> {new}");
+            let name = text("symbol").unwrap_or_else(|| address.clone());
+            let by = text("by").unwrap_or_default();
+            self.edges.push(Edge { time, name, address, new, change, by, because, event });
+        } else if let Some(alarm) = line.get("alarm") {
+            let state = text("state").unwrap_or_default();
+            let (name, address) = (format!("alarm({})", plain(Some(alarm))), text("where").unwrap_or_default());
+            self.edges.push(Edge {
+                time,
+                name,
+                address,
+                new: state.clone(),
+                change: state,
+                by: "nck".into(),
+                because,
+                event,
+            });
+        } else if event != 0 {
+            let inputs = line.get("inputs").and_then(Value::as_array);
+            self.causes.push(Cause {
+                number: event,
+                time,
+                place: text("where").unwrap_or_default(),
+                rule: text("rule").unwrap_or_default(),
+                because: because.unwrap_or_default(),
+                inputs: inputs.into_iter().flatten().filter_map(input).collect(),
+                parent: number("parent"),
+            });
+        }
+    }
+
+    /// The chain of causes behind the last edge of a signal (symbol or address) or an alarm (`alarm(10654)`) at a time or before it.
+    ///
+    /// # Errors
+    /// There is none, or nothing in the trace is called so.
+    pub fn why(&self, what: &str, time: Time) -> Result<String, Problem> {
+        let is_meant = |edge: &&Edge| edge.name == what || (edge.address == what && !edge.name.starts_with("alarm("));
+        let mut all = self.edges.iter().enumerate().filter(|(_, edge)| is_meant(edge)).peekable();
+        let Some((_, first)) = all.peek() else {
+            let names = self.edges.iter().flat_map(|edge| [edge.name.as_str(), edge.address.as_str()]);
+            let fallback = "it did not change, or the trace does not watch it; addresses and symbols both do";
+            return Err(Problem::new(
+                format!("expected a signal that changes in the trace, found `{what}`"),
+                did_you_mean(what, names, fallback),
+            ));
+        };
+        let first = first.time;
+        let Some((index, _)) = all.take_while(|(_, edge)| edge.time <= time).last() else {
+            return Err(Problem::new(
+                format!("expected an edge of `{what}` at {time} s or before, found none"),
+                format!("its first edge is at {first} s"),
+            ));
+        };
+        let mut chain = Chain { story: self, text: String::new(), edges: BTreeSet::new(), causes: BTreeSet::new() };
+        chain.edge(index, 0);
+        Ok(chain.text)
+    }
+}
+
+/// The chain while it is told; nothing is told twice.
+struct Chain<'a> {
+    story: &'a Story,
+    text: String,
+    edges: BTreeSet<usize>,
+    causes: BTreeSet<u32>,
+}
+
+impl Chain<'_> {
+    fn row(&mut self, time: Time, depth: usize, text: &str) {
+        let indent = "  ".repeat(depth);
+        let _ = writeln!(self.text, "{time:>9}  {indent}{text}");
+    }
+
+    fn edge(&mut self, index: usize, depth: usize) {
+        let edge = &self.story.edges[index];
+        let address = if edge.address == edge.name { String::new() } else { format!(" ({})", edge.address) };
+        let known = if self.edges.insert(index) { "" } else { ", see above" };
+        self.row(edge.time, depth, &format!("{}{address}  {}  by {}{known}", edge.name, edge.change, edge.by));
+        if !known.is_empty() {
+            return;
+        }
+        match (edge.event, &edge.because) {
+            (0, Some(because)) => {
+                let text = format!("because {because}");
+                self.row(edge.time, depth + 1, &text);
+            }
+            (0, None) if edge.by == "nck" => self.row(edge.time, depth + 1, "no cause is known"),
+            (0, None) => {}
+            (event, _) => self.cause(event, depth + 1, "because"),
+        }
+    }
+
+    fn cause(&mut self, number: u32, depth: usize, word: &str) {
+        let story = self.story;
+        let Some(cause) = story.causes.iter().find(|cause| cause.number == number) else {
+            let text = format!("{word} of an event that is not in the trace");
+            self.text.push_str(&format!("{:>9}  {}{text}\n", "", "  ".repeat(depth)));
+            return;
+        };
+        let known = if self.causes.insert(number) { "" } else { ", see above" };
+        self.row(cause.time, depth, &format!("{word} {}  [{}]{known}", cause.because, cause.place));
+        if !known.is_empty() {
+            return;
+        }
+        for input in &cause.inputs {
+            self.input(input, cause.time, depth + 1);
+        }
+        if cause.parent != 0 {
+            // What led to an event stands below it, not inside: the way back to the start is one straight line.
+            self.cause(cause.parent, depth, "after");
+        }
+    }
+
+    /// Follows a signal or an alarm to its last edge before.
+    fn input(&mut self, input: &CauseInput, time: Time, depth: usize) {
+        let (name, new) = match input {
+            CauseInput::Signal { address, value, .. } => (address.clone(), Shown::Bit(*value).to_string()),
+            CauseInput::Alarm(name) => (format!("alarm({name})"), "raised".to_owned()),
+            // What was measured, and machine data, stand in the words of the event.
+            CauseInput::Datum(..) | CauseInput::Value(..) => return,
+        };
+        let mut before = self.story.edges.iter().enumerate().rev().filter(|(_, edge)| edge.time <= time);
+        let found = before.find(|(_, edge)| (edge.name == name || edge.address == name) && edge.new == new);
+        if let Some((index, _)) = found {
+            self.edge(index, depth);
+        } else if let CauseInput::Signal { address, symbol, .. } = input {
+            let name = symbol.as_ref().unwrap_or(address);
+            let changes = self.story.edges.iter().any(|edge| edge.address == *address);
+            let why = if changes { "from the start" } else { "without an edge in this trace" };
+            let indent = "  ".repeat(depth);
+            let _ = writeln!(self.text, "{:>9}  {indent}{name} ({address})  {new}  {why}", "");
+        }
+    }
+}
+
+fn input(input: &Value) -> Option<CauseInput> {
+    let text = |key: &str| input.get(key).and_then(Value::as_str).map(str::to_owned);
+    let value = input.get("value");
+    if let Some(address) = text("signal") {
+        let value = value.and_then(Value::as_u64) == Some(1);
+        return Some(CauseInput::Signal { address, symbol: text("symbol"), value });
+    }
+    if let Some(name) = text("machine_data") {
+        return Some(CauseInput::Datum(name, value.and_then(Value::as_f64).unwrap_or(f64::NAN)));
+    }
+    if let Some(alarm) = input.get("alarm") {
+        return Some(CauseInput::Alarm(plain(Some(alarm))));
+    }
+    text("symbol").map(|name| CauseInput::Value(name, plain(value)))
+}
+
+/// A number or a text as it is.
+fn plain(value: Option<&Value>) -> String {
+    match value {
+        Some(Value::String(text)) => text.clone(),
+        Some(value) => value.to_string(),
+        None => String::new(),
+    }
+}
+
+/// Whether an address is that of one bit: `DB31.DBX4.7`, `M0.3`.
+pub(super) fn is_bit(address: &str) -> bool {
+    address.rsplit_once('.').is_some_and(|(_, bit)| bit.len() == 1 && bit.as_bytes()[0].is_ascii_digit())
+}
