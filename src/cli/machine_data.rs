@@ -1,22 +1,29 @@
-//! `opennck machine-data check`: every finding in the machine data of a machine.
+//! `opennck machine-data check`: what was read as a machine, and every finding in its machine data.
 
 use std::path::Path;
 
 use super::output::Output;
 use crate::machine::Machine;
-use crate::sinumerik::machine_data::{Archive, Finding, Severity, check as look_through, files_of};
+use crate::sinumerik::machine_data::{Archive, Finding, MachineData, Severity, check as look_through, files_of};
 use crate::source::Problem;
+use crate::units::AxisNumber;
+
+/// What was read, in words, and what is wrong with it.
+struct Checked {
+    summary: Vec<String>,
+    findings: Vec<String>,
+}
 
 pub(super) fn check(path: &Path, output: &mut Output) -> u8 {
-    let findings = match findings(path) {
-        Ok(findings) => findings,
+    let Checked { summary, findings } = match checked(path) {
+        Ok(checked) => checked,
         Err(problem) => {
             output.error(problem);
             return 2;
         }
     };
-    for finding in &findings {
-        output.line(finding);
+    for line in summary.iter().chain(&findings) {
+        output.line(line);
     }
     output.line(match findings.len() {
         0 => "no findings".to_owned(),
@@ -27,21 +34,59 @@ pub(super) fn check(path: &Path, output: &mut Output) -> u8 {
 }
 
 /// The findings in the files of a machine; what refuses it is a finding, too.
-fn findings(path: &Path) -> Result<Vec<String>, Problem> {
+fn checked(path: &Path) -> Result<Checked, Problem> {
     if !path.exists() {
         // The name of a built-in machine, or nothing.
-        return Machine::open(path).map(|machine| machine.warnings().to_vec());
+        let machine = Machine::open(path)?;
+        return Ok(Checked { summary: configuration(&machine), findings: machine.warnings().to_vec() });
     }
-    let findings = match Archive::load(&files_of(path)?) {
-        Ok(archive) => look_through(&archive),
-        Err(findings) => findings,
+    let archive = match Archive::load(&files_of(path)?) {
+        Ok(archive) => archive,
+        Err(findings) => return refused(&findings),
     };
-    let unreadable = |finding: &Finding| finding.severity == Severity::Error && finding.number.is_none();
-    match findings.iter().find(|finding| unreadable(finding)) {
+    let machine = Machine::open(path)?;
+    let mut summary: Vec<String> = archive.summary.to_string().lines().map(str::to_owned).collect();
+    summary.extend(configuration(&machine));
+    let mut findings: Vec<String> = look_through(&archive).iter().map(Finding::to_string).collect();
+    // Those about the files are there already; those about what the model leaves out are not.
+    let more: Vec<String> = machine.warnings().iter().filter(|&warning| !findings.contains(warning)).cloned().collect();
+    findings.extend(more);
+    Ok(Checked { summary, findings })
+}
+
+/// What is said of an archive that nothing was taken from.
+fn refused(findings: &[Finding]) -> Result<Checked, Problem> {
+    match findings {
         // Not a wrong datum but a file that is none.
-        Some(Finding { place, what, cure, .. }) if findings.len() == 1 => {
+        [Finding { severity: Severity::Error, number: None, place, what, cure, .. }] => {
             Err(Problem { place: place.clone(), what: what.clone(), cure: cure.clone() })
         }
-        _ => Ok(findings.iter().map(ToString::to_string).collect()),
+        _ => Ok(Checked { summary: Vec::new(), findings: findings.iter().map(ToString::to_string).collect() }),
     }
+}
+
+/// The axes of the machine with their numbers, and its gantry groupings.
+fn configuration(machine: &Machine) -> Vec<String> {
+    let axes: Vec<(AxisNumber, &str)> =
+        machine.names().axes.iter().filter_map(|(axis, name)| Some((axis, name.as_deref()?))).collect();
+    let listed: Vec<String> = axes.iter().map(|(axis, name)| format!("{axis} {name}")).collect();
+    let mut lines = vec![format!("machine axes: {}", listed.join(", "))];
+    lines.extend((1..=8).filter_map(|grouping| gantry(machine.machine_data(), &axes, grouping)));
+    lines
+}
+
+/// Who leads whom in a gantry grouping; nothing where no axis belongs to it.
+fn gantry(data: &MachineData, axes: &[(AxisNumber, &str)], grouping: u8) -> Option<String> {
+    let with = |code: u8| {
+        let of_code = |(axis, _): &&(AxisNumber, &str)| data.axes[*axis].gantry_axis_type == code;
+        let names: Vec<&str> = axes.iter().filter(of_code).map(|(_, name)| *name).collect();
+        names.join(" and ")
+    };
+    let (leading, synchronous) = (with(grouping), with(10 + grouping));
+    let or = |names: String, none: &str| if names.is_empty() { none.to_owned() } else { names };
+    let any = !leading.is_empty() || !synchronous.is_empty();
+    any.then(|| {
+        let leading = or(leading, "no axis of this machine");
+        format!("gantry grouping {grouping}: {leading} leads {}", or(synchronous, "no axis of this machine"))
+    })
 }
