@@ -190,6 +190,8 @@ fn signals_are_listed_as_table_json_and_csv() {
     let directory = directory("signals");
     let output = opennck(&["signals", "start_gantry"], &directory);
     assert!(out(&output).contains("DB31.DBX29.4  AX1.start_gantry_synchronization  plc"), "{}", out(&output));
+    let output = opennck(&["signals", "db35.dbx29.4"], &directory);
+    assert!(out(&output).contains("AX1.start_gantry_synchronization"), "the signal of axis 5: {}", out(&output));
     let output = opennck(&["signals", "--format", "csv"], &directory);
     assert!(out(&output).starts_with("address,symbol,writer,name\n"));
     let csv = out(&output).lines().count();
@@ -218,6 +220,15 @@ fn machine_data_are_checked_with_file_line_and_identifier() {
     let output = opennck(&["machine-data", "check", "empty.arc"], &directory);
     assert_eq!(output.status.code(), Some(2), "{}{}", out(&output), err(&output));
     assert!(err(&output).contains("empty.arc: expected members, found an empty file at offset 0"), "{}", err(&output));
+    fs::write(directory.join("good.tea"), "N37100 $MA_GANTRY_AXIS_TYPE[AX2]=1\nN37100 $MA_GANTRY_AXIS_TYPE[AX5]=11\n")
+        .unwrap();
+    let output = opennck(&["machine-data", "check", "good.tea"], &directory);
+    assert!(out(&output).starts_with("2 machine data taken, 0 unknown kept\n"), "{}", out(&output));
+    assert!(out(&output).contains("gantry grouping 1: Y1 leads B1\n"), "{}", out(&output));
+    fs::create_dir(directory.join("empty")).unwrap();
+    for nothing in ["empty", "nowhere"] {
+        assert_eq!(opennck(&["machine-data", "check", nothing], &directory).status.code(), Some(2));
+    }
     let output = opennck(&["machine-data", "check", "nowhere"], &directory);
     assert_eq!(output.status.code(), Some(2));
 }

@@ -16,7 +16,8 @@ pub(super) fn signals(filter: Option<&str>, profile: &str, format: Format, outpu
         }
     };
     let mut list = List { heads: &["address", "symbol", "writer", "name"], rows: rows(profile) };
-    list.retain_with(filter, output);
+    let filter = filter.map(|filter| of_the_first(filter, profile));
+    list.retain_with(filter.as_deref(), output);
     list.print(format, output)
 }
 
@@ -27,6 +28,19 @@ fn rows(profile: Profile) -> Vec<Vec<String>> {
     names.channels[ChannelNumber::FIRST] = Some("CHAN1".to_owned());
     let memory = Memory::new();
     catalogue().filter_map(|signal| row(signal, &names, &memory)).collect()
+}
+
+/// The address in the block of the first axis or channel, which the list shows: DB35.DBX29.4 is looked up in DB31.
+fn of_the_first(filter: &str, profile: Profile) -> String {
+    let block =
+        filter.get(..2).filter(|letters| profile == Profile::Sinumerik840dSl && letters.eq_ignore_ascii_case("DB"));
+    let rest = block.map_or("", |_| &filter[2..]);
+    let digits = rest.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(rest.len());
+    match rest[..digits].parse() {
+        Ok(32..=61) => format!("DB31{}", &rest[digits..]),
+        Ok(22..=30) => format!("DB21{}", &rest[digits..]),
+        _ => filter.to_owned(),
+    }
 }
 
 /// Nothing for a signal that the profile does not show.

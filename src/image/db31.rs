@@ -28,7 +28,7 @@ signals! {
     bool, position_measuring_system_2, set_position_measuring_system_2: 1, 6;
     /// Override active: 0 = the axial override counts as 100 %.
     bool, override_active, set_override_active: 1, 7;
-    /// Controller enable: 0 = the axis brakes and the position control loop is opened.
+    /// Controller enable (servo enable): 0 = the axis brakes and the position control loop is opened.
     bool, controller_enable, set_controller_enable: 2, 1;
     /// Delete distance-to-go, spindle reset: a rising edge acts.
     bool, delete_distance_to_go_spindle_reset, set_delete_distance_to_go_spindle_reset: 2, 2;
@@ -152,7 +152,7 @@ signals! {
     bool, plc_controls_axis, set_plc_controls_axis: 28, 7;
     /// Start gantry synchronization: 1 starts the synchronization run; acts on the leading axis.
     bool, start_gantry_synchronization, set_start_gantry_synchronization: 29, 4;
-    /// No automatic synchronization: 1 = the synchronization run does not start by itself; acts on the leading axis.
+    /// No automatic synchronization of the gantry grouping: 1 = the synchronization run does not start by itself; acts on the leading axis.
     bool, no_automatic_synchronization, set_no_automatic_synchronization: 29, 5;
 }
 

@@ -30,6 +30,10 @@ impl Describe for Machine {
         Alarm::named(name)
     }
 
+    fn has_alarm(&self, number: AlarmNumber) -> bool {
+        Alarm::find(number).is_some()
+    }
+
     fn rule(&self, rule: RuleNumber) -> Rule {
         ControlRule::text(rule)
     }

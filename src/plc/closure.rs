@@ -21,13 +21,16 @@ pub struct ClosureProgram<S> {
 }
 
 /// A program from a closure that runs once in each PLC cycle; `state` is all that it remembers.
+///
+/// The state is a block of this room, a tuple of them, or a structure that derives `Clone` and serde's `Serialize` and
+/// `Deserialize`: forks and saved machines take it along.
 pub fn program<S>(
     name: impl Into<String>,
     state: S,
     scan: impl Fn(&mut S, &mut PlcIo<'_>) + Send + Sync + 'static,
 ) -> ClosureProgram<S>
 where
-    S: Clone,
+    S: Clone + Serialize + DeserializeOwned + Send + 'static,
 {
     program_with_fault(name, state, move |state, io| {
         scan(state, io);
@@ -42,7 +45,7 @@ pub fn program_with_fault<S>(
     scan: impl Fn(&mut S, &mut PlcIo<'_>) -> Result<(), PlcFault> + Send + Sync + 'static,
 ) -> ClosureProgram<S>
 where
-    S: Clone,
+    S: Clone + Serialize + DeserializeOwned + Send + 'static,
 {
     ClosureProgram { name: name.into(), initial: state.clone(), state, startup: None, scan: Arc::new(scan) }
 }

@@ -209,7 +209,12 @@ impl State {
         let (alarm, input) = if let Some(off) = unit.members().find(|&axis| !self.axes[axis].enabling.is_on()) {
             (Some(alarms::APPROACH_ABORTED), axis_bit(off, 61, 5, false))
         } else if key != 0 && parameters.jog_mode && pressed != key {
-            (Some(alarms::APPROACH_ABORTED), axis_bit(number, 4, if key > 0 { 7 } else { 6 }, false))
+            let released = axis_bit(number, 4, if key > 0 { 7 } else { 6 }, false);
+            // The datum that makes the approach end with its key.
+            let held = Input::Datum(11300, None, 1.0);
+            let inputs = [released, held, Input::None];
+            let event = self.log.note(Place::Axis(number), Rule::ApproachAborted, inputs, parent);
+            return Some((Some(alarms::APPROACH_ABORTED), event));
         } else if key != 0 && !parameters.jog_mode && pressed == -key {
             (None, axis_bit(number, 4, if key > 0 { 6 } else { 7 }, true))
         } else {

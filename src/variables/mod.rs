@@ -136,6 +136,10 @@ pub trait Describe {
     fn alarm_name(&self, number: AlarmNumber) -> String;
     /// The number behind a name of our own.
     fn alarm_number(&self, name: &str) -> Option<AlarmNumber>;
+    /// Whether the control has an alarm of this number at all.
+    fn has_alarm(&self, _: AlarmNumber) -> bool {
+        true
+    }
     /// A rule by its number.
     fn rule(&self, rule: RuleNumber) -> Rule;
     /// Whether the lengths of an axis are degrees.

@@ -195,7 +195,13 @@ impl Parser<'_> {
     fn alarm(&mut self) -> Result<AlarmNumber, Problem> {
         let whole = self.expected("the number of an alarm");
         match self.next() {
-            Token::Number(number) => whole_number(number, AlarmNumber::OWN - 1).map(AlarmNumber).ok_or(whole),
+            Token::Number(number) => {
+                let known = |alarm: &AlarmNumber| self.scope.describe.has_alarm(*alarm);
+                whole_number(number, AlarmNumber::OWN - 1).map(AlarmNumber).filter(known).ok_or_else(|| Problem {
+                    cure: "`opennck alarms` lists the alarms of the control".to_owned(),
+                    ..whole
+                })
+            }
             Token::Quoted(name) => self.scope.describe.alarm_number(&name).ok_or_else(|| Problem {
                 cure: "see the alarms of this control, or give a number".to_owned(),
                 ..whole

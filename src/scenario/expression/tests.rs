@@ -30,6 +30,9 @@ impl Describe for Machine {
     fn alarm_number(&self, name: &str) -> Option<AlarmNumber> {
         (name == "gantry-stage-1").then_some(AlarmNumber(AlarmNumber::OWN))
     }
+    fn has_alarm(&self, number: AlarmNumber) -> bool {
+        number != AlarmNumber(1653)
+    }
     fn rule(&self, _: RuleNumber) -> Rule {
         Rule { id: "", text: "" }
     }
@@ -201,7 +204,8 @@ fn a_mistake_says_what_was_expected_where_and_what_to_do() {
         ("alram(10653)", "a function, found `alram`", "did you mean `alarm`?"),
         ("alarm(x)", "the number of an alarm", "quotes"),
         ("alarm('nothing')", "the number of an alarm, found 'nothing'", "give a number"),
-        ("alarm(1.5)", "the number of an alarm", "operators are"),
+        ("alarm(1.5)", "the number of an alarm", "`opennck alarms`"),
+        ("alarm(1653)", "the number of an alarm", "`opennck alarms`"),
         ("alarm('open)", "a closing quote", "operators are"),
         ("alarm(10653, X3)", "an axis or a channel", "did you mean `X"),
         ("alarm_parameter(10651)", "expected `,`", "operators are"),

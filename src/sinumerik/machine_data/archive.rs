@@ -125,11 +125,11 @@ impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let read = |member: &&Member| member.assignments.is_some();
         let left = self.members.iter().filter(|member| !read(member)).count();
-        writeln!(
-            f,
-            "{} machine data taken, {} unknown kept, {left} members without machine data left alone",
-            self.taken, self.unknown
-        )?;
+        write!(f, "{} machine data taken, {} unknown kept", self.taken, self.unknown)?;
+        if left > 0 {
+            write!(f, ", {left} members without machine data left alone")?;
+        }
+        writeln!(f)?;
         for member in self.members.iter().filter(read) {
             writeln!(f, "  {}: {} assignments", member.name, member.assignments.unwrap_or_default())?;
         }

@@ -1,9 +1,9 @@
 //! What is explained beside the rows: notes as numbered flags, alarms with their texts, the colours.
 
-use super::super::By;
-use super::super::waves::{WaveKind, Waves};
 use super::scale::Scale;
 use super::{Drawing, MARGIN, Tenths, WIDTH, wrapped};
+use crate::trace::By;
+use crate::trace::waves::{WaveKind, Waves};
 
 /// Size of a flag.
 const FLAG: Tenths = 150;

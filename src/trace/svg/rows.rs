@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::super::waves::{Level, Step, Wave, WaveKind, Waves};
-use super::super::{By, Shown, decimals};
 use super::scale::Scale;
 use super::{Drawing, LETTER, MARGIN, SMALL_LETTER, Tenths, px, width_of};
+use crate::trace::waves::{Level, Step, Wave, WaveKind, Waves};
+use crate::trace::{By, Shown, decimals};
 
 /// Height of the row of a signal, and of the wave in it.
 const ROW: Tenths = 230;
@@ -91,7 +91,7 @@ fn told(waves: &Waves, wave: &Wave, step: &Step) -> String {
         Level::Signal(_) => "cleared".to_owned(),
         Level::Value(value) => decimals(value),
     };
-    let by = step.by.map(|by| format!(" by {}", super::super::text::by_in_words(by))).unwrap_or_default();
+    let by = step.by.map(|by| format!(" by {}", crate::trace::text::by_in_words(by))).unwrap_or_default();
     let because = step.because.as_ref().map(|because| format!(": {because}")).unwrap_or_default();
     format!("{} s  {} {what}{by}{because}", waves.time(step.cycle), name(wave))
 }

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::super::waves::Waves;
 use super::{Drawing, SMALL_LETTER, Tenths, px, width_of};
+use crate::trace::waves::Waves;
 use crate::units::Time;
 
 /// Width of a stretch that has been shortened.
