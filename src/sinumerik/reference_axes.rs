@@ -2,7 +2,8 @@
 //!
 //! Called in the stage "referencing and gantry". A key that is held starts one approach; it must be released before
 //! it starts another, also when it was pressed while the approach ran or while JOG was active without REF. A
-//! key that is pressed before the axes are in position control stays pending until they are.
+//! key that is pressed before the axes are in position control stays pending until they are. Channel-specific referencing
+//! (33.0 = 1) waits for an axis of its turn that cannot start (1.3, parked, MD34200 other than 1) until RESET or until REF is left.
 
 use serde::{Deserialize, Serialize};
 

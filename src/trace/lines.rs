@@ -106,7 +106,11 @@ impl Trace {
                 draft(row, &memory, &mut places, &mut drafts);
                 if let Change::Overwritten { part, offset, bits } = row.change {
                     let what = places.call(part, offset, bits);
-                    push(cycle, 0, LineKind::Note(format!("the PLC program overwrote what was set: {what}")));
+                    push(
+                        cycle,
+                        0,
+                        LineKind::Note(format!("the PLC program overwrote what was set: {what}; force wins over it")),
+                    );
                 }
             }
             for row in rows {

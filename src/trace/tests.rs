@@ -102,7 +102,7 @@ fn the_text_has_one_row_a_change_in_aligned_columns() {
    0.002  X.traversing_key_plus                     DB31.DBX4.7       0 -> 1                    outside
    0.002  X.gantry_synchronization_ready_to_start   DB31.DBX101.4     0 -> 1                    nck      REF-11: MD37110[XF] = 0
    0.002  alarm 10654                               X                 raised                    nck      text of 10654  (REF-11: MD37110[XF] = 0)
-   0.004  # the PLC program overwrote what was set: X.traversing_key_plus (DB31.DBX4.7)
+   0.004  # the PLC program overwrote what was set: X.traversing_key_plus (DB31.DBX4.7); force wins over it
    0.004  X.feed_override                           DB31.DBB0         0 -> 13                   plc
    0.004  alarm gantry-stage-1                      X                 cleared                   nck      text of 1000000
    0.004  X.position                                                  120.000000 -> 120.000400
@@ -121,7 +121,7 @@ fn the_json_lines_have_the_promised_keys_in_the_promised_order() {
 {"t":0.002,"event":1,"where":"X","rule":"REF-11","because":"REF-11: MD37110[XF] = 0","inputs":[{"machine_data":"37110[XF]","value":0}]}
 {"t":0.002,"signal":"DB31.DBX101.4","symbol":"X.gantry_synchronization_ready_to_start","value":1,"by":"nck","because":"REF-11: MD37110[XF] = 0","event":1}
 {"t":0.002,"alarm":10654,"state":"raised","where":"X","parameters":["CHAN1",1],"text":"text of 10654","because":"REF-11: MD37110[XF] = 0","event":1}
-{"t":0.004,"note":"the PLC program overwrote what was set: X.traversing_key_plus (DB31.DBX4.7)"}
+{"t":0.004,"note":"the PLC program overwrote what was set: X.traversing_key_plus (DB31.DBX4.7); force wins over it"}
 {"t":0.004,"signal":"DB31.DBB0","symbol":"X.feed_override","value":13,"by":"plc"}
 {"t":0.004,"alarm":"gantry-stage-1","state":"cleared","where":"X","parameters":["CHAN1",1],"text":"text of 1000000"}
 {"t":0.004,"symbol":"X.position","value":120.000400}
@@ -253,7 +253,7 @@ sREF )
 b00001101 !
 r120.0004 $
 0&
-sthe_PLC_program_overwrote_what_was_set:_X.traversing_key_plus_(DB31.DBX4.7) )
+sthe_PLC_program_overwrote_what_was_set:_X.traversing_key_plus_(DB31.DBX4.7);_force_wins_over_it )
 ";
     assert_eq!(changes, expected);
     for (cycle, unit) in
