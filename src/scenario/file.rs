@@ -74,6 +74,11 @@ impl Scenario {
     /// # Errors
     /// The file cannot be read or is no scenario; the problem names file and line.
     pub fn read(path: &Path) -> Result<Self, Problem> {
+        if path.is_dir() {
+            let place = Place::file(&path.display().to_string());
+            let cure = "name the scenarios in it; `opennck test` runs all below a folder";
+            return Err(place.problem("expected a scenario, found a folder", cure));
+        }
         Self::parse(&read_text(path)?, path)
     }
 

@@ -131,6 +131,9 @@ impl State {
                 self.raise_axis_alarm(alarms::APPROACH_ABORTED, number, event);
                 self.step_grouping(index, Rule::SynchronisationAborted, [Input::None; 3], event);
                 self.groupings[index].from_referencing = false;
+                for axis in unit.members() {
+                    self.traverse(axis, 0, 0, event);
+                }
             }
         }
     }
