@@ -16,6 +16,7 @@ use super::gantry_definition::Definition;
 use super::parameters::Parameters;
 use super::referencing::Outcome;
 use super::rules::Rule;
+use super::transitions::{Transition, next, row};
 use super::{State, Unit};
 use crate::image::ToNck;
 use crate::motion::Coupling;
@@ -42,23 +43,8 @@ pub enum Phase {
     Open,
 }
 
-/// A step from one phase to another by a rule.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Transition {
-    /// From.
-    pub from: Phase,
-    /// To.
-    pub to: Phase,
-    /// By.
-    pub by: Rule,
-}
-
-const fn row(from: Phase, by: Rule, to: Phase) -> Transition {
-    Transition { from, to, by }
-}
-
 /// Every step that a grouping can take.
-pub const TRANSITIONS: &[Transition] = &[
+pub const TRANSITIONS: &[Transition<Phase>] = &[
     row(Phase::NotSynchronised, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
     row(Phase::WaitingForStart, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
     row(Phase::Synchronised, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
@@ -233,9 +219,7 @@ impl State {
     /// Takes a step of the table.
     pub(super) fn step_grouping(&mut self, index: usize, by: Rule, inputs: [Input; 3], parent: EventId) {
         let grouping = &mut self.groupings[index];
-        let to = TRANSITIONS.iter().find(|row| row.from == grouping.phase && row.by == by).map(|row| row.to);
-        debug_assert!(to.is_some(), "no step from {:?} by {by:?}", grouping.phase);
-        grouping.phase = to.unwrap_or_default();
+        grouping.phase = next(TRANSITIONS, grouping.phase, by);
         grouping.cause = self.log.note(Place::Axis(grouping.coupling.leader()), by, inputs, parent);
         match grouping.phase {
             Phase::WaitingForStart => (grouping.message, grouping.waited_for) = (true, true),

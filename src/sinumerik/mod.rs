@@ -38,6 +38,7 @@ mod rules;
 mod run_up;
 mod setpoints;
 mod synchronisation;
+mod transitions;
 
 pub use alarm_list::NOT_RAISED as ALARMS_NOT_RAISED;
 pub use alarms::{Alarm, CATALOGUE as ALARMS, Cancel, Reaction};
@@ -46,6 +47,7 @@ pub use gantry::{Phase as GroupingPhase, TRANSITIONS as GROUPING_TRANSITIONS};
 pub use parameters::{AxisPresence, Parameters};
 pub use referencing::{Phase as ApproachPhase, TRANSITIONS as APPROACH_TRANSITIONS};
 pub use rules::Rule;
+pub use transitions::Transition;
 
 use std::sync::Arc;
 

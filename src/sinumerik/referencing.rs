@@ -19,6 +19,7 @@ use super::axis::{Axis, Motion};
 use super::log::{Log, axis_bit};
 use super::parameters::AxisParameters;
 use super::rules::Rule;
+use super::transitions::{Transition, next, row};
 use crate::image::AxisToNck;
 use crate::units::{AxisNumber, ChannelNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity, SignalBit};
@@ -49,23 +50,8 @@ pub enum Phase {
     ExactStop,
 }
 
-/// A step from one phase to another by a rule.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Transition {
-    /// From.
-    pub from: Phase,
-    /// To.
-    pub to: Phase,
-    /// By.
-    pub by: Rule,
-}
-
-const fn row(from: Phase, by: Rule, to: Phase) -> Transition {
-    Transition { from, to, by }
-}
-
 /// Every step that an approach can take, but for aborts, which lead from anywhere to [`Phase::Idle`].
-pub const TRANSITIONS: &[Transition] = &[
+pub const TRANSITIONS: &[Transition<Phase>] = &[
     row(Phase::Idle, Rule::ApproachStarted, Phase::SearchCam),
     row(Phase::SearchCam, Rule::WithoutCam, Phase::SearchMark),
     row(Phase::SearchCam, Rule::OnCamAtStart, Phase::SearchEdge),
@@ -150,16 +136,13 @@ impl Approach {
     }
 
     fn step(&mut self, log: &mut Log, number: AxisNumber, by: Rule, inputs: [Input; 3]) {
-        let to = TRANSITIONS.iter().find(|row| row.from == self.phase && row.by == by).map(|row| row.to);
-        debug_assert!(to.is_some(), "no step from {:?} by {by:?}", self.phase);
-        self.phase = to.unwrap_or(Phase::Idle);
+        self.phase = next(TRANSITIONS, self.phase, by);
         self.cause = log.note(Place::Axis(number), by, inputs, self.cause);
     }
 
     /// Starts towards the cam, in the direction of a sign; `cause` is the event that asked for it.
     pub(super) fn start(&mut self, direction: f64, actual: Position, cause: EventId) {
-        let (phase, first) = (Phase::SearchCam, TRANSITIONS[0]);
-        debug_assert!(first.from == Phase::Idle && first.to == phase);
+        let phase = next(TRANSITIONS, Phase::Idle, Rule::ApproachStarted);
         *self = Self {
             phase,
             cam_direction: direction,
