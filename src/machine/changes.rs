@@ -2,7 +2,7 @@
 
 use super::Machine;
 use super::command::Force;
-use crate::image::{Location, Memory, Part, signals_at};
+use crate::image::{Memory, Part, signals_at};
 use crate::trace::{By, Change, Row};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 use crate::variables::{EventId, Place};
@@ -45,7 +45,7 @@ impl Machine {
         let written = &self.before.written;
         for (index, &Force { location, value }) in written.iter().enumerate() {
             // What another write of the same cycle replaced, the PLC did not.
-            let once_more = written[index + 1..].iter().any(|later| overlap(later.location, location));
+            let once_more = written[index + 1..].iter().any(|later| later.location.overlaps(location));
             if once_more || self.memory.read(location) == value & location.mask() {
                 continue;
             }
@@ -184,16 +184,6 @@ impl Machine {
         self.alarms_before.clear();
         self.alarms_before.extend(self.variables.alarms.iter());
     }
-}
-
-/// Whether two places have a bit in common.
-fn overlap(one: Location, other: Location) -> bool {
-    let bits = |location: Location| {
-        let first = u64::from(location.offset) * 8 + u64::from(location.bit);
-        first..first + u64::from(location.width)
-    };
-    let (a, b) = (bits(one), bits(other));
-    one.part == other.part && a.start < b.end && b.start < a.end
 }
 
 /// Whose block a byte is in, and which byte of the block it is; of the second mode group, counted from its own start.

@@ -14,14 +14,13 @@ use crate::variables::{AxisValues, Place, Variables};
 impl Control {
     /// Writes what the control shows.
     pub fn publish(&mut self, from_nck: &mut FromNck, hmi: &mut Hmi, variables: &mut Variables) {
-        let parameters = std::sync::Arc::clone(&self.parameters);
-        let state = &mut *self.state;
+        let (parameters, state) = (&*self.parameters, &mut *self.state);
         if std::mem::take(&mut state.overwritten) {
             clear_signals(from_nck);
         }
         state.publish_nck(from_nck);
         state.publish_mode_group(from_nck, hmi);
-        state.publish_channel(from_nck, &parameters);
+        state.publish_channel(from_nck, parameters);
         for (number, axis) in parameters.existing() {
             if !axis.silent {
                 state.publish_axis(&mut from_nck.axes[number], number, axis);
@@ -29,7 +28,7 @@ impl Control {
             variables.axes[number] = state.values(number, axis);
         }
         for index in 0..state.groupings.len() {
-            state.publish_grouping(index, from_nck, &parameters, variables);
+            state.publish_grouping(index, from_nck, parameters, variables);
         }
         if state.alarms.take_changed() {
             variables.alarms.publish(state.alarms.iter().map(|(alarm, _)| *alarm));
