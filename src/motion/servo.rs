@@ -77,7 +77,7 @@ mod tests {
         assert!((drive.velocity() - 1000.0 * 19.0 / 27.0).abs() < 1e-9);
     }
 
-    /// DYN-05 (without feed-forward): the following error at constant velocity is v/Kv.
+    /// Without feed-forward, the following error at constant velocity is v/Kv.
     #[test]
     fn the_following_error_is_velocity_over_gain() {
         let (gain, velocity) = (1000.0 / 60.0, 100e6);

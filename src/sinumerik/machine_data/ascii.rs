@@ -98,10 +98,17 @@ fn kind(line: &str) -> Kind<'_> {
     }
     assignment(line).unwrap_or_else(|| {
         Kind::Broken(
-            format!("expected an assignment such as `N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1`, found `{line}`"),
+            format!("expected an assignment such as `N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1`, found `{}`", quoted(line)),
             "write one assignment in a line",
         )
     })
+}
+
+/// The beginning of a line that is no assignment, fit for a terminal whatever it holds.
+fn quoted(line: &str) -> String {
+    let shown: String = line.chars().take(60).collect();
+    let more = if shown.len() < line.len() { "…" } else { "" };
+    format!("{}{more}", shown.escape_debug())
 }
 
 /// `N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1`

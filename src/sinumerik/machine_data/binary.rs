@@ -14,9 +14,12 @@ use super::ascii::{Broken, read_text};
 /// Headers are this long, and data are padded to a multiple of it.
 const BLOCK: usize = 512;
 
-/// Whether a file is a binary archive, or what a copy that failed left of one: an `.arc` without a byte.
+/// Whether a file is a binary archive, or what a copy that failed left of one: an `.arc` without a byte, or one with
+/// bytes that no text has. An `.arc` of plain text is an ASCII archive.
 pub(super) fn is_binary(name: &str, bytes: &[u8]) -> bool {
-    bytes.starts_with(b"@@MMCIBN") || bytes.is_empty() && Path::new(name).extension().is_some_and(|arc| arc == "arc")
+    let is_arc = Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("arc"));
+    let no_text = || bytes.iter().any(|&byte| byte < b'\t');
+    bytes.starts_with(b"@@MMCIBN") || is_arc && (bytes.is_empty() || no_text())
 }
 
 /// Reads an archive.

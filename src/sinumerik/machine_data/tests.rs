@@ -262,6 +262,15 @@ mod ascii_archives {
     }
 
     #[test]
+    fn an_arc_that_is_neither_text_nor_an_archive_is_damage_and_prints_no_control_characters() {
+        let damaged = Archive::read([("m.arc", &[0xC3, 0x00, 0x1B, b'x'][..])]).unwrap_err();
+        assert!(damaged[0].to_string().contains("at offset 0"), "{}", damaged[0]);
+        let text = Archive::read([("m.tea", &b"\x1B[31m red"[..])]).unwrap_err();
+        assert!(!text[0].to_string().contains('\x1B'), "{}", text[0]);
+        assert!(Archive::read([("m.arc", &b"N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1\n"[..])]).is_ok());
+    }
+
+    #[test]
     fn a_name_that_was_given_is_not_taken_by_the_default_of_another_axis() {
         // By default machine axis 2 is Y1 and machine axis 11 is Y2.
         let archive = archive("N10000 $MN_AXCONF_MACHAX_NAME_TAB[0]=\"Y1\"\nN37100 $MA_GANTRY_AXIS_TYPE[Y1]=1\n");
