@@ -121,8 +121,10 @@ impl Machine {
         self.before.written.push(Force { location, value });
         match location.part {
             Part::FromNck => self.control.half_overwritten(),
-            Part::Hmi if self.definition.strobe.is_touched_by(location) => {
-                self.control.strobe_written();
+            Part::Hmi => {
+                for group in self.definition.strobe.touched_by(location) {
+                    self.control.strobe_written(group);
+                }
             }
             _ => {}
         }

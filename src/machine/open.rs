@@ -1,6 +1,6 @@
 //! Reading a machine: machine data, `plant.toml`, presets; every default filled in.
 //!
-//! Which axes exist: those that MD20070 of channel 1 names where the archive says it, those with machine data of their own
+//! Which axes exist: those that MD20070 of a channel names where the archive says it, those with machine data of their own
 //! where it does not, and those of `plant.toml`; without any of these, the default of MD20070.
 
 use std::path::Path;
@@ -15,7 +15,7 @@ use crate::sinumerik::machine_data::{Archive, Finding, MachineData, Owner, Targe
 use crate::sinumerik::{AxisPresence, Control};
 use crate::source::{Place, Problem, Table, did_you_mean, read_text};
 use crate::trace::Recorder;
-use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel, Position, Time};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position, Time};
 use crate::variables::EventId;
 
 /// How to open a machine other than as its files say.
@@ -29,25 +29,28 @@ pub struct OpenOptions {
     pub preset: Option<Preset>,
 }
 
-/// Whose DB11.DBX5.2 is (E-01).
+/// Whose DB11.DBX5.2 is, and DBX25.2 of the second mode group (E-01).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Strobe {
     fixed: Option<Db11Byte5Bit2>,
-    /// Where DB11.DBB5 lies in the HMI's part.
-    byte: u32,
+    /// Where DB11.DBB5 and DBB25 lie in the HMI's part.
+    bytes: PerModeGroup<u32>,
 }
 
 impl Strobe {
-    /// A write there makes the byte the HMI's.
-    pub(super) fn is_touched_by(&self, location: Location) -> bool {
-        let touched = location.offset <= self.byte && self.byte < location.offset + location.bytes();
-        location.part == Part::Hmi && self.fixed.is_none() && touched
+    /// The mode groups whose byte a write there makes the HMI's.
+    pub(super) fn touched_by(&self, location: Location) -> impl Iterator<Item = ModeGroupNumber> {
+        let of_the_hmi = location.part == Part::Hmi && self.fixed.is_none();
+        let touched = move |byte: u32| location.offset <= byte && byte < location.offset + location.bytes();
+        ModeGroupNumber::all().filter(move |group| of_the_hmi && touched(self.bytes[*group]))
     }
 
     /// `hmi_strobe` fixes it from the start.
     pub(super) fn apply(&self, control: &mut Control) {
         if self.fixed == Some(Db11Byte5Bit2::HmiStrobe) {
-            control.strobe_written();
+            for group in ModeGroupNumber::all() {
+                control.strobe_written(group);
+            }
         }
     }
 }
@@ -98,7 +101,7 @@ pub(super) fn open(path: &Path, options: OpenOptions) -> Result<Machine, Problem
     let layout = layout(&plant, &archive, &control, &names);
     let mut warnings: Vec<String> = archive.findings.iter().map(Finding::to_string).collect();
     warnings.extend(not_modelled(&control, &names, &plant));
-    let strobe = Strobe { fixed: plant.db11_5_2, byte: strobe_byte(&memory) };
+    let strobe = Strobe { fixed: plant.db11_5_2, bytes: strobe_bytes(&memory) };
     let definition = Definition { plc_cycle: plant.plc_cycle, layout, names, memory: memory.clone(), strobe, warnings };
     Ok(assemble(definition, control, memory))
 }
@@ -166,11 +169,12 @@ fn read_built_in(path: &Path) -> Result<(Archive, Table), Problem> {
 }
 
 fn presence(archive: &Archive, plant: &PlantDefinition) -> PerAxis<AxisPresence> {
-    let channel = ChannelNumber::FIRST;
     let data = &archive.data;
-    let in_channel = |axis: AxisNumber| data.channels[channel].axconf_machax_used.contains(&axis.number());
+    let channels: Vec<ChannelNumber> =
+        ChannelNumber::all().filter(|&channel| data.mode_group(channel).is_some()).collect();
+    let in_channel = |axis: AxisNumber| channels.iter().any(|&channel| data.channel_knows(channel, axis));
     let in_plant = |axis: AxisNumber| plant.axes.contains_key(data.axis_name(axis));
-    let said = archive.is_given_for(20070, Owner::Channel(channel));
+    let said = channels.iter().any(|&channel| archive.is_given_for(20070, Owner::Channel(channel)));
     let named = |axis: AxisNumber| in_plant(axis) || if said { in_channel(axis) } else { archive.given_axis(axis) };
     let any = AxisNumber::all().any(named);
     PerAxis::from_fn(|axis| {
@@ -217,15 +221,24 @@ fn check_plc_cycle(plc_cycle: Option<Time>, cycle: Time, place: &Place) -> Resul
     }
 }
 
-fn strobe_byte(memory: &Memory) -> u32 {
-    let address = "DB11.DBB5".parse().ok();
-    let location = address.and_then(|address| memory.locate(&address, Profile::Sinumerik840dSl).ok());
-    location.map_or(u32::MAX, |location| location.offset)
+fn strobe_bytes(memory: &Memory) -> PerModeGroup<u32> {
+    PerModeGroup::new(["DB11.DBB5", "DB11.DBB25"]).map(|address| {
+        let address = address.parse().ok();
+        let location = address.and_then(|address| memory.locate(&address, Profile::Sinumerik840dSl).ok());
+        location.map_or(u32::MAX, |location| location.offset)
+    })
 }
 
 /// What machine data and plant ask for and this version does not do, so that nobody waits for it in vain.
 fn not_modelled(control: &Control, names: &Names, plant: &PlantDefinition) -> Vec<String> {
     let mut warnings = Vec::new();
+    for (index, group) in control.active().general.assign_chan_to_mode_group.iter().enumerate() {
+        if *group > i32::from(ModeGroupNumber::MAX) {
+            let channel = index + 1;
+            warnings
+                .push(format!("channel {channel}: MD10010 = {group} is not modelled; there are mode groups 1 and 2"));
+        }
+    }
     for (number, axis) in control.parameters().existing() {
         let name = names.axes[number].as_deref().unwrap_or_default();
         for (index, &mode) in axis.reference.mode.iter().enumerate().take(usize::from(axis.encoders)) {

@@ -26,7 +26,6 @@ alarms! {
     4200 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 geometry axis %2 must not be a rotary axis";
     4210 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 spindle %2: declaration as rotary axis is missing";
     4300 [DISPLAY] Reset "axis %2 machine datum %1: declaration not allowed";
-    10203 [INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 NC start without reference point, action %2";
     10620 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %3 axis %2 reaches software limit switch %4";
     10630 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %2 axis %3 reaches working area limit %4";
     10631 [DISPLAY] ByItself "channel %1 axis %2 rests on working area limit %3";

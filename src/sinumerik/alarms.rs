@@ -161,6 +161,9 @@ alarms! {
     EMERGENCY_STOP 3000
         [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP NO_DELAY] ModeGroupReset
         "emergency stop";
+    /// NC start in AUTOMATIC or MDI while an axis that needs its reference point has none (MD20700).
+    START_WITHOUT_REFERENCE 10203 [INTERFACE_SIGNALS DISPLAY] NcStart
+        "channel %1 NC start without reference point";
     /// JOG: the axis rests on a software limit switch. %3: + or −.
     ON_SOFTWARE_LIMIT 10621 [DISPLAY] ByItself
         "channel %1 axis %2 rests on software limit switch %3";
@@ -266,12 +269,12 @@ impl Pending {
         }
     }
 
-    /// Removes what this way of cancelling removes; whether that was any.
-    pub(super) fn cancel(&mut self, by: Cancel) -> bool {
+    /// Removes what this way of cancelling removes of what concerns somebody; whether that was any.
+    pub(super) fn cancel(&mut self, by: Cancel, concerns: impl Fn(Place) -> bool) -> bool {
         let before = self.entries.len();
         self.entries.retain(|entry| {
             let class = Alarm::find(entry.alarm.number).map_or(Cancel::PowerOn, |alarm| alarm.cancel);
-            class == Cancel::ByItself || class > by
+            class == Cancel::ByItself || class > by || !concerns(entry.alarm.place)
         });
         let removed = self.entries.len() != before;
         self.changed |= removed;
@@ -295,12 +298,6 @@ impl Pending {
         std::mem::take(&mut self.changed)
     }
 
-    /// Whether nothing is pending.
-    #[must_use]
-    pub(super) fn is_empty(&self) -> bool {
-        self.entries.is_empty()
-    }
-
     /// All that are pending with the events behind them, in order of number and place.
     pub(super) fn iter(&self) -> impl Iterator<Item = (&RaisedAlarm, EventId)> {
         self.entries.iter().map(|entry| (&entry.alarm, entry.cause))
@@ -310,16 +307,19 @@ impl Pending {
     #[must_use]
     #[inline]
     pub(super) fn with_reaction(&self, reaction: Reaction, place: Option<Place>) -> Option<EventId> {
+        self.first(|entry, alarm| place.is_none_or(|place| entry == place) && alarm.reaction.has(reaction))
+    }
+
+    /// The event behind the first pending alarm that is meant, by its place and its row.
+    #[must_use]
+    #[inline]
+    pub(super) fn first(&self, meant: impl Fn(Place, &Alarm) -> bool) -> Option<EventId> {
         if self.entries.is_empty() {
             return None;
         }
-        self.entries
-            .iter()
-            .find(|entry| {
-                place.is_none_or(|place| entry.alarm.place == place)
-                    && Alarm::find(entry.alarm.number).is_some_and(|alarm| alarm.reaction.has(reaction))
-            })
-            .map(|entry| entry.cause)
+        let is_meant =
+            |entry: &&Entry| Alarm::find(entry.alarm.number).is_some_and(|alarm| meant(entry.alarm.place, alarm));
+        self.entries.iter().find(is_meant).map(|entry| entry.cause)
     }
 }
 
@@ -357,9 +357,11 @@ mod tests {
         for number in [ENABLE_RESET, GANTRY_TRIP_LIMIT, GANTRY_CONFIGURATION, GANTRY_WAITING] {
             raise(&mut pending, number);
         }
-        pending.cancel(Cancel::CancelKey);
+        pending.cancel(Cancel::CancelKey, |_| true);
         assert!(!has(&pending, ENABLE_RESET) && has(&pending, GANTRY_TRIP_LIMIT));
-        pending.cancel(Cancel::ModeGroupReset);
+        pending.cancel(Cancel::ModeGroupReset, |place| place != Place::Nck);
+        assert!(has(&pending, GANTRY_TRIP_LIMIT), "it concerns somebody else");
+        pending.cancel(Cancel::ModeGroupReset, |_| true);
         assert!(!has(&pending, GANTRY_TRIP_LIMIT));
         assert!(has(&pending, GANTRY_CONFIGURATION) && has(&pending, GANTRY_WAITING));
     }
@@ -373,6 +375,6 @@ mod tests {
         pending.settle();
         assert!(has(&pending, GANTRY_WARNING_LIMIT));
         pending.settle();
-        assert!(pending.is_empty());
+        assert_eq!(pending.iter().count(), 0);
     }
 }

@@ -6,9 +6,10 @@
 use super::alarms::Reaction;
 use super::axis::Axis;
 use super::gantry::Grouping;
+use super::parameters::Parameters;
 use super::rules::Rule;
 use super::{Control, State};
-use crate::units::{AxisNumber, Position};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position};
 use crate::variables::{AlarmNumber, Event, EventId, Input, Place, Quantity};
 
 impl Control {
@@ -16,8 +17,8 @@ impl Control {
     pub fn cause(&mut self, place: Place, byte: u16, bit: u8) -> EventId {
         let cause = match place {
             Place::Nck => self.state.nck_cause(byte, bit),
-            Place::ModeGroup(_) => self.state.mode_group_cause(byte, bit),
-            Place::Channel(_) => self.state.channel_cause(byte, bit),
+            Place::ModeGroup(group) => self.state.mode_group_cause(group, byte, bit, &self.parameters),
+            Place::Channel(channel) => self.state.channel_cause(channel, byte, bit, &self.parameters),
             Place::Axis(axis) => self.axis_cause(axis, byte, bit),
         };
         // What nothing has changed yet is as power on left it.
@@ -60,13 +61,20 @@ impl Control {
                 let limit = Input::Datum(datum, Some(number), window.user());
                 state.log.note(Place::Axis(number), Rule::ExactStop, [measured, limit, Input::None], causes.motion)
             }
-            (61, 1) => state.alarm_event(Reaction::INTERFACE_SIGNALS, Some(Place::Axis(number))),
+            (61, 1) => {
+                let alarm = state.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, Some(Place::Axis(number)));
+                alarm.unwrap_or(state.channels[parameters.channel].cancel_cause)
+            }
             (61, 2) => {
                 let alarm = state.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, Some(Place::Axis(number)));
                 alarm.unwrap_or_else(|| match axis.measuring_system {
                     None => causes.measuring_system,
                     Some(_) if !axis.drive_ready => state.run_up.cause,
-                    Some(_) => state.run_up.cause.max(causes.measuring_system).max(state.channel.cancel_cause),
+                    Some(_) => state
+                        .run_up
+                        .cause
+                        .max(causes.measuring_system)
+                        .max(state.channels[parameters.channel].cancel_cause),
                 })
             }
             (61, 3 | 5 | 6 | 7) => causes.enabling,
@@ -93,52 +101,63 @@ impl State {
     fn nck_cause(&self, byte: u16, bit: u8) -> EventId {
         match (byte, bit) {
             (106, 1) => self.emergency_stop.cause,
-            (109, _) => self.alarm_event(Reaction::INTERFACE_SIGNALS, None),
+            (109, _) => self.any_alarm_event(Reaction::INTERFACE_SIGNALS),
             (108, 7) if self.run_up.is_nc_ready() && !self.is_nc_ready() => {
-                self.alarm_event(Reaction::NC_NOT_READY, None)
+                self.any_alarm_event(Reaction::NC_NOT_READY)
             }
             _ => self.run_up.cause,
         }
     }
 
-    fn mode_group_cause(&mut self, byte: u16, bit: u8) -> EventId {
+    fn mode_group_cause(&mut self, group: ModeGroupNumber, byte: u16, bit: u8, parameters: &Parameters) -> EventId {
         match (byte, bit) {
-            (6, 0..=2) => self.mode_group.mode_cause,
-            (6, 3) => self.alarm_event(Reaction::MODE_GROUP_NOT_READY, None).max(self.run_up.cause),
-            (6, 7) => self.motion_event(),
-            (5 | 7, _) => self.mode_group.function_cause,
+            (6, 0..=2) => self.mode_groups[group].mode_cause,
+            (6, 3) => {
+                let alarm = self.mode_group_not_ready(group, parameters);
+                alarm.unwrap_or_else(|| self.cancel_event()).max(self.run_up.cause)
+            }
+            (6, 7) => self.motion_event(|channel| parameters.mode_group(channel) == group, parameters),
+            (5 | 7, _) => self.mode_groups[group].function_cause,
             _ => EventId::NONE,
         }
     }
 
-    fn channel_cause(&mut self, byte: u16, bit: u8) -> EventId {
+    fn channel_cause(&mut self, channel: ChannelNumber, byte: u16, bit: u8, parameters: &Parameters) -> EventId {
+        // The first alarm with the reaction that a signal sums up; once there is none any more, what cancelled the last.
+        let alarm = |reaction| {
+            let first = self.channel_alarm(channel, reaction, parameters);
+            first.unwrap_or(self.channels[channel].cancel_cause)
+        };
         match (byte, bit) {
-            (33, 0) => self.channel.referencing.cause,
-            (35, 5..=7) | (36, 3) => self.motion_event(),
-            (36, 2) => self.reference_event(),
-            (36, 5) => self.alarm_event(Reaction::CHANNEL_NOT_READY, None).max(self.run_up.cause),
-            (36, 6) => self.alarm_event(Reaction::INTERFACE_SIGNALS, None),
-            (36, 7) => self.alarm_event(Reaction::STOP, None),
+            (33, 0) => self.channels[channel].referencing.cause,
+            (35, 5..=7) | (36, 3) => self.motion_event(|of| of == channel, parameters),
+            (36, 2) => self.reference_event(channel, parameters),
+            (36, 5) => alarm(Reaction::CHANNEL_NOT_READY).max(self.run_up.cause),
+            (36, 6) => alarm(Reaction::INTERFACE_SIGNALS),
+            (36, 7) => alarm(Reaction::STOP),
             _ => EventId::NONE,
         }
     }
 
-    /// The first alarm with the reaction that a signal sums up; once there is none any more, what cancelled the last.
-    fn alarm_event(&self, reaction: Reaction, place: Option<Place>) -> EventId {
-        self.alarms.with_reaction(reaction, place).unwrap_or(self.channel.cancel_cause)
+    fn any_alarm_event(&self, reaction: Reaction) -> EventId {
+        self.alarms.with_reaction(reaction, None).unwrap_or_else(|| self.cancel_event())
     }
 
-    /// The latest movement of any axis.
-    fn motion_event(&self) -> EventId {
-        self.axes.iter().map(|(_, axis)| axis.causes.motion).max().unwrap_or(EventId::NONE)
+    /// What took alarms away last, in any channel.
+    fn cancel_event(&self) -> EventId {
+        self.channels.iter().map(|(_, channel)| channel.cancel_cause).max().unwrap_or(EventId::NONE)
     }
 
-    fn reference_event(&self) -> EventId {
-        self.axes
-            .iter()
-            .map(|(_, axis)| axis.causes.reference[0].max(axis.causes.reference[1]))
-            .max()
-            .unwrap_or(EventId::NONE)
+    /// The latest movement of any axis of these channels.
+    fn motion_event(&self, channels: impl Fn(ChannelNumber) -> bool, parameters: &Parameters) -> EventId {
+        let axes = parameters.existing().filter(|(_, axis)| channels(axis.channel));
+        axes.map(|(number, _)| self.axes[number].causes.motion).max().unwrap_or(EventId::NONE)
+    }
+
+    fn reference_event(&self, channel: ChannelNumber, parameters: &Parameters) -> EventId {
+        let axes = parameters.existing().filter(|(_, axis)| axis.channel == channel);
+        let causes = axes.map(|(number, _)| self.axes[number].causes.reference);
+        causes.map(|[first, second]| first.max(second)).max().unwrap_or(EventId::NONE)
     }
 
     fn grouping_of(&self, axis: AxisNumber) -> Option<&Grouping> {

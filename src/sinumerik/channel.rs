@@ -1,21 +1,25 @@
-//! Channel 1: RESET, the alarm-cancel key, and the states that it shows.
+//! The channels: RESET, the alarm-cancel key, NC start, and the states that they show.
 //!
-//! RESET is the rising edge of DB21.DBX7.7 or DB11.DBX0.7; while either is 1 nothing starts to move. With one channel in
-//! the mode group, a channel RESET is a RESET in all its channels.
+//! RESET of a channel is the rising edge of DB21.DBX7.7 or of DB11.DBX0.7 of its mode group; while either is 1 nothing of it
+//! starts to move. It cancels the channel's alarms of class RESET; those of class mode group RESET go when RESET is pressed in
+//! all channels of the group at once. The alarm-cancel key concerns all channels. As long as no NC program can be selected,
+//! NC start does no more than to cancel alarms and to be refused without a reference point (10203).
 
 use serde::{Deserialize, Serialize};
 
-use super::alarms::{Cancel, Reaction};
+use super::alarms::{self, Cancel, Reaction};
+use super::mode_group::Mode;
+use super::parameters::Parameters;
 use super::reference_axes::ChannelReferencing;
 use super::rules::Rule;
 use super::{Control, State};
 use crate::image::ToNck;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
-use crate::variables::{EventId, Input, Place, SignalBit};
+use crate::variables::{EventId, Input, Parameter, Place, SignalBit};
 
 use super::machine_data::Effect;
 
-/// The state of the channel.
+/// The state of a channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Channel {
     /// RESET is pressed.
@@ -24,6 +28,8 @@ pub(super) struct Channel {
     pub reset_cause: EventId,
     /// What took alarms away last: RESET, the cancel key or NC start.
     pub cancel_cause: EventId,
+    /// NC start in the last cycle.
+    start_was: bool,
     /// Channel-specific referencing.
     pub referencing: ChannelReferencing,
 }
@@ -43,60 +49,140 @@ impl Channel {
 }
 
 impl Control {
-    /// RESET and the cancel key; data of the classes RESET and NEWCONF become active.
+    /// RESET, the cancel key and NC start; data of the classes RESET and NEWCONF become active with a RESET.
     pub(super) fn reset_and_cancel(&mut self, to_nck: &ToNck, cancel_key: bool) {
-        let by_channel = to_nck.channels[ChannelNumber::FIRST].channel_reset();
-        let by_mode_group = to_nck.mode_groups[ModeGroupNumber::FIRST].mode_group_reset();
-        let pressed = by_channel || by_mode_group;
-        let rises = pressed && !self.state.channel.reset;
-        self.state.channel.reset = pressed;
-        if to_nck.channels[ChannelNumber::FIRST].nc_start() {
-            self.state.cancel(Cancel::NcStart);
-        } else if cancel_key {
-            self.state.cancel(Cancel::CancelKey);
+        let (parameters, state) = (&*self.parameters, &mut *self.state);
+        let mut any = false;
+        for (channel, group) in parameters.existing_channels() {
+            state.start(channel, group, parameters, to_nck);
+            any |= state.reset(channel, group, parameters, to_nck);
         }
-        if !rises {
+        if cancel_key {
+            state.cancel(Cancel::CancelKey, None, parameters);
+        }
+        if !any {
             return;
         }
-        let bit = if by_mode_group {
-            SignalBit { place: Place::ModeGroup(ModeGroupNumber::FIRST), byte: 0, bit: 7 }
-        } else {
-            SignalBit { place: Place::Channel(ChannelNumber::FIRST), byte: 7, bit: 7 }
-        };
-        let channel = Place::Channel(ChannelNumber::FIRST);
-        let event = self.state.log.note_one(channel, Rule::ResetDone, Input::Bit(bit, true), EventId::NONE);
-        self.state.channel.reset_cause = event;
-        self.state.channel.cancel_cause = event;
-        self.state.alarms.cancel(Cancel::ModeGroupReset);
-        self.activate(Effect::Reset);
-        for index in 0..self.state.groupings.len() {
-            self.state.reset_grouping(index, event);
+        for group in parameters.existing_mode_groups() {
+            let mut channels = parameters.existing_channels().filter(|(_, of)| *of == group);
+            if channels.all(|(channel, _)| state.channels[channel].reset) {
+                state.alarms.cancel(Cancel::ModeGroupReset, |place| parameters.concerns_mode_group(place, group));
+            }
         }
+        self.activate(Effect::Reset);
     }
 }
 
 impl State {
-    /// The cancel key or NC start.
-    fn cancel(&mut self, by: Cancel) {
-        if self.alarms.cancel(by) {
-            let channel = Place::Channel(ChannelNumber::FIRST);
-            self.channel.cancel_cause = self.log.note_plain(channel, Rule::AlarmCancelled, EventId::NONE);
+    /// RESET of a channel; whether it begins in this cycle.
+    fn reset(
+        &mut self,
+        channel: ChannelNumber,
+        group: ModeGroupNumber,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> bool {
+        let by_mode_group = to_nck.mode_groups[group].mode_group_reset();
+        let pressed = to_nck.channels[channel].channel_reset() || by_mode_group;
+        let rises = pressed && !self.channels[channel].reset;
+        self.channels[channel].reset = pressed;
+        if !rises {
+            return false;
+        }
+        let bit = if by_mode_group {
+            SignalBit { place: Place::ModeGroup(group), byte: 0, bit: 7 }
+        } else {
+            SignalBit { place: Place::Channel(channel), byte: 7, bit: 7 }
+        };
+        let place = Place::Channel(channel);
+        let event = self.log.note_one(place, Rule::ResetDone, Input::Bit(bit, true), EventId::NONE);
+        self.channels[channel].reset_cause = event;
+        self.channels[channel].cancel_cause = event;
+        self.alarms.cancel(Cancel::Reset, |place| parameters.concerns_channel(place, channel));
+        for index in 0..self.groupings.len() {
+            let leader = self.groupings[index].coupling.leader();
+            if parameters.axes[leader].channel == channel {
+                self.reset_grouping(index, event);
+            }
+        }
+        true
+    }
+
+    /// NC start of a channel.
+    fn start(&mut self, channel: ChannelNumber, group: ModeGroupNumber, parameters: &Parameters, to_nck: &ToNck) {
+        let signals = &to_nck.channels[channel];
+        let start = signals.nc_start();
+        let rises = start && !std::mem::replace(&mut self.channels[channel].start_was, start);
+        if start {
+            self.cancel(Cancel::NcStart, Some(channel), parameters);
+        }
+        let runs_programs = self.mode_groups[group].mode != Mode::Jog;
+        if rises && runs_programs && !signals.nc_start_disable() && !self.is_referenced(channel, parameters) {
+            let place = Place::Channel(channel);
+            let bit = Input::Bit(SignalBit { place, byte: 7, bit: 1 }, true);
+            let missing = Input::Bit(SignalBit { place, byte: 36, bit: 2 }, false);
+            let event = self.log.note(place, Rule::StartRefused, [bit, missing, Input::None], EventId::NONE);
+            let shown = [Parameter::Channel(channel), Parameter::None, Parameter::None, Parameter::None];
+            self.alarms.raise(alarms::START_WITHOUT_REFERENCE, place, shown, event);
         }
     }
 
-    /// What stops every movement: RESET, or an alarm with the reaction NC stop or NC not ready.
-    pub(super) fn stop_cause(&self) -> Option<EventId> {
+    /// The cancel key, or NC start of a channel.
+    fn cancel(&mut self, by: Cancel, channel: Option<ChannelNumber>, parameters: &Parameters) {
+        let concerns = |place| channel.is_none_or(|channel| parameters.concerns_channel(place, channel));
+        if self.alarms.cancel(by, concerns) {
+            let shown = channel.unwrap_or(ChannelNumber::FIRST);
+            let event = self.log.note_plain(Place::Channel(shown), Rule::AlarmCancelled, EventId::NONE);
+            for (number, _) in parameters.existing_channels() {
+                if channel.is_none_or(|channel| channel == number) {
+                    self.channels[number].cancel_cause = event;
+                }
+            }
+        }
+    }
+
+    /// What stops every movement of a channel: RESET, or an alarm that says NC stop, NC not ready or mode group not ready.
+    pub(super) fn stop_cause(&self, channel: ChannelNumber, parameters: &Parameters) -> Option<EventId> {
         if let Some(cause) = self.emergency_stop.active_cause() {
             return Some(cause);
         }
-        if self.channel.reset {
-            return Some(self.channel.reset_cause);
-        }
-        if self.alarms.is_empty() {
-            return None;
+        if self.channels[channel].reset {
+            return Some(self.channels[channel].reset_cause);
         }
         self.alarms
-            .with_reaction(Reaction::STOP, None)
-            .or_else(|| self.alarms.with_reaction(Reaction::NC_NOT_READY, None))
+            .first(|place, alarm| {
+                alarm.reaction.has(Reaction::STOP) && parameters.concerns_channel(place, channel)
+                    || alarm.reaction.has(Reaction::NC_NOT_READY)
+            })
+            .or_else(|| self.mode_group_not_ready(parameters.mode_group(channel), parameters))
+    }
+
+    /// The alarm that takes "mode group ready" from a group; one that concerns a single axis does not stop the others.
+    pub(super) fn mode_group_not_ready(&self, group: ModeGroupNumber, parameters: &Parameters) -> Option<EventId> {
+        self.alarms.first(|place, alarm| {
+            let only_channel = parameters.only_channel_not_ready && alarm.reaction.has(Reaction::CHANNEL_NOT_READY);
+            let not_ready = alarm.reaction.has(Reaction::MODE_GROUP_NOT_READY) && !only_channel;
+            not_ready && parameters.concerns_mode_group(place, group)
+        })
+    }
+
+    /// The first alarm with a reaction that concerns a channel.
+    pub(super) fn channel_alarm(
+        &self,
+        channel: ChannelNumber,
+        reaction: Reaction,
+        parameters: &Parameters,
+    ) -> Option<EventId> {
+        self.alarms.first(|place, alarm| alarm.reaction.has(reaction) && parameters.concerns_channel(place, channel))
+    }
+
+    /// The axes that need their reference point for NC start have it: those with MD34110 above −1, where MD20700 is not 0.
+    pub(super) fn is_referenced(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
+        let needed = parameters.channels[channel].reference_needed;
+        !needed
+            || parameters
+                .existing()
+                .filter(|(_, axis)| axis.channel == channel && axis.reference.cycle_number > -1)
+                .all(|(number, _)| self.axes[number].is_referenced())
     }
 }

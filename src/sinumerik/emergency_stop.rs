@@ -2,12 +2,14 @@
 //!
 //! Called before RESET in the control's part of a cycle. 56.1 = 1 begins it: alarm 3000 (NC not ready, mode group not ready),
 //! 106.1 = 1, all axes brake on the ramp of MD36610, are switched off after MD36620 at the latest, and follow up. It ends when
-//! 56.1 is 0 and acknowledge 56.2 and mode group RESET (DB11.DBX0.7) are 1 together; neither alone ends it.
+//! 56.1 is 0 and acknowledge 56.2 and mode group RESET (DB11.DBX0.7, of every mode group that has channels) are 1 together; neither
+//! alone ends it.
 
 use serde::{Deserialize, Serialize};
 
 use super::State;
 use super::alarms::Cancel;
+use super::parameters::Parameters;
 use super::rules::Rule;
 use crate::image::ToNck;
 use crate::units::ModeGroupNumber;
@@ -41,10 +43,11 @@ fn bit(bit: u8, value: bool) -> Input {
 
 impl State {
     /// One cycle of the handshake.
-    pub(super) fn watch_emergency_stop(&mut self, to_nck: &ToNck) {
+    pub(super) fn watch_emergency_stop(&mut self, parameters: &Parameters, to_nck: &ToNck) {
         let requested = to_nck.nck.emergency_stop();
         let acknowledged = to_nck.nck.acknowledge_emergency_stop();
-        let reset = to_nck.mode_groups[ModeGroupNumber::FIRST].mode_group_reset();
+        let mut groups = parameters.existing_mode_groups();
+        let reset = groups.all(|group| to_nck.mode_groups[group].mode_group_reset());
         if requested && !self.emergency_stop.active {
             let cause = self.log.note_one(Place::Nck, Rule::EmergencyStop, bit(1, true), EventId::NONE);
             self.emergency_stop = EmergencyStop { active: true, cause };
@@ -53,7 +56,7 @@ impl State {
             let inputs = [bit(1, false), bit(2, true), Input::Bit(group, true)];
             let cause = self.log.note(Place::Nck, Rule::EmergencyStopAcknowledged, inputs, self.emergency_stop.cause);
             self.emergency_stop = EmergencyStop { active: false, cause };
-            self.alarms.cancel(Cancel::ModeGroupReset);
+            self.alarms.cancel(Cancel::ModeGroupReset, |_| true);
         }
     }
 }

@@ -13,7 +13,7 @@ use super::parameters::Parameters;
 use super::rules::Rule;
 use super::{State, Unit};
 use crate::image::ToNck;
-use crate::units::{AxisNumber, ChannelNumber};
+use crate::units::AxisNumber;
 use crate::variables::{EventId, Input, Parameter, Place};
 
 /// How many cycles each step of the chain takes, so that brake and timer logic meets a real order.
@@ -156,7 +156,7 @@ impl State {
                 let (axis, cause) = conditions.culprit;
                 let event =
                     self.log.note_one(Place::Axis(axis), Rule::EnableLostInMotion, conditions.missing, EventId::NONE);
-                let channel = Parameter::Channel(ChannelNumber::FIRST);
+                let channel = Parameter::Channel(unit.channel);
                 let cause = [channel, Parameter::Axis(axis), Parameter::Number(cause), Parameter::None];
                 self.alarms.raise(alarms::ENABLE_RESET, Place::Axis(axis), cause, event);
             }

@@ -20,7 +20,7 @@ use super::transitions::{Transition, next, row};
 use super::{State, Unit};
 use crate::image::ToNck;
 use crate::motion::Coupling;
-use crate::units::{AxisNumber, Position};
+use crate::units::{AxisNumber, ChannelNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Place};
 
 /// Where a grouping is.
@@ -181,37 +181,37 @@ impl State {
         self.groupings[index].start_was = start;
         self.brake(unit, parameters);
         self.watch_limit_switches(unit, to_nck);
-        self.watch_key(leader, self.groupings[index].is_referencing(), to_nck);
+        self.watch_key(unit, self.groupings[index].is_referencing(), to_nck);
         self.watch_synchronism(index, unit, parameters, to_nck);
         if !self.groupings[index].coupled {
             let rest = unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest());
             let synchronising = self.groupings[index].phase == Phase::Synchronising;
             self.groupings[index].coupled = rest && !synchronising;
         }
-        if !self.mode_group.reference {
+        if !self.mode_group(unit).is_referencing() {
             self.groupings[index].from_referencing = false;
         }
-        if self.may_start_approach(index, unit)
+        if self.may_start_approach(index, unit, parameters)
             && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
         {
-            self.start_grouping_approach(index, direction, event);
+            self.start_grouping_approach(index, unit.channel, direction, event);
         }
         match self.groupings[index].phase {
             Phase::ReferencingLeadingAxis | Phase::ReferencingSynchronousAxis => {
                 self.reference_grouping(index, unit, parameters, to_nck);
             }
-            Phase::WaitingForStart if start_rises && self.may_synchronise(unit) => {
+            Phase::WaitingForStart if start_rises && self.may_synchronise(unit, parameters) => {
                 self.start_synchronising(index, parameters);
             }
             Phase::Synchronising => self.synchronise(index, unit, parameters),
             Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {}
         }
         let idle = !self.groupings[index].is_referencing() && self.groupings[index].coupled;
-        if idle && self.is_jogging() {
+        if idle && self.is_jogging(unit) {
             self.jog(unit, parameters, to_nck);
         } else if idle {
             // A key that moved the grouping lost its meaning with the mode.
-            let cause = self.mode_group.cause();
+            let cause = self.mode_group(unit).cause();
             self.traverse(leader, 0, 0, cause);
         }
     }
@@ -229,22 +229,22 @@ impl State {
         }
     }
 
-    fn may_start_approach(&self, index: usize, unit: &Unit) -> bool {
+    fn may_start_approach(&self, index: usize, unit: &Unit, parameters: &Parameters) -> bool {
         let grouping = &self.groupings[index];
         let phase = matches!(grouping.phase, Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised);
-        phase && grouping.coupled && self.unit_can_move(unit)
+        phase && grouping.coupled && self.unit_can_move(unit, parameters)
     }
 
     /// REF active, no referencing of the channel running (REF-14), all axes in position control, nothing stops.
-    fn may_synchronise(&self, unit: &Unit) -> bool {
-        let free = self.unit_can_move(unit) && self.on_limit_switch(unit).is_none();
-        self.mode_group.reference && !self.channel.is_referencing() && free
+    fn may_synchronise(&self, unit: &Unit, parameters: &Parameters) -> bool {
+        let free = self.unit_can_move(unit, parameters) && self.on_limit_switch(unit).is_none();
+        self.mode_group(unit).is_referencing() && !self.channels[unit.channel].is_referencing() && free
     }
 
-    fn start_grouping_approach(&mut self, index: usize, direction: i8, event: EventId) {
+    fn start_grouping_approach(&mut self, index: usize, channel: ChannelNumber, direction: i8, event: EventId) {
         let leader = self.groupings[index].coupling.leader();
         self.step_grouping(index, Rule::LeadingAxisApproach, [Input::None; 3], event);
-        let key = if self.channel.started(leader) { 0 } else { direction };
+        let key = if self.channels[channel].started(leader) { 0 } else { direction };
         let grouping = &mut self.groupings[index];
         grouping.key = key;
         grouping.coupling.lead_with(leader);

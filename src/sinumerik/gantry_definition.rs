@@ -43,8 +43,6 @@ pub struct Definitions {
     pub faults: Vec<Fault>,
 }
 
-const CHANNEL: Parameter = Parameter::Channel(ChannelNumber::FIRST);
-
 /// Reads MD37100 of all axes.
 #[must_use]
 pub(super) fn define(data: &MachineData, axes: &PerAxis<AxisParameters>) -> Definitions {
@@ -53,7 +51,7 @@ pub(super) fn define(data: &MachineData, axes: &PerAxis<AxisParameters>) -> Defi
     for (axis, _) in axes.iter().filter(|(_, parameters)| parameters.exists) {
         // DEF-01: units digit = number of the grouping, tens digit 1 = synchronous axis.
         if !matches!(kind(axis), 0 | 1..=8 | 11..=18) {
-            found.faults.push(machine_data_fault(axis, 1));
+            found.faults.push(machine_data_fault(data, axis, 1));
         }
     }
     for number in 1..=8_u8 {
@@ -89,41 +87,60 @@ fn check(
     followers_elsewhere: bool,
     data: &MachineData,
 ) {
-    // 10650 code 2: leading axis declared more than once (DEF-05).
-    faults.extend(leaders.iter().skip(1).map(|&axis| machine_data_fault(axis, 2)));
+    let home = |axis: &AxisNumber| data.home_channel(*axis);
+    let channel = leaders.first().or_else(|| followers.first()).map_or(ChannelNumber::FIRST, home);
+    // 10650 code 2: leading axis declared more than once (DEF-05); in another channel its number clashes (DEF-07).
+    let (here, elsewhere): (Vec<_>, Vec<_>) = leaders.iter().skip(1).partition(|axis| home(axis) == channel);
+    faults.extend(here.into_iter().map(|&axis| machine_data_fault(data, axis, 2)));
     // 10650 code 1: wrong following-axis designation; more than two of them (DEF-03).
-    faults.extend(followers.iter().skip(2).map(|&axis| machine_data_fault(axis, 1)));
+    faults.extend(followers.iter().skip(2).map(|&axis| machine_data_fault(data, axis, 1)));
     let Some(&leader) = leaders.first() else {
-        faults.push(configuration_fault(1_000, number));
+        faults.push(configuration_fault(channel, 1_000, number));
         return;
     };
     if followers.is_empty() {
-        faults.push(configuration_fault(if followers_elsewhere { 5_000 } else { 2_000 }, number));
+        faults.push(configuration_fault(channel, if followers_elsewhere { 5_000 } else { 2_000 }, number));
+    }
+    // DEF-08: the synchronous axes are known wherever the leading axis is.
+    let unknown = |channel: ChannelNumber| {
+        data.channel_knows(channel, leader) && followers.iter().any(|&axis| !data.channel_knows(channel, axis))
+    };
+    let master_channel = |axis: AxisNumber| data.axes[axis].axconf_assign_master_chan;
+    let known_in = ChannelNumber::all().filter(|&channel| data.channel_knows(channel, leader)).count();
+    if known_in > 1 && ChannelNumber::all().any(unknown) {
+        faults.push(configuration_fault(channel, 6_000, number));
+    } else if followers.iter().any(|&axis| master_channel(axis) != master_channel(leader)) {
+        faults.push(configuration_fault(channel, 3_000, number));
+    } else if !elsewhere.is_empty() || followers.iter().any(|axis| home(axis) != channel) {
+        faults.push(configuration_fault(channel, 4_000, number));
     }
     let master = &data.axes[leader];
     for &axis in followers {
         if data.axes[axis].is_rot_ax != master.is_rot_ax {
-            let parameters = [CHANNEL, Parameter::Axis(axis), Parameter::Number(i64::from(number)), Parameter::None];
+            let parameters = [
+                Parameter::Channel(channel),
+                Parameter::Axis(axis),
+                Parameter::Number(i64::from(number)),
+                Parameter::None,
+            ];
             faults.push(Fault { alarm: alarms::GANTRY_MIXED_AXIS_TYPES, place: Place::Axis(axis), parameters });
         }
     }
-    if followers.iter().any(|&axis| data.axes[axis].axconf_assign_master_chan != master.axconf_assign_master_chan) {
-        faults.push(configuration_fault(3_000, number));
-    }
     let members = || leaders.iter().chain(followers);
     if members().any(|&axis| data.axes[axis].spind_assign_to_machax != 0) {
-        faults.push(configuration_fault(13_000, 0));
+        faults.push(configuration_fault(channel, 13_000, 0));
     }
 }
 
-fn machine_data_fault(axis: AxisNumber, code: i64) -> Fault {
-    let parameters = [CHANNEL, Parameter::Axis(axis), Parameter::Number(code), Parameter::None];
+fn machine_data_fault(data: &MachineData, axis: AxisNumber, code: i64) -> Fault {
+    let channel = Parameter::Channel(data.home_channel(axis));
+    let parameters = [channel, Parameter::Axis(axis), Parameter::Number(code), Parameter::None];
     Fault { alarm: alarms::GANTRY_MACHINE_DATA, place: Place::Axis(axis), parameters }
 }
 
 /// 10651 with its reason: thousands say what, the last two digits the grouping.
-fn configuration_fault(reason: i64, number: u8) -> Fault {
+fn configuration_fault(channel: ChannelNumber, reason: i64, number: u8) -> Fault {
     let reason = Parameter::Number(reason + i64::from(number));
-    let parameters = [CHANNEL, reason, Parameter::None, Parameter::None];
-    Fault { alarm: alarms::GANTRY_CONFIGURATION, place: Place::Channel(ChannelNumber::FIRST), parameters }
+    let parameters = [Parameter::Channel(channel), reason, Parameter::None, Parameter::None];
+    Fault { alarm: alarms::GANTRY_CONFIGURATION, place: Place::Channel(channel), parameters }
 }

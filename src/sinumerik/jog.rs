@@ -9,7 +9,7 @@ use super::parameters::Parameters;
 use super::rules::Rule;
 use super::{State, Unit};
 use crate::image::{AxisToNck, ToNck};
-use crate::units::{AxisNumber, ChannelNumber};
+use crate::units::AxisNumber;
 use crate::variables::{EventId, Input, Place};
 
 /// The direction of the traversing keys: +1, −1, or 0 for none, both, or keys that are disabled (4.4).
@@ -26,7 +26,7 @@ pub(super) fn key_direction(signals: &AxisToNck) -> i8 {
 impl State {
     /// What holds every movement of a unit: override factor 0, feed stop on any of its axes (SIG-06), feed disable.
     pub(super) fn take_feed(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
-        let disabled = to_nck.channels[ChannelNumber::FIRST].feed_disable();
+        let disabled = to_nck.channels[unit.channel].feed_disable();
         let stopped = unit.members().any(|axis| to_nck.axes[axis].feed_stop());
         for axis in unit.members() {
             let signals = &to_nck.axes[axis];
@@ -46,7 +46,7 @@ impl State {
         let signals = &to_nck.axes[number];
         let direction = key_direction(signals);
         let axis_parameters = &parameters.axes[number];
-        let stopped = self.stop_cause();
+        let stopped = self.stop_cause(unit.channel, parameters);
         let axis = &mut self.axes[number];
         let velocity = if signals.rapid_traverse_override() {
             axis_parameters.jog_rapid_velocity

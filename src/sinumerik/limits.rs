@@ -54,14 +54,21 @@ impl State {
             for (pressed, direction) in [(minus, -1), (plus, 1)] {
                 if pressed {
                     let cause = self.axes[number].limits.cause;
-                    self.raise_limit(alarms::HARDWARE_LIMIT_SWITCH, number, direction, cause);
+                    self.raise_limit(alarms::HARDWARE_LIMIT_SWITCH, unit.channel, number, direction, cause);
                 }
             }
         }
     }
 
-    fn raise_limit(&mut self, alarm: AlarmNumber, number: AxisNumber, direction: i8, cause: EventId) {
-        let channel = Parameter::Channel(ChannelNumber::FIRST);
+    fn raise_limit(
+        &mut self,
+        alarm: AlarmNumber,
+        channel: ChannelNumber,
+        number: AxisNumber,
+        direction: i8,
+        cause: EventId,
+    ) {
+        let channel = Parameter::Channel(channel);
         let parameters = [channel, Parameter::Axis(number), Parameter::Direction(direction), Parameter::None];
         self.alarms.raise(alarm, Place::Axis(number), parameters, cause);
     }
@@ -137,7 +144,7 @@ impl State {
             let way = (limit - self.axes[number].setpoint.position).increments();
             if way.signum() * i64::from(direction) <= 0 && self.axes[number].setpoint.is_at_rest() {
                 let cause = self.axes[number].causes.motion;
-                self.raise_limit(alarms::ON_SOFTWARE_LIMIT, number, direction, cause);
+                self.raise_limit(alarms::ON_SOFTWARE_LIMIT, unit.channel, number, direction, cause);
             }
         }
     }

@@ -20,6 +20,7 @@ mod alarms;
 mod axis;
 mod causes;
 mod channel;
+mod channels;
 mod emergency_stop;
 mod enabling;
 mod gantry;
@@ -57,7 +58,7 @@ use serde::{Deserialize, Serialize};
 use crate::image::ToNck;
 use crate::motion::{Coupling, velocity_command};
 use crate::source::Problem;
-use crate::units::{AxisNumber, PerAxis, Position};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position};
 use crate::variables::{EventId, Place};
 
 use axis::{Axis, Motion};
@@ -67,7 +68,7 @@ use gantry::Grouping;
 use gantry_definition::GROUPINGS;
 use log::Log;
 use machine_data::{Effect, MachineData, Target, Value};
-use mode_group::{Mode, ModeGroup};
+use mode_group::ModeGroup;
 use run_up::RunUp;
 
 /// Axes that are enabled, stopped and held together: a closed grouping with its leading axis first, or one axis.
@@ -77,15 +78,18 @@ struct Unit {
     count: u8,
     /// Which grouping it is.
     grouping: Option<u8>,
+    channel: ChannelNumber,
+    mode_group: ModeGroupNumber,
 }
 
 impl Unit {
-    const fn single(axis: AxisNumber) -> Self {
-        Self { axes: [axis; 3], count: 1, grouping: None }
+    fn single(axis: AxisNumber, parameters: &Parameters) -> Self {
+        let channel = parameters.axes[axis].channel;
+        Self { axes: [axis; 3], count: 1, grouping: None, channel, mode_group: parameters.mode_group(channel) }
     }
 
-    fn of(coupling: &Coupling, index: usize) -> Self {
-        let mut unit = Self::single(coupling.leader());
+    fn of(coupling: &Coupling, index: usize, parameters: &Parameters) -> Self {
+        let mut unit = Self::single(coupling.leader(), parameters);
         for (place, axis) in unit.axes.iter_mut().zip(coupling.members()) {
             *place = axis;
         }
@@ -108,9 +112,9 @@ impl Unit {
 struct State {
     log: Log,
     run_up: RunUp,
-    mode_group: ModeGroup,
+    mode_groups: PerModeGroup<ModeGroup>,
     emergency_stop: EmergencyStop,
-    channel: Channel,
+    channels: PerChannel<Channel>,
     axes: PerAxis<Axis>,
     groupings: ArrayVec<Grouping, GROUPINGS>,
     units: ArrayVec<Unit, { AxisNumber::MAX as usize }>,
@@ -251,23 +255,23 @@ impl Control {
         self.state.overwritten = true;
     }
 
-    /// Somebody else wrote DB11.DBB5 (E-01).
-    pub fn strobe_written(&mut self) {
-        self.state.strobe_written();
+    /// Somebody else wrote DBB5 of a mode group in DB11 (E-01).
+    pub fn strobe_written(&mut self, group: ModeGroupNumber) {
+        self.state.strobe_written(group);
     }
 
     /// Takes what the PLC wrote and commands setpoints.
     pub fn decide(&mut self, cycle: u64, to_nck: &ToNck, cancel_key: bool) {
         self.state.log.cycle = cycle;
         self.state.run_up(&self.parameters);
-        self.state.select_mode(to_nck);
-        self.state.watch_emergency_stop(to_nck);
+        self.state.select_modes(&self.parameters, to_nck);
+        self.state.watch_emergency_stop(&self.parameters, to_nck);
         self.reset_and_cancel(to_nck, cancel_key);
         let (parameters, state) = (&*self.parameters, &mut *self.state);
         state.form_units(parameters);
         state.select_measuring_systems(parameters, to_nck);
         state.enable(parameters, to_nck);
-        state.reference_by_channel(parameters, to_nck);
+        state.reference_by_channels(parameters, to_nck);
         for index in 0..state.units.len() {
             let unit = state.units[index];
             state.take_feed(&unit, parameters, to_nck);
@@ -313,9 +317,9 @@ impl State {
         let mut state = Self {
             log: Log::default(),
             run_up: RunUp::default(),
-            mode_group: ModeGroup::default(),
+            mode_groups: PerModeGroup::from_fn(|group| ModeGroup::new(parameters, group)),
             emergency_stop: EmergencyStop::default(),
-            channel: Channel::default(),
+            channels: PerChannel::default(),
             axes: PerAxis::default(),
             groupings: parameters.groupings.groupings.iter().map(Grouping::new).collect(),
             units: ArrayVec::new(),
@@ -342,7 +346,7 @@ impl State {
         self.units.clear();
         let mut taken = 0_u32;
         for (index, grouping) in self.groupings.iter().enumerate() {
-            let unit = Unit::of(&grouping.coupling, index);
+            let unit = Unit::of(&grouping.coupling, index, parameters);
             let broken_up = unit.members().any(|axis| parameters.axes[axis].gantry.broken_up);
             if broken_up && grouping.phase == gantry::Phase::Open {
                 continue;
@@ -353,18 +357,19 @@ impl State {
             self.units.push(unit);
         }
         for (axis, _) in parameters.existing().filter(|(axis, _)| taken >> axis.index() & 1 == 0) {
-            self.units.push(Unit::single(axis));
+            self.units.push(Unit::single(axis, parameters));
         }
     }
 
     /// JOG without a machine function.
-    fn is_jogging(&self) -> bool {
-        self.mode_group.mode == Mode::Jog && !self.mode_group.reference
+    fn is_jogging(&self, unit: &Unit) -> bool {
+        self.mode_group(unit).is_jogging()
     }
 
     /// Every axis is in position control, and nothing stops.
-    fn unit_can_move(&self, unit: &Unit) -> bool {
-        self.stop_cause().is_none() && unit.members().all(|axis| self.axes[axis].enabling.is_on())
+    fn unit_can_move(&self, unit: &Unit, parameters: &Parameters) -> bool {
+        self.stop_cause(unit.channel, parameters).is_none()
+            && unit.members().all(|axis| self.axes[axis].enabling.is_on())
     }
 
     /// Every axis of the unit brakes at the slowest rate (O-04), unless a later stage commands something else.

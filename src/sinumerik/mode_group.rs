@@ -1,13 +1,15 @@
-//! Mode group 1: modes and machine functions.
+//! The mode groups: modes and machine functions.
 //!
 //! Called first in the control's part of a cycle. Requests are levels (O-19): the highest of JOG, MDA, AUTO that is 1
-//! is taken, all 0 keeps the mode, DBX0.4 inhibits a change. Machine functions act within their mode: REF in JOG.
-//! Without MD10720, the control starts in JOG.
+//! is taken, all 0 keeps the mode, DBX0.4 inhibits a change. Machine functions act within their mode: TEACH IN in MDA, REF and
+//! REPOS in JOG; REF wins over REPOS. REPOS moves an axis back to where a program was interrupted; as long as no program has
+//! been, its keys move nothing. MD10720 names the mode after power on, JOG where it does not.
 
 use serde::{Deserialize, Serialize};
 
-use super::State;
+use super::parameters::Parameters;
 use super::rules::Rule;
+use super::{State, Unit};
 use crate::image::ToNck;
 use crate::units::ModeGroupNumber;
 use crate::variables::{EventId, Input, Place, SignalBit};
@@ -24,13 +26,38 @@ pub(super) enum Mode {
     Jog,
 }
 
-/// The state of the mode group.
+impl Mode {
+    /// After power on, as MD10720 says.
+    const fn after_power_on(datum: i32) -> Self {
+        match datum {
+            0 | 1 => Self::Automatic,
+            2..=5 => Self::Mda,
+            _ => Self::Jog,
+        }
+    }
+}
+
+/// What the keys mean within a mode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum MachineFunction {
+    /// The mode itself.
+    #[default]
+    None,
+    /// TEACH IN in MDA.
+    TeachIn,
+    /// REPOS in JOG.
+    Repos,
+    /// REF in JOG.
+    Reference,
+}
+
+/// The state of a mode group.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct ModeGroup {
     /// The active mode.
     pub mode: Mode,
-    /// Machine function REF is active within JOG.
-    pub reference: bool,
+    /// The active machine function.
+    pub function: MachineFunction,
     /// The event behind the mode.
     pub mode_cause: EventId,
     /// The event behind the machine function.
@@ -40,23 +67,41 @@ pub(super) struct ModeGroup {
 }
 
 impl ModeGroup {
+    /// As after power on.
+    pub(super) fn new(parameters: &Parameters, group: ModeGroupNumber) -> Self {
+        Self { mode: Mode::after_power_on(parameters.mode_after_power_on[group]), ..Self::default() }
+    }
+
     /// The latest change of mode or machine function.
     pub(super) fn cause(&self) -> EventId {
         self.mode_cause.max(self.function_cause)
     }
-}
 
-const FIRST: ModeGroupNumber = ModeGroupNumber::FIRST;
+    /// Machine function REF.
+    #[must_use]
+    pub(super) fn is_referencing(&self) -> bool {
+        self.function == MachineFunction::Reference
+    }
 
-fn bit(byte: u16, bit: u8, value: bool) -> Input {
-    Input::Bit(SignalBit { place: Place::ModeGroup(FIRST), byte, bit }, value)
+    /// JOG without a machine function.
+    #[must_use]
+    pub(super) fn is_jogging(&self) -> bool {
+        self.mode == Mode::Jog && self.function == MachineFunction::None
+    }
 }
 
 impl State {
     /// Modes and machine functions as requested.
-    pub(super) fn select_mode(&mut self, to_nck: &ToNck) {
-        let signals = &to_nck.mode_groups[FIRST];
-        let place = Place::ModeGroup(FIRST);
+    pub(super) fn select_modes(&mut self, parameters: &Parameters, to_nck: &ToNck) {
+        for group in parameters.existing_mode_groups() {
+            self.select_mode(group, to_nck);
+        }
+    }
+
+    fn select_mode(&mut self, group: ModeGroupNumber, to_nck: &ToNck) {
+        let signals = &to_nck.mode_groups[group];
+        let place = Place::ModeGroup(group);
+        let bit = |byte: u16, bit: u8, value: bool| Input::Bit(SignalBit { place, byte, bit }, value);
         let requested = if signals.mode_change_inhibit() {
             None
         } else if signals.mode_jog() {
@@ -68,26 +113,47 @@ impl State {
         } else {
             None
         };
+        let state = &mut self.mode_groups[group];
         if let Some((mode, input)) = requested
-            && mode != self.mode_group.mode
+            && mode != state.mode
         {
-            self.mode_group.mode = mode;
-            self.mode_group.mode_cause = self.log.note_one(place, Rule::ModeSelected, input, EventId::NONE);
+            state.mode = mode;
+            state.mode_cause = self.log.note_one(place, Rule::ModeSelected, input, EventId::NONE);
         }
-        let reference = self.mode_group.mode == Mode::Jog && signals.machine_function_ref();
-        if reference != self.mode_group.reference {
-            self.mode_group.reference = reference;
-            let inputs =
-                [bit(1, 2, signals.machine_function_ref()), bit(6, 2, self.mode_group.mode == Mode::Jog), Input::None];
-            self.mode_group.function_cause = self.log.note(place, Rule::MachineFunction, inputs, EventId::NONE);
+        let function = match state.mode {
+            Mode::Jog if signals.machine_function_ref() => MachineFunction::Reference,
+            Mode::Jog if signals.machine_function_repos() => MachineFunction::Repos,
+            Mode::Mda if signals.machine_function_teach_in() => MachineFunction::TeachIn,
+            Mode::Jog | Mode::Mda | Mode::Automatic => MachineFunction::None,
+        };
+        if function != state.function {
+            let of_either = if function == MachineFunction::None { state.function } else { function };
+            let requested = match of_either {
+                MachineFunction::TeachIn => bit(1, 0, signals.machine_function_teach_in()),
+                MachineFunction::Repos => bit(1, 1, signals.machine_function_repos()),
+                MachineFunction::Reference | MachineFunction::None => bit(1, 2, signals.machine_function_ref()),
+            };
+            let within = if of_either == MachineFunction::TeachIn {
+                bit(6, 1, state.mode == Mode::Mda)
+            } else {
+                bit(6, 2, state.mode == Mode::Jog)
+            };
+            state.function = function;
+            state.function_cause =
+                self.log.note(place, Rule::MachineFunction, [requested, within, Input::None], EventId::NONE);
         }
     }
 
-    /// Somebody else wrote DB11.DBB5: it is the HMI's from now on (E-01).
-    pub(super) fn strobe_written(&mut self) {
-        if !self.mode_group.strobe_is_the_hmi_s {
-            self.mode_group.strobe_is_the_hmi_s = true;
-            self.log.note_plain(Place::ModeGroup(FIRST), Rule::StrobeOwnedByHmi, EventId::NONE);
+    /// The mode group that a unit belongs to.
+    pub(super) fn mode_group(&self, unit: &Unit) -> &ModeGroup {
+        &self.mode_groups[unit.mode_group]
+    }
+
+    /// Somebody else wrote DBB5 of a mode group in DB11: it is the HMI's from now on (E-01).
+    pub(super) fn strobe_written(&mut self, group: ModeGroupNumber) {
+        if !self.mode_groups[group].strobe_is_the_hmi_s {
+            self.mode_groups[group].strobe_is_the_hmi_s = true;
+            self.log.note_plain(Place::ModeGroup(group), Rule::StrobeOwnedByHmi, EventId::NONE);
         }
     }
 }

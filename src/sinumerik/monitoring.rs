@@ -8,7 +8,6 @@ use super::gantry::Phase;
 use super::parameters::Parameters;
 use super::rules::Rule;
 use super::{Control, State};
-use crate::units::ChannelNumber;
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
 impl Control {
@@ -69,8 +68,12 @@ impl State {
             }
             (after.difference, after.warning, after.trip) = (difference.0, warning, trip);
             self.groupings[index].monitored[slot] = after;
-            let shown =
-                [Parameter::Channel(ChannelNumber::FIRST), Parameter::Axis(follower), Parameter::None, Parameter::None];
+            let shown = [
+                Parameter::Channel(parameters.axes[follower].channel),
+                Parameter::Axis(follower),
+                Parameter::None,
+                Parameter::None,
+            ];
             if warning {
                 self.alarms.raise(alarms::GANTRY_WARNING_LIMIT, place, shown, after.warning_cause);
             }

@@ -3,9 +3,10 @@
 //! Made anew whenever machine data become active (power on, RESET, NEWCONF); read by every stage, written by none.
 //! Lengths are whole increments, velocities increments per second, times whole cycles.
 
+use super::channels::{self, ChannelParameters};
 use super::gantry_definition::{self, Definitions};
 use super::machine_data::{Axis, MachineData};
-use crate::units::{AxisNumber, ChannelNumber, PerAxis, Position, Time};
+use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel, PerModeGroup, Position, Time};
 
 /// Values per measuring system, for index 0 and 1.
 pub(super) type PerEncoder<T> = [T; 2];
@@ -79,7 +80,7 @@ pub struct AxisParameters {
     /// MD30300.
     pub rotary: bool,
     /// The channel it belongs to.
-    pub channel: Option<ChannelNumber>,
+    pub channel: ChannelNumber,
     /// MD30200.
     pub encoders: u8,
     /// MD32000.
@@ -135,8 +136,12 @@ pub struct Parameters {
     pub axis_override_factors: [f64; 31],
     /// MD12100.
     pub binary_override_limit: f64,
-    /// MD20700 is not 0.
-    pub reference_needed: bool,
+    /// The channels; those without a mode group do not exist.
+    pub channels: PerChannel<ChannelParameters>,
+    /// MD10720: the mode of each mode group after power on.
+    pub mode_after_power_on: PerModeGroup<i32>,
+    /// MD11412: an alarm that takes "mode group not ready" takes "channel not ready" only.
+    pub only_channel_not_ready: bool,
     /// The axes.
     pub axes: PerAxis<AxisParameters>,
     /// The groupings that MD37100 defines, and what is wrong with them.
@@ -156,7 +161,9 @@ impl Parameters {
             axis_override_is_gray: data.general.ovr_ax_is_gray_code,
             axis_override_factors: data.general.ovr_factor_ax_speed,
             binary_override_limit: data.general.ovr_factor_limit_bin,
-            reference_needed: data.channels[ChannelNumber::FIRST].refp_nc_start_lock != 0,
+            channels: channels::channels(data),
+            mode_after_power_on: PerModeGroup::from_fn(|group| data.general.operating_mode_default[group.index()]),
+            only_channel_not_ready: data.general.alarm_reaction_chan_noready,
             groupings: gantry_definition::define(data, &axes),
             axes,
         }
@@ -212,7 +219,7 @@ fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresence, cycle: T
         exists: presence.exists,
         silent: presence.silent,
         rotary,
-        channel: presence.exists.then_some(ChannelNumber::FIRST),
+        channel: data.home_channel(number),
         encoders: md.num_encs,
         maximum_velocity,
         maximum_acceleration,

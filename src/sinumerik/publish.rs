@@ -4,7 +4,7 @@
 
 use super::alarms::Reaction;
 use super::gantry::Phase;
-use super::mode_group::Mode;
+use super::mode_group::{MachineFunction, Mode};
 use super::parameters::{AxisParameters, Parameters};
 use super::{Control, State};
 use crate::image::{AxisFromNck, FromNck, Hmi, clear_signals};
@@ -19,8 +19,12 @@ impl Control {
             clear_signals(from_nck);
         }
         state.publish_nck(from_nck);
-        state.publish_mode_group(from_nck, hmi);
-        state.publish_channel(from_nck, parameters);
+        for group in parameters.existing_mode_groups() {
+            state.publish_mode_group(group, from_nck, hmi, parameters);
+        }
+        for (channel, _) in parameters.existing_channels() {
+            state.publish_channel(channel, from_nck, parameters);
+        }
         for (number, axis) in parameters.existing() {
             if !axis.silent {
                 state.publish_axis(&mut from_nck.axes[number], number, axis);
@@ -47,48 +51,51 @@ impl State {
         signals.set_nc_alarm_active(self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, None).is_some());
     }
 
-    fn publish_mode_group(&self, from_nck: &mut FromNck, hmi: &mut Hmi) {
-        let group = &self.mode_group;
-        let signals = &mut from_nck.mode_groups[ModeGroupNumber::FIRST];
+    fn publish_mode_group(
+        &self,
+        number: ModeGroupNumber,
+        from_nck: &mut FromNck,
+        hmi: &mut Hmi,
+        parameters: &Parameters,
+    ) {
+        let group = &self.mode_groups[number];
+        let signals = &mut from_nck.mode_groups[number];
         signals.set_active_mode_automatic(group.mode == Mode::Automatic);
         signals.set_active_mode_mdi(group.mode == Mode::Mda);
         signals.set_active_mode_jog(group.mode == Mode::Jog);
-        signals.set_active_machine_function_ref(group.reference);
-        let not_ready = self.alarms.with_reaction(Reaction::MODE_GROUP_NOT_READY, None);
+        signals.set_active_machine_function_teach_in(group.function == MachineFunction::TeachIn);
+        signals.set_active_machine_function_repos(group.function == MachineFunction::Repos);
+        signals.set_active_machine_function_ref(group.is_referencing());
+        let not_ready = self.mode_group_not_ready(number, parameters);
         signals.set_mode_group_ready(self.run_up.is_nc_ready() && not_ready.is_none());
-        signals.set_all_channels_in_reset_state(!self.is_channel_active());
+        let mut channels = parameters.existing_channels().filter(|(_, group)| *group == number);
+        signals.set_all_channels_in_reset_state(channels.all(|(channel, _)| !self.is_channel_active(channel)));
         if !group.strobe_is_the_hmi_s {
-            hmi.mode_groups[ModeGroupNumber::FIRST].set_ref_selected(group.reference);
+            hmi.mode_groups[number].set_ref_selected(group.is_referencing());
         }
     }
 
     /// "At least one axis is being traversed in JOG", or referenced.
-    pub(super) fn is_channel_active(&self) -> bool {
-        self.units.iter().flat_map(super::Unit::members).any(|axis| self.axes[axis].is_in_motion())
+    pub(super) fn is_channel_active(&self, channel: ChannelNumber) -> bool {
+        let units = self.units.iter().filter(|unit| unit.channel == channel);
+        units.flat_map(super::Unit::members).any(|axis| self.axes[axis].is_in_motion())
     }
 
-    fn publish_channel(&self, from_nck: &mut FromNck, parameters: &Parameters) {
-        let signals = &mut from_nck.channels[ChannelNumber::FIRST];
-        let active = self.is_channel_active();
-        signals.set_referencing_active(self.channel.is_referencing());
+    fn publish_channel(&self, channel: ChannelNumber, from_nck: &mut FromNck, parameters: &Parameters) {
+        let signals = &mut from_nck.channels[channel];
+        let active = self.is_channel_active(channel);
+        signals.set_referencing_active(self.channels[channel].is_referencing());
         // Without a program its state is "aborted", as after RESET.
         signals.set_program_state_aborted(true);
         signals.set_channel_state_active(active);
         signals.set_channel_state_reset(!active);
-        let needed = |axis: &AxisParameters| parameters.reference_needed && axis.reference.cycle_number > -1;
-        let (mut referenced, mut stationary) = (true, true);
-        for (number, axis) in parameters.existing() {
-            referenced &= !needed(axis) || self.axes[number].is_referenced();
-            stationary &= self.axes[number].stands(axis);
-        }
-        signals.set_all_axes_requiring_reference_point_are_referenced(referenced);
-        signals.set_all_axes_stationary(stationary);
-        let not_ready = self.alarms.with_reaction(Reaction::CHANNEL_NOT_READY, None);
-        signals.set_channel_ready(self.run_up.is_nc_ready() && not_ready.is_none());
-        signals.set_channel_specific_nck_alarm_active(
-            self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, None).is_some(),
-        );
-        signals.set_nck_alarm_with_machining_stop_active(self.alarms.with_reaction(Reaction::STOP, None).is_some());
+        signals.set_all_axes_requiring_reference_point_are_referenced(self.is_referenced(channel, parameters));
+        let mut axes = parameters.existing().filter(|(_, axis)| axis.channel == channel);
+        signals.set_all_axes_stationary(axes.all(|(number, axis)| self.axes[number].stands(axis)));
+        let alarm = |reaction: Reaction| self.channel_alarm(channel, reaction, parameters).is_some();
+        signals.set_channel_ready(self.run_up.is_nc_ready() && !alarm(Reaction::CHANNEL_NOT_READY));
+        signals.set_channel_specific_nck_alarm_active(alarm(Reaction::INTERFACE_SIGNALS));
+        signals.set_nck_alarm_with_machining_stop_active(alarm(Reaction::STOP));
     }
 
     fn publish_axis(&self, signals: &mut AxisFromNck, number: AxisNumber, parameters: &AxisParameters) {

@@ -18,8 +18,6 @@ use crate::image::ToNck;
 use crate::units::{AxisNumber, ChannelNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, SignalBit};
 
-const CHANNEL: Place = Place::Channel(ChannelNumber::FIRST);
-
 /// Channel-specific referencing (REF-23): which order number is on, and who has been started.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct ChannelReferencing {
@@ -53,19 +51,20 @@ impl State {
         let number = unit.leader();
         self.brake(unit, parameters);
         self.watch_limit_switches(unit, to_nck);
-        self.watch_key(number, self.axes[number].approach.is_running(), to_nck);
+        self.watch_key(unit, self.axes[number].approach.is_running(), to_nck);
         if self.axes[number].approach.is_running() {
             self.reference_single(unit, parameters, to_nck);
-        } else if self.is_jogging() {
+        } else if self.is_jogging(unit) {
             self.jog(unit, parameters, to_nck);
         } else {
-            let cause = self.mode_group.cause();
+            let cause = self.mode_group(unit).cause();
             self.traverse(number, 0, 0, cause);
-            if self.unit_can_move(unit)
+            if self.unit_can_move(unit, parameters)
                 && !self.is_gantry_axis(number)
                 && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
             {
-                self.axes[number].approach_key = if self.channel.started(number) { 0 } else { direction };
+                self.axes[number].approach_key =
+                    if self.channels[unit.channel].started(number) { 0 } else { direction };
                 self.start_approach(number, f64::from(direction), event);
                 self.reference_single(unit, parameters, to_nck);
             }
@@ -97,9 +96,10 @@ impl State {
     }
 
     /// A key that jogs, or is pressed while an approach is on its way, must be released before it starts one.
-    pub(super) fn watch_key(&mut self, number: AxisNumber, busy: bool, to_nck: &ToNck) {
+    pub(super) fn watch_key(&mut self, unit: &Unit, busy: bool, to_nck: &ToNck) {
+        let number = unit.leader();
         let pressed = key_direction(&to_nck.axes[number]) != 0;
-        let used = self.axes[number].key_used || busy || self.is_jogging();
+        let used = self.axes[number].key_used || busy || self.is_jogging(unit);
         self.axes[number].key_used = pressed && used;
     }
 
@@ -117,13 +117,14 @@ impl State {
         let has_zero_mark =
             self.axes[number].measuring_system.is_some_and(|active| reference.mode[usize::from(active)] == 1);
         let disabled = signals.axis_spindle_disable() || self.axes[number].feed_disabled;
-        if !self.mode_group.reference || !has_zero_mark || disabled {
+        if !self.mode_group(unit).is_referencing() || !has_zero_mark || disabled {
             return None;
         }
         let forward = if reference.cam_direction > 0.0 { 1 } else { -1 };
-        if self.channel.referencing.wants(number, reference.cycle_number) {
-            self.channel.referencing.started |= 1 << number.index();
-            let cause = self.channel.referencing.cause;
+        let referencing = &mut self.channels[unit.channel].referencing;
+        if referencing.wants(number, reference.cycle_number) {
+            referencing.started |= 1 << number.index();
+            let cause = referencing.cause;
             return Some((forward, self.log.note_plain(Place::Axis(number), Rule::ApproachStartedByChannel, cause)));
         }
         // The other key: no start, no alarm. Without a cam both directions are right.
@@ -133,13 +134,14 @@ impl State {
         }
         self.axes[number].key_used = true;
         let bit = if key > 0 { 7 } else { 6 };
-        let active = SignalBit { place: Place::ModeGroup(crate::units::ModeGroupNumber::FIRST), byte: 7, bit: 2 };
+        let active = SignalBit { place: Place::ModeGroup(unit.mode_group), byte: 7, bit: 2 };
         let inputs = [
             axis_bit(number, 4, bit, true),
             Input::Datum(34010, Some(number), f64::from(u8::from(forward < 0))),
             Input::Bit(active, true),
         ];
-        let event = self.log.note(Place::Axis(number), Rule::KeyStartsApproach, inputs, self.mode_group.function_cause);
+        let parent = self.mode_group(unit).function_cause;
+        let event = self.log.note(Place::Axis(number), Rule::KeyStartsApproach, inputs, parent);
         Some((key, event))
     }
 
@@ -186,14 +188,14 @@ impl State {
     ) -> Option<(Option<AlarmNumber>, EventId)> {
         let parent = self.axes[number].approach.cause();
         // A missing enable is named even where alarm 21612, which stops everything, came in the same cycle.
-        if !self.channel.reset
+        if !self.channels[unit.channel].reset
             && let Some(off) = unit.members().find(|&axis| !to_nck.axes[axis].controller_enable())
         {
             let input = axis_bit(off, 2, 1, false);
             let event = self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, parent);
             return Some((Some(alarms::APPROACH_ABORTED), event));
         }
-        if let Some(cause) = self.stop_cause() {
+        if let Some(cause) = self.stop_cause(unit.channel, parameters) {
             return Some((None, cause));
         }
         // A hardware limit switch in the way ends the approach; its own alarm says so.
@@ -202,8 +204,8 @@ impl State {
             self.brake_at_limit(unit, parameters);
             return Some((None, self.log.note_plain(Place::Axis(number), Rule::ApproachAborted, cause)));
         }
-        if !self.mode_group.reference {
-            let cause = self.mode_group.function_cause;
+        if !self.mode_group(unit).is_referencing() {
+            let cause = self.mode_group(unit).function_cause;
             return Some((None, self.log.note_plain(Place::Axis(number), Rule::ApproachAborted, cause)));
         }
         let pressed = key_direction(&to_nck.axes[number]);
@@ -259,8 +261,9 @@ impl State {
 
     /// Raises an alarm of an axis: `%1` channel, `%2` axis.
     pub(super) fn raise_axis_alarm(&mut self, alarm: AlarmNumber, number: AxisNumber, event: EventId) {
-        let parameters =
-            [Parameter::Channel(ChannelNumber::FIRST), Parameter::Axis(number), Parameter::None, Parameter::None];
+        let unit = self.units.iter().find(|unit| unit.members().any(|axis| axis == number));
+        let channel = unit.map_or(ChannelNumber::FIRST, |unit| unit.channel);
+        let parameters = [Parameter::Channel(channel), Parameter::Axis(number), Parameter::None, Parameter::None];
         self.alarms.raise(alarm, Place::Axis(number), parameters, event);
     }
 
@@ -269,41 +272,51 @@ impl State {
     }
 
     /// Starts, orders and ends channel-specific referencing: MD34110 = 1 first, together; n after all of n − 1.
-    pub(super) fn reference_by_channel(&mut self, parameters: &Parameters, to_nck: &ToNck) {
-        let wanted = to_nck.channels[ChannelNumber::FIRST].activate_referencing();
-        let rises = wanted && !self.channel.referencing.was;
-        self.channel.referencing.was = wanted;
-        let stopped = self.stop_cause().is_some() || !self.mode_group.reference;
-        if self.channel.is_referencing() {
-            let number = self.channel.referencing.number;
-            let (finished, failed) = self.channel_referencing_progress(number, parameters);
-            if stopped || failed {
-                self.end_channel_referencing(0);
-            } else if finished {
-                self.end_channel_referencing(self.next_cycle_number(number, parameters));
+    pub(super) fn reference_by_channels(&mut self, parameters: &Parameters, to_nck: &ToNck) {
+        for (channel, group) in parameters.existing_channels() {
+            let wanted = to_nck.channels[channel].activate_referencing();
+            let before = self.channels[channel].referencing;
+            self.channels[channel].referencing.was = wanted;
+            let rises = wanted && !before.was;
+            if !before.is_active() && !rises {
+                continue;
             }
-        } else if rises && !stopped {
-            self.channel.referencing.started = 0;
-            let input = Input::Bit(SignalBit { place: CHANNEL, byte: 1, bit: 0 }, true);
-            let event = self.log.note_one(CHANNEL, Rule::ApproachStartedByChannel, input, EventId::NONE);
-            self.channel.referencing.cause = event;
-            self.channel.referencing.number = self.next_cycle_number(0, parameters);
+            let stopped = self.stop_cause(channel, parameters).is_some() || !self.mode_groups[group].is_referencing();
+            if before.is_active() {
+                let (finished, failed) = self.channel_referencing_progress(channel, parameters);
+                if stopped || failed {
+                    self.end_channel_referencing(channel, 0);
+                } else if finished {
+                    self.end_channel_referencing(channel, self.next_cycle_number(channel, before.number, parameters));
+                }
+            } else if !stopped {
+                let place = Place::Channel(channel);
+                let input = Input::Bit(SignalBit { place, byte: 1, bit: 0 }, true);
+                let cause = self.log.note_one(place, Rule::ApproachStartedByChannel, input, EventId::NONE);
+                let number = self.next_cycle_number(channel, 0, parameters);
+                self.channels[channel].referencing = ChannelReferencing { number, started: 0, was: true, cause };
+            }
         }
     }
 
-    fn end_channel_referencing(&mut self, next: i32) {
-        let referencing = &mut self.channel.referencing;
+    fn end_channel_referencing(&mut self, channel: ChannelNumber, next: i32) {
+        let referencing = &mut self.channels[channel].referencing;
         referencing.number = next;
         if next == 0 {
-            referencing.cause = self.log.note_plain(CHANNEL, Rule::ChannelReferencingEnds, referencing.cause);
+            let place = Place::Channel(channel);
+            referencing.cause = self.log.note_plain(place, Rule::ChannelReferencingEnds, referencing.cause);
         }
+    }
+
+    /// The units that a channel can reference.
+    fn referenced_by(&self, channel: ChannelNumber) -> impl Iterator<Item = &Unit> {
+        let whole = |unit: &&Unit| unit.grouping.is_some() || !self.is_gantry_axis(unit.leader());
+        self.units.iter().filter(move |unit| unit.channel == channel).filter(whole)
     }
 
     /// The next order number above this one that an axis has which can be started; 0 when there is none.
-    fn next_cycle_number(&self, above: i32, parameters: &Parameters) -> i32 {
-        self.units
-            .iter()
-            .filter(|unit| unit.grouping.is_some() || !self.is_gantry_axis(unit.leader()))
+    fn next_cycle_number(&self, channel: ChannelNumber, above: i32, parameters: &Parameters) -> i32 {
+        self.referenced_by(channel)
             .map(|unit| parameters.axes[unit.leader()].reference.cycle_number)
             .filter(|&number| number > above)
             .min()
@@ -311,18 +324,17 @@ impl State {
     }
 
     /// Whether all axes of an order number are done, and whether one was aborted.
-    fn channel_referencing_progress(&self, number: i32, parameters: &Parameters) -> (bool, bool) {
+    fn channel_referencing_progress(&self, channel: ChannelNumber, parameters: &Parameters) -> (bool, bool) {
         let (mut finished, mut failed) = (true, false);
-        for unit in &self.units {
+        let number = self.channels[channel].referencing.number;
+        for unit in self.referenced_by(channel) {
             let axis = unit.leader();
-            if parameters.axes[axis].reference.cycle_number != number
-                || unit.grouping.is_none() && self.is_gantry_axis(axis)
-            {
+            if parameters.axes[axis].reference.cycle_number != number {
                 continue;
             }
             let running = self.axes[axis].approach.is_running()
                 || unit.grouping.is_some_and(|index| self.groupings[usize::from(index)].is_referencing());
-            let started = self.channel.started(axis);
+            let started = self.channels[channel].started(axis);
             let referenced = unit.members().all(|member| self.axes[member].is_referenced());
             finished &= started && !running && referenced;
             failed |= started && !running && !referenced;

@@ -21,7 +21,7 @@ use super::parameters::AxisParameters;
 use super::rules::Rule;
 use super::transitions::{Transition, next, row};
 use crate::image::AxisToNck;
-use crate::units::{AxisNumber, ChannelNumber, Position};
+use crate::units::{AxisNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity, SignalBit};
 
 /// Where an approach is.
@@ -256,7 +256,7 @@ impl Approach {
     fn interrupted(&mut self, log: &mut Log, view: &View<'_>) -> Option<Outcome> {
         let creeping = matches!(self.phase, Phase::LeaveCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark);
         let input = if view.axis.feed_disabled {
-            Input::Bit(SignalBit { place: Place::Channel(ChannelNumber::FIRST), byte: 6, bit: 0 }, true)
+            Input::Bit(SignalBit { place: Place::Channel(view.parameters.channel), byte: 6, bit: 0 }, true)
         } else if creeping && view.axis.feed_factor <= 0.0 {
             axis_bit(view.number, 1, 7, true)
         } else {

@@ -42,6 +42,7 @@ rules! {
     MachineFunction "O-19" "machine function";
     StrobeOwnedByHmi "E-01" "DB11.DBB5 was written from outside and is the HMI's from now on";
     ResetDone "RESET" "RESET";
+    StartRefused "10203" "NC start without reference point";
     // Jogging.
     TraversingKey "JOG" "key";
     KeyReleased "JOG" "no key";

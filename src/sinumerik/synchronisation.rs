@@ -11,7 +11,7 @@ use super::parameters::Parameters;
 use super::rules::Rule;
 use super::{State, Unit};
 use crate::image::ToNck;
-use crate::units::{AxisNumber, ChannelNumber, Position};
+use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
 impl State {
@@ -79,14 +79,15 @@ impl State {
         self.set_target(index, parameters);
         let inputs = [axis_bit(leader, 29, 4, true), Input::None, Input::None];
         self.step_grouping(index, Rule::StartByPlc, inputs, parent);
-        let unit = Unit::of(&self.groupings[index].coupling, index);
+        let unit = Unit::of(&self.groupings[index].coupling, index, parameters);
         self.synchronise(index, &unit, parameters);
     }
 
     /// The decoupled motion of section 3: each axis with its own MD34040 (E-12).
     pub(super) fn synchronise(&mut self, index: usize, unit: &Unit, parameters: &Parameters) {
-        if !self.mode_group.reference || !self.unit_can_move(unit) || self.on_limit_switch(unit).is_some() {
-            let cause = self.stop_cause().unwrap_or(self.groupings[index].cause);
+        let referencing = self.mode_group(unit).is_referencing();
+        if !referencing || !self.unit_can_move(unit, parameters) || self.on_limit_switch(unit).is_some() {
+            let cause = self.stop_cause(unit.channel, parameters).unwrap_or(self.groupings[index].cause);
             self.step_grouping(index, Rule::SynchronisationAborted, [Input::None; 3], cause);
             self.groupings[index].from_referencing = false;
             for axis in unit.members() {
@@ -268,7 +269,7 @@ impl State {
         let grouping = &self.groupings[index];
         let leader = grouping.coupling.leader();
         let unit = Parameter::Number(i64::from(grouping.number));
-        let shown = [Parameter::Channel(ChannelNumber::FIRST), unit, Parameter::None, Parameter::None];
+        let shown = [Parameter::Channel(parameters.axes[leader].channel), unit, Parameter::None, Parameter::None];
         let suppressed = parameters.axes[leader].gantry.suppress_message;
         let number = match grouping.phase {
             Phase::WaitingForStart if grouping.message => alarms::GANTRY_WAITING,

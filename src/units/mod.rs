@@ -283,6 +283,11 @@ macro_rules! number_from_one {
                 }))
             }
 
+            /// One of something else for each.
+            pub fn map<U>(self, make: impl FnMut(T) -> U) -> $table<U> {
+                $table(self.0.map(make))
+            }
+
             /// Each with its number, ascending.
             pub fn iter(&self) -> impl Iterator<Item = ($name, &T)> {
                 $name::all().zip(self.0.iter())

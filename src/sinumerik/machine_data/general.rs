@@ -23,6 +23,8 @@ General {
     10210 INT_INCR_PER_DEG int_incr_per_deg: f64 = 1_000.0; "1/deg", Range::POSITIVE, PowerOn;
     /// basic system metric; this simulator knows no other
     10240 SCALING_SYSTEM_IS_METRIC scaling_system_is_metric: bool = true; "", Range::between(1.0, 1.0), PowerOn;
+    /// mode of each mode group after power on: 0, 1 AUTOMATIC; 2 to 5 MDI; 6, 7 JOG; machine functions come by their signals (O-19)
+    10720 OPERATING_MODE_DEFAULT operating_mode_default: [i32; 10] = [6; 10]; "", Range::between(0.0, 7.0), PowerOn;
     /// settings of JOG
     10735 JOG_MODE_MASK jog_mode_mask: u32 = 0; "", Range::ANY, Reset;
     /// incremental JOG and reference point approach: 1 while the key is held, 0 from a press of the key on

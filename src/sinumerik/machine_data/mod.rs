@@ -38,7 +38,7 @@ pub use value::Value;
 use serde::{Deserialize, Serialize};
 
 use crate::source::Problem;
-use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel, Time};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, Time};
 
 use table::Table;
 
@@ -55,12 +55,15 @@ pub struct MachineData {
     pub axes: PerAxis<Axis>,
 }
 
-/// The defaults of the control: linear axes, channels CHAN1 to CHAN10.
+/// The defaults of the control: linear axes, channels CHAN1 to CHAN10, of which the first has axes.
 impl Default for MachineData {
     fn default() -> Self {
         let mut channels = PerChannel::<Channel>::default();
         for (number, channel) in channels.iter_mut() {
             channel.chan_name = format!("CHAN{number}");
+            if number != ChannelNumber::FIRST {
+                channel.axconf_machax_used = [0; 20];
+            }
         }
         Self { general: General::default(), setting: Setting::default(), channels, axes: PerAxis::default() }
     }
@@ -86,6 +89,28 @@ impl MachineData {
     #[must_use]
     pub fn axis_name(&self, axis: AxisNumber) -> &str {
         &self.general.axconf_machax_name_tab[axis.index()]
+    }
+
+    /// MD10010: the mode group of a channel; `None` for a channel that does not exist. Channel 1 always exists.
+    #[must_use]
+    pub fn mode_group(&self, channel: ChannelNumber) -> Option<ModeGroupNumber> {
+        let assigned = u8::try_from(self.general.assign_chan_to_mode_group[channel.index()]).ok();
+        let group = assigned.and_then(ModeGroupNumber::new);
+        if channel == ChannelNumber::FIRST { group.or(Some(ModeGroupNumber::FIRST)) } else { group }
+    }
+
+    /// MD20070: an existing channel names the axis.
+    #[must_use]
+    pub fn channel_knows(&self, channel: ChannelNumber, axis: AxisNumber) -> bool {
+        self.mode_group(channel).is_some() && self.channels[channel].axconf_machax_used.contains(&axis.number())
+    }
+
+    /// The channel that an axis belongs to after power on: MD30550 where that channel knows it, else the lowest that does.
+    #[must_use]
+    pub fn home_channel(&self, axis: AxisNumber) -> ChannelNumber {
+        let master = ChannelNumber::new(self.axes[axis].axconf_assign_master_chan);
+        let knows = |channel: &ChannelNumber| self.channel_knows(*channel, axis);
+        master.filter(knows).or_else(|| ChannelNumber::all().find(knows)).unwrap_or(ChannelNumber::FIRST)
     }
 
     /// The channel of this name (MD20000, exact case) or `CHANn`.

@@ -1,0 +1,67 @@
+//! Which channels there are, which axes and which mode group they have (MD10010, MD20070, MD30550).
+//!
+//! Read at power on. A channel exists where MD10010 gives it a mode group; channel 1 always exists. An axis that no channel
+//! names belongs to channel 1; one that several name belongs to the one of MD30550, or to the lowest of them.
+
+use super::machine_data::MachineData;
+use super::parameters::Parameters;
+use crate::units::{ChannelNumber, ModeGroupNumber, PerChannel};
+use crate::variables::Place;
+
+/// One channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ChannelParameters {
+    /// MD10010; `None`: the channel does not exist.
+    pub mode_group: Option<ModeGroupNumber>,
+    /// MD20700 is not 0.
+    pub reference_needed: bool,
+}
+
+/// All channels.
+#[must_use]
+pub(super) fn channels(data: &MachineData) -> PerChannel<ChannelParameters> {
+    PerChannel::from_fn(|channel| ChannelParameters {
+        mode_group: data.mode_group(channel),
+        reference_needed: data.channels[channel].refp_nc_start_lock != 0,
+    })
+}
+
+impl Parameters {
+    /// The channels that exist, with their mode groups.
+    pub fn existing_channels(&self) -> impl Iterator<Item = (ChannelNumber, ModeGroupNumber)> {
+        self.channels.iter().filter_map(|(channel, parameters)| Some((channel, parameters.mode_group?)))
+    }
+
+    /// The mode groups that have channels.
+    pub fn existing_mode_groups(&self) -> impl Iterator<Item = ModeGroupNumber> {
+        ModeGroupNumber::all().filter(|group| self.existing_channels().any(|(_, of)| of == *group))
+    }
+
+    /// The mode group of a channel.
+    #[must_use]
+    pub fn mode_group(&self, channel: ChannelNumber) -> ModeGroupNumber {
+        self.channels[channel].mode_group.unwrap_or(ModeGroupNumber::FIRST)
+    }
+
+    /// Whether what happens at a place concerns a channel.
+    #[must_use]
+    pub fn concerns_channel(&self, place: Place, channel: ChannelNumber) -> bool {
+        match place {
+            Place::Nck => true,
+            Place::ModeGroup(group) => self.mode_group(channel) == group,
+            Place::Channel(other) => other == channel,
+            Place::Axis(axis) => self.axes[axis].channel == channel,
+        }
+    }
+
+    /// Whether what happens at a place concerns a mode group.
+    #[must_use]
+    pub fn concerns_mode_group(&self, place: Place, group: ModeGroupNumber) -> bool {
+        match place {
+            Place::Nck => true,
+            Place::ModeGroup(other) => other == group,
+            Place::Channel(channel) => self.mode_group(channel) == group,
+            Place::Axis(axis) => self.mode_group(self.axes[axis].channel) == group,
+        }
+    }
+}
