@@ -112,8 +112,9 @@ impl State {
     fn start(&mut self, channel: ChannelNumber, group: ModeGroupNumber, parameters: &Parameters, to_nck: &ToNck) {
         let signals = &to_nck.channels[channel];
         let start = signals.nc_start();
-        let rises = start && !std::mem::replace(&mut self.channels[channel].start_was, start);
-        if start {
+        let was = std::mem::replace(&mut self.channels[channel].start_was, start);
+        let rises = start && !was;
+        if rises {
             self.cancel(Cancel::NcStart, Some(channel), parameters);
         }
         let runs_programs = self.mode_groups[group].mode != Mode::Jog;

@@ -271,7 +271,7 @@ impl Control {
         state.form_units(parameters);
         state.select_measuring_systems(parameters, to_nck);
         state.enable(parameters, to_nck);
-        state.reference_by_channels(parameters, to_nck);
+        state.start_channel_referencing(parameters, to_nck);
         for index in 0..state.units.len() {
             let unit = state.units[index];
             state.take_feed(&unit, parameters, to_nck);
@@ -281,6 +281,7 @@ impl Control {
             }
             state.set_setpoints(&unit, parameters);
         }
+        state.order_channel_referencing(parameters);
     }
 
     /// Takes what encoders and drives tell, and monitors it.

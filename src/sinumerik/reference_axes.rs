@@ -271,30 +271,36 @@ impl State {
         self.groupings.iter().any(|grouping| grouping.coupling.members().any(|member| member == number))
     }
 
-    /// Starts, orders and ends channel-specific referencing: MD34110 = 1 first, together; n after all of n − 1.
-    pub(super) fn reference_by_channels(&mut self, parameters: &Parameters, to_nck: &ToNck) {
+    /// Starts channel-specific referencing with the rising edge of DBX1.0.
+    pub(super) fn start_channel_referencing(&mut self, parameters: &Parameters, to_nck: &ToNck) {
         for (channel, group) in parameters.existing_channels() {
             let wanted = to_nck.channels[channel].activate_referencing();
             let before = self.channels[channel].referencing;
             self.channels[channel].referencing.was = wanted;
-            let rises = wanted && !before.was;
-            if !before.is_active() && !rises {
+            let rises = wanted && !before.was && !before.is_active();
+            if !rises || self.stop_cause(channel, parameters).is_some() || !self.mode_groups[group].is_referencing() {
                 continue;
             }
-            let stopped = self.stop_cause(channel, parameters).is_some() || !self.mode_groups[group].is_referencing();
-            if before.is_active() {
-                let (finished, failed) = self.channel_referencing_progress(channel, parameters);
-                if stopped || failed {
-                    self.end_channel_referencing(channel, 0);
-                } else if finished {
-                    self.end_channel_referencing(channel, self.next_cycle_number(channel, before.number, parameters));
-                }
-            } else if !stopped {
-                let place = Place::Channel(channel);
-                let input = Input::Bit(SignalBit { place, byte: 1, bit: 0 }, true);
-                let cause = self.log.note_one(place, Rule::ApproachStartedByChannel, input, EventId::NONE);
-                let number = self.next_cycle_number(channel, 0, parameters);
-                self.channels[channel].referencing = ChannelReferencing { number, started: 0, was: true, cause };
+            let place = Place::Channel(channel);
+            let input = Input::Bit(SignalBit { place, byte: 1, bit: 0 }, true);
+            let cause = self.log.note_one(place, Rule::ApproachStartedByChannel, input, EventId::NONE);
+            let number = self.next_cycle_number(channel, 0, parameters);
+            self.channels[channel].referencing = ChannelReferencing { number, started: 0, was: true, cause };
+        }
+    }
+
+    /// Orders and ends it: MD34110 = 1 first, together; n after all of n − 1. 33.0 goes with the last reference.
+    pub(super) fn order_channel_referencing(&mut self, parameters: &Parameters) {
+        for (channel, group) in parameters.existing_channels() {
+            if !self.channels[channel].is_referencing() {
+                continue;
+            }
+            let (finished, failed) = self.channel_referencing_progress(channel, parameters);
+            if failed || self.stop_cause(channel, parameters).is_some() || !self.mode_groups[group].is_referencing() {
+                self.end_channel_referencing(channel, 0);
+            } else if finished {
+                let number = self.channels[channel].referencing.number;
+                self.end_channel_referencing(channel, self.next_cycle_number(channel, number, parameters));
             }
         }
     }
