@@ -265,3 +265,31 @@ fn a_reader_who_goes_away_is_no_panic() {
     child.stderr.take().unwrap().read_to_string(&mut errors).unwrap();
     assert!(child.wait().unwrap().code().is_some() && errors.is_empty(), "{errors}");
 }
+
+#[test]
+fn test_marks_the_transitions_that_the_scenarios_took_and_lists_the_others() {
+    let directory = directory("flowchart");
+    let referencing = "title = \"X and XF\"\nmachine = \"g1_example\"\nplc = \"enable_all\"\nwatch = [\"DB31.DBX101.4\"]\n\
+        [[step]]\nset = { \"DB11.DBX1.2\" = 1 }\n[[step]]\npulse = \"X.traversing_key_plus\"\n\
+        [[step]]\nwait = \"X.gantry_synchronization_ready_to_start\"\nwithin = \"60s\"\n";
+    fs::write(directory.join("referencing.toml"), referencing).unwrap();
+    fs::write(directory.join("nothing.toml"), GOOD).unwrap();
+    let output = opennck(&["test", ".", "--accept", "--jobs", "2", "--flowchart", "chart.mmd"], &directory);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let chart = fs::read_to_string(directory.join("chart.mmd")).unwrap();
+    assert!(chart.starts_with("flowchart TD\n"), "{chart}");
+    // Eight rows of the approach, by the way of MD34050 = 0 with a cam, and three of the grouping.
+    for text in [out(&output), chart.clone()] {
+        assert!(text.contains("11 of 43 transitions taken\n"), "{text}");
+        assert!(text.contains("never taken: WaitingForStart -> Synchronising (REF-14: start)\n"), "{text}");
+        assert!(
+            !text.contains("never taken: ReferencingSynchronousAxis -> WaitingForStart (REF-11: MD37110 = 0)"),
+            "{text}"
+        );
+    }
+    opennck(&["test", ".", "--flowchart", "again.mmd"], &directory);
+    assert_eq!(fs::read_to_string(directory.join("again.mmd")).unwrap(), chart);
+    let output = opennck(&["test", ".", "--flowchart", "missing/chart.mmd"], &directory);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("missing/chart.mmd"), "{}", err(&output));
+}

@@ -51,3 +51,12 @@ fn the_test_command_of_the_readme_is_that_of_the_ci() {
         blocks(&read("README.md"), "sh")[0].lines().find(|line| line.starts_with("cargo test")).unwrap().to_owned();
     assert!(read(".ci/run").lines().any(|line| line == format!("step {test} --locked")), "{test}");
 }
+
+#[test]
+fn the_flowcharts_in_the_readme_are_those_that_the_program_prints() {
+    let print = |chart| {
+        let output = Command::new(env!("CARGO_BIN_EXE_opennck")).args(["flowchart", chart]).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    assert_eq!(blocks(&read("README.md"), "mermaid"), [print("gantry"), print("approach")]);
+}

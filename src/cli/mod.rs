@@ -13,6 +13,7 @@
 mod alarms;
 mod diff;
 pub mod example;
+mod flowchart;
 mod list;
 mod machine_data;
 mod output;
@@ -78,6 +79,9 @@ enum Command {
         /// How many scenarios run at once; as many as there are processors unless said.
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
         jobs: Option<u16>,
+        /// Writes the flowchart of referencing and gantry with the transitions that the scenarios took, as Mermaid.
+        #[arg(long, value_name = "F.mmd")]
+        flowchart: Option<PathBuf>,
     },
     /// Lists the signal catalogue: address, symbol, writer, name.
     ///
@@ -122,6 +126,13 @@ enum Command {
         #[arg(value_name = "ADDRESS@TIME")]
         edge: String,
     },
+    /// Prints the reference point approach and the gantry grouping as a Mermaid flowchart, each transition with its rule.
+    ///
+    /// It is drawn from the tables by which the control runs.
+    Flowchart {
+        /// Only this one.
+        chart: Option<flowchart::Chart>,
+    },
     /// Works with machine data.
     MachineData {
         #[command(subcommand)]
@@ -154,8 +165,8 @@ pub fn main(programs: Programs) -> ExitCode {
     let code = match arguments.command {
         None => example::run(&programs, &mut output),
         Some(Command::Run { scenarios, files }) => run::run(&scenarios, &files, &programs, &mut output),
-        Some(Command::Test { paths, accept, junit, jobs }) => {
-            let options = test::Options { accept, junit, jobs };
+        Some(Command::Test { paths, accept, junit, jobs, flowchart }) => {
+            let options = test::Options { accept, junit, jobs, flowchart };
             test::test(&paths, &options, &programs, &mut output)
         }
         Some(Command::Signals { filter, profile, format }) => {
@@ -164,6 +175,7 @@ pub fn main(programs: Programs) -> ExitCode {
         Some(Command::Alarms { filter, format }) => alarms::alarms(filter.as_deref(), format, &mut output),
         Some(Command::Diff { expected, found }) => diff::diff(&expected, &found, &mut output),
         Some(Command::Why { trace, edge }) => why::why(&trace, &edge, &programs, &mut output),
+        Some(Command::Flowchart { chart }) => flowchart::flowchart(chart, &mut output),
         Some(Command::MachineData { command: MachineData::Check { machine } }) => {
             machine_data::check(&machine, &mut output)
         }

@@ -8,8 +8,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use indicatif::{ProgressBar, ProgressStyle};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
+use super::flowchart;
 use super::output::Output;
 use crate::golden::{Case, Outcome, Update, cases, scenario_files};
+use crate::machine::TakenTransitions;
 use crate::plc::Programs;
 use crate::scenario::profile_name;
 use crate::source::{Problem, unreadable};
@@ -20,6 +22,7 @@ pub(super) struct Options {
     pub(super) accept: bool,
     pub(super) junit: Option<PathBuf>,
     pub(super) jobs: Option<u16>,
+    pub(super) flowchart: Option<PathBuf>,
 }
 
 /// A case, or the reason why a file gives none.
@@ -50,7 +53,7 @@ pub(super) fn test(paths: &[PathBuf], options: &Options, programs: &Programs, ou
             }
         }
     }
-    let outcomes = all(&work, options, programs);
+    let (outcomes, taken) = all(&work, options, programs);
     let named: Vec<_> = work.iter().map(|(name, _)| name.as_str()).zip(outcomes).collect();
     let mut code = report(&named, output);
     if let Some(junit) = &options.junit
@@ -59,17 +62,26 @@ pub(super) fn test(paths: &[PathBuf], options: &Options, programs: &Programs, ou
         output.error(problem);
         code = 2;
     }
+    if let Some(path) = &options.flowchart {
+        let chart = flowchart::text(None, Some(taken));
+        flowchart::summary(&chart).for_each(|line| output.line(line));
+        if let Err(error) = std::fs::write(path, chart) {
+            output.error(unreadable(path, &error));
+            code = 2;
+        }
+    }
     code
 }
 
-/// Runs everything, several at once; the outcomes are in the order of the work, whoever was first.
-fn all(work: &[(String, Work)], options: &Options, programs: &Programs) -> Vec<Outcome> {
+/// Runs everything, several at once; the outcomes are in the order of the work, whoever was first. What they took of the control's
+/// transitions is one sum.
+fn all(work: &[(String, Work)], options: &Options, programs: &Programs) -> (Vec<Outcome>, TakenTransitions) {
     let update = if options.accept { Update::Accept } else { Update::No };
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
     let jobs = options.jobs.map_or_else(processors, usize::from).min(work.len()).max(1);
     let bar = bar(work.len());
     let next = AtomicUsize::new(0);
-    let done: Mutex<Vec<(usize, Outcome)>> = Mutex::new(Vec::with_capacity(work.len()));
+    let done: Mutex<Vec<(usize, Outcome, TakenTransitions)>> = Mutex::new(Vec::with_capacity(work.len()));
     std::thread::scope(|scope| {
         for _ in 0..jobs {
             scope.spawn(|| {
@@ -78,13 +90,13 @@ fn all(work: &[(String, Work)], options: &Options, programs: &Programs) -> Vec<O
                     let Some((_, item)) = work.get(index) else {
                         return;
                     };
-                    let outcome = match item {
-                        Work::Case(case) => case.run(programs, update),
-                        Work::Unusable(problem) => Outcome::Unusable(problem.clone()),
+                    let (outcome, taken) = match item {
+                        Work::Case(case) => case.run_watched(programs, update),
+                        Work::Unusable(problem) => (Outcome::Unusable(problem.clone()), TakenTransitions::default()),
                     };
                     // A poisoned lock means that another thread panicked; the scope passes its panic on.
                     if let Ok(mut done) = done.lock() {
-                        done.push((index, outcome));
+                        done.push((index, outcome, taken));
                     }
                     bar.inc(1);
                 }
@@ -93,8 +105,14 @@ fn all(work: &[(String, Work)], options: &Options, programs: &Programs) -> Vec<O
     });
     bar.finish_and_clear();
     let mut done = done.into_inner().unwrap_or_default();
-    done.sort_by_key(|(index, _)| *index);
-    done.into_iter().map(|(_, outcome)| outcome).collect()
+    done.sort_by_key(|(index, ..)| *index);
+    let mut sum = TakenTransitions::default();
+    let mut outcomes = Vec::with_capacity(done.len());
+    for (_, outcome, taken) in done {
+        sum.add(taken);
+        outcomes.push(outcome);
+    }
+    (outcomes, sum)
 }
 
 /// A progress bar, on a terminal only.

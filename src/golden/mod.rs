@@ -12,8 +12,9 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::image::Profile;
+use crate::machine::TakenTransitions;
 use crate::plc::Programs;
-use crate::scenario::{Compare, Failure, Scenario, profile_name};
+use crate::scenario::{Compare, Failure, Finished, Scenario, profile_name};
 use crate::source::{Place, Problem, unreadable};
 use crate::trace::{difference, difference_in_sequence};
 
@@ -155,11 +156,21 @@ impl Case {
     /// Runs the case and compares its trace.
     #[must_use]
     pub fn run(&self, programs: &Programs, update: Update) -> Outcome {
-        self.outcome(programs, update).unwrap_or_else(Outcome::Unusable)
+        self.run_watched(programs, update).0
     }
 
-    fn outcome(&self, programs: &Programs, update: Update) -> Result<Outcome, Problem> {
-        let finished = self.scenario.prepare(self.profile, programs)?.run();
+    /// Runs it likewise, and tells which transitions of the control it has taken.
+    #[must_use]
+    pub fn run_watched(&self, programs: &Programs, update: Update) -> (Outcome, TakenTransitions) {
+        let finished = match self.scenario.prepare(self.profile, programs) {
+            Ok(prepared) => prepared.run(),
+            Err(problem) => return (Outcome::Unusable(problem), TakenTransitions::default()),
+        };
+        let outcome = self.outcome(&finished, update).unwrap_or_else(Outcome::Unusable);
+        (outcome, finished.session().machine().taken_transitions())
+    }
+
+    fn outcome(&self, finished: &Finished, update: Update) -> Result<Outcome, Problem> {
         match &finished.failure {
             Some(Failure::Unusable(problem)) => return Err(problem.clone()),
             Some(Failure::Missed(missed)) => return Ok(Outcome::Failed(missed.to_string())),

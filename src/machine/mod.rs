@@ -24,6 +24,7 @@ mod saved;
 mod step;
 
 pub use crate::plant::{Fault, FaultKind, Switch};
+pub use crate::sinumerik::TakenTransitions;
 pub use crate::sinumerik::machine_data::Value as DatumValue;
 pub use command::Command;
 pub use open::OpenOptions;
@@ -150,6 +151,12 @@ impl Machine {
     #[must_use]
     pub fn machine_data(&self) -> &MachineData {
         self.control.active()
+    }
+
+    /// Which steps of referencing and of the gantry groupings its control has taken.
+    #[must_use]
+    pub fn taken_transitions(&self) -> TakenTransitions {
+        self.control.taken_transitions()
     }
 
     /// Why the PLC program stopped by itself, if it did.

@@ -43,6 +43,22 @@ pub enum Phase {
     Open,
 }
 
+impl Phase {
+    /// What it is, in a few words.
+    #[must_use]
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::NotSynchronised => "not synchronised",
+            Self::ReferencingLeadingAxis => "section 1: the leading axis is referenced",
+            Self::ReferencingSynchronousAxis => "section 2: a synchronous axis is referenced",
+            Self::WaitingForStart => "section 3: waiting for the start",
+            Self::Synchronising => "section 3: synchronising motion",
+            Self::Synchronised => "synchronised",
+            Self::Open => "opened",
+        }
+    }
+}
+
 /// Every step that a grouping can take.
 pub const TRANSITIONS: &[Transition<Phase>] = &[
     row(Phase::NotSynchronised, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
@@ -65,7 +81,6 @@ pub const TRANSITIONS: &[Transition<Phase>] = &[
     row(Phase::Synchronising, Rule::ReadyNoMore, Phase::NotSynchronised),
     row(Phase::Synchronised, Rule::SynchronismLostFollowUp, Phase::NotSynchronised),
     row(Phase::Synchronised, Rule::SynchronismLostReference, Phase::NotSynchronised),
-    row(Phase::NotSynchronised, Rule::SynchronismRestored, Phase::Synchronised),
     row(Phase::NotSynchronised, Rule::ReadyAgain, Phase::WaitingForStart),
     row(Phase::NotSynchronised, Rule::Opened, Phase::Open),
     row(Phase::ReferencingLeadingAxis, Rule::Opened, Phase::Open),
@@ -219,7 +234,7 @@ impl State {
     /// Takes a step of the table.
     pub(super) fn step_grouping(&mut self, index: usize, by: Rule, inputs: [Input; 3], parent: EventId) {
         let grouping = &mut self.groupings[index];
-        grouping.phase = next(TRANSITIONS, grouping.phase, by);
+        grouping.phase = next(TRANSITIONS, &mut self.log.taken.grouping, grouping.phase, by);
         grouping.cause = self.log.note(Place::Axis(grouping.coupling.leader()), by, inputs, parent);
         match grouping.phase {
             Phase::WaitingForStart => (grouping.message, grouping.waited_for) = (true, true),

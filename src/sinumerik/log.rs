@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::rules::Rule;
+use super::transitions::TakenTransitions;
 use crate::units::AxisNumber;
 use crate::variables::{EventId, Events, Input, Place, SignalBit};
 
@@ -13,6 +14,9 @@ pub(super) struct Log {
     pub cycle: u64,
     /// The latest events.
     pub events: Events,
+    /// Which rows of the tables were taken.
+    #[serde(skip)]
+    pub taken: TakenTransitions,
 }
 
 impl Log {

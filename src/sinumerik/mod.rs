@@ -48,7 +48,7 @@ pub use gantry::{Phase as GroupingPhase, TRANSITIONS as GROUPING_TRANSITIONS};
 pub use parameters::{AxisPresence, Parameters};
 pub use referencing::{Phase as ApproachPhase, TRANSITIONS as APPROACH_TRANSITIONS};
 pub use rules::Rule;
-pub use transitions::Transition;
+pub use transitions::{Rows, TakenTransitions, Transition};
 
 use std::sync::Arc;
 
@@ -165,8 +165,9 @@ impl Control {
         self.active = Arc::clone(&self.stored);
         self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
         let events = std::mem::take(&mut self.state.log.events);
+        let taken = self.state.log.taken;
         *self.state = State::new(&self.parameters);
-        self.state.log = Log { cycle, events };
+        self.state.log = Log { cycle, events, taken };
         self.state.note_power_on();
     }
 
@@ -231,6 +232,12 @@ impl Control {
     #[must_use]
     pub fn measuring_system(&self, axis: AxisNumber) -> Option<u8> {
         self.state.axes[axis].measuring_system
+    }
+
+    /// Which steps of referencing and of the groupings this control has taken.
+    #[must_use]
+    pub fn taken_transitions(&self) -> TakenTransitions {
+        self.state.log.taken
     }
 
     /// Position control of an axis in part `part` of `count` of the interpolation cycle, the setpoint finely interpolated: the
@@ -309,7 +316,9 @@ impl Control {
         self.stored = Arc::new(saved.stored);
         self.active = if same { Arc::clone(&self.stored) } else { Arc::new(saved.active) };
         self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
+        let taken = self.state.log.taken;
         *self.state = saved.state;
+        self.state.log.taken = taken;
     }
 }
 

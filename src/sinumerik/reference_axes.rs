@@ -153,7 +153,7 @@ impl State {
             axis.referenced[encoder] = false;
             axis.causes.reference[encoder] = self.log.note_plain(Place::Axis(number), Rule::NewApproach, cause);
         }
-        axis.approach.start(direction, axis.actual, cause);
+        axis.approach.start(&mut self.log, direction, axis.actual, cause);
     }
 
     /// One cycle of an approach; the motion of its axis is commanded.

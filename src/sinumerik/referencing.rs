@@ -50,6 +50,25 @@ pub enum Phase {
     ExactStop,
 }
 
+impl Phase {
+    /// What it is, in a few words.
+    #[must_use]
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::Idle => "no approach",
+            Self::SearchCam => "phase 1: towards the cam",
+            Self::BrakeOnCam => "braking on the cam",
+            Self::LeaveCam => "off the cam",
+            Self::BrakeOffCam => "braking off the cam",
+            Self::SearchEdge => "phase 2: to the cam edge",
+            Self::PassShift => "the way of MD34092",
+            Self::SearchMark => "phase 2: to the zero mark",
+            Self::GoToReferencePoint => "phase 3: to the reference point",
+            Self::ExactStop => "until exact stop fine",
+        }
+    }
+}
+
 /// Every step that an approach can take, but for aborts, which lead from anywhere to [`Phase::Idle`].
 pub const TRANSITIONS: &[Transition<Phase>] = &[
     row(Phase::Idle, Rule::ApproachStarted, Phase::SearchCam),
@@ -136,13 +155,13 @@ impl Approach {
     }
 
     fn step(&mut self, log: &mut Log, number: AxisNumber, by: Rule, inputs: [Input; 3]) {
-        self.phase = next(TRANSITIONS, self.phase, by);
+        self.phase = next(TRANSITIONS, &mut log.taken.approach, self.phase, by);
         self.cause = log.note(Place::Axis(number), by, inputs, self.cause);
     }
 
     /// Starts towards the cam, in the direction of a sign; `cause` is the event that asked for it.
-    pub(super) fn start(&mut self, direction: f64, actual: Position, cause: EventId) {
-        let phase = next(TRANSITIONS, Phase::Idle, Rule::ApproachStarted);
+    pub(super) fn start(&mut self, log: &mut Log, direction: f64, actual: Position, cause: EventId) {
+        let phase = next(TRANSITIONS, &mut log.taken.approach, Phase::Idle, Rule::ApproachStarted);
         *self = Self {
             phase,
             cam_direction: direction,
