@@ -293,3 +293,32 @@ fn test_marks_the_transitions_that_the_scenarios_took_and_lists_the_others() {
     assert_eq!(output.status.code(), Some(2));
     assert!(err(&output).contains("missing/chart.mmd"), "{}", err(&output));
 }
+
+#[test]
+fn completions_are_there_for_each_shell() {
+    let directory = directory("completions");
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let output = opennck(&["completions", shell], &directory);
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        assert!(
+            out(&output).contains("flowchart") && out(&output).contains("machine-data"),
+            "{shell}: {}",
+            out(&output)
+        );
+    }
+    assert_eq!(opennck(&["completions", "cmd"], &directory).status.code(), Some(2));
+}
+
+/// Where there is no bash there is nothing to try.
+#[test]
+fn bash_sources_its_completions_and_completes_a_command() {
+    let directory = directory("bash");
+    fs::write(directory.join("opennck.bash"), out(&opennck(&["completions", "bash"], &directory))).unwrap();
+    let script = "set -eu; source ./opennck.bash; complete -p opennck; COMP_WORDS=(opennck flow); COMP_CWORD=1; \
+        _opennck opennck flow opennck; printf '%s\\n' \"${COMPREPLY[@]}\"";
+    let Ok(output) = Command::new("bash").args(["--norc", "-c", script]).current_dir(&directory).output() else {
+        return;
+    };
+    assert!(output.status.success(), "{}", err(&output));
+    assert_eq!(out(&output).lines().last(), Some("flowchart"), "{}", out(&output));
+}

@@ -11,6 +11,7 @@
 //! machine data have findings, two traces differ (`diff`); 2 unusable input.
 
 mod alarms;
+mod completions;
 mod diff;
 pub mod example;
 mod flowchart;
@@ -133,6 +134,13 @@ enum Command {
         /// Only this one.
         chart: Option<flowchart::Chart>,
     },
+    /// Prints the completions of commands and options for a shell.
+    ///
+    /// For bash: `opennck completions bash > ~/.local/share/bash-completion/completions/opennck`.
+    Completions {
+        /// Which shell.
+        shell: clap_complete::Shell,
+    },
     /// Works with machine data.
     MachineData {
         #[command(subcommand)]
@@ -176,6 +184,7 @@ pub fn main(programs: Programs) -> ExitCode {
         Some(Command::Diff { expected, found }) => diff::diff(&expected, &found, &mut output),
         Some(Command::Why { trace, edge }) => why::why(&trace, &edge, &programs, &mut output),
         Some(Command::Flowchart { chart }) => flowchart::flowchart(chart, &mut output),
+        Some(Command::Completions { shell }) => completions::completions(shell, &mut output),
         Some(Command::MachineData { command: MachineData::Check { machine } }) => {
             machine_data::check(&machine, &mut output)
         }
