@@ -121,6 +121,44 @@ fn one_scenario_gives_the_same_bytes_twice_in_one_process() {
     }
 }
 
+/// All scenarios of the suite.
+fn scenarios() -> Vec<PathBuf> {
+    let areas = std::fs::read_dir("golden").expect("the suite is there");
+    let files = areas.flat_map(|area| std::fs::read_dir(area.expect("an area").path()).expect("an area"));
+    let mut files: Vec<_> = files.map(|file| file.expect("a file").path()).collect();
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "toml"));
+    files.sort();
+    files
+}
+
+#[test]
+fn who_rests_makes_no_difference_to_any_trace() {
+    let files = scenarios();
+    assert!(files.len() > 100);
+    for file in files {
+        let scenario = Scenario::read(&file).expect("a scenario");
+        let prepare = || scenario.prepare(scenario.profiles[0], &Programs::ready()).expect("it can be used");
+        let (resting, never) = (prepare().run(), prepare().never_rest().run());
+        let (resting, never) = (resting.json_lines(), never.json_lines());
+        let line = resting.lines().zip(never.lines()).find(|(resting, never)| resting != never);
+        assert!(resting == never, "{}: the first line that differs: {line:?}", file.display());
+    }
+}
+
+#[test]
+fn who_rests_makes_no_difference_to_what_is_saved() {
+    let (mut resting, mut never) = (machine(), machine());
+    never.never_rest();
+    for cycle in 1..=CYCLES {
+        step(&mut resting);
+        step(&mut never);
+        assert_same(&never, &resting, "computed in every cycle, and only when awake");
+        if cycle % 100 == 0 {
+            assert!(resting.save() == never.save(), "what is saved differs in cycle {cycle}");
+        }
+    }
+}
+
 #[test]
 fn one_scenario_gives_the_same_bytes_in_two_processes() {
     let run = |name: &str| {

@@ -1,10 +1,13 @@
 //! What changed in a step, for the record: whole parts are compared first, then their bytes.
 
+use zerocopy::{FromBytes, IntoBytes};
+
 use super::Machine;
 use super::command::Force;
-use crate::image::{Memory, Part, signals_at};
+use crate::image::{Memory, Part, ToNck, signals_at};
+use crate::sinumerik::Changes;
 use crate::trace::{By, Change, Row};
-use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber};
 use crate::variables::{EventId, Place};
 
 /// The memory as the last record saw it, and what was written from outside since.
@@ -40,6 +43,25 @@ impl Before {
 }
 
 impl Machine {
+    /// What the PLC's half has other than at the end of the last cycle.
+    pub(super) fn plc_changes(&self) -> Changes {
+        let before = self.before.parts.iter().find(|(part, _)| *part == Part::ToNck);
+        let before = before.and_then(|(_, bytes)| ToNck::ref_from_bytes(bytes).ok());
+        let now = &self.memory.to_nck;
+        let Some(before) = before else {
+            return Changes { axes: AxisSet::ALL, shared: true };
+        };
+        if now == before {
+            return Changes { axes: AxisSet::NONE, shared: false };
+        }
+        let same = |now: &[u8], before: &[u8]| now == before;
+        let shared = !same(now.nck.as_bytes(), before.nck.as_bytes())
+            || !same(now.mode_groups.as_bytes(), before.mode_groups.as_bytes())
+            || !same(now.channels.as_bytes(), before.channels.as_bytes());
+        let changed = |axis: &AxisNumber| !same(now.axes[*axis].as_bytes(), before.axes[*axis].as_bytes());
+        Changes { axes: AxisNumber::all().filter(changed).collect(), shared }
+    }
+
     /// Writes from outside that the PLC program overwrote in this step.
     pub(super) fn note_overwritten(&mut self) {
         let written = &self.before.written;

@@ -6,6 +6,7 @@ use super::{Fault, Machine};
 use crate::image::{Location, Part};
 use crate::sinumerik::machine_data::{MachineData, Value};
 use crate::source::Problem;
+use crate::units::AxisSet;
 
 /// Something that is done to a machine from outside.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -109,7 +110,10 @@ impl Machine {
                 }
                 Command::Cancel => taken.cancel = true,
                 Command::Fault(fault) => self.break_something(fault),
-                Command::ClearFault(fault) => self.plant.clear_fault(fault),
+                Command::ClearFault(fault) => {
+                    self.plant.clear_fault(fault);
+                    self.control.wake_all();
+                }
             }
         }
         self.queue = queue;
@@ -133,6 +137,7 @@ impl Machine {
     fn break_something(&mut self, fault: Fault) {
         let active = self.control.measuring_system(fault.axis);
         self.plant.fault(fault, active);
+        self.control.wake_all();
     }
 
     /// Power off and on: interface, PLC memory and forces start anew; plant, faults and stored machine data stay.
@@ -146,6 +151,6 @@ impl Machine {
         self.before.power_on = true;
         self.plc.power_on();
         self.definition.strobe.apply(&mut self.control);
-        self.sense();
+        self.sense(AxisSet::ALL);
     }
 }

@@ -177,6 +177,11 @@ impl Machine {
         &self.recorder
     }
 
+    /// Computes every axis in every cycle, also those that rest: slower, and the same bytes.
+    pub fn never_rest(&mut self) {
+        self.control.never_rest();
+    }
+
     /// Forgets the record that has been read.
     pub fn drain(&mut self) {
         self.recorder.clear();

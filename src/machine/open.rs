@@ -126,7 +126,7 @@ fn assemble(definition: Definition, mut control: Control, memory: Memory) -> Mac
         alarms_before: Vec::with_capacity(crate::variables::Alarms::CAPACITY),
         recorder: Recorder::default(),
     };
-    machine.sense();
+    machine.sense(crate::units::AxisSet::ALL);
     machine.variables = first_variables(&machine.feedback);
     machine
 }

@@ -4,7 +4,7 @@ use super::command::Force;
 use super::{Machine, Switch};
 use crate::plc::{PlcIo, PlcProgram};
 use crate::sinumerik::Feedback;
-use crate::units::{PerAxis, Time};
+use crate::units::{AxisSet, PerAxis, Time};
 use crate::variables::{AxisValues, Variables};
 
 /// The PLC: its program, and whether it runs.
@@ -64,13 +64,17 @@ impl Machine {
         self.sense_unwired_switches();
         self.apply_forces();
         // Mode group, channel, enabling, referencing and gantry, setpoints, coupling.
-        self.control.decide(self.cycle, &self.memory.to_nck, taken.cancel);
+        let changes = self.plc_changes();
+        self.control.decide(self.cycle, &self.memory.to_nck, changes, taken.cancel);
         // Position control, drives and mechanics.
-        self.move_axes();
-        self.sense();
+        let axes = self.definition.layout.with_bridged(self.control.awake());
+        self.move_axes(axes);
+        self.sense(axes);
         // Monitoring and alarms, publication, record.
-        self.control.observe(&self.feedback);
-        self.control.publish(&mut self.memory.from_nck, &mut self.memory.hmi, &mut self.variables);
+        self.control.observe(&self.feedback, axes);
+        let restless = self.plant.restless(axes);
+        let memory = &mut self.memory;
+        self.control.publish(&mut memory.from_nck, &mut memory.hmi, &mut self.variables, restless);
         self.record();
     }
 
@@ -154,23 +158,21 @@ impl Machine {
     }
 
     /// Position control, drives and mechanics, MD10070 / MD10060 times.
-    fn move_axes(&mut self) {
+    fn move_axes(&mut self, axes: AxisSet) {
         let parameters = self.control.parameters();
         let (count, cycle) = (parameters.servo_cycles, parameters.cycle);
         let servo_cycle = cycle.seconds() / f64::from(count);
-        self.plant.run_up(cycle);
+        self.plant.run_up(axes, cycle);
         for part in 1..=count {
-            let plant = &self.plant;
-            let commands =
-                PerAxis::from_fn(|axis| self.control.velocity_command(axis, plant.values(axis), part, count));
-            self.plant.advance(&self.definition.layout, &commands, servo_cycle);
+            let command = |axis, counts| self.control.velocity_command(axis, counts, part, count);
+            self.plant.advance(&self.definition.layout, axes, servo_cycle, command);
         }
     }
 
     /// What drives and encoders tell.
-    pub(super) fn sense(&mut self) {
-        for (axis, feedback) in self.feedback.iter_mut() {
-            *feedback = Feedback {
+    pub(super) fn sense(&mut self, axes: AxisSet) {
+        for axis in axes.iter() {
+            self.feedback[axis] = Feedback {
                 encoders: self.plant.tell(axis),
                 half_count: self.plant.half_counts(axis),
                 velocity: self.plant.velocity(axis),

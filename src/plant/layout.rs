@@ -2,7 +2,7 @@
 
 use super::{Cam, Given, LimitSwitch, PlantDefinition};
 use crate::motion::Encoder;
-use crate::units::{AxisNumber, PerAxis, Position, Time};
+use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 
 /// What decides a default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -87,6 +87,16 @@ impl Layout {
             })
             .collect();
         Self { axes, bridges }
+    }
+
+    /// These axes, and those that share a bridge with one of them.
+    #[must_use]
+    pub fn with_bridged(&self, axes: AxisSet) -> AxisSet {
+        self.bridges.iter().fold(axes, |all, bridge| {
+            let members =
+                bridge.others.iter().fold(AxisSet::of(bridge.first), |set, (axis, _)| set.with(AxisSet::of(*axis)));
+            if axes.and(members).is_empty() { all } else { all.with(members) }
+        })
     }
 }
 

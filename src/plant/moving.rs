@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Iron, Layout};
 use crate::motion::{Drive, Encoder, EncoderSignal};
-use crate::units::{AxisNumber, PerAxis, Position, Time};
+use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 
 /// A switch of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -73,13 +73,16 @@ struct Slide {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plant {
     slides: PerAxis<Option<Slide>>,
+    /// As they were when [`Plant::restless`] was last asked.
+    #[serde(skip)]
+    before: PerAxis<Option<Slide>>,
 }
 
 impl Plant {
     /// Everything at its start, switched on.
     #[must_use]
     pub fn new(layout: &Layout) -> Self {
-        Self { slides: PerAxis::from_fn(|axis| layout.axes[axis].as_ref().map(Slide::new)) }
+        Self { slides: PerAxis::from_fn(|axis| layout.axes[axis].as_ref().map(Slide::new)), before: PerAxis::default() }
     }
 
     /// Power off and on: slides and faults stay, drives run up anew, encoders count from where they are.
@@ -129,13 +132,21 @@ impl Plant {
     /// One position-control cycle: each drive answers its command, slides move, bridges pull.
     ///
     /// A command of `None` is a drive without power: its motor is braked as fast as its speed loop would.
-    pub fn advance(&mut self, layout: &Layout, commands: &PerAxis<Option<f64>>, cycle: f64) {
-        for (axis, slide) in self.slides.iter_mut() {
-            if let (Some(slide), Some(iron)) = (slide, &layout.axes[axis]) {
-                slide.advance(commands[axis].unwrap_or(0.0), iron.time_constant, cycle);
+    /// Only these axes are moved; whoever shares a bridge with one of them is to be among them.
+    pub fn advance(
+        &mut self,
+        layout: &Layout,
+        axes: AxisSet,
+        cycle: f64,
+        mut command: impl FnMut(AxisNumber, [Position; 2]) -> Option<f64>,
+    ) {
+        for axis in axes.iter() {
+            let counts = self.values(axis);
+            if let (Some(slide), Some(iron)) = (&mut self.slides[axis], &layout.axes[axis]) {
+                slide.advance(command(axis, counts).unwrap_or(0.0), iron.time_constant, cycle);
             }
         }
-        for bridge in &layout.bridges {
+        for bridge in layout.bridges.iter().filter(|bridge| axes.contains(bridge.first)) {
             for &(other, offset) in &bridge.others {
                 self.pull(bridge.first, other, offset, bridge.stiffness, cycle);
             }
@@ -179,6 +190,19 @@ impl Plant {
         }
     }
 
+    /// Those of these axes that are not as they were when this was last asked.
+    pub fn restless(&mut self, axes: AxisSet) -> AxisSet {
+        let mut restless = AxisSet::NONE;
+        for axis in axes.iter() {
+            let changed = self.slides[axis] != self.before[axis];
+            if changed {
+                self.before[axis] = self.slides[axis];
+            }
+            restless.set(axis, changed);
+        }
+        restless
+    }
+
     /// What both encoders of an axis tell since the last call.
     pub fn tell(&mut self, axis: AxisNumber) -> [EncoderSignal; 2] {
         let Some(slide) = &mut self.slides[axis] else {
@@ -210,9 +234,9 @@ impl Plant {
     }
 
     /// The drives run up.
-    pub fn run_up(&mut self, cycle: Time) {
-        for (_, slide) in self.slides.iter_mut() {
-            if let Some(slide) = slide {
+    pub fn run_up(&mut self, axes: AxisSet, cycle: Time) {
+        for axis in axes.iter() {
+            if let Some(slide) = &mut self.slides[axis] {
                 slide.ready_in = Time::from_nanos((slide.ready_in - cycle).nanos().max(0));
             }
         }

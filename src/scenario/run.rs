@@ -172,6 +172,13 @@ impl Prepared {
         Finished { session: self.session, head: self.head, causes: self.causes, failure }
     }
 
+    /// Computes every axis in every cycle, also those that rest: slower, and the same trace.
+    #[must_use]
+    pub fn never_rest(mut self) -> Self {
+        self.session.machine.never_rest();
+        self
+    }
+
     /// What the machine's files made it warn of.
     #[must_use]
     pub fn warnings(&self) -> &[String] {

@@ -253,6 +253,8 @@ struct Entry {
 pub(super) struct Pending {
     entries: ArrayVec<Entry, { Alarms::CAPACITY }>,
     changed: bool,
+    /// Counts the changes of the list.
+    version: u32,
 }
 
 impl Pending {
@@ -264,9 +266,8 @@ impl Pending {
             return;
         }
         let index = self.entries.partition_point(|entry| (entry.alarm.number, entry.alarm.place) < (number, place));
-        if self.entries.try_insert(index, Entry { alarm, cause, fresh: true }).is_ok() {
-            self.changed = true;
-        }
+        let added = self.entries.try_insert(index, Entry { alarm, cause, fresh: true }).is_ok();
+        self.note_changed(added);
     }
 
     /// Removes what this way of cancelling removes of what concerns somebody; whether that was any.
@@ -277,7 +278,7 @@ impl Pending {
             class == Cancel::ByItself || class > by || !concerns(entry.alarm.place)
         });
         let removed = self.entries.len() != before;
-        self.changed |= removed;
+        self.note_changed(removed);
         removed
     }
 
@@ -290,7 +291,24 @@ impl Pending {
             entry.fresh = false;
             stays
         });
-        self.changed |= self.entries.len() != before;
+        self.note_changed(self.entries.len() != before);
+    }
+
+    fn note_changed(&mut self, changed: bool) {
+        self.changed |= changed;
+        self.version = self.version.wrapping_add(u32::from(changed));
+    }
+
+    /// Another number after each change of the list.
+    #[must_use]
+    pub(super) const fn version(&self) -> u32 {
+        self.version
+    }
+
+    /// Whether nothing is pending.
+    #[must_use]
+    pub(super) fn is_empty(&self) -> bool {
+        self.entries.is_empty()
     }
 
     /// Whether the list changed since it was last asked.
@@ -375,6 +393,6 @@ mod tests {
         pending.settle();
         assert!(has(&pending, GANTRY_WARNING_LIMIT));
         pending.settle();
-        assert_eq!(pending.iter().count(), 0);
+        assert!(pending.is_empty());
     }
 }

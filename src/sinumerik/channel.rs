@@ -179,11 +179,6 @@ impl State {
 
     /// The axes that need their reference point for NC start have it: those with MD34110 above −1, where MD20700 is not 0.
     pub(super) fn is_referenced(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
-        let needed = parameters.channels[channel].reference_needed;
-        !needed
-            || parameters
-                .existing()
-                .filter(|(_, axis)| axis.channel == channel && axis.reference.cycle_number > -1)
-                .all(|(number, _)| self.axes[number].is_referenced())
+        self.summary.referenced.has_all_of(parameters.channels[channel].reference_needed)
     }
 }

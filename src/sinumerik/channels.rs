@@ -4,8 +4,8 @@
 //! names belongs to channel 1; one that several name belongs to the one of MD30550, or to the lowest of them.
 
 use super::machine_data::MachineData;
-use super::parameters::Parameters;
-use crate::units::{ChannelNumber, ModeGroupNumber, PerChannel};
+use super::parameters::{AxisParameters, Parameters};
+use crate::units::{AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel};
 use crate::variables::Place;
 
 /// One channel.
@@ -13,16 +13,24 @@ use crate::variables::Place;
 pub struct ChannelParameters {
     /// MD10010; `None`: the channel does not exist.
     pub mode_group: Option<ModeGroupNumber>,
-    /// MD20700 is not 0.
-    pub reference_needed: bool,
+    /// Its axes.
+    pub axes: AxisSet,
+    /// The axes that need their reference point for NC start: MD34110 above −1, unless MD20700 is 0.
+    pub reference_needed: AxisSet,
 }
 
 /// All channels.
 #[must_use]
-pub(super) fn channels(data: &MachineData) -> PerChannel<ChannelParameters> {
-    PerChannel::from_fn(|channel| ChannelParameters {
-        mode_group: data.mode_group(channel),
-        reference_needed: data.channels[channel].refp_nc_start_lock != 0,
+pub(super) fn channels(data: &MachineData, axes: &PerAxis<AxisParameters>) -> PerChannel<ChannelParameters> {
+    PerChannel::from_fn(|channel| {
+        let own = || axes.iter().filter(|(_, axis)| axis.exists && axis.channel == channel);
+        let locked = data.channels[channel].refp_nc_start_lock != 0;
+        let needed = own().filter(|(_, axis)| locked && axis.reference.cycle_number > -1);
+        ChannelParameters {
+            mode_group: data.mode_group(channel),
+            axes: own().map(|(number, _)| number).collect(),
+            reference_needed: needed.map(|(number, _)| number).collect(),
+        }
     })
 }
 

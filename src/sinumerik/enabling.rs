@@ -10,6 +10,7 @@ use super::alarms::{self, Reaction};
 use super::axis::Axis;
 use super::log::axis_bit;
 use super::parameters::Parameters;
+use super::resting::Resting;
 use super::rules::Rule;
 use super::{State, Unit};
 use crate::image::ToNck;
@@ -92,9 +93,12 @@ struct Conditions {
 
 impl State {
     /// The measuring systems that 1.5 and 1.6 select; parking is common to all axes of a unit.
-    pub(super) fn select_measuring_systems(&mut self, parameters: &Parameters, to_nck: &ToNck) {
+    pub(super) fn select_measuring_systems(&mut self, parameters: &Parameters, to_nck: &ToNck, resting: &Resting) {
         for index in 0..self.units.len() {
             let unit = self.units[index];
+            if !self.is_awake(&unit, resting) {
+                continue;
+            }
             let selected = |axis: AxisNumber| -> Option<u8> {
                 let (signals, count) = (&to_nck.axes[axis], parameters.axes[axis].encoders);
                 if signals.position_measuring_system_1() && count >= 1 {
@@ -144,12 +148,15 @@ impl State {
     }
 
     /// One step of the chain for every axis.
-    pub(super) fn enable(&mut self, parameters: &Parameters, to_nck: &ToNck) {
-        for (number, _) in parameters.existing() {
+    pub(super) fn enable(&mut self, parameters: &Parameters, to_nck: &ToNck, resting: &Resting) {
+        for number in resting.awake().iter() {
             self.enable_pulses(number, to_nck.axes[number].pulse_enable());
         }
         for index in 0..self.units.len() {
             let unit = self.units[index];
+            if !self.is_awake(&unit, resting) {
+                continue;
+            }
             let conditions = self.conditions(&unit, parameters, to_nck);
             let lost = !conditions.enable || !conditions.healthy;
             if lost && conditions.moving && self.unit_is_on(&unit) {

@@ -35,6 +35,7 @@ mod parameters;
 mod publish;
 mod reference_axes;
 mod referencing;
+mod resting;
 mod rules;
 mod run_up;
 mod setpoints;
@@ -47,6 +48,7 @@ pub use axis::Feedback;
 pub use gantry::{Phase as GroupingPhase, TRANSITIONS as GROUPING_TRANSITIONS};
 pub use parameters::{AxisPresence, Parameters};
 pub use referencing::{Phase as ApproachPhase, TRANSITIONS as APPROACH_TRANSITIONS};
+pub use resting::Changes;
 pub use rules::Rule;
 pub use transitions::{Rows, TakenTransitions, Transition};
 
@@ -58,7 +60,7 @@ use serde::{Deserialize, Serialize};
 use crate::image::ToNck;
 use crate::motion::{Coupling, velocity_command};
 use crate::source::Problem;
-use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position};
 use crate::variables::{EventId, Place};
 
 use axis::{Axis, Motion};
@@ -69,6 +71,7 @@ use gantry_definition::GROUPINGS;
 use log::Log;
 use machine_data::{Effect, MachineData, Target, Value};
 use mode_group::ModeGroup;
+use resting::Resting;
 use run_up::RunUp;
 
 /// Axes that are enabled, stopped and held together: a closed grouping with its leading axis first, or one axis.
@@ -107,6 +110,16 @@ impl Unit {
     }
 }
 
+/// What of all axes goes into the signals of channels and of the NCK.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+struct Summary {
+    drive_ready: AxisSet,
+    referenced: AxisSet,
+    /// The setpoint rests and the velocity is below MD36060.
+    standing: AxisSet,
+    in_motion: AxisSet,
+}
+
 /// All that the control remembers from one cycle to the next: plain data, without machine data.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct State {
@@ -120,6 +133,7 @@ struct State {
     units: ArrayVec<Unit, { AxisNumber::MAX as usize }>,
     alarms: alarms::Pending,
     feedback: PerAxis<Feedback>,
+    summary: Summary,
     power_on_cause: EventId,
     definition_cause: EventId,
     plc_missing: bool,
@@ -139,6 +153,7 @@ pub struct Control {
     presence: Arc<PerAxis<AxisPresence>>,
     parameters: Arc<Parameters>,
     state: Box<State>,
+    resting: Box<Resting>,
 }
 
 /// A saved control.
@@ -156,7 +171,8 @@ impl Control {
         let stored = Arc::new(data);
         let parameters = Arc::new(Parameters::new(&stored, &presence));
         let state = Box::new(State::new(&parameters));
-        Self { active: Arc::clone(&stored), stored, presence: Arc::new(presence), parameters, state }
+        let resting = Box::new(Resting::new(&state));
+        Self { active: Arc::clone(&stored), stored, presence: Arc::new(presence), parameters, state, resting }
     }
 
     /// Power off and on: stored machine data become active, everything else starts anew.
@@ -169,6 +185,7 @@ impl Control {
         *self.state = State::new(&self.parameters);
         self.state.log = Log { cycle, events, taken };
         self.state.note_power_on();
+        self.resting.wake_all();
     }
 
     /// What the stages work with.
@@ -213,6 +230,7 @@ impl Control {
         }
         Arc::make_mut(&mut self.active).activate(&self.stored, level);
         self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
+        self.resting.wake_all();
     }
 
     /// The PLC program does not run, or runs again after power on.
@@ -260,6 +278,7 @@ impl Control {
     /// Somebody else wrote into the NCK's half.
     pub fn half_overwritten(&mut self) {
         self.state.overwritten = true;
+        self.resting.wake_all();
     }
 
     /// Somebody else wrote DBB5 of a mode group in DB11 (E-01).
@@ -267,20 +286,26 @@ impl Control {
         self.state.strobe_written(group);
     }
 
-    /// Takes what the PLC wrote and commands setpoints.
-    pub fn decide(&mut self, cycle: u64, to_nck: &ToNck, cancel_key: bool) {
+    /// Takes what the PLC wrote, and which of it is new, and commands setpoints.
+    pub fn decide(&mut self, cycle: u64, to_nck: &ToNck, changes: Changes, cancel_key: bool) {
         self.state.log.cycle = cycle;
         self.state.run_up(&self.parameters);
         self.state.select_modes(&self.parameters, to_nck);
         self.state.watch_emergency_stop(&self.parameters, to_nck);
         self.reset_and_cancel(to_nck, cancel_key);
-        let (parameters, state) = (&*self.parameters, &mut *self.state);
-        state.form_units(parameters);
-        state.select_measuring_systems(parameters, to_nck);
-        state.enable(parameters, to_nck);
-        state.start_channel_referencing(parameters, to_nck);
+        if self.resting.take_units_stale() {
+            self.state.form_units(&self.parameters);
+        }
+        self.state.start_channel_referencing(&self.parameters, to_nck);
+        self.wake(changes);
+        let (parameters, state, resting) = (&*self.parameters, &mut *self.state, &*self.resting);
+        state.select_measuring_systems(parameters, to_nck, resting);
+        state.enable(parameters, to_nck, resting);
         for index in 0..state.units.len() {
             let unit = state.units[index];
+            if !state.is_awake(&unit, resting) {
+                continue;
+            }
             state.take_feed(&unit, parameters, to_nck);
             match unit.grouping {
                 Some(index) => state.run_grouping(usize::from(index), &unit, parameters, to_nck),
@@ -291,11 +316,22 @@ impl Control {
         state.order_channel_referencing(parameters);
     }
 
-    /// Takes what encoders and drives tell, and monitors it.
-    pub fn observe(&mut self, feedback: &PerAxis<Feedback>) {
-        self.state.feedback = *feedback;
-        for (number, _) in self.parameters.existing() {
-            self.state.axes[number].sense(&feedback[number]);
+    /// Takes what encoders and drives of these axes tell, and monitors it. The others tell what they told before.
+    pub fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet) {
+        for number in told.and(self.parameters.existing).iter() {
+            if self.state.feedback[number] != feedback[number] {
+                self.state.feedback[number] = feedback[number];
+                self.resting.wake_axis(number);
+            }
+        }
+        for number in self.resting.awake().iter() {
+            let axis = &mut self.state.axes[number];
+            axis.sense(&feedback[number]);
+            let summary = &mut self.state.summary;
+            summary.drive_ready.set(number, axis.drive_ready);
+            summary.referenced.set(number, axis.is_referenced());
+            summary.standing.set(number, axis.stands(&self.parameters.axes[number]));
+            summary.in_motion.set(number, axis.is_in_motion());
         }
         self.monitor();
     }
@@ -319,6 +355,7 @@ impl Control {
         let taken = self.state.log.taken;
         *self.state = saved.state;
         self.state.log.taken = taken;
+        self.resting.wake_all();
     }
 }
 
@@ -335,6 +372,7 @@ impl State {
             units: ArrayVec::new(),
             alarms: alarms::Pending::default(),
             feedback: PerAxis::default(),
+            summary: Summary::default(),
             power_on_cause: EventId::NONE,
             definition_cause: EventId::NONE,
             plc_missing: false,

@@ -8,6 +8,7 @@ use super::gantry::Phase;
 use super::parameters::Parameters;
 use super::rules::Rule;
 use super::{Control, State};
+use crate::units::AxisSet;
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
 impl Control {
@@ -15,6 +16,10 @@ impl Control {
     pub(super) fn monitor(&mut self) {
         let (parameters, state) = (&*self.parameters, &mut *self.state);
         for index in 0..state.groupings.len() {
+            let members: AxisSet = state.groupings[index].coupling.members().collect();
+            if self.resting.awake().and(members).is_empty() {
+                continue;
+            }
             state.monitor_grouping(index, parameters);
             state.raise_grouping_messages(index, parameters);
         }

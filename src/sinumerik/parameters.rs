@@ -6,7 +6,7 @@
 use super::channels::{self, ChannelParameters};
 use super::gantry_definition::{self, Definitions};
 use super::machine_data::{Axis, MachineData};
-use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel, PerModeGroup, Position, Time};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, PerChannel, PerModeGroup, Position, Time};
 
 /// Values per measuring system, for index 0 and 1.
 pub(super) type PerEncoder<T> = [T; 2];
@@ -142,6 +142,8 @@ pub struct Parameters {
     pub mode_after_power_on: PerModeGroup<i32>,
     /// MD11412: an alarm that takes "mode group not ready" takes "channel not ready" only.
     pub only_channel_not_ready: bool,
+    /// The axes that exist.
+    pub existing: AxisSet,
     /// The axes.
     pub axes: PerAxis<AxisParameters>,
     /// The groupings that MD37100 defines, and what is wrong with them.
@@ -161,7 +163,8 @@ impl Parameters {
             axis_override_is_gray: data.general.ovr_ax_is_gray_code,
             axis_override_factors: data.general.ovr_factor_ax_speed,
             binary_override_limit: data.general.ovr_factor_limit_bin,
-            channels: channels::channels(data),
+            existing: axes.iter().filter(|(_, axis)| axis.exists).map(|(number, _)| number).collect(),
+            channels: channels::channels(data, &axes),
             mode_after_power_on: PerModeGroup::from_fn(|group| data.general.operating_mode_default[group.index()]),
             only_channel_not_ready: data.general.alarm_reaction_chan_noready,
             groupings: gantry_definition::define(data, &axes),

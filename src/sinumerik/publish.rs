@@ -8,15 +8,20 @@ use super::mode_group::{MachineFunction, Mode};
 use super::parameters::{AxisParameters, Parameters};
 use super::{Control, State};
 use crate::image::{AxisFromNck, FromNck, Hmi, clear_signals};
-use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, Position};
 use crate::variables::{AxisValues, Place, Variables};
 
 impl Control {
-    /// Writes what the control shows.
-    pub fn publish(&mut self, from_nck: &mut FromNck, hmi: &mut Hmi, variables: &mut Variables) {
+    /// Writes what the control shows. Of `restless` axes the iron has not come to rest.
+    pub fn publish(&mut self, from_nck: &mut FromNck, hmi: &mut Hmi, variables: &mut Variables, restless: AxisSet) {
         let (parameters, state) = (&*self.parameters, &mut *self.state);
+        let mut shown = self.resting.awake();
+        if state.alarms_wake(&self.resting) {
+            shown = parameters.existing;
+        }
         if std::mem::take(&mut state.overwritten) {
             clear_signals(from_nck);
+            shown = parameters.existing;
         }
         state.publish_nck(from_nck);
         for group in parameters.existing_mode_groups() {
@@ -25,18 +30,24 @@ impl Control {
         for (channel, _) in parameters.existing_channels() {
             state.publish_channel(channel, from_nck, parameters);
         }
-        for (number, axis) in parameters.existing() {
+        for number in shown.iter() {
+            let axis = &parameters.axes[number];
             if !axis.silent {
                 state.publish_axis(&mut from_nck.axes[number], number, axis);
             }
             variables.axes[number] = state.values(number, axis);
         }
         for index in 0..state.groupings.len() {
+            let members: AxisSet = state.groupings[index].coupling.members().collect();
+            if shown.and(members).is_empty() {
+                continue;
+            }
             state.publish_grouping(index, from_nck, parameters, variables);
         }
         if state.alarms.take_changed() {
             variables.alarms.publish(state.alarms.iter().map(|(alarm, _)| *alarm));
         }
+        self.rest(restless);
     }
 }
 
@@ -69,29 +80,28 @@ impl State {
         let not_ready = self.mode_group_not_ready(number, parameters);
         signals.set_mode_group_ready(self.run_up.is_nc_ready() && not_ready.is_none());
         let mut channels = parameters.existing_channels().filter(|(_, group)| *group == number);
-        signals.set_all_channels_in_reset_state(channels.all(|(channel, _)| !self.is_channel_active(channel)));
+        signals
+            .set_all_channels_in_reset_state(channels.all(|(channel, _)| !self.is_channel_active(channel, parameters)));
         if !group.strobe_is_the_hmi_s {
             hmi.mode_groups[number].set_ref_selected(group.is_referencing());
         }
     }
 
     /// "At least one axis is being traversed in JOG", or referenced.
-    pub(super) fn is_channel_active(&self, channel: ChannelNumber) -> bool {
-        let units = self.units.iter().filter(|unit| unit.channel == channel);
-        units.flat_map(super::Unit::members).any(|axis| self.axes[axis].is_in_motion())
+    pub(super) fn is_channel_active(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
+        !self.summary.in_motion.and(parameters.channels[channel].axes).is_empty()
     }
 
     fn publish_channel(&self, channel: ChannelNumber, from_nck: &mut FromNck, parameters: &Parameters) {
         let signals = &mut from_nck.channels[channel];
-        let active = self.is_channel_active(channel);
+        let active = self.is_channel_active(channel, parameters);
         signals.set_referencing_active(self.channels[channel].is_referencing());
         // Without a program its state is "aborted", as after RESET.
         signals.set_program_state_aborted(true);
         signals.set_channel_state_active(active);
         signals.set_channel_state_reset(!active);
         signals.set_all_axes_requiring_reference_point_are_referenced(self.is_referenced(channel, parameters));
-        let mut axes = parameters.existing().filter(|(_, axis)| axis.channel == channel);
-        signals.set_all_axes_stationary(axes.all(|(number, axis)| self.axes[number].stands(axis)));
+        signals.set_all_axes_stationary(self.summary.standing.has_all_of(parameters.channels[channel].axes));
         let alarm = |reaction: Reaction| self.channel_alarm(channel, reaction, parameters).is_some();
         signals.set_channel_ready(self.run_up.is_nc_ready() && !alarm(Reaction::CHANNEL_NOT_READY));
         signals.set_channel_specific_nck_alarm_active(alarm(Reaction::INTERFACE_SIGNALS));

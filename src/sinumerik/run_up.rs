@@ -49,7 +49,7 @@ impl RunUp {
 impl State {
     /// One cycle of the run-up.
     pub(super) fn run_up(&mut self, parameters: &Parameters) {
-        let ready = parameters.existing().all(|(number, _)| self.feedback[number].drive_ready);
+        let ready = self.summary.drive_ready.has_all_of(parameters.existing);
         let run_up = &mut self.run_up;
         let before = *run_up;
         run_up.drives_ready = ready;

@@ -324,6 +324,74 @@ number_from_one!(
     /// Number of a machine axis, 1 to 31; its data block is DB 30 + number.
     AxisNumber, PerAxis, 31
 );
+/// A set of machine axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AxisSet(u32);
+
+impl AxisSet {
+    /// No axis.
+    pub const NONE: Self = Self(0);
+    /// All that there can be.
+    pub const ALL: Self = Self((1 << AxisNumber::MAX) - 1);
+
+    /// One axis.
+    #[must_use]
+    pub const fn of(axis: AxisNumber) -> Self {
+        Self(1 << axis.index())
+    }
+
+    /// Whether nothing is in it.
+    #[must_use]
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Whether it has this axis.
+    #[must_use]
+    pub const fn contains(self, axis: AxisNumber) -> bool {
+        self.0 >> axis.index() & 1 == 1
+    }
+
+    /// Takes an axis in, or out.
+    pub const fn set(&mut self, axis: AxisNumber, member: bool) {
+        self.0 = self.0 & !(1 << axis.index()) | (member as u32) << axis.index();
+    }
+
+    /// What is in either.
+    #[must_use]
+    pub const fn with(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// What is in both.
+    #[must_use]
+    pub const fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    /// Whether all of the other are in it.
+    #[must_use]
+    pub const fn has_all_of(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// Its axes, ascending.
+    pub fn iter(self) -> impl Iterator<Item = AxisNumber> {
+        let mut rest = self.0;
+        std::iter::from_fn(move || {
+            let index = rest.trailing_zeros();
+            rest &= rest.wrapping_sub(1);
+            u8::try_from(index + 1).ok().and_then(AxisNumber::new)
+        })
+    }
+}
+
+impl FromIterator<AxisNumber> for AxisSet {
+    fn from_iter<I: IntoIterator<Item = AxisNumber>>(axes: I) -> Self {
+        axes.into_iter().fold(Self::NONE, |set, axis| set.with(Self::of(axis)))
+    }
+}
+
 number_from_one!(
     /// Number of a channel, 1 to 10; its data block is DB 20 + number.
     ChannelNumber, PerChannel, 10
@@ -363,6 +431,18 @@ mod tests {
         assert_eq!(Position::from_user(-0.941).to_string(), "-0.941");
         assert_eq!(Position::new(250).to_string(), "0.00025");
         assert_eq!(format!("{:>8}", Position::from_user(1.5)), "   1.500");
+    }
+
+    #[test]
+    fn a_set_of_axes_gives_them_back_in_order() {
+        let axes = [31, 1, 8].map(|number| AxisNumber::new(number).unwrap());
+        let mut set: AxisSet = axes.into_iter().collect();
+        assert_eq!(set.iter().map(AxisNumber::number).collect::<Vec<_>>(), [1, 8, 31]);
+        assert!(set.contains(axes[0]) && AxisSet::ALL.has_all_of(set) && !set.has_all_of(AxisSet::ALL));
+        set.set(axes[0], false);
+        assert_eq!(set.iter().last(), Some(axes[2]));
+        assert_eq!(AxisSet::ALL.iter().count(), 31);
+        assert_eq!(AxisSet::NONE.iter().count(), 0);
     }
 
     #[test]

@@ -1,0 +1,177 @@
+//! Axes that rest are not computed again.
+//!
+//! A cycle of the control is a function of its state, of what the PLC wrote and of what encoders and drives told. An axis
+//! whose state came out of a cycle as it went in, and that gets the same inputs again, comes out of the next one as it is: it
+//! rests, and the stages leave it out until something that it depends on is another one. What all axes depend on (modes,
+//! channels, run-up, emergency stop, machine data, any alarm) wakes all. Nothing that anybody can see depends on who rests
+//! ([`Control::never_rest`] computes everything always, and tests compare both).
+
+use arrayvec::ArrayVec;
+
+use super::axis::Axis;
+use super::channel::Channel;
+use super::emergency_stop::EmergencyStop;
+use super::gantry::Grouping;
+use super::gantry_definition::GROUPINGS;
+use super::mode_group::ModeGroup;
+use super::run_up::RunUp;
+use super::{Control, State, Unit};
+use crate::units::{AxisNumber, AxisSet, PerAxis, PerChannel, PerModeGroup};
+
+/// What the PLC's half has other than in the last cycle.
+#[derive(Clone, Copy, Debug)]
+pub struct Changes {
+    /// Axes whose block changed.
+    pub axes: AxisSet,
+    /// A block of the NCK, of a mode group or of a channel changed.
+    pub shared: bool,
+}
+
+/// What every axis depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Shared {
+    run_up: RunUp,
+    mode_groups: PerModeGroup<ModeGroup>,
+    emergency_stop: EmergencyStop,
+    channels: PerChannel<Channel>,
+}
+
+/// Who rests, and what the last cycle left.
+#[derive(Clone, Debug)]
+pub(super) struct Resting {
+    /// Who is computed in this cycle.
+    awake: AxisSet,
+    never: bool,
+    /// Groupings may have been opened or closed.
+    units_stale: bool,
+    alarm_version: u32,
+    shared: Shared,
+    axes: PerAxis<Axis>,
+    groupings: ArrayVec<Grouping, GROUPINGS>,
+}
+
+impl Resting {
+    /// Nobody rests.
+    pub(super) fn new(state: &State) -> Self {
+        Self {
+            awake: AxisSet::ALL,
+            never: false,
+            units_stale: true,
+            alarm_version: state.alarms.version(),
+            shared: state.shared(),
+            axes: state.axes.clone(),
+            groupings: state.groupings.clone(),
+        }
+    }
+
+    /// Everybody is computed in the next cycle.
+    pub(super) fn wake_all(&mut self) {
+        self.awake = AxisSet::ALL;
+        self.units_stale = true;
+    }
+
+    /// An axis was told something new.
+    pub(super) fn wake_axis(&mut self, axis: AxisNumber) {
+        self.awake.set(axis, true);
+    }
+
+    /// Who is computed in this cycle.
+    pub(super) const fn awake(&self) -> AxisSet {
+        self.awake
+    }
+
+    /// Groupings were opened or closed, or machine data became active, since this was last asked.
+    pub(super) fn take_units_stale(&mut self) -> bool {
+        std::mem::take(&mut self.units_stale)
+    }
+}
+
+impl Unit {
+    /// Its axes.
+    pub(super) fn axes(&self) -> AxisSet {
+        self.members().collect()
+    }
+}
+
+impl State {
+    fn shared(&self) -> Shared {
+        Shared {
+            run_up: self.run_up,
+            mode_groups: self.mode_groups,
+            emergency_stop: self.emergency_stop,
+            channels: self.channels,
+        }
+    }
+
+    /// An alarm is pending, or one came or went: that can stop anybody.
+    pub(super) fn alarms_wake(&self, resting: &Resting) -> bool {
+        !self.alarms.is_empty() || self.alarms.version() != resting.alarm_version
+    }
+
+    /// A unit that is computed in this cycle.
+    pub(super) fn is_awake(&self, unit: &Unit, resting: &Resting) -> bool {
+        !resting.awake.and(unit.axes()).is_empty() || self.alarms_wake(resting)
+    }
+}
+
+impl Control {
+    /// Computes every axis in every cycle, also those that rest. The results are the same.
+    pub fn never_rest(&mut self) {
+        self.resting.never = true;
+        self.resting.wake_all();
+    }
+
+    /// Something happened to the machine: everybody is computed in the next cycle.
+    pub fn wake_all(&mut self) {
+        self.resting.wake_all();
+    }
+
+    /// The axes that are computed in this cycle.
+    #[must_use]
+    pub const fn awake(&self) -> AxisSet {
+        self.resting.awake
+    }
+
+    /// After the stages that concern everybody: who is computed in this cycle.
+    pub(super) fn wake(&mut self, changes: Changes) {
+        let (state, resting) = (&*self.state, &mut *self.resting);
+        let shared = state.shared();
+        if resting.never || changes.shared || shared != resting.shared || state.alarms_wake(resting) {
+            resting.shared = shared;
+            resting.wake_all();
+        }
+        resting.awake = resting.awake.with(changes.axes);
+        for unit in &state.units {
+            let axes = unit.axes();
+            if unit.grouping.is_some() && !resting.awake.and(axes).is_empty() {
+                resting.awake = resting.awake.with(axes);
+            }
+        }
+        resting.awake = resting.awake.and(self.parameters.existing);
+    }
+
+    /// At the end of a cycle: who came out of it as it went in, and of whom the iron says that it rests, rests.
+    pub(super) fn rest(&mut self, restless: AxisSet) {
+        let (state, resting) = (&*self.state, &mut *self.resting);
+        if state.alarms_wake(resting) {
+            resting.wake_all();
+        }
+        resting.alarm_version = state.alarms.version();
+        let mut awake = restless;
+        for axis in resting.awake.iter() {
+            if state.axes[axis] != resting.axes[axis] {
+                resting.axes[axis] = state.axes[axis].clone();
+                awake.set(axis, true);
+            }
+        }
+        for (now, before) in state.groupings.iter().zip(&mut resting.groupings) {
+            let axes: AxisSet = now.coupling.members().collect();
+            if !resting.awake.and(axes).is_empty() && now != before {
+                resting.units_stale = true;
+                before.clone_from(now);
+                awake = awake.with(axes);
+            }
+        }
+        resting.awake = awake;
+    }
+}
