@@ -15,6 +15,8 @@ use crate::variables::{EventId, Place};
 pub(super) struct Before {
     parts: Vec<(Part, Vec<u8>)>,
     pub(super) written: Vec<Force>,
+    /// The PLC's half is another one than at the end of the last cycle.
+    plc_wrote: bool,
     /// Power was switched off and on in this step.
     pub(super) power_on: bool,
     pub(super) last_event: EventId,
@@ -38,20 +40,22 @@ impl Before {
         ];
         let own = memory.blocks.iter().map(|block| Part::Block(block.number));
         let parts = fixed.into_iter().chain(own).map(|part| (part, memory.part(part).to_vec())).collect();
-        Self { parts, written: Vec::with_capacity(WRITES), power_on: false, last_event }
+        Self { parts, written: Vec::with_capacity(WRITES), plc_wrote: true, power_on: false, last_event }
     }
 }
 
 impl Machine {
     /// What the PLC's half has other than at the end of the last cycle.
-    pub(super) fn plc_changes(&self) -> Changes {
+    pub(super) fn plc_changes(&mut self) -> Changes {
         let before = self.before.parts.iter().find(|(part, _)| *part == Part::ToNck);
         let before = before.and_then(|(_, bytes)| ToNck::ref_from_bytes(bytes).ok());
         let now = &self.memory.to_nck;
+        self.before.plc_wrote = true;
         let Some(before) = before else {
             return Changes { axes: AxisSet::ALL, shared: true };
         };
         if now == before {
+            self.before.plc_wrote = false;
             return Changes { axes: AxisSet::NONE, shared: false };
         }
         let same = |now: &[u8], before: &[u8]| now == before;
@@ -82,7 +86,9 @@ impl Machine {
     pub(super) fn record(&mut self) {
         let mut parts = std::mem::take(&mut self.before.parts);
         for (part, old) in &mut parts {
-            self.record_part(*part, old);
+            if *part != Part::ToNck || self.before.plc_wrote {
+                self.record_part(*part, old);
+            }
         }
         self.before.parts = parts;
         self.record_alarms();

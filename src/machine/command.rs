@@ -112,6 +112,7 @@ impl Machine {
                 Command::Fault(fault) => self.break_something(fault),
                 Command::ClearFault(fault) => {
                     self.plant.clear_fault(fault);
+                    self.plant.press_switches(&self.definition.layout, AxisSet::of(fault.axis));
                     self.control.wake_all();
                 }
             }
@@ -137,6 +138,7 @@ impl Machine {
     fn break_something(&mut self, fault: Fault) {
         let active = self.control.measuring_system(fault.axis);
         self.plant.fault(fault, active);
+        self.plant.press_switches(&self.definition.layout, AxisSet::of(fault.axis));
         self.control.wake_all();
     }
 

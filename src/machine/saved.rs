@@ -104,6 +104,7 @@ impl Machine {
         }
         self.control.restore(saved.control);
         self.plant = saved.plant;
+        self.plant.press_switches(&self.definition.layout, crate::units::AxisSet::ALL);
         self.memory = saved.memory;
         self.variables = saved.variables;
         self.feedback = saved.feedback;

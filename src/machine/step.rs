@@ -118,36 +118,27 @@ impl Machine {
     }
 
     fn sense_wired_switches(&mut self) {
-        for (axis, iron) in self.definition.layout.axes.iter() {
-            let Some(iron) = iron else { continue };
-            let wires = [
-                (Switch::Cam, iron.cam.as_ref().and_then(|cam| cam.input)),
-                (Switch::LimitPlus, iron.limit_plus.as_ref().and_then(|limit| limit.input)),
-                (Switch::LimitMinus, iron.limit_minus.as_ref().and_then(|limit| limit.input)),
-            ];
-            for (switch, input) in wires {
-                let Some(input) = input else { continue };
-                let pressed = self.plant.is_pressed(&self.definition.layout, axis, switch);
-                self.memory.inputs.set_bit(usize::from(input.byte), input.bit, pressed);
-            }
+        for &(axis, switch, input) in &self.definition.layout.wired {
+            let pressed = self.plant.pressed(switch).contains(axis);
+            self.memory.inputs.set_bit(usize::from(input.byte), input.bit, pressed);
         }
     }
 
     /// Switches without an input: the simulator itself sets 12.7, 12.1 and 12.0 after the PLC scan.
     fn sense_unwired_switches(&mut self) {
-        for (axis, iron) in self.definition.layout.axes.iter() {
-            let Some(iron) = iron else { continue };
-            let pressed = |switch| self.plant.is_pressed(&self.definition.layout, axis, switch);
-            let signals = &mut self.memory.to_nck.axes[axis];
-            if iron.cam.as_ref().is_some_and(|cam| cam.input.is_none()) {
-                signals.set_deceleration_reference_point_approach(pressed(Switch::Cam));
-            }
-            if iron.limit_plus.as_ref().is_some_and(|limit| limit.input.is_none()) {
-                signals.set_hardware_limit_switch_plus(pressed(Switch::LimitPlus));
-            }
-            if iron.limit_minus.as_ref().is_some_and(|limit| limit.input.is_none()) {
-                signals.set_hardware_limit_switch_minus(pressed(Switch::LimitMinus));
-            }
+        let to_nck = &mut self.memory.to_nck;
+        let [cams, plus, minus] = self.definition.layout.unwired;
+        for axis in cams.iter() {
+            let pressed = self.plant.pressed(Switch::Cam).contains(axis);
+            to_nck.axes[axis].set_deceleration_reference_point_approach(pressed);
+        }
+        for axis in plus.iter() {
+            let pressed = self.plant.pressed(Switch::LimitPlus).contains(axis);
+            to_nck.axes[axis].set_hardware_limit_switch_plus(pressed);
+        }
+        for axis in minus.iter() {
+            let pressed = self.plant.pressed(Switch::LimitMinus).contains(axis);
+            to_nck.axes[axis].set_hardware_limit_switch_minus(pressed);
         }
     }
 
@@ -171,6 +162,7 @@ impl Machine {
 
     /// What drives and encoders tell.
     pub(super) fn sense(&mut self, axes: AxisSet) {
+        self.plant.press_switches(&self.definition.layout, axes);
         for axis in axes.iter() {
             self.feedback[axis] = Feedback {
                 encoders: self.plant.tell(axis),

@@ -1,6 +1,6 @@
 //! The plant of one machine with every default filled in.
 
-use super::{Cam, Given, LimitSwitch, PlantDefinition};
+use super::{Cam, Given, Input, LimitSwitch, PlantDefinition, Switch};
 use crate::motion::Encoder;
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 
@@ -52,6 +52,10 @@ pub struct Layout {
     pub axes: PerAxis<Option<Iron>>,
     /// The bridges.
     pub bridges: Vec<RigidOrSoft>,
+    /// Switches that are inputs of the PLC.
+    pub wired: Vec<(AxisNumber, Switch, Input)>,
+    /// Axes whose cam, switch plus and switch minus the simulator itself shows to the NCK.
+    pub unwired: [AxisSet; 3],
 }
 
 /// Where the default cam begins, seen from the start.
@@ -86,7 +90,8 @@ impl Layout {
                 Some(RigidOrSoft { first, others, stiffness: bridge.stiffness })
             })
             .collect();
-        Self { axes, bridges }
+        let (wired, unwired) = wires(&axes);
+        Self { axes, bridges, wired, unwired }
     }
 
     /// These axes, and those that share a bridge with one of them.
@@ -98,6 +103,27 @@ impl Layout {
             if axes.and(members).is_empty() { all } else { all.with(members) }
         })
     }
+}
+
+/// Which switches there are, and where they lead.
+fn wires(axes: &PerAxis<Option<Iron>>) -> (Vec<(AxisNumber, Switch, Input)>, [AxisSet; 3]) {
+    let (mut wired, mut unwired) = (Vec::new(), [AxisSet::NONE; 3]);
+    for (axis, iron) in axes.iter() {
+        let Some(iron) = iron else { continue };
+        let switches = [
+            (Switch::Cam, iron.cam.as_ref().map(|cam| cam.input)),
+            (Switch::LimitPlus, iron.limit_plus.as_ref().map(|limit| limit.input)),
+            (Switch::LimitMinus, iron.limit_minus.as_ref().map(|limit| limit.input)),
+        ];
+        for (switch, input) in switches {
+            match input {
+                Some(Some(input)) => wired.push((axis, switch, input)),
+                Some(None) => unwired[switch as usize].set(axis, true),
+                None => {}
+            }
+        }
+    }
+    (wired, unwired)
 }
 
 fn start(axes: &PerAxis<Option<Iron>>, axis: AxisNumber) -> Position {

@@ -76,13 +76,17 @@ pub struct Plant {
     /// As they were when [`Plant::restless`] was last asked.
     #[serde(skip)]
     before: PerAxis<Option<Slide>>,
+    /// Whose cam, switch plus and switch minus are pressed; follows from the slides.
+    #[serde(skip)]
+    pressed: [AxisSet; 3],
 }
 
 impl Plant {
     /// Everything at its start, switched on.
     #[must_use]
     pub fn new(layout: &Layout) -> Self {
-        Self { slides: PerAxis::from_fn(|axis| layout.axes[axis].as_ref().map(Slide::new)), before: PerAxis::default() }
+        let slides = PerAxis::from_fn(|axis| layout.axes[axis].as_ref().map(Slide::new));
+        Self { slides, before: PerAxis::default(), pressed: [AxisSet::NONE; 3] }
     }
 
     /// Power off and on: slides and faults stay, drives run up anew, encoders count from where they are.
@@ -268,9 +272,23 @@ impl Plant {
         self.slides[axis].as_ref().map_or(Position::ZERO, |slide| slide.position)
     }
 
-    /// Whether a switch is pressed; false for one that there is not.
+    /// The axes whose switch is pressed, as of the last [`Plant::press_switches`].
     #[must_use]
-    pub fn is_pressed(&self, layout: &Layout, axis: AxisNumber, switch: Switch) -> bool {
+    pub fn pressed(&self, switch: Switch) -> AxisSet {
+        self.pressed[switch as usize]
+    }
+
+    /// Slides press the switches where they are; these axes may have moved.
+    pub fn press_switches(&mut self, layout: &Layout, axes: AxisSet) {
+        for axis in axes.iter() {
+            for switch in [Switch::Cam, Switch::LimitPlus, Switch::LimitMinus] {
+                let pressed = self.is_pressed(layout, axis, switch);
+                self.pressed[switch as usize].set(axis, pressed);
+            }
+        }
+    }
+
+    fn is_pressed(&self, layout: &Layout, axis: AxisNumber, switch: Switch) -> bool {
         let (Some(slide), Some(iron)) = (&self.slides[axis], &layout.axes[axis]) else {
             return false;
         };

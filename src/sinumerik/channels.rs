@@ -37,12 +37,12 @@ pub(super) fn channels(data: &MachineData, axes: &PerAxis<AxisParameters>) -> Pe
 impl Parameters {
     /// The channels that exist, with their mode groups.
     pub fn existing_channels(&self) -> impl Iterator<Item = (ChannelNumber, ModeGroupNumber)> {
-        self.channels.iter().filter_map(|(channel, parameters)| Some((channel, parameters.mode_group?)))
+        self.channel_list.iter().copied()
     }
 
     /// The mode groups that have channels.
     pub fn existing_mode_groups(&self) -> impl Iterator<Item = ModeGroupNumber> {
-        ModeGroupNumber::all().filter(|group| self.existing_channels().any(|(_, of)| of == *group))
+        self.mode_group_list.iter().copied()
     }
 
     /// The mode group of a channel.

@@ -94,11 +94,10 @@ struct Conditions {
 impl State {
     /// The measuring systems that 1.5 and 1.6 select; parking is common to all axes of a unit.
     pub(super) fn select_measuring_systems(&mut self, parameters: &Parameters, to_nck: &ToNck, resting: &Resting) {
-        for index in 0..self.units.len() {
+        let mut next = 0;
+        while let Some(index) = self.next_awake(next, resting) {
+            next = index + 1;
             let unit = self.units[index];
-            if !self.is_awake(&unit, resting) {
-                continue;
-            }
             let selected = |axis: AxisNumber| -> Option<u8> {
                 let (signals, count) = (&to_nck.axes[axis], parameters.axes[axis].encoders);
                 if signals.position_measuring_system_1() && count >= 1 {
@@ -152,11 +151,10 @@ impl State {
         for number in resting.awake().iter() {
             self.enable_pulses(number, to_nck.axes[number].pulse_enable());
         }
-        for index in 0..self.units.len() {
+        let mut next = 0;
+        while let Some(index) = self.next_awake(next, resting) {
+            next = index + 1;
             let unit = self.units[index];
-            if !self.is_awake(&unit, resting) {
-                continue;
-            }
             let conditions = self.conditions(&unit, parameters, to_nck);
             let lost = !conditions.enable || !conditions.healthy;
             if lost && conditions.moving && self.unit_is_on(&unit) {

@@ -79,6 +79,7 @@ use run_up::RunUp;
 struct Unit {
     axes: [AxisNumber; 3],
     count: u8,
+    set: AxisSet,
     /// Which grouping it is.
     grouping: Option<u8>,
     channel: ChannelNumber,
@@ -88,7 +89,8 @@ struct Unit {
 impl Unit {
     fn single(axis: AxisNumber, parameters: &Parameters) -> Self {
         let channel = parameters.axes[axis].channel;
-        Self { axes: [axis; 3], count: 1, grouping: None, channel, mode_group: parameters.mode_group(channel) }
+        let (set, mode_group) = (AxisSet::of(axis), parameters.mode_group(channel));
+        Self { axes: [axis; 3], count: 1, set, grouping: None, channel, mode_group }
     }
 
     fn of(coupling: &Coupling, index: usize, parameters: &Parameters) -> Self {
@@ -97,6 +99,7 @@ impl Unit {
             *place = axis;
         }
         unit.count = u8::try_from(coupling.members().count()).unwrap_or(3);
+        unit.set = coupling.members().collect();
         unit.grouping = u8::try_from(index).ok();
         unit
     }
@@ -301,11 +304,10 @@ impl Control {
         let (parameters, state, resting) = (&*self.parameters, &mut *self.state, &*self.resting);
         state.select_measuring_systems(parameters, to_nck, resting);
         state.enable(parameters, to_nck, resting);
-        for index in 0..state.units.len() {
+        let mut next = 0;
+        while let Some(index) = state.next_awake(next, resting) {
+            next = index + 1;
             let unit = state.units[index];
-            if !state.is_awake(&unit, resting) {
-                continue;
-            }
             state.take_feed(&unit, parameters, to_nck);
             match unit.grouping {
                 Some(index) => state.run_grouping(usize::from(index), &unit, parameters, to_nck),

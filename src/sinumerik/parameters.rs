@@ -4,9 +4,13 @@
 //! Lengths are whole increments, velocities increments per second, times whole cycles.
 
 use super::channels::{self, ChannelParameters};
+use arrayvec::ArrayVec;
+
 use super::gantry_definition::{self, Definitions};
 use super::machine_data::{Axis, MachineData};
-use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, PerChannel, PerModeGroup, Position, Time};
+use crate::units::{
+    AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position, Time,
+};
 
 /// Values per measuring system, for index 0 and 1.
 pub(super) type PerEncoder<T> = [T; 2];
@@ -136,6 +140,10 @@ pub struct Parameters {
     pub axis_override_factors: [f64; 31],
     /// MD12100.
     pub binary_override_limit: f64,
+    /// The channels that exist, with their mode groups.
+    pub(super) channel_list: ArrayVec<(ChannelNumber, ModeGroupNumber), { ChannelNumber::MAX as usize }>,
+    /// The mode groups that have channels.
+    pub(super) mode_group_list: ArrayVec<ModeGroupNumber, { ModeGroupNumber::MAX as usize }>,
     /// The channels; those without a mode group do not exist.
     pub channels: PerChannel<ChannelParameters>,
     /// MD10720: the mode of each mode group after power on.
@@ -156,7 +164,12 @@ impl Parameters {
     pub fn new(data: &MachineData, presence: &PerAxis<AxisPresence>) -> Self {
         let cycle = cycle_time(data);
         let axes = PerAxis::from_fn(|number| axis(data, number, presence[number], cycle));
+        let channel_list: ArrayVec<_, { ChannelNumber::MAX as usize }> =
+            ChannelNumber::all().filter_map(|channel| Some((channel, data.mode_group(channel)?))).collect();
+        let has_channels = |group: &ModeGroupNumber| channel_list.iter().any(|(_, of)| of == group);
         Self {
+            mode_group_list: ModeGroupNumber::all().filter(has_channels).collect(),
+            channel_list,
             cycle,
             servo_cycles: servo_cycles(data),
             jog_mode: data.general.jog_inc_mode_leveltriggrd,

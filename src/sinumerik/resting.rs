@@ -14,8 +14,9 @@ use super::emergency_stop::EmergencyStop;
 use super::gantry::Grouping;
 use super::gantry_definition::GROUPINGS;
 use super::mode_group::ModeGroup;
+use super::parameters::Parameters;
 use super::run_up::RunUp;
-use super::{Control, State, Unit};
+use super::{Control, State};
 use crate::units::{AxisNumber, AxisSet, PerAxis, PerChannel, PerModeGroup};
 
 /// What the PLC's half has other than in the last cycle.
@@ -36,11 +37,23 @@ struct Shared {
     channels: PerChannel<Channel>,
 }
 
+impl Shared {
+    fn is_of(&self, state: &State, parameters: &Parameters) -> bool {
+        let mut channels = parameters.existing_channels();
+        self.run_up == state.run_up
+            && self.emergency_stop == state.emergency_stop
+            && self.mode_groups == state.mode_groups
+            && channels.all(|(channel, _)| self.channels[channel] == state.channels[channel])
+    }
+}
+
 /// Who rests, and what the last cycle left.
 #[derive(Clone, Debug)]
 pub(super) struct Resting {
     /// Who is computed in this cycle.
     awake: AxisSet,
+    /// Their units, a bit for each place in the list of units.
+    awake_units: u32,
     never: bool,
     /// Groupings may have been opened or closed.
     units_stale: bool,
@@ -55,6 +68,7 @@ impl Resting {
     pub(super) fn new(state: &State) -> Self {
         Self {
             awake: AxisSet::ALL,
+            awake_units: u32::MAX,
             never: false,
             units_stale: true,
             alarm_version: state.alarms.version(),
@@ -86,13 +100,6 @@ impl Resting {
     }
 }
 
-impl Unit {
-    /// Its axes.
-    pub(super) fn axes(&self) -> AxisSet {
-        self.members().collect()
-    }
-}
-
 impl State {
     fn shared(&self) -> Shared {
         Shared {
@@ -108,9 +115,12 @@ impl State {
         !self.alarms.is_empty() || self.alarms.version() != resting.alarm_version
     }
 
-    /// A unit that is computed in this cycle.
-    pub(super) fn is_awake(&self, unit: &Unit, resting: &Resting) -> bool {
-        !resting.awake.and(unit.axes()).is_empty() || self.alarms_wake(resting)
+    /// The first unit from this place on that is computed in this cycle.
+    pub(super) fn next_awake(&self, from: usize, resting: &Resting) -> Option<usize> {
+        // An alarm of a unit before concerns those behind it in the same cycle.
+        let rest = if self.alarms_wake(resting) { u32::MAX } else { resting.awake_units };
+        let index = (rest & u32::MAX.checked_shl(u32::try_from(from).ok()?)?).trailing_zeros() as usize;
+        (index < self.units.len()).then_some(index)
     }
 }
 
@@ -135,19 +145,19 @@ impl Control {
     /// After the stages that concern everybody: who is computed in this cycle.
     pub(super) fn wake(&mut self, changes: Changes) {
         let (state, resting) = (&*self.state, &mut *self.resting);
-        let shared = state.shared();
-        if resting.never || changes.shared || shared != resting.shared || state.alarms_wake(resting) {
-            resting.shared = shared;
+        let same = resting.shared.is_of(state, &self.parameters);
+        if resting.never || changes.shared || !same || state.alarms_wake(resting) {
+            resting.shared = state.shared();
             resting.wake_all();
         }
-        resting.awake = resting.awake.with(changes.axes);
-        for unit in &state.units {
-            let axes = unit.axes();
-            if unit.grouping.is_some() && !resting.awake.and(axes).is_empty() {
-                resting.awake = resting.awake.with(axes);
+        resting.awake = resting.awake.with(changes.axes).and(self.parameters.existing);
+        resting.awake_units = 0;
+        for (index, unit) in state.units.iter().enumerate() {
+            if !resting.awake.and(unit.set).is_empty() {
+                resting.awake = resting.awake.with(unit.set);
+                resting.awake_units |= 1 << index;
             }
         }
-        resting.awake = resting.awake.and(self.parameters.existing);
     }
 
     /// At the end of a cycle: who came out of it as it went in, and of whom the iron says that it rests, rests.
