@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use opennck::plc::Programs;
+use opennck::plc::{MACHINE_CONTROL_PANEL_LAYOUT, Programs};
 use opennck::scenario::Scenario;
 
 fn read(path: &str) -> String {
@@ -59,4 +59,17 @@ fn the_flowcharts_in_the_readme_are_those_that_the_program_prints() {
         String::from_utf8(output.stdout).unwrap()
     };
     assert_eq!(blocks(&read("README.md"), "mermaid"), [print("gantry"), print("approach")]);
+}
+
+#[test]
+fn the_layout_of_the_panel_in_the_readme_is_that_of_the_program() {
+    assert_eq!(blocks(&read("README.md"), "text")[1], MACHINE_CONTROL_PANEL_LAYOUT);
+}
+
+#[test]
+fn the_readme_names_every_ready_program() {
+    let readme = read("README.md");
+    for name in Programs::ready().names() {
+        assert!(readme.contains(&format!("`{name}`")), "{name}");
+    }
 }

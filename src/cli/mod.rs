@@ -28,7 +28,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
-use crate::plc::Programs;
+use crate::plc::{MACHINE_CONTROL_PANEL_LAYOUT, Programs};
 use output::Output;
 
 /// What scripts ask for.
@@ -59,6 +59,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Runs scenarios as fast as the machine allows and prints their signal sequences with causes.
+    #[command(after_long_help = format!("Inputs and outputs of the ready program machine_control_panel, a layout of ours:\n\n{MACHINE_CONTROL_PANEL_LAYOUT}"))]
     Run {
         /// Scenario files.
         #[arg(required = true, value_name = "SCENARIO")]

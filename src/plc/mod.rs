@@ -33,7 +33,10 @@ mod tests;
 pub use blocks::{FallingEdge, OffDelay, OnDelay, ResetDominantLatch, RisingEdge, SetDominantLatch};
 pub use closure::{ClosureProgram, program, program_with_fault};
 pub use io::PlcIo;
-pub use programs::{enable_all, gantry_start, shared_reference_cam};
+pub use programs::{
+    LimitEdgeMarker, MACHINE_CONTROL_PANEL_LAYOUT, MachineControlPanel, enable_all, gantry_start, limit_edge_marker,
+    machine_control_panel, shared_reference_cam,
+};
 pub use registry::Programs;
 
 use crate::source::Problem;

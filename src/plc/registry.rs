@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::image::Names;
 use crate::source::{Problem, did_you_mean};
 
-use super::{PlcProgram, enable_all, gantry_start, shared_reference_cam};
+use super::{PlcProgram, enable_all, gantry_start, limit_edge_marker, machine_control_panel, shared_reference_cam};
 
 type Constructor = Arc<dyn Fn(&Names) -> Result<Box<dyn PlcProgram>, Problem> + Send + Sync>;
 
@@ -21,12 +21,14 @@ impl Default for Programs {
 }
 
 impl Programs {
-    /// The ready programs: `enable_all`, `gantry_start`, `shared_reference_cam`.
+    /// The ready programs: `enable_all`, `gantry_start`, `limit_edge_marker`, `machine_control_panel`, `shared_reference_cam`.
     #[must_use]
     pub fn ready() -> Self {
         Self(BTreeMap::new())
             .with("enable_all", |_| Ok(enable_all().boxed()))
             .with("gantry_start", |_| Ok(gantry_start().boxed()))
+            .with("limit_edge_marker", |_| Ok(limit_edge_marker().boxed()))
+            .with("machine_control_panel", |_| Ok(machine_control_panel().boxed()))
             .with("shared_reference_cam", |_| Ok(shared_reference_cam().boxed()))
     }
 

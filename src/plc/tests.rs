@@ -98,7 +98,14 @@ fn a_program_finds_axes_by_name() {
 fn programs_are_found_by_name_and_a_misspelt_one_names_its_neighbour() {
     let programs = Programs::ready().with("mine", |_| Ok(counting()));
     let names = Names::default();
-    assert!(programs.names().eq(["enable_all", "gantry_start", "mine", "shared_reference_cam"]));
+    assert!(programs.names().eq([
+        "enable_all",
+        "gantry_start",
+        "limit_edge_marker",
+        "machine_control_panel",
+        "mine",
+        "shared_reference_cam"
+    ]));
     for name in ["enable_all", "gantry_start", "shared_reference_cam"] {
         assert_eq!(programs.program(name, &names).unwrap().name(), name);
     }

@@ -1,0 +1,113 @@
+//! `limit_edge_marker`: enables every axis, and keeps in flags what a warning did that nobody saw.
+//!
+//! A warning limit that is exceeded for a moment only (gantry warning limit exceeded, DBX101.3) is gone before anybody looks
+//! (G1 2.7.4: the setting of the limits). Here each rising edge on a synchronous axis (101.7 = 1, 101.6 = 0) leaves a marker and is
+//! counted; the axis has its number in the machine:
+//!
+//! | flag | what |
+//! |---|---|
+//! | M20.0 to M23.6 | marker of axis 1 to 31: M20.0 is axis 1, M20.7 axis 8, M21.0 axis 9 |
+//! | M24.0 | a marker of any axis |
+//! | M24.1 | set from outside: markers and counts go to 0; the program puts it back |
+//! | MW30 to MW90 | edges of axis 1 to 31: MW(28 + 2 × axis), at most 65535 |
+//!
+//! A limit that is exceeded when the program starts counts as an edge. An edge that comes and goes between two scans of the PLC
+//! is not seen: `plc_cycle` of the plant says how often it scans.
+
+use serde::{Deserialize, Serialize};
+
+use crate::plc::{ClosureProgram, RisingEdge, program};
+use crate::units::PerAxis;
+
+use super::enable_all::enable;
+
+/// The marker of axis 1; the others follow bit by bit.
+const MARKERS: usize = 20;
+/// A marker of any axis, and what takes all of them back.
+const SUMMARY: usize = 24;
+/// The count of axis 1; the others follow word by word.
+const COUNTS: usize = 30;
+
+/// What it remembers: 101.3 of each axis in the last scan.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct LimitEdgeMarker {
+    edges: PerAxis<RisingEdge>,
+}
+
+/// Every axis enabled; each rising edge of DBX101.3 of a synchronous axis is marked and counted in flags.
+#[must_use]
+pub fn limit_edge_marker() -> ClosureProgram<LimitEdgeMarker> {
+    program("limit_edge_marker", LimitEdgeMarker::default(), |memory, io| {
+        enable(io);
+        if io.flags.bit(SUMMARY, 1) {
+            for byte in (MARKERS..=SUMMARY).chain(COUNTS..COUNTS + 62) {
+                io.flags.set_byte(byte, 0);
+            }
+        }
+        for number in io.axes() {
+            let axis = io.from_nck.axis(number);
+            let synchronous = axis.gantry_axis() && !axis.gantry_leading_axis();
+            if memory.edges[number].scan(synchronous && axis.gantry_warning_limit_exceeded()) {
+                let index = usize::from(number.number() - 1);
+                let count = COUNTS + 2 * index;
+                io.flags.set_bit(MARKERS + index / 8, (number.number() - 1) % 8, true);
+                io.flags.set_bit(SUMMARY, 0, true);
+                io.flags.set_word(count, io.flags.word(count).saturating_add(1));
+            }
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::limit_edge_marker;
+    use crate::image::Profile;
+    use crate::plc::bench::Bench;
+
+    fn get(bench: &Bench, address: &str) -> u64 {
+        bench.memory.read(bench.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap())
+    }
+
+    fn set(bench: &mut Bench, address: &str, value: u64) {
+        let at = bench.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap();
+        bench.memory.write(at, value);
+    }
+
+    #[test]
+    fn edges_of_synchronous_axes_are_marked_and_counted_and_those_of_no_other() {
+        let mut bench = Bench::with_axes(&["X", "Y", "XF"]);
+        let mut program = limit_edge_marker();
+        for value in [0, 1, 1, 0, 1] {
+            set(&mut bench, "DB31.DBB101", 0b1100_0000 | value << 3); // leading axis
+            set(&mut bench, "DB32.DBB101", value << 3); // no gantry axis
+            set(&mut bench, "DB33.DBB101", 0b1000_0000 | value << 3); // synchronous axis
+            bench.scan(&mut program).unwrap();
+        }
+        assert_eq!(get(&bench, "MB20"), 0b100);
+        assert_eq!(get(&bench, "M24.0"), 1);
+        assert_eq!(["MW30", "MW32", "MW34"].map(|word| get(&bench, word)), [0, 0, 2]);
+    }
+
+    #[test]
+    fn markers_and_counts_are_taken_back_and_what_is_still_there_is_no_new_edge() {
+        let mut bench = Bench::with_axes(&["X", "XF"]);
+        let mut program = limit_edge_marker();
+        set(&mut bench, "DB32.DBB101", 0b1000_1000);
+        bench.scan(&mut program).unwrap();
+        assert_eq!((get(&bench, "M20.1"), get(&bench, "MW32")), (1, 1));
+        set(&mut bench, "M24.1", 1);
+        for _ in 0..2 {
+            bench.scan(&mut program).unwrap();
+            assert_eq!(["M20.1", "M24.0", "M24.1", "MW32"].map(|flag| get(&bench, flag)), [0; 4]);
+        }
+    }
+
+    #[test]
+    fn a_count_stays_at_its_greatest_value() {
+        let mut bench = Bench::with_axes(&["X", "XF"]);
+        set(&mut bench, "MW32", 65535);
+        set(&mut bench, "DB32.DBB101", 0b1000_1000);
+        bench.scan(&mut limit_edge_marker()).unwrap();
+        assert_eq!(get(&bench, "MW32"), 65535);
+    }
+}
