@@ -169,6 +169,8 @@ impl Machine {
                 half_count: self.plant.half_counts(axis),
                 velocity: self.plant.velocity(axis),
                 drive_ready: self.plant.is_drive_ready(axis),
+                drive_fault: self.plant.has_drive_fault(axis),
+                encoder_faults: self.plant.encoder_faults(axis),
                 slide: self.plant.slide(axis),
             };
         }

@@ -18,7 +18,7 @@ pub enum Switch {
 }
 
 /// What is wrong.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum FaultKind {
     /// The slide cannot move.
     Block,
@@ -34,6 +34,23 @@ pub enum FaultKind {
     },
     /// The encoders give no zero marks.
     ZeroMarkMissing,
+    /// The drive tells of a fault, and its motor has no power.
+    DriveFault,
+    /// An encoder tells nothing new.
+    EncoderFault {
+        /// 0 or 1; `None`: the active one, when it ends both.
+        encoder: Option<u8>,
+    },
+    /// The motor does not turn as fast as its drive is told.
+    Friction {
+        /// Share of the velocity that is lost, 0 to 1.
+        by: f64,
+    },
+    /// The slide moves by itself while its drive has no power.
+    Drift {
+        /// Velocity in increments per second.
+        by: f64,
+    },
     /// A switch stays as it is told.
     SwitchStuck {
         /// Which.
@@ -44,7 +61,7 @@ pub enum FaultKind {
 }
 
 /// A fault of an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fault {
     /// Whose.
     pub axis: AxisNumber,
@@ -65,6 +82,13 @@ struct Slide {
     ready_in: Time,
     blocked: bool,
     zero_mark_missing: bool,
+    drive_fault: bool,
+    /// What a dead encoder goes on telling.
+    dead: [Option<Position>; 2],
+    /// Share of the velocity that is left.
+    grip: f64,
+    /// Velocity without power.
+    drift: f64,
     /// Cam, limit plus, limit minus.
     stuck: [Option<bool>; 3],
 }
@@ -95,8 +119,9 @@ impl Plant {
             if let (Some(slide), Some(iron)) = (slide, &layout.axes[axis]) {
                 slide.drive = Drive::default();
                 slide.ready_in = iron.ready_after;
-                for encoder in &mut slide.encoders {
+                for (encoder, dead) in slide.encoders.iter_mut().zip(&mut slide.dead) {
                     encoder.restart(slide.position);
+                    *dead = dead.map(|_| Position::ZERO);
                 }
                 slide.count();
             }
@@ -116,6 +141,10 @@ impl Plant {
                 slide.count();
             }
             FaultKind::ZeroMarkMissing => slide.zero_mark_missing = true,
+            FaultKind::DriveFault => slide.drive_fault = true,
+            FaultKind::EncoderFault { encoder } => slide.kill(usize::from(encoder.or(active).unwrap_or(0))),
+            FaultKind::Friction { by } => slide.grip = 1.0 - by,
+            FaultKind::Drift { by } => slide.drift = by,
             FaultKind::SwitchStuck { which, at } => slide.stuck[which as usize] = Some(at),
         }
     }
@@ -129,6 +158,14 @@ impl Plant {
             FaultKind::Block => slide.blocked = false,
             FaultKind::Push { .. } | FaultKind::EncoderSlip { .. } => {}
             FaultKind::ZeroMarkMissing => slide.zero_mark_missing = false,
+            FaultKind::DriveFault => slide.drive_fault = false,
+            FaultKind::EncoderFault { encoder: None } => {
+                slide.revive(0);
+                slide.revive(1);
+            }
+            FaultKind::EncoderFault { encoder: Some(encoder) } => slide.revive(usize::from(encoder)),
+            FaultKind::Friction { .. } => slide.grip = 1.0,
+            FaultKind::Drift { .. } => slide.drift = 0.0,
             FaultKind::SwitchStuck { which, .. } => slide.stuck[which as usize] = None,
         }
     }
@@ -147,7 +184,8 @@ impl Plant {
         for axis in axes.iter() {
             let counts = self.values(axis);
             if let (Some(slide), Some(iron)) = (&mut self.slides[axis], &layout.axes[axis]) {
-                slide.advance(command(axis, counts).unwrap_or(0.0), iron.time_constant, cycle);
+                let command = command(axis, counts).filter(|_| !slide.drive_fault);
+                slide.advance(command, iron.time_constant, cycle);
             }
         }
         for bridge in layout.bridges.iter().filter(|bridge| axes.contains(bridge.first)) {
@@ -217,7 +255,8 @@ impl Plant {
         }
         let signals = [0, 1].map(|index| {
             let mut signal = slide.encoders[index].signal(slide.told, slide.position);
-            if slide.zero_mark_missing {
+            signal.value = slide.dead[index].unwrap_or(signal.value);
+            if slide.zero_mark_missing || slide.dead[index].is_some() {
                 signal.zero_mark = None;
             }
             signal
@@ -233,7 +272,9 @@ impl Plant {
         match &self.slides[axis] {
             None => [Position::ZERO; 2],
             Some(slide) if slide.position == slide.told => slide.counts,
-            Some(slide) => [0, 1].map(|index| slide.encoders[index].value(slide.position)),
+            Some(slide) => {
+                [0, 1].map(|index| slide.dead[index].unwrap_or_else(|| slide.encoders[index].value(slide.position)))
+            }
         }
     }
 
@@ -246,10 +287,22 @@ impl Plant {
         }
     }
 
-    /// The drive has run up.
+    /// The drive has run up, and has no fault.
     #[must_use]
     pub fn is_drive_ready(&self, axis: AxisNumber) -> bool {
-        self.slides[axis].as_ref().is_some_and(|slide| slide.ready_in == Time::ZERO)
+        self.slides[axis].as_ref().is_some_and(|slide| slide.ready_in == Time::ZERO && !slide.drive_fault)
+    }
+
+    /// The drive tells of a fault.
+    #[must_use]
+    pub fn has_drive_fault(&self, axis: AxisNumber) -> bool {
+        self.slides[axis].as_ref().is_some_and(|slide| slide.drive_fault)
+    }
+
+    /// Which encoder of an axis tells nothing.
+    #[must_use]
+    pub fn encoder_faults(&self, axis: AxisNumber) -> [bool; 2] {
+        self.slides[axis].as_ref().map_or([false; 2], |slide| slide.dead.map(|dead| dead.is_some()))
     }
 
     /// Velocity of the motor, in increments per second at the slide.
@@ -315,17 +368,40 @@ impl Slide {
             ready_in: iron.ready_after,
             blocked: false,
             zero_mark_missing: false,
+            drive_fault: false,
+            dead: [None; 2],
+            grip: 1.0,
+            drift: 0.0,
             stuck: [None; 3],
         }
     }
 
     /// The encoders count from somewhere else.
     fn count(&mut self) {
-        self.counts = self.encoders.map(|encoder| encoder.value(self.told));
+        self.counts = [0, 1].map(|index| self.dead[index].unwrap_or_else(|| self.encoders[index].value(self.told)));
     }
 
-    fn advance(&mut self, command: f64, time_constant: f64, cycle: f64) {
-        self.drive.answer(command, time_constant, cycle);
+    /// An encoder tells nothing new from now on.
+    fn kill(&mut self, encoder: usize) {
+        self.dead[encoder] = self.dead[encoder].or(Some(self.counts[encoder]));
+    }
+
+    /// It counts on from where it stopped: what was moved meanwhile is lost.
+    fn revive(&mut self, encoder: usize) {
+        if let Some(value) = self.dead[encoder].take() {
+            let lost = value - self.encoders[encoder].value(self.told);
+            self.encoders[encoder].slip(lost);
+            self.count();
+        }
+    }
+
+    /// A command of `None` is a drive without power.
+    fn advance(&mut self, command: Option<f64>, time_constant: f64, cycle: f64) {
+        match command {
+            None if self.drift != 0.0 => self.drive.force(self.drift),
+            None => self.drive.answer(0.0, time_constant, cycle),
+            Some(velocity) => self.drive.answer(velocity * self.grip, time_constant, cycle),
+        }
         if self.blocked {
             self.drive.force(0.0);
         } else {

@@ -7,6 +7,9 @@ use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine, Switch};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
 use crate::units::{AxisNumber, Position, Time};
 
+/// The fastest drift, in mm or degrees per second: nothing real is faster.
+const FASTEST_DRIFT: f64 = 1e6;
+
 /// A step, ready to run.
 #[derive(Debug)]
 pub(super) struct Step {
@@ -307,12 +310,14 @@ impl<'a> Reader<'a> {
         let kind = required("kind")?;
         let axis = axis_named(self.machine, axis.text("the name of a machine axis")?)
             .map_err(|problem| problem.at(&axis.place))?;
-        let mut distance = || {
-            let by = table
+        let mut by = |what: &str| {
+            let node = table
                 .take("by")
                 .ok_or_else(|| place.problem("expected the key `by`, found none", "write by = 0.05"))?;
-            Ok::<_, Problem>(Position::from_user(by.number("a distance in mm or degrees")?))
+            let number = node.number(what)?;
+            Ok::<_, Problem>((node, number))
         };
+        let mut distance = || Ok::<_, Problem>(Position::from_user(by("a distance in mm or degrees")?.1));
         let kind = match kind.text("the kind of a fault")? {
             "block" => FaultKind::Block,
             "push" => FaultKind::Push { by: distance()? },
@@ -328,12 +333,37 @@ impl<'a> Reader<'a> {
                 let at = required("at", "at = 1")?;
                 FaultKind::SwitchStuck { which: switch(&which)?, at: one_or_zero(&at)? }
             }
-            "drive_fault" | "encoder_fault" | "friction" | "drift" => {
-                let name = kind.text("the kind of a fault")?;
-                return Err(not_available(&kind.place, &format!("the fault `{name}`")));
+            "drive_fault" => FaultKind::DriveFault,
+            "encoder_fault" => {
+                FaultKind::EncoderFault { encoder: table.take("encoder").map(|node| encoder(&node)).transpose()? }
+            }
+            "friction" => {
+                let (node, share) = by("a share of the velocity, 0 to 1")?;
+                if !(0.0..=1.0).contains(&share) {
+                    return Err(node.expected("a share of the velocity, 0 to 1", "0 loses nothing, 1 all of it"));
+                }
+                FaultKind::Friction { by: share }
+            }
+            "drift" => {
+                let (node, velocity) = by("a velocity in mm or degrees per second")?;
+                if velocity.abs() > FASTEST_DRIFT {
+                    let what = "a velocity in mm or degrees per second";
+                    return Err(node.expected(what, "velocities are from -1000000 to 1000000"));
+                }
+                FaultKind::Drift { by: velocity * Position::PER_USER_UNIT }
             }
             other => {
-                let known = ["block", "push", "encoder_slip", "zero_mark_missing", "switch_stuck"];
+                let known = [
+                    "block",
+                    "push",
+                    "drive_fault",
+                    "encoder_fault",
+                    "encoder_slip",
+                    "friction",
+                    "drift",
+                    "zero_mark_missing",
+                    "switch_stuck",
+                ];
                 let fallback = format!("kinds are {}", known.join(", "));
                 return Err(kind.expected("a kind of fault", &did_you_mean(other, known, &fallback)));
             }
@@ -369,6 +399,14 @@ fn switch(node: &Node) -> Result<Switch, Problem> {
                 did_you_mean(other, ["cam", "limit_plus", "limit_minus"], "switches are cam, limit_plus, limit_minus");
             Err(node.expected("the name of a switch", &cure))
         }
+    }
+}
+
+fn encoder(node: &Node) -> Result<u8, Problem> {
+    match node.value {
+        Value::Integer(1) => Ok(0),
+        Value::Integer(2) => Ok(1),
+        _ => Err(node.expected("encoder 1 or 2", "write encoder = 2, or leave it out for the active one")),
     }
 }
 

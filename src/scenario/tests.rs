@@ -129,7 +129,11 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
         ("fault = { kind = \"block\" }", 4, "the key `axis`", "axis = "),
         ("fault = { axis = \"XG\", kind = \"block\" }", 4, "a machine axis, found `XG`", "did you mean"),
         ("fault = { axis = \"XF\", kind = \"blok\" }", 4, "a kind of fault", "did you mean `block`?"),
-        ("fault = { axis = \"XF\", kind = \"drift\", by = 1 }", 4, "`drift` is not available", "remove it"),
+        ("fault = { axis = \"XF\", kind = \"drift\" }", 4, "the key `by`", "by = "),
+        ("fault = { axis = \"XF\", kind = \"drift\", by = 1e7 }", 4, "a velocity in mm", "1000000"),
+        ("fault = { axis = \"XF\", kind = \"friction\", by = 1.5 }", 4, "a share of the velocity", "0 loses nothing"),
+        ("fault = { axis = \"XF\", kind = \"drive_fault\", by = 1 }", 4, "unknown key `by`", ""),
+        ("fault = { axis = \"XF\", kind = \"encoder_fault\", encoder = 3 }", 4, "encoder 1 or 2", "active"),
         ("fault = { axis = \"XF\", kind = \"push\" }", 4, "the key `by`", "by = "),
         ("fault = { axis = \"XF\", kind = \"block\", by = 1 }", 4, "unknown key `by`", ""),
         (

@@ -202,12 +202,84 @@ alarms! {
     /// Creep velocity not reached at the cam edge, twice.
     CREEP_VELOCITY_NOT_REACHED 20006 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 reference point creep velocity not reached";
+    /// MD36300 exceeded on the active encoder. %3: encoder.
+    ENCODER_FREQUENCY 21610
+        [MODE_GROUP_NOT_READY CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "channel %1 axis %2 encoder %3 frequency exceeded";
     /// Enable reset during motion. Cause 1: servo enable; 2: pulse enable; 3: pulses enabled; 4: drive ready.
     ENABLE_RESET 21612 [FOLLOW_UP START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] CancelKey
         "channel %1 axis %2 enable reset during motion, cause %3";
+    /// The measuring system was switched over.
+    SWITCH_OVER 21613 [DISPLAY] ByItself
+        "axis %1 encoder switchover";
     /// Hardware limit switch. %3: + or −.
     HARDWARE_LIMIT_SWITCH 21614 [START_DISABLED DISPLAY] Reset
         "channel %1 axis %2 hardware limit switch %3";
+    /// In motion when its drive lost its power.
+    FOLLOW_UP_IN_MOTION 21615 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "channel %1 axis %2 taken from motion into follow-up";
+    /// The active encoder tells nothing, or its cable is off.
+    ACTIVE_ENCODER_FAULT 25000
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] PowerOn
+        "axis %1 hardware fault of the active encoder";
+    /// The encoder that is not active tells nothing.
+    PASSIVE_ENCODER_FAULT 25001 [DISPLAY] Reset
+        "axis %1 hardware fault of the passive encoder";
+    /// As 25000, with MD36310 above 100.
+    ACTIVE_ENCODER_POLLUTION 25010
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] ModeGroupReset
+        "axis %1 pollution of the active measuring system";
+    /// As 25001, with MD36310 above 100.
+    PASSIVE_ENCODER_POLLUTION 25011 [DISPLAY] CancelKey
+        "axis %1 pollution of the passive measuring system";
+    /// A zero mark of the active encoder is not where the counts say (MD36310).
+    ACTIVE_ZERO_MARK 25020
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] ModeGroupReset
+        "axis %1 zero mark monitoring of the active encoder";
+    /// The same of the encoder that is not active.
+    PASSIVE_ZERO_MARK 25021 [DISPLAY] CancelKey
+        "axis %1 zero mark monitoring of the passive encoder";
+    /// MD36200 exceeded.
+    ACTUAL_VELOCITY 25030
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 actual velocity alarm limit";
+    /// MD36030 exceeded at rest.
+    STANDSTILL 25040
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 standstill monitoring";
+    /// MD36400 exceeded.
+    CONTOUR 25050
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 contour monitoring";
+    /// MD36210 exceeded for longer than MD36220.
+    SPEED_SETPOINT 25060
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 speed setpoint limitation";
+    /// Exact stop fine not reached within MD36020.
+    POSITIONING 25080
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 positioning monitoring";
+    /// The encoders differ by more than MD36500, or the other one is dead.
+    SWITCH_OVER_IMPOSSIBLE 25100 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "axis %1 encoder switchover not possible";
+    /// MD36510 exceeded.
+    ENCODERS_DIFFER 25105
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 measuring systems differ";
+    /// 1.6 selects an encoder that the axis does not have.
+    ENCODER_NOT_AVAILABLE 25110 [DISPLAY] CancelKey
+        "axis %1 selected encoder not available";
+    /// The drive tells of a fault.
+    DRIVE_FAULT 25201
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 drive fault";
+    /// The drive does not run up.
+    WAITING_FOR_DRIVE 25202 [INTERFACE_SIGNALS DISPLAY] ByItself
+        "axis %1 waiting for drive";
+    /// MD36050 exceeded while 2.3 = 1.
+    CLAMPING 26000
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 clamping monitoring";
     /// Linear and rotary axes in one grouping; the manuals give no number (O-18).
     GANTRY_MIXED_AXIS_TYPES 1_000_000
         [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
@@ -303,6 +375,19 @@ impl Pending {
     #[must_use]
     pub(super) const fn version(&self) -> u32 {
         self.version
+    }
+
+    /// Whether this alarm of this place is pending.
+    #[must_use]
+    pub(super) fn is_pending(&self, number: AlarmNumber, place: Place) -> bool {
+        self.entries.iter().any(|entry| (entry.alarm.number, entry.alarm.place) == (number, place))
+    }
+
+    /// The event behind an alarm of this place.
+    #[must_use]
+    pub(super) fn cause(&self, number: AlarmNumber, place: Place) -> EventId {
+        let of_it = |entry: &&Entry| (entry.alarm.number, entry.alarm.place) == (number, place);
+        self.entries.iter().find(of_it).map_or(EventId::NONE, |entry| entry.cause)
     }
 
     /// Whether nothing is pending.

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::enabling::Enabling;
 use super::limits::LimitSwitches;
+use super::monitoring::AxisMonitor;
 use super::parameters::AxisParameters;
 use super::referencing::Approach;
 use crate::motion::{EncoderSignal, Limits, Setpoint};
@@ -19,8 +20,12 @@ pub struct Feedback {
     pub half_count: [Position; 2],
     /// Velocity at the motor, in increments per second.
     pub velocity: f64,
-    /// The drive has run up.
+    /// The drive has run up, and has no fault.
     pub drive_ready: bool,
+    /// The drive tells of a fault.
+    pub drive_fault: bool,
+    /// Which encoder tells nothing.
+    pub encoder_faults: [bool; 2],
     /// True position of the slide, which only the display of the simulator knows.
     pub slide: Position,
 }
@@ -145,6 +150,8 @@ pub(super) struct Axis {
     pub feed_disabled: bool,
     /// Hardware limit switches.
     pub(super) limits: LimitSwitches,
+    /// What monitoring remembers.
+    pub monitor: AxisMonitor,
     /// Why.
     pub causes: Causes,
 }
@@ -175,6 +182,7 @@ impl Default for Axis {
             feed_held: false,
             feed_disabled: false,
             limits: LimitSwitches::default(),
+            monitor: AxisMonitor::default(),
             causes: Causes::default(),
         }
     }
@@ -225,6 +233,7 @@ impl Axis {
             self.offset[usize::from(active)] += by;
             self.actual += by;
             self.setpoint.shift(by);
+            self.monitor.shift(by);
         }
     }
 

@@ -53,6 +53,7 @@ impl Control {
         let axis: &Axis = &state.axes[number];
         let causes = axis.causes;
         match (byte, bit) {
+            (60, 2 | 3) => axis.monitor.encoders[usize::from(bit - 2)].frequency_cause,
             (60, 4 | 5) => causes.reference[usize::from(bit - 4)],
             (60, 6 | 7) if axis.is_in_motion() => causes.motion,
             (60, 6 | 7) => {

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::alarms::{self, Reaction};
 use super::axis::Axis;
 use super::log::axis_bit;
-use super::parameters::Parameters;
+use super::parameters::{AxisParameters, Parameters};
 use super::resting::Resting;
 use super::rules::Rule;
 use super::{State, Unit};
@@ -98,27 +98,45 @@ impl State {
         while let Some(index) = self.next_awake(next, resting) {
             next = index + 1;
             let unit = self.units[index];
-            let selected = |axis: AxisNumber| -> Option<u8> {
-                let (signals, count) = (&to_nck.axes[axis], parameters.axes[axis].encoders);
-                if signals.position_measuring_system_1() && count >= 1 {
-                    Some(0)
-                } else if signals.position_measuring_system_2() && count >= 2 {
-                    Some(1)
-                } else {
-                    None
-                }
-            };
-            let parked = unit.members().any(|axis| selected(axis).is_none());
+            let parked = unit.members().any(|axis| self.selected(axis, parameters, to_nck).is_none());
             for axis in unit.members() {
-                let wanted = if parked { None } else { selected(axis) };
-                self.switch_measuring_system(axis, wanted, to_nck);
+                let signals = &to_nck.axes[axis];
+                let wanted = self.selected(axis, parameters, to_nck).filter(|_| !parked);
+                let second = signals.position_measuring_system_2() && !signals.position_measuring_system_1();
+                if second && parameters.axes[axis].encoders == 1 {
+                    self.tell_missing_encoder(axis, &parameters.axes[axis]);
+                }
+                self.switch_measuring_system(axis, wanted, &parameters.axes[axis], to_nck);
             }
         }
     }
 
-    fn switch_measuring_system(&mut self, number: AxisNumber, wanted: Option<u8>, to_nck: &ToNck) {
-        if self.axes[number].measuring_system == wanted {
+    /// The measuring system that is selected; a second one that there is not changes nothing.
+    fn selected(&self, number: AxisNumber, parameters: &Parameters, to_nck: &ToNck) -> Option<u8> {
+        let (signals, count) = (&to_nck.axes[number], parameters.axes[number].encoders);
+        if signals.position_measuring_system_1() && count >= 1 {
+            Some(0)
+        } else if signals.position_measuring_system_2() && count >= 2 {
+            Some(1)
+        } else if signals.position_measuring_system_2() && count == 1 {
+            self.axes[number].measuring_system
+        } else {
+            None
+        }
+    }
+
+    fn switch_measuring_system(
+        &mut self,
+        number: AxisNumber,
+        wanted: Option<u8>,
+        parameters: &AxisParameters,
+        to_nck: &ToNck,
+    ) {
+        if self.axes[number].measuring_system == wanted || self.switch_over_fails(number, wanted, parameters) {
             return;
+        }
+        if self.axes[number].measuring_system.is_some() && wanted.is_some() {
+            self.tell_switch_over(number);
         }
         let signals = &to_nck.axes[number];
         let inputs = [
@@ -139,6 +157,7 @@ impl State {
         }
         axis.sense(&self.feedback[number]);
         axis.setpoint = crate::motion::Setpoint::at(axis.actual);
+        axis.monitor.restart(axis.actual);
         let shift = axis.actual - before;
         self.value_shifted(number, shift);
         if aborts {
@@ -149,6 +168,7 @@ impl State {
     /// One step of the chain for every axis.
     pub(super) fn enable(&mut self, parameters: &Parameters, to_nck: &ToNck, resting: &Resting) {
         for number in resting.awake().iter() {
+            self.axes[number].monitor.clamped = to_nck.axes[number].clamping_in_progress();
             self.enable_pulses(number, to_nck.axes[number].pulse_enable());
         }
         let mut next = 0;
@@ -169,9 +189,21 @@ impl State {
             let disable_cycles =
                 unit.members().map(|axis| parameters.axes[axis].servo_disable_cycles).min().unwrap_or_default();
             for axis in unit.members() {
+                let (was_on, moved) =
+                    (self.axes[axis].enabling.controllers()[2], !self.axes[axis].setpoint.is_at_rest());
                 self.step_control(axis, &conditions, disable_cycles);
+                if was_on && moved && !self.axes[axis].enabling.pulses_enabled() {
+                    self.tell_follow_up_in_motion(axis);
+                }
             }
         }
+    }
+
+    /// 21615: the drive of an axis in motion lost its power; it cannot be braked, and 21612 switches it to follow-up.
+    fn tell_follow_up_in_motion(&mut self, number: AxisNumber) {
+        let cause = self.axes[number].causes.drive;
+        let event = self.log.note_plain(Place::Axis(number), Rule::FollowUpInMotion, cause);
+        self.raise_axis_alarm(alarms::FOLLOW_UP_IN_MOTION, number, event);
     }
 
     fn unit_is_on(&self, unit: &Unit) -> bool {

@@ -32,6 +32,7 @@ pub mod machine_data;
 mod mode_group;
 mod monitoring;
 mod parameters;
+mod position_control;
 mod publish;
 mod reference_axes;
 mod referencing;
@@ -58,7 +59,7 @@ use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
 use crate::image::ToNck;
-use crate::motion::{Coupling, velocity_command};
+use crate::motion::Coupling;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position};
 use crate::variables::{EventId, Place};
@@ -71,6 +72,7 @@ use gantry_definition::GROUPINGS;
 use log::Log;
 use machine_data::{Effect, MachineData, Target, Value};
 use mode_group::ModeGroup;
+use position_control::{limited, velocity_wanted};
 use resting::Resting;
 use run_up::RunUp;
 
@@ -267,15 +269,13 @@ impl Control {
     pub fn velocity_command(&self, axis: AxisNumber, encoders: [Position; 2], part: u32, count: u32) -> Option<f64> {
         let state = &self.state.axes[axis];
         let active = usize::from(state.measuring_system.filter(|_| state.enabling.is_powered())?);
+        if state.monitor.encoders[active].fault {
+            return Some(0.0);
+        }
         let actual = encoders[active] + state.offset[active];
-        let setpoint = if part == count {
-            state.setpoint.position
-        } else {
-            let way = (state.setpoint.position - state.before).increments();
-            state.before + Position::new(way * i64::from(part) / i64::from(count))
-        };
-        let gain = self.parameters.axes[axis].gain;
-        Some(velocity_command(setpoint - actual, gain, state.half_count, state.setpoint.velocity(), 0.0))
+        let parameters = &self.parameters.axes[axis];
+        let wanted = velocity_wanted(state, parameters, actual, state.half_count, part, count);
+        Some(limited(wanted, parameters))
     }
 
     /// Somebody else wrote into the NCK's half.
@@ -327,15 +327,16 @@ impl Control {
             }
         }
         for number in self.resting.awake().iter() {
-            let axis = &mut self.state.axes[number];
-            axis.sense(&feedback[number]);
-            let summary = &mut self.state.summary;
+            self.state.axes[number].sense(&feedback[number]);
+        }
+        self.monitor();
+        for number in self.resting.awake().iter() {
+            let (axis, summary) = (&self.state.axes[number], &mut self.state.summary);
             summary.drive_ready.set(number, axis.drive_ready);
             summary.referenced.set(number, axis.is_referenced());
             summary.standing.set(number, axis.stands(&self.parameters.axes[number]));
             summary.in_motion.set(number, axis.is_in_motion());
         }
-        self.monitor();
     }
 
     /// For save and restore.

@@ -3,11 +3,12 @@
 //! Made anew whenever machine data become active (power on, RESET, NEWCONF); read by every stage, written by none.
 //! Lengths are whole increments, velocities increments per second, times whole cycles.
 
-use super::channels::{self, ChannelParameters};
 use arrayvec::ArrayVec;
 
+use super::channels::{self, ChannelParameters};
 use super::gantry_definition::{self, Definitions};
 use super::machine_data::{Axis, MachineData};
+use super::monitoring::{Monitoring, monitoring};
 use crate::units::{
     AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position, Time,
 };
@@ -123,6 +124,8 @@ pub struct AxisParameters {
     pub reference: Reference,
     /// Gantry.
     pub gantry: Gantry,
+    /// Monitoring.
+    pub(super) monitoring: Monitoring,
 }
 
 /// Everything that is active.
@@ -132,6 +135,8 @@ pub struct Parameters {
     pub cycle: Time,
     /// How many position-control cycles make one, MD10070 / MD10060.
     pub servo_cycles: u32,
+    /// MD11412: alarms that could say "mode group not ready" or "channel not ready" say the second only.
+    pub only_channel_not_ready: bool,
     /// MD11300: keys act as long as they are pressed, in INC and in the reference point approach.
     pub jog_mode: bool,
     /// MD12000.
@@ -148,8 +153,6 @@ pub struct Parameters {
     pub channels: PerChannel<ChannelParameters>,
     /// MD10720: the mode of each mode group after power on.
     pub mode_after_power_on: PerModeGroup<i32>,
-    /// MD11412: an alarm that takes "mode group not ready" takes "channel not ready" only.
-    pub only_channel_not_ready: bool,
     /// The axes that exist.
     pub existing: AxisSet,
     /// The axes.
@@ -172,6 +175,7 @@ impl Parameters {
             channel_list,
             cycle,
             servo_cycles: servo_cycles(data),
+            only_channel_not_ready: data.general.alarm_reaction_chan_noready,
             jog_mode: data.general.jog_inc_mode_leveltriggrd,
             axis_override_is_gray: data.general.ovr_ax_is_gray_code,
             axis_override_factors: data.general.ovr_factor_ax_speed,
@@ -179,7 +183,6 @@ impl Parameters {
             existing: axes.iter().filter(|(_, axis)| axis.exists).map(|(number, _)| number).collect(),
             channels: channels::channels(data, &axes),
             mode_after_power_on: PerModeGroup::from_fn(|group| data.general.operating_mode_default[group.index()]),
-            only_channel_not_ready: data.general.alarm_reaction_chan_noready,
             groupings: gantry_definition::define(data, &axes),
             axes,
         }
@@ -258,6 +261,7 @@ fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresence, cycle: T
         servo_disable_cycles: cycles(md.servo_disable_delay_time),
         reference: reference(md, maximum_velocity, &velocity),
         gantry: gantry(md),
+        monitoring: monitoring(md, cycle, &velocity),
     }
 }
 

@@ -113,6 +113,8 @@ impl State {
         let [current, speed, position] = axis.enabling.controllers();
         let place = Some(Place::Axis(number));
         let alarm = self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, place).is_some();
+        signals.set_encoder_limit_frequency_exceeded_1(axis.monitor.encoders[0].frequency_exceeded);
+        signals.set_encoder_limit_frequency_exceeded_2(axis.monitor.encoders[1].frequency_exceeded);
         signals.set_referenced_synchronized_1(axis.referenced[0]);
         signals.set_referenced_synchronized_2(axis.referenced[1]);
         let at_rest = position && axis.setpoint.is_at_rest() && axis.traverse_command == 0;

@@ -9,8 +9,7 @@
 //! Choices where the manuals leave one: the search direction after the cam is opposite to MD34010 (E-19); an
 //! approach that begins on the cam leaves it with MD34040 for MD34050 = 0 and with MD34020 for MD34050 = 1; a cam
 //! that is never left within MD34030 ends with alarm 20000; 20006 comes when the cam edge is met at the wrong speed
-//! for the second time. NC stop is not read; without contour monitoring, an axis that is held by force in phase 2 searches
-//! until RESET or its key ends it.
+//! for the second time. NC stop is not read; an axis that is held by force is stopped by contour monitoring (25050).
 
 use serde::{Deserialize, Serialize};
 

@@ -97,6 +97,23 @@ rules! {
     // Alarms and states that follow from values.
     EnableLostInMotion "21612" "enable reset during motion";
     PlcMissing "2000" "no sign of life from the PLC program";
+    StandstillMonitoring "25040" "pushed out of the standstill tolerance";
+    ClampingMonitoring "26000" "pushed out of the clamping tolerance";
+    PositioningMonitoring "25080" "exact stop fine not reached within MD36020";
+    ContourMonitoring "25050" "the axis does not go where position control makes an ideal axis go";
+    VelocityMonitoring "25030" "faster than the velocity limit";
+    SpeedSetpointMonitoring "25060" "position control wants more speed than the drive is given, for longer than MD36220";
+    FrequencyExceeded "21610" "too fast for the encoder";
+    FrequencyNormal "21610" "slow enough for the encoder again";
+    EncoderFault "25000" "the encoder tells nothing";
+    EncoderPollution "25010" "the encoder tells nothing, and MD36310 above 100 takes that for pollution";
+    ZeroMarkMonitoring "25020" "a zero mark is not where the counts say";
+    EncodersDiffer "25105" "the measuring systems do not agree";
+    SwitchOverImpossible "25100" "the other measuring system is dead or too far off";
+    EncoderMissing "25110" "measuring system 2 is selected, and the axis has none";
+    FollowUpInMotion "21615" "in motion when the drive lost its power";
+    DriveFault "25201" "the drive tells of a fault";
+    DriveNotReady "25202" "the drive does not run up";
     AlarmCancelled "ALARM" "alarm cancelled";
     ExactStop "exact stop" "";
     Standstill "standstill" "";

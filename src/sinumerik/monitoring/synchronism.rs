@@ -1,45 +1,16 @@
-//! Monitoring of the synchronism difference (G1 2.2), and the alarms that follow from states.
+//! Monitoring of the synchronism difference (G1 2.2): warning and trip limit of each synchronous axis.
 //!
-//! Called after mechanics moved and encoders told, so that a difference, its alarm and its bits appear in one cycle. A
-//! difference is tested while the grouping is closed and not in follow-up, also while it is jammed in "hold".
+//! Called once per cycle for each grouping, so that a difference, its alarm and its bits appear in one cycle. A difference is tested while the grouping is closed and not in follow-up, also while it is jammed in "hold".
 
-use super::alarms;
-use super::gantry::Phase;
-use super::parameters::Parameters;
-use super::rules::Rule;
-use super::{Control, State};
-use crate::units::AxisSet;
+use crate::sinumerik::State;
+use crate::sinumerik::alarms;
+use crate::sinumerik::gantry::Phase;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::rules::Rule;
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
-impl Control {
-    /// Monitoring and alarms.
-    pub(super) fn monitor(&mut self) {
-        let (parameters, state) = (&*self.parameters, &mut *self.state);
-        for index in 0..state.groupings.len() {
-            let members: AxisSet = state.groupings[index].coupling.members().collect();
-            if self.resting.awake().and(members).is_empty() {
-                continue;
-            }
-            state.monitor_grouping(index, parameters);
-            state.raise_grouping_messages(index, parameters);
-        }
-        for fault in &parameters.groupings.faults {
-            let cause = state.definition_cause;
-            state.alarms.raise(fault.alarm, fault.place, fault.parameters, cause);
-        }
-        if let Some(cause) = state.emergency_stop.active_cause() {
-            state.alarms.raise(alarms::EMERGENCY_STOP, Place::Nck, [Parameter::None; 4], cause);
-        }
-        if state.plc_missing {
-            let cause = state.plc_cause;
-            state.alarms.raise(alarms::PLC_SIGN_OF_LIFE, Place::Nck, [Parameter::None; 4], cause);
-        }
-        state.alarms.settle();
-    }
-}
-
 impl State {
-    fn monitor_grouping(&mut self, index: usize, parameters: &Parameters) {
+    pub(super) fn monitor_grouping(&mut self, index: usize, parameters: &Parameters) {
         let grouping = &mut self.groupings[index];
         let leader = grouping.coupling.leader();
         let following_up = grouping.coupling.members().any(|axis| self.axes[axis].enabling.follow_up);

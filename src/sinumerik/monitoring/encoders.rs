@@ -1,0 +1,188 @@
+//! Encoder monitoring: frequency (21610), faults (25000, 25001, 25010, 25011), zero marks (25020, 25021), the difference of
+//! two encoders (25105), and what makes a switch-over impossible (25100, 25110).
+//!
+//! Frequency: beyond MD36300 the encoder is not trusted: 60.2 or 60.3 is 1 until it is below MD36302 again, and its
+//! reference is lost; the alarm comes for the active encoder only. The axis brakes in position control.
+//!
+//! Faults: position control does not act on a dead encoder: the drive is given the speed 0. The reference of the encoder is lost,
+//! of a passive one, too. MD36310 = 100 switches this off, above 100 the alarms are those of pollution.
+//!
+//! Zero marks: the distance of two zero marks must be a multiple of MD34300; what slipped in between is found at the next
+//! one. MD36310 (less 100 above 100) says how many wrong ones trip; the count begins anew with the alarm.
+//!
+//! Switch-over: two referenced encoders must not differ by more than MD36500; one that is not referenced has no position that
+//! could differ. A second measuring system that MD30200 does not have changes nothing.
+
+use serde::{Deserialize, Serialize};
+
+use crate::sinumerik::State;
+use crate::sinumerik::alarms;
+use crate::sinumerik::parameters::AxisParameters;
+use crate::sinumerik::rules::Rule;
+use crate::units::{AxisNumber, Position};
+use crate::variables::{EventId, Input, Parameter, Place, Quantity};
+
+/// What monitoring remembers of one encoder.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct EncoderMonitor {
+    /// 60.2 and 60.3.
+    pub frequency_exceeded: bool,
+    /// Why.
+    pub frequency_cause: EventId,
+    /// It tells nothing.
+    pub fault: bool,
+    /// The latest zero mark, as it counts.
+    mark: Option<Position>,
+    /// Wrong zero marks so far.
+    errors: u32,
+}
+
+impl State {
+    pub(super) fn monitor_encoders(&mut self, number: AxisNumber, parameters: &AxisParameters) {
+        for encoder in 0..usize::from(parameters.encoders).min(2) {
+            self.monitor_frequency(number, encoder, parameters);
+            self.monitor_fault(number, encoder, parameters);
+            self.monitor_zero_marks(number, encoder, parameters);
+        }
+        if let Some(limit) = parameters.monitoring.encoder_difference
+            && self.axes[number].referenced == [true; 2]
+        {
+            let [first, second] = self.both_actual_values(number);
+            let difference = (first - second).abs();
+            if difference > limit {
+                let inputs = exceeds(number, difference, 36510, limit);
+                self.raise_monitoring(alarms::ENCODERS_DIFFER, number, Rule::EncodersDiffer, inputs);
+            }
+        }
+    }
+
+    fn monitor_frequency(&mut self, number: AxisNumber, encoder: usize, parameters: &AxisParameters) {
+        let (limit, low) =
+            (parameters.monitoring.frequency_limit[encoder], parameters.monitoring.frequency_low[encoder]);
+        let speed = self.feedback[number].velocity.abs();
+        let before = self.axes[number].monitor.encoders[encoder].frequency_exceeded;
+        if before == (speed > limit) && !before {
+            return;
+        }
+        let exceeded = if before { speed >= low } else { speed > limit };
+        if exceeded != before {
+            let (rule, datum, bound) =
+                if exceeded { (Rule::FrequencyExceeded, 36300, limit) } else { (Rule::FrequencyNormal, 36302, low) };
+            #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
+            let inputs = exceeds(number, Position::new(speed as i64), datum, Position::new(bound as i64));
+            let event = self.log.note(Place::Axis(number), rule, inputs, EventId::NONE);
+            let monitor = &mut self.axes[number].monitor.encoders[encoder];
+            (monitor.frequency_exceeded, monitor.frequency_cause) = (exceeded, event);
+        }
+        if exceeded {
+            let cause = self.axes[number].monitor.encoders[encoder].frequency_cause;
+            self.lose_reference(number, encoder, cause);
+            if self.is_active(number, encoder) {
+                let channel = Parameter::Channel(parameters.channel);
+                let shown = [channel, Parameter::Axis(number), Parameter::Number(encoder as i64 + 1), Parameter::None];
+                self.alarms.raise(alarms::ENCODER_FREQUENCY, Place::Axis(number), shown, cause);
+            }
+        }
+    }
+
+    fn monitor_fault(&mut self, number: AxisNumber, encoder: usize, parameters: &AxisParameters) {
+        let fault = self.feedback[number].encoder_faults[encoder];
+        self.axes[number].monitor.encoders[encoder].fault = fault;
+        let watched = &parameters.monitoring.zero_marks[encoder];
+        if !fault || watched.off {
+            return;
+        }
+        let (alarm, rule) = match (self.is_active(number, encoder), watched.pollution) {
+            (true, false) => (alarms::ACTIVE_ENCODER_FAULT, Rule::EncoderFault),
+            (false, false) => (alarms::PASSIVE_ENCODER_FAULT, Rule::EncoderFault),
+            (true, true) => (alarms::ACTIVE_ENCODER_POLLUTION, Rule::EncoderPollution),
+            (false, true) => (alarms::PASSIVE_ENCODER_POLLUTION, Rule::EncoderPollution),
+        };
+        self.raise_monitoring(alarm, number, rule, [Input::None; 3]);
+        let cause = self.alarms.cause(alarm, Place::Axis(number));
+        self.lose_reference(number, encoder, cause);
+    }
+
+    fn monitor_zero_marks(&mut self, number: AxisNumber, encoder: usize, parameters: &AxisParameters) {
+        let Some(mark) = self.feedback[number].encoders[encoder].zero_mark else { return };
+        let watched = &parameters.monitoring.zero_marks[encoder];
+        let monitor = &mut self.axes[number].monitor.encoders[encoder];
+        let before = monitor.mark.replace(mark);
+        let (Some(tolerated), Some(before)) = (watched.errors, before) else { return };
+        let spacing = watched.spacing.increments();
+        let remainder = (mark - before).increments().rem_euclid(spacing);
+        let slipped = Position::new(remainder.min(spacing - remainder));
+        // Two marks are each caught to half a count.
+        let one_count = Position::new(2 * self.feedback[number].half_count[encoder].increments() + 1);
+        if slipped <= one_count {
+            return;
+        }
+        monitor.errors += 1;
+        if monitor.errors < tolerated {
+            return;
+        }
+        monitor.errors = 0;
+        let measured = Input::Length(Quantity::Deviation, number, slipped);
+        let inputs = [measured, Input::Datum(36310, Some(number), f64::from(tolerated)), Input::None];
+        if self.is_active(number, encoder) {
+            self.raise_monitoring(alarms::ACTIVE_ZERO_MARK, number, Rule::ZeroMarkMonitoring, inputs);
+            let cause = self.alarms.cause(alarms::ACTIVE_ZERO_MARK, Place::Axis(number));
+            self.lose_reference(number, encoder, cause);
+        } else {
+            self.raise_monitoring(alarms::PASSIVE_ZERO_MARK, number, Rule::ZeroMarkMonitoring, inputs);
+        }
+    }
+
+    /// The reference of a measuring system is lost; synchronism goes with it in the next cycle.
+    fn lose_reference(&mut self, number: AxisNumber, encoder: usize, cause: EventId) {
+        let axis = &mut self.axes[number];
+        if std::mem::take(&mut axis.referenced[encoder]) {
+            axis.causes.reference[encoder] = cause;
+        }
+    }
+
+    fn is_active(&self, number: AxisNumber, encoder: usize) -> bool {
+        self.axes[number].measuring_system.map(usize::from) == Some(encoder)
+    }
+
+    fn both_actual_values(&self, number: AxisNumber) -> [Position; 2] {
+        let axis = &self.axes[number];
+        [0, 1].map(|encoder| self.feedback[number].encoders[encoder].value + axis.offset[encoder])
+    }
+
+    /// Whether the switch-over to another measuring system cannot be done, with its alarm.
+    pub(in crate::sinumerik) fn switch_over_fails(
+        &mut self,
+        number: AxisNumber,
+        wanted: Option<u8>,
+        parameters: &AxisParameters,
+    ) -> bool {
+        let (Some(_), Some(target)) = (self.axes[number].measuring_system, wanted) else { return false };
+        let tolerance = parameters.monitoring.switch_over_tolerance;
+        let [first, second] = self.both_actual_values(number);
+        let jump = (first - second).abs();
+        let too_far = self.axes[number].referenced == [true; 2] && jump > tolerance;
+        let dead = self.feedback[number].encoder_faults[usize::from(target)];
+        if too_far || dead {
+            let inputs = if too_far { exceeds(number, jump, 36500, tolerance) } else { [Input::None; 3] };
+            self.raise_monitoring(alarms::SWITCH_OVER_IMPOSSIBLE, number, Rule::SwitchOverImpossible, inputs);
+        }
+        too_far || dead
+    }
+
+    /// The switch-over was done.
+    pub(in crate::sinumerik) fn tell_switch_over(&mut self, number: AxisNumber) {
+        self.raise_monitoring(alarms::SWITCH_OVER, number, Rule::MeasuringSystem, [Input::None; 3]);
+    }
+
+    /// Measuring system 2 is selected, and there is none.
+    pub(in crate::sinumerik) fn tell_missing_encoder(&mut self, number: AxisNumber, parameters: &AxisParameters) {
+        let count = Input::Datum(30200, Some(number), f64::from(parameters.encoders));
+        let inputs = [count, Input::None, Input::None];
+        self.raise_monitoring(alarms::ENCODER_NOT_AVAILABLE, number, Rule::EncoderMissing, inputs);
+    }
+}
+
+fn exceeds(number: AxisNumber, measured: Position, datum: u32, limit: Position) -> [Input; 3] {
+    [Input::Length(Quantity::Deviation, number, measured), Input::Datum(datum, Some(number), limit.user()), Input::None]
+}

@@ -1,0 +1,130 @@
+//! MONITORING: what the control watches of itself, and the alarms that follow from states.
+//!
+//! Called once per cycle after mechanics moved and encoders told, so that a value, its alarm and its bits appear in one
+//! cycle; the reactions of an alarm act from the next cycle on. Each file watches one thing:
+//!
+//! | file | what | alarms |
+//! |---|---|---|
+//! | `synchronism.rs` | the synchronism difference of a grouping | 10652, 10653 |
+//! | `position.rs` | an axis at rest, on its way into exact stop, clamped, and its contour | 25040, 25080, 26000, 25050 |
+//! | `speed.rs` | actual velocity and speed setpoint | 25030, 25060 |
+//! | `encoders.rs` | frequency, faults, zero marks and differences of the encoders | 21610, 25000 to 25021, 25105 |
+//! | `drive.rs` | what a drive tells of itself | 25201, 25202 |
+//!
+//! At a limit, strictly greater trips and equal does not (O-11). What is said to last longer than a time is counted in
+//! whole cycles and trips in the first one after that time. No counter goes on after its time, so that an axis can rest.
+
+mod drive;
+mod encoders;
+mod parameters;
+mod position;
+mod speed;
+mod synchronism;
+
+use serde::{Deserialize, Serialize};
+
+use super::alarms;
+use super::parameters::{AxisParameters, Parameters};
+use super::rules::Rule;
+use super::{Control, State};
+use crate::units::{AxisNumber, AxisSet, Position};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
+
+pub(super) use encoders::EncoderMonitor;
+pub(super) use parameters::{Monitoring, monitoring};
+
+/// What monitoring remembers of one axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct AxisMonitor {
+    /// Cycles since the end of interpolation.
+    rest_cycles: u64,
+    /// Cycles of position control since then.
+    positioning_cycles: u64,
+    /// Exact stop fine was reached in them.
+    in_position: bool,
+    /// 2.3: the axis is clamped.
+    pub clamped: bool,
+    /// Where the axis would be with an ideal speed loop.
+    model: Position,
+    carry: f64,
+    /// Cycles with a speed setpoint beyond MD36210.
+    limited_cycles: u64,
+    /// Encoder 1 and 2.
+    pub encoders: [EncoderMonitor; 2],
+    /// Cycles that the drive has been waited for.
+    drive_waits: u64,
+}
+
+impl AxisMonitor {
+    /// The same place has another value.
+    pub(super) fn shift(&mut self, by: Position) {
+        self.model += by;
+    }
+
+    /// Interpolation has not ended.
+    const fn moves(&mut self) {
+        (self.rest_cycles, self.positioning_cycles, self.in_position) = (0, 0, false);
+    }
+
+    /// The axis counts as being here, at rest since now.
+    pub(super) fn restart(&mut self, actual: Position) {
+        (self.model, self.carry) = (actual, 0.0);
+        self.moves();
+    }
+}
+
+impl Control {
+    /// Monitoring and alarms.
+    pub(super) fn monitor(&mut self) {
+        let (parameters, state) = (&*self.parameters, &mut *self.state);
+        for index in 0..state.groupings.len() {
+            let members: AxisSet = state.groupings[index].coupling.members().collect();
+            if self.resting.awake().and(members).is_empty() {
+                continue;
+            }
+            state.monitor_grouping(index, parameters);
+            state.raise_grouping_messages(index, parameters);
+        }
+        for number in self.resting.awake().iter() {
+            state.monitor_axis(number, &parameters.axes[number], parameters);
+        }
+        for fault in &parameters.groupings.faults {
+            let cause = state.definition_cause;
+            state.alarms.raise(fault.alarm, fault.place, fault.parameters, cause);
+        }
+        if let Some(cause) = state.emergency_stop.active_cause() {
+            state.alarms.raise(alarms::EMERGENCY_STOP, Place::Nck, [Parameter::None; 4], cause);
+        }
+        if state.plc_missing {
+            let cause = state.plc_cause;
+            state.alarms.raise(alarms::PLC_SIGN_OF_LIFE, Place::Nck, [Parameter::None; 4], cause);
+        }
+        state.alarms.settle();
+    }
+}
+
+impl State {
+    fn monitor_axis(&mut self, number: AxisNumber, axis: &AxisParameters, parameters: &Parameters) {
+        self.monitor_drive(number, parameters);
+        self.monitor_encoders(number, axis);
+        if self.axes[number].measuring_system.is_none() {
+            let actual = self.axes[number].actual;
+            self.axes[number].monitor.restart(actual);
+            return;
+        }
+        self.monitor_speed(number, axis);
+        self.monitor_position(number, axis, parameters);
+    }
+
+    /// Raises an alarm with the event behind it, which is noted when the alarm is new; `%1` is the axis.
+    fn raise_monitoring(&mut self, alarm: AlarmNumber, number: AxisNumber, rule: Rule, inputs: [Input; 3]) {
+        let place = Place::Axis(number);
+        let shown = [Parameter::Axis(number), Parameter::None, Parameter::None, Parameter::None];
+        let cause = if self.alarms.is_pending(alarm, place) {
+            EventId::NONE
+        } else {
+            self.log.note(place, rule, inputs, self.axes[number].causes.motion)
+        };
+        self.alarms.raise(alarm, place, shown, cause);
+    }
+}

@@ -1,0 +1,109 @@
+//! Position monitoring of an axis: standstill (25040), clamping (26000), positioning (25080) and contour (25050).
+//!
+//! Standstill: when MD36040 has passed since the end of interpolation, the actual value must stay within MD36030 × MD36012 of
+//! the setpoint. That holds in position control and also in "hold" (2.1 = 0 without follow-up), where only force can
+//! move the axis; in follow-up the setpoint is the actual value, and nothing is watched. While 2.3 = 1 the tolerance is MD36050
+//! (without MD36012) and the alarm 26000; the delay is the same.
+//!
+//! Positioning: exact stop fine must be reached within MD36020 after the end of interpolation, in position control. A reference
+//! point approach and a synchronising motion watch that themselves and end with 20005.
+//!
+//! Contour: the actual value is compared with an ideal axis, which takes the same setpoints with the same gain and whose drive
+//! answers at once. An axis that brakes to be switched off is stopped already and is not compared.
+
+use crate::motion::advance;
+use crate::sinumerik::State;
+use crate::sinumerik::alarms;
+use crate::sinumerik::enabling::Control;
+use crate::sinumerik::gantry::Phase;
+use crate::sinumerik::parameters::{AxisParameters, Parameters};
+use crate::sinumerik::position_control::velocity_wanted;
+use crate::sinumerik::rules::Rule;
+use crate::units::{AxisNumber, Position};
+use crate::variables::{Input, Quantity};
+
+impl State {
+    pub(super) fn monitor_position(&mut self, number: AxisNumber, parameters: &AxisParameters, all: &Parameters) {
+        let follows_up = self.axes[number].enabling.follow_up;
+        let actual = self.axes[number].actual;
+        if follows_up {
+            self.axes[number].monitor.restart(actual);
+            return;
+        }
+        self.monitor_contour(number, parameters, all);
+        let axis = &mut self.axes[number];
+        if !axis.setpoint.is_at_rest() {
+            axis.monitor.moves();
+            return;
+        }
+        let deviation = axis.deviation().abs();
+        let (monitor, delay) = (&mut axis.monitor, parameters.monitoring.standstill_cycles);
+        monitor.rest_cycles = (monitor.rest_cycles + 1).min(delay + 1);
+        if monitor.rest_cycles > delay {
+            let (alarm, tolerance, datum, rule) = if monitor.clamped {
+                (alarms::CLAMPING, parameters.monitoring.clamping_tolerance, 36050, Rule::ClampingMonitoring)
+            } else {
+                (alarms::STANDSTILL, parameters.standstill_tolerance, 36030, Rule::StandstillMonitoring)
+            };
+            if deviation > tolerance {
+                self.raise_monitoring(alarm, number, rule, deviates(number, deviation, datum, tolerance));
+            }
+        }
+        self.monitor_positioning(number, deviation, parameters);
+    }
+
+    fn monitor_positioning(&mut self, number: AxisNumber, deviation: Position, parameters: &AxisParameters) {
+        let axis = &mut self.axes[number];
+        let (on, monitor) = (axis.enabling.is_on(), &mut axis.monitor);
+        if !on {
+            (monitor.positioning_cycles, monitor.in_position) = (0, false);
+            return;
+        }
+        if monitor.in_position {
+            return;
+        }
+        monitor.positioning_cycles = (monitor.positioning_cycles + 1).min(parameters.positioning_cycles + 1);
+        let late = monitor.positioning_cycles > parameters.positioning_cycles;
+        if deviation <= parameters.exact_stop_fine || self.watches_exact_stop_itself(number) {
+            self.axes[number].monitor.in_position = true;
+        } else if late {
+            let inputs = deviates(number, deviation, 36010, parameters.exact_stop_fine);
+            self.raise_monitoring(alarms::POSITIONING, number, Rule::PositioningMonitoring, inputs);
+        }
+    }
+
+    /// A reference point approach, or a synchronising motion, that ends with 20005.
+    fn watches_exact_stop_itself(&self, number: AxisNumber) -> bool {
+        let synchronises = self.groupings.iter().any(|grouping| {
+            grouping.phase == Phase::Synchronising && grouping.coupling.members().any(|axis| axis == number)
+        });
+        synchronises || self.axes[number].approach.is_running()
+    }
+
+    fn monitor_contour(&mut self, number: AxisNumber, parameters: &AxisParameters, all: &Parameters) {
+        let axis = &mut self.axes[number];
+        if !axis.enabling.is_powered() {
+            (axis.monitor.model, axis.monitor.carry) = (axis.actual, 0.0);
+            return;
+        }
+        let (mut model, mut carry) = (axis.monitor.model, axis.monitor.carry);
+        if model != axis.setpoint.position || axis.before != axis.setpoint.position {
+            let servo_cycle = all.cycle.seconds() / f64::from(all.servo_cycles);
+            for part in 1..=all.servo_cycles {
+                let wanted = velocity_wanted(axis, parameters, model, Position::ZERO, part, all.servo_cycles);
+                model = advance(model, &mut carry, wanted * servo_cycle);
+            }
+            (axis.monitor.model, axis.monitor.carry) = (model, carry);
+        }
+        let (difference, tolerance) = ((model - axis.actual).abs(), parameters.monitoring.contour_tolerance);
+        if difference > tolerance && matches!(axis.enabling.control, Control::On) {
+            let inputs = deviates(number, difference, 36400, tolerance);
+            self.raise_monitoring(alarms::CONTOUR, number, Rule::ContourMonitoring, inputs);
+        }
+    }
+}
+
+fn deviates(number: AxisNumber, deviation: Position, datum: u32, tolerance: Position) -> [Input; 3] {
+    let measured = Input::Length(Quantity::Deviation, number, deviation);
+    [measured, Input::Datum(datum, Some(number), tolerance.user()), Input::None]
+}

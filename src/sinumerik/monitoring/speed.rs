@@ -1,0 +1,46 @@
+//! Velocity monitoring of an axis: actual velocity (25030) and speed setpoint (25060).
+//!
+//! The actual velocity is watched while a measuring system is active, whatever moves the axis. The speed setpoint that
+//! position control gives to the drive is limited to MD36210 in every position-control cycle
+//! ([`limited`](crate::sinumerik::position_control::limited)); what it would be without the limit is judged once per
+//! interpolation cycle, from what the encoder tells at its end.
+
+use crate::sinumerik::State;
+use crate::sinumerik::alarms;
+use crate::sinumerik::parameters::AxisParameters;
+use crate::sinumerik::position_control::velocity_wanted;
+use crate::sinumerik::rules::Rule;
+use crate::units::{AxisNumber, Position};
+use crate::variables::{Input, Quantity};
+
+impl State {
+    pub(super) fn monitor_speed(&mut self, number: AxisNumber, parameters: &AxisParameters) {
+        let limits = &parameters.monitoring;
+        let axis = &mut self.axes[number];
+        let speed = axis.velocity.abs();
+        let resting = axis.setpoint.is_at_rest() && axis.setpoint.position == axis.actual;
+        let wanted = if resting || !axis.enabling.is_powered() {
+            0.0
+        } else {
+            velocity_wanted(axis, parameters, axis.actual, axis.half_count, 1, 1).abs()
+        };
+        let limited = wanted > limits.speed_setpoint_limit;
+        axis.monitor.limited_cycles =
+            if limited { (axis.monitor.limited_cycles + 1).min(limits.speed_setpoint_cycles + 1) } else { 0 };
+        let too_long = axis.monitor.limited_cycles > limits.speed_setpoint_cycles;
+        if speed > limits.velocity_limit {
+            let inputs = velocities(number, speed, 36200, limits.velocity_limit);
+            self.raise_monitoring(alarms::ACTUAL_VELOCITY, number, Rule::VelocityMonitoring, inputs);
+        }
+        if too_long {
+            let inputs = velocities(number, wanted, 36210, limits.speed_setpoint_limit);
+            self.raise_monitoring(alarms::SPEED_SETPOINT, number, Rule::SpeedSetpointMonitoring, inputs);
+        }
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "velocities for display; the cast saturates")]
+fn velocities(number: AxisNumber, velocity: f64, datum: u32, limit: f64) -> [Input; 3] {
+    let measured = Input::Length(Quantity::Velocity, number, Position::new(velocity as i64));
+    [measured, Input::Datum(datum, Some(number), limit * 60.0 / Position::PER_USER_UNIT), Input::None]
+}
