@@ -27,11 +27,11 @@ signals! {
     /// DB10 bytes 68 to 109: what the NCK tells the PLC. Bytes 97 to 103 in between are the HMI's, see [`NckHmi`].
     pub struct NckFromNck: Nck, Nck, 68 to 109;
 
-    /// Handwheel 1 moved: pulses since the last cycle, signed (two's complement).
+    /// Handwheel 1 moved: counter of its pulses, signed (two's complement), running over at 127 and -128.
     u8, handwheel_1_moved, set_handwheel_1_moved: 68, 7 to 0;
-    /// Handwheel 2 moved: pulses since the last cycle, signed (two's complement).
+    /// Handwheel 2 moved: counter of its pulses, as handwheel 1.
     u8, handwheel_2_moved, set_handwheel_2_moved: 69, 7 to 0;
-    /// Handwheel 3 moved: pulses since the last cycle, signed (two's complement).
+    /// Handwheel 3 moved: counter of its pulses, as handwheel 1.
     u8, handwheel_3_moved, set_handwheel_3_moved: 70, 7 to 0;
     /// NC CPU ready: 1 = the NCK gives its sign of life to the PLC.
     bool, nc_cpu_ready, set_nc_cpu_ready: 104, 7;

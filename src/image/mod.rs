@@ -29,6 +29,7 @@ mod db11;
 mod db21;
 mod db31;
 mod location;
+mod machine_functions;
 mod memory;
 mod names;
 mod override_switch;

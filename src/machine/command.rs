@@ -47,6 +47,15 @@ pub enum Command {
     PlcRun,
     /// The operator's alarm-cancel key.
     Cancel,
+    /// Somebody turns a handwheel; the pulses spread evenly over the cycles.
+    Handwheel {
+        /// 1 to 3.
+        number: u8,
+        /// How far, with its sign.
+        pulses: i32,
+        /// How long it takes.
+        cycles: u64,
+    },
     /// Something breaks.
     Fault(Fault),
     /// Something is repaired.
@@ -70,12 +79,21 @@ impl Machine {
     /// Queues a command for the edge of the next step.
     ///
     /// # Errors
-    /// A machine datum that does not exist or a value that does not fit it; nothing is queued then.
+    /// A machine datum that does not exist or a value that does not fit it, or a handwheel that does not exist; nothing
+    /// is queued then.
     pub fn queue(&mut self, command: Command) -> Result<(), Problem> {
         if let Command::MachineDatum { target, value } = &command {
             let stored = self.control.stored();
             let target = stored.parse_target(target)?;
             MachineData::clone(stored).set(&target, value)?;
+        }
+        if let Command::Handwheel { number, .. } = &command
+            && !(1..=3).contains(number)
+        {
+            return Err(Problem::new(
+                format!("expected a handwheel from 1 to 3, found {number}"),
+                "there are handwheels 1, 2 and 3",
+            ));
         }
         self.queue.push(command);
         Ok(())
@@ -109,6 +127,7 @@ impl Machine {
                     self.control.plc_restarted();
                 }
                 Command::Cancel => taken.cancel = true,
+                Command::Handwheel { number, pulses, cycles } => self.control.turn_handwheel(number, pulses, cycles),
                 Command::Fault(fault) => self.break_something(fault),
                 Command::ClearFault(fault) => {
                     self.plant.clear_fault(fault);

@@ -64,6 +64,7 @@ impl Machine {
         self.sense_unwired_switches();
         self.apply_forces();
         // Mode group, channel, enabling, referencing and gantry, setpoints, coupling.
+        self.control.select_handwheels(&self.memory.hmi.nck);
         let changes = self.plc_changes();
         self.control.decide(self.cycle, &self.memory.to_nck, changes, taken.cancel);
         // Position control, drives and mechanics.

@@ -40,7 +40,7 @@ pub(super) enum Action {
 }
 
 /// The verbs of a step.
-const VERBS: [&str; 17] = [
+const VERBS: [&str; 18] = [
     "set",
     "force",
     "release",
@@ -55,13 +55,14 @@ const VERBS: [&str; 17] = [
     "power_on",
     "plc",
     "cancel",
+    "handwheel",
     "fault",
     "clear_fault",
     "image",
 ];
 
 /// Verbs of the format that later versions have.
-const LATER_VERBS: [&str; 2] = ["handwheel", "program"];
+const LATER_VERBS: [&str; 1] = ["program"];
 
 /// How long a pulse is unless said.
 const PULSE: Time = Time::from_millis(100);
@@ -206,6 +207,7 @@ impl<'a> Reader<'a> {
                     ));
                 }
             },
+            "handwheel" => command(handwheel(node, cycle)?),
             "fault" => command(Command::Fault(self.fault(node)?)),
             "clear_fault" => command(Command::ClearFault(self.fault(node)?)),
             "image" => Action::Image(self.image(node)?),
@@ -387,6 +389,34 @@ impl<'a> Reader<'a> {
 
 fn verbs_in_words() -> String {
     format!("verbs are {}", VERBS.join(", "))
+}
+
+/// A turn of a handwheel.
+fn handwheel(node: Node, cycle: Time) -> Result<Command, Problem> {
+    let place = node.place.clone();
+    let mut table = node.into_table("a turn, as { number = 1, pulses = 50, over = \"1s\" }")?;
+    let mut required = |key: &'static str| {
+        table.take(key).ok_or_else(|| {
+            place.problem(
+                format!("expected the key `{key}`, found none"),
+                "write { number = 1, pulses = 50, over = \"1s\" }",
+            )
+        })
+    };
+    let whole = |node: &Node, what: &str, largest: i64| match node.value {
+        Value::Integer(number) if (-largest..=largest).contains(&number) => Ok(number),
+        _ => Err(node.expected(what, "write a whole number")),
+    };
+    let (number, pulses, over) = (required("number")?, required("pulses")?, required("over")?);
+    let turned = whole(&pulses, "a number of pulses between -1000000 and 1000000", 1_000_000)?;
+    let cycles = duration(&over, "how long the turn takes")?.cycles(cycle);
+    let wheel = whole(&number, "the number of a handwheel, 1 to 3", 255)?;
+    table.finish()?;
+    Ok(Command::Handwheel {
+        number: u8::try_from(wheel).unwrap_or(0),
+        pulses: i32::try_from(turned).unwrap_or(0),
+        cycles,
+    })
 }
 
 fn switch(node: &Node) -> Result<Switch, Problem> {

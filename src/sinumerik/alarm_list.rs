@@ -62,8 +62,6 @@ alarms! {
     20004 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 reference mark missing";
     20007 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 reference point approach needs two measuring systems";
     20008 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 reference point approach needs a second, referenced measuring system";
-    20050 [DISPLAY] ByItself "channel %1 axis %2 handwheel active";
-    20051 [DISPLAY] ByItself "channel %1 axis %2 handwheel not possible";
     20052 [DISPLAY] CancelKey "channel %1 axis %2 already active";
     20053 [DISPLAY] CancelKey "channel %1 axis %2 DRF, FTOCON, external work offset not possible";
     20054 [DISPLAY] CancelKey "channel %1 axis %2 indexing index not allowed";

@@ -202,6 +202,12 @@ alarms! {
     /// Creep velocity not reached at the cam edge, twice.
     CREEP_VELOCITY_NOT_REACHED 20006 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 reference point creep velocity not reached";
+    /// A traversing key is pressed while handwheels move the axis.
+    HANDWHEEL_ACTIVE 20050 [DISPLAY] ByItself
+        "channel %1 axis %2 handwheel active";
+    /// Handwheels are turned while the axis is moved otherwise.
+    HANDWHEEL_NOT_POSSIBLE 20051 [DISPLAY] ByItself
+        "channel %1 axis %2 handwheel not possible";
     /// MD36300 exceeded on the active encoder. %3: encoder.
     ENCODER_FREQUENCY 21610
         [MODE_GROUP_NOT_READY CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset

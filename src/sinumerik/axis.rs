@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::axis_signals::AxisSignals;
 use super::enabling::Enabling;
+use super::increments::Jogging;
 use super::limits::LimitSwitches;
 use super::monitoring::AxisMonitor;
 use super::parameters::AxisParameters;
@@ -51,6 +53,8 @@ pub(super) enum Motion {
         target: Position,
         /// In increments per second.
         velocity: f64,
+        /// In increments per second squared.
+        acceleration: f64,
     },
     /// Follow-up: the setpoint is the actual value.
     Track,
@@ -73,7 +77,7 @@ impl Motion {
     pub(super) fn direction(&self, from: Position) -> i8 {
         let sign = match *self {
             Self::Run { velocity, .. } => velocity,
-            Self::GoTo { target, velocity } if velocity > 0.0 => (target - from).increments() as f64,
+            Self::GoTo { target, velocity, .. } if velocity > 0.0 => (target - from).increments() as f64,
             Self::GoTo { .. } | Self::Brake { .. } | Self::Track | Self::Hold => 0.0,
         };
         if sign > 0.0 {
@@ -152,6 +156,10 @@ pub(super) struct Axis {
     pub(super) limits: LimitSwitches,
     /// What monitoring remembers.
     pub monitor: AxisMonitor,
+    /// What keys and handwheels do.
+    pub(super) jogging: Jogging,
+    /// Axis disable, ramp-function generator fast stop, delete distance-to-go.
+    pub(super) signals: AxisSignals,
     /// Why.
     pub causes: Causes,
 }
@@ -183,6 +191,8 @@ impl Default for Axis {
             feed_disabled: false,
             limits: LimitSwitches::default(),
             monitor: AxisMonitor::default(),
+            jogging: Jogging::default(),
+            signals: AxisSignals::default(),
             causes: Causes::default(),
         }
     }
@@ -209,10 +219,10 @@ impl Axis {
         self.measuring_system.is_some_and(|active| self.referenced[usize::from(active)])
     }
 
-    /// Setpoint minus actual value.
+    /// Setpoint minus actual value; with axis disable, the setpoint that position control holds.
     #[must_use]
     pub(super) fn deviation(&self) -> Position {
-        self.setpoint.position - self.actual
+        self.signals.disabled_at().unwrap_or(self.setpoint.position) - self.actual
     }
 
     /// The setpoint rests and the velocity is below MD36060.
@@ -234,6 +244,7 @@ impl Axis {
             self.actual += by;
             self.setpoint.shift(by);
             self.monitor.shift(by);
+            self.signals.shift(by);
         }
     }
 
@@ -243,9 +254,8 @@ impl Axis {
         match self.motion {
             Motion::Brake { deceleration } => self.setpoint.run(0.0, deceleration, cycle),
             Motion::Run { velocity, acceleration } => self.setpoint.run(velocity, acceleration, cycle),
-            Motion::GoTo { target, velocity } if velocity > 0.0 => {
-                let limits = Limits { velocity, acceleration: parameters.maximum_acceleration };
-                self.arrived = self.setpoint.go_to(target, limits, cycle);
+            Motion::GoTo { target, velocity, acceleration } if velocity > 0.0 => {
+                self.arrived = self.setpoint.go_to(target, Limits { velocity, acceleration }, cycle);
             }
             Motion::GoTo { .. } => self.setpoint.run(0.0, parameters.maximum_acceleration, cycle),
             Motion::Track => self.setpoint = Setpoint::at(self.actual),

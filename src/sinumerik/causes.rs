@@ -48,6 +48,7 @@ impl Control {
 
     fn axis_cause(&mut self, number: AxisNumber, byte: u16, bit: u8) -> EventId {
         let parameters = &self.parameters.axes[number];
+        let group = self.parameters.mode_group(parameters.channel);
         let windows = (parameters.exact_stop_coarse, parameters.exact_stop_fine, parameters.standstill_velocity);
         let state = &mut *self.state;
         let axis: &Axis = &state.axes[number];
@@ -86,7 +87,10 @@ impl Control {
                 let limit = Input::Datum(36060, Some(number), windows.2 * 60.0 / Position::PER_USER_UNIT);
                 state.log.note(Place::Axis(number), Rule::Standstill, [measured, limit, Input::None], causes.motion)
             }
+            (64, 0..=2) | (67, 0) => axis.jogging.handwheel_cause.max(state.mode_groups[group].cause()),
             (64, _) => causes.motion,
+            (65, _) => axis.jogging.function_cause.max(state.mode_groups[group].cause()),
+            (92, 1) => axis.signals.fast_stop_cause,
             (93, 5) => state.run_up.cause,
             (93, 7) => causes.drive,
             (101, 2 | 3) => state.monitored(number, bit == 2),
@@ -118,6 +122,7 @@ impl State {
                 alarm.unwrap_or_else(|| self.cancel_event()).max(self.run_up.cause)
             }
             (6, 7) => self.motion_event(|channel| parameters.mode_group(channel) == group, parameters),
+            (8, _) => self.group_functions[group].cause.max(self.mode_groups[group].cause()),
             (5 | 7, _) => self.mode_groups[group].function_cause,
             _ => EventId::NONE,
         }

@@ -158,6 +158,7 @@ impl State {
         axis.sense(&self.feedback[number]);
         axis.setpoint = crate::motion::Setpoint::at(axis.actual);
         axis.monitor.restart(axis.actual);
+        axis.signals.hold_at(axis.actual);
         let shift = axis.actual - before;
         self.value_shifted(number, shift);
         if aborts {

@@ -2,10 +2,18 @@
 //!
 //! Called once per cycle for each unit in the stage "referencing and gantry", while JOG is active without REF. Keys of
 //! a synchronous axis of a closed grouping are ignored without alarm (MIS-01): only the first axis of a unit is asked.
+//! `increments.rs` says what a press of a key begins and ends, `handwheel.rs` what handwheels add.
+//!
+//! Traverse request (64.4, 64.5) is what is wanted, traverse command (64.6, 64.7) what is commanded: override 0 %, feed stop,
+//! feed disable, RESET, an alarm that stops and a limit take the command and leave the request. What has an end
+//! goes on to it after feed stop, feed disable and 0 %, and is dropped by everything else that stops.
 
-use super::axis::Motion;
+use super::axis::{Axis, Motion};
+use super::handwheel;
+use super::increments::{By, Movement};
+use super::limits::Ahead;
 use super::log::axis_bit;
-use super::parameters::Parameters;
+use super::parameters::{AxisParameters, Parameters};
 use super::rules::Rule;
 use super::{State, Unit};
 use crate::image::{AxisToNck, ToNck};
@@ -39,64 +47,92 @@ impl State {
         }
     }
 
-    /// Traversing keys of the unit's first axis.
+    /// Traversing keys and handwheels of the unit's first axis.
     pub(super) fn jog(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let number = unit.leader();
         self.watch_software_limits(unit, parameters, to_nck);
-        let signals = &to_nck.axes[number];
-        let direction = key_direction(signals);
-        let axis_parameters = &parameters.axes[number];
-        let stopped = self.stop_cause(unit.channel, parameters);
-        let axis = &mut self.axes[number];
-        let velocity = if signals.rapid_traverse_override() {
-            axis_parameters.jog_rapid_velocity
-        } else {
-            axis_parameters.jog_velocity
-        };
-        let velocity = (velocity * axis.feed_factor).min(axis_parameters.maximum_velocity);
-        if let Some(cause) = stopped {
-            // The unit brakes as it was told (O-04); what is wanted stays visible.
-            self.traverse(number, direction, 0, cause);
+        let (signals, axis_parameters) = (&to_nck.axes[number], &parameters.axes[number]);
+        let key = key_direction(signals);
+        let jogging = &mut self.axes[number].jogging;
+        let way = jogging.function.way(axis_parameters);
+        jogging.take_keys(key, signals.traversing_key_disable(), way, parameters.key_modes);
+        self.take_handwheels(number, parameters, signals);
+        self.raise_handwheel_alarms(number, key);
+        let axis = &self.axes[number];
+        if let Some(cause) = self.stop_cause(unit.channel, parameters) {
+            // The unit brakes as it was told (O-04).
+            self.stop_jogging(number, parameters, cause);
             return;
         }
-        if let Some(cause) = self.limited(unit, direction) {
+        if let Some(cause) = self.limited(unit, axis.jogging.movement.direction(axis.setpoint.position)) {
             // Towards a pressed switch nothing moves; away from it everything does.
             self.brake_at_limit(unit, parameters);
-            self.traverse(number, direction, 0, cause);
+            self.stop_jogging(number, parameters, cause);
             return;
         }
-        let axis = &mut self.axes[number];
+        if axis.signals.fast_stop {
+            self.stop_jogging(number, parameters, axis.signals.fast_stop_cause);
+            return;
+        }
+        self.axes[number].motion = Motion::Brake { deceleration: axis_parameters.jog_acceleration };
+        let ended = self.axes[number].begin_or_end_way();
+        let axis = &self.axes[number];
+        let movement = axis.jogging.movement;
+        if movement == Movement::None {
+            self.show_jogging(number, 0, 0, if ended { Rule::EndReached } else { Rule::KeyReleased }, signals);
+            return;
+        }
+        let direction = movement.direction(axis.setpoint.position);
+        let velocity = axis.jog_velocity(axis_parameters, signals);
         let held = axis.feed_held || velocity <= 0.0;
-        let acceleration = axis_parameters.jog_acceleration;
-        axis.motion = Motion::Brake { deceleration: acceleration };
-        if direction != 0 && !held && axis.enabling.is_on() {
-            let run = Motion::Run { velocity: velocity * f64::from(direction), acceleration };
-            let Some(motion) = self.within_software_limit(number, run, direction, parameters, to_nck) else {
-                let cause = self.axes[number].causes.motion;
-                let event = self.log.note_plain(Place::Axis(number), Rule::SoftwareLimit, cause);
-                self.traverse(number, direction, 0, event);
+        if !held && axis.enabling.is_on() {
+            let ahead = self.software_limit_ahead(number, direction, parameters, to_nck);
+            if direction != 0 && ahead == Ahead::Reached && !matches!(movement, Movement::Pending(..)) {
+                self.rest_on_software_limit(number, direction, parameters);
                 return;
-            };
-            self.axes[number].motion = motion;
+            }
+            self.axes[number].follow_keys(direction, velocity, ahead, axis_parameters.jog_acceleration);
         }
         // Without controller enable the command stays pending and runs when the enable returns.
         let command = if held { 0 } else { direction };
-        self.note_keys(number, direction, command, signals);
+        let rule = match movement {
+            Movement::None | Movement::Path(..) if direction == 0 => Rule::EndReached,
+            Movement::None | Movement::Continuous(_) => Rule::TraversingKey,
+            Movement::Pending(_, By::Key(_)) | Movement::Path(_, By::Key(_)) => Rule::IncrementStarted,
+            Movement::Pending(_, By::Handwheel) | Movement::Path(_, By::Handwheel) => Rule::HandwheelTurned,
+        };
+        self.show_jogging(number, direction, command, if held { Rule::MotionBlocked } else { rule }, signals);
     }
 
-    fn note_keys(&mut self, number: AxisNumber, request: i8, command: i8, signals: &AxisToNck) {
+    /// Something stops: what has an end is dropped, a key that acts while it is held stays visible.
+    fn stop_jogging(&mut self, number: AxisNumber, parameters: &Parameters, cause: EventId) {
+        let axis = &mut self.axes[number];
+        if !(parameters.key_modes.continuous_held && matches!(axis.jogging.movement, Movement::Continuous(_))) {
+            axis.jogging.movement = Movement::None;
+        }
+        let request = axis.jogging.movement.direction(axis.setpoint.position);
+        self.traverse(number, request, 0, cause);
+    }
+
+    fn rest_on_software_limit(&mut self, number: AxisNumber, direction: i8, parameters: &Parameters) {
+        let axis = &self.axes[number];
+        let mut cause = axis.causes.motion;
+        if (axis.traverse_request, axis.traverse_command) != (direction, 0) {
+            cause = self.log.note_plain(Place::Axis(number), Rule::SoftwareLimit, cause);
+        }
+        self.stop_jogging(number, parameters, cause);
+    }
+
+    fn show_jogging(&mut self, number: AxisNumber, request: i8, command: i8, rule: Rule, signals: &AxisToNck) {
         let axis = &self.axes[number];
         if (axis.traverse_request, axis.traverse_command) == (request, command) {
             return;
         }
-        let rule = if request == 0 {
-            Rule::KeyReleased
-        } else if command == 0 {
-            Rule::MotionBlocked
+        let event = if axis.jogging.movement.is_by_handwheel() {
+            self.log.note_plain(Place::Axis(number), rule, axis.jogging.handwheel_cause)
         } else {
-            Rule::TraversingKey
+            self.log.note(Place::Axis(number), rule, key_inputs(number, signals), axis.causes.motion)
         };
-        let event = self.log.note(Place::Axis(number), rule, key_inputs(number, signals), axis.causes.motion);
         self.traverse(number, request, command, event);
     }
 
@@ -108,6 +144,55 @@ impl State {
             axis.traverse_command = command;
             axis.causes.motion = cause;
         }
+    }
+}
+
+impl Axis {
+    /// A way that waited begins, one whose end is reached ends; whether one ended. An increment begins at rest.
+    fn begin_or_end_way(&mut self) -> bool {
+        let rests = self.setpoint.is_at_rest();
+        if let Movement::Pending(way, by) = self.jogging.movement
+            && self.enabling.is_on()
+            && (rests || by == By::Handwheel)
+        {
+            self.jogging.movement = Movement::Path(self.setpoint.position + way, by);
+        }
+        let ended =
+            matches!(self.jogging.movement, Movement::Path(target, _) if rests && self.setpoint.position == target);
+        if ended {
+            self.jogging.movement = Movement::None;
+        }
+        ended
+    }
+
+    /// Velocity of keys or handwheels, with the override.
+    fn jog_velocity(&self, parameters: &AxisParameters, signals: &AxisToNck) -> f64 {
+        let of_keys =
+            if signals.rapid_traverse_override() { parameters.jog_rapid_velocity } else { parameters.jog_velocity };
+        if self.jogging.movement.is_by_handwheel() {
+            handwheel::velocity(parameters, of_keys, self.feed_factor)
+        } else {
+            (of_keys * self.feed_factor).min(parameters.maximum_velocity)
+        }
+    }
+
+    /// Commands the movement; what leads beyond a software limit is dropped.
+    fn follow_keys(&mut self, direction: i8, velocity: f64, ahead: Ahead, acceleration: f64) {
+        self.motion = match (self.jogging.movement, ahead) {
+            (Movement::None | Movement::Pending(..), _) => return,
+            (Movement::Continuous(_), Ahead::At(target)) => Motion::GoTo { target, velocity, acceleration },
+            (Movement::Continuous(_), Ahead::Free | Ahead::Reached) => {
+                Motion::Run { velocity: velocity * f64::from(direction), acceleration }
+            }
+            (Movement::Path(target, by), ahead) => {
+                let target = match ahead {
+                    Ahead::At(limit) if (target > limit) == (direction > 0) => limit,
+                    Ahead::At(_) | Ahead::Free | Ahead::Reached => target,
+                };
+                self.jogging.movement = Movement::Path(target, by);
+                Motion::GoTo { target, velocity, acceleration }
+            }
+        };
     }
 }
 

@@ -36,6 +36,17 @@ impl LimitSwitches {
     }
 }
 
+/// What a movement in JOG meets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ahead {
+    /// No software limit acts.
+    Free,
+    /// One lies ahead.
+    At(Position),
+    /// The axis rests on it or is beyond it.
+    Reached,
+}
+
 impl State {
     /// The hardware limit switches of a unit, and their alarms.
     pub(super) fn watch_limit_switches(&mut self, unit: &Unit, to_nck: &ToNck) {
@@ -116,23 +127,20 @@ impl State {
         })
     }
 
-    /// A movement in JOG, bounded by the software limit of the axis; `None` where the axis rests on it or is beyond.
-    pub(super) fn within_software_limit(
-        &mut self,
+    /// The software limit that a movement in JOG meets in this direction.
+    pub(super) fn software_limit_ahead(
+        &self,
         number: AxisNumber,
-        motion: Motion,
         direction: i8,
         parameters: &Parameters,
         to_nck: &ToNck,
-    ) -> Option<Motion> {
-        let Some(limit) = self.software_limit(number, direction, parameters, to_nck) else { return Some(motion) };
-        let way = (limit - self.axes[number].setpoint.position).increments();
-        if way.signum() * i64::from(direction) <= 0 {
-            return None;
-        }
-        match motion {
-            Motion::Run { velocity, .. } => Some(Motion::GoTo { target: limit, velocity: velocity.abs() }),
-            other => Some(other),
+    ) -> Ahead {
+        match self.software_limit(number, direction, parameters, to_nck) {
+            None => Ahead::Free,
+            Some(limit) => {
+                let way = (limit - self.axes[number].setpoint.position).increments();
+                if way.signum() * i64::from(direction) <= 0 { Ahead::Reached } else { Ahead::At(limit) }
+            }
         }
     }
 

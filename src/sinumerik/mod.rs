@@ -18,6 +18,7 @@
 mod alarm_list;
 mod alarms;
 mod axis;
+mod axis_signals;
 mod causes;
 mod channel;
 mod channels;
@@ -25,6 +26,8 @@ mod emergency_stop;
 mod enabling;
 mod gantry;
 mod gantry_definition;
+mod handwheel;
+mod increments;
 mod jog;
 mod limits;
 mod log;
@@ -47,6 +50,7 @@ pub use alarm_list::NOT_RAISED as ALARMS_NOT_RAISED;
 pub use alarms::{Alarm, CATALOGUE as ALARMS, Cancel, Reaction};
 pub use axis::Feedback;
 pub use gantry::{Phase as GroupingPhase, TRANSITIONS as GROUPING_TRANSITIONS};
+pub use increments::KeyModes;
 pub use parameters::{AxisPresence, Parameters};
 pub use referencing::{Phase as ApproachPhase, TRANSITIONS as APPROACH_TRANSITIONS};
 pub use resting::Changes;
@@ -59,7 +63,7 @@ use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
 use crate::image::ToNck;
-use crate::motion::Coupling;
+use crate::motion::{Coupling, velocity_command};
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position};
 use crate::variables::{EventId, Place};
@@ -139,6 +143,8 @@ struct State {
     alarms: alarms::Pending,
     feedback: PerAxis<Feedback>,
     summary: Summary,
+    handwheels: [handwheel::Handwheel; handwheel::COUNT],
+    group_functions: PerModeGroup<increments::GroupFunction>,
     power_on_cause: EventId,
     definition_cause: EventId,
     plc_missing: bool,
@@ -269,11 +275,15 @@ impl Control {
     pub fn velocity_command(&self, axis: AxisNumber, encoders: [Position; 2], part: u32, count: u32) -> Option<f64> {
         let state = &self.state.axes[axis];
         let active = usize::from(state.measuring_system.filter(|_| state.enabling.is_powered())?);
-        if state.monitor.encoders[active].fault {
+        if state.monitor.encoders[active].fault || state.signals.fast_stop {
             return Some(0.0);
         }
         let actual = encoders[active] + state.offset[active];
         let parameters = &self.parameters.axes[axis];
+        if let Some(held) = state.signals.disabled_at() {
+            let wanted = velocity_command(held - actual, parameters.gain, state.half_count, 0.0, 0.0);
+            return Some(limited(wanted, parameters));
+        }
         let wanted = velocity_wanted(state, parameters, actual, state.half_count, part, count);
         Some(limited(wanted, parameters))
     }
@@ -300,19 +310,24 @@ impl Control {
             self.state.form_units(&self.parameters);
         }
         self.state.start_channel_referencing(&self.parameters, to_nck);
+        self.state.select_group_functions(&self.parameters, to_nck);
+        self.state.turn_handwheels();
         self.wake(changes);
         let (parameters, state, resting) = (&*self.parameters, &mut *self.state, &*self.resting);
         state.select_measuring_systems(parameters, to_nck, resting);
         state.enable(parameters, to_nck, resting);
+        state.select_functions(parameters, to_nck, resting);
         let mut next = 0;
         while let Some(index) = state.next_awake(next, resting) {
             next = index + 1;
             let unit = state.units[index];
             state.take_feed(&unit, parameters, to_nck);
+            state.take_axis_signals(&unit, to_nck);
             match unit.grouping {
                 Some(index) => state.run_grouping(usize::from(index), &unit, parameters, to_nck),
                 None => state.run_single(&unit, parameters, to_nck),
             }
+            state.stop_by_ramp_function_generator(&unit);
             state.set_setpoints(&unit, parameters);
         }
         state.order_channel_referencing(parameters);
@@ -330,7 +345,7 @@ impl Control {
             self.state.axes[number].sense(&feedback[number]);
         }
         self.monitor();
-        for number in self.resting.awake().iter() {
+        for number in self.computed().iter() {
             let (axis, summary) = (&self.state.axes[number], &mut self.state.summary);
             summary.drive_ready.set(number, axis.drive_ready);
             summary.referenced.set(number, axis.is_referenced());
@@ -376,6 +391,8 @@ impl State {
             alarms: alarms::Pending::default(),
             feedback: PerAxis::default(),
             summary: Summary::default(),
+            handwheels: Default::default(),
+            group_functions: PerModeGroup::default(),
             power_on_cause: EventId::NONE,
             definition_cause: EventId::NONE,
             plc_missing: false,
@@ -419,8 +436,8 @@ impl State {
 
     /// Every axis is in position control, and nothing stops.
     fn unit_can_move(&self, unit: &Unit, parameters: &Parameters) -> bool {
-        self.stop_cause(unit.channel, parameters).is_none()
-            && unit.members().all(|axis| self.axes[axis].enabling.is_on())
+        let free = self.stop_cause(unit.channel, parameters).is_none() && self.motion_forbidden(unit).is_none();
+        free && unit.members().all(|axis| self.axes[axis].enabling.is_on())
     }
 
     /// Every axis of the unit brakes at the slowest rate (O-04), unless a later stage commands something else.

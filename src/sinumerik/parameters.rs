@@ -7,6 +7,7 @@ use arrayvec::ArrayVec;
 
 use super::channels::{self, ChannelParameters};
 use super::gantry_definition::{self, Definitions};
+use super::increments::KeyModes;
 use super::machine_data::{Axis, MachineData};
 use super::monitoring::{Monitoring, monitoring};
 use crate::units::{
@@ -98,6 +99,12 @@ pub struct AxisParameters {
     pub jog_velocity: f64,
     /// MD32010.
     pub jog_rapid_velocity: f64,
+    /// MD11330 and SD41010 times MD31090: the ways of INC1 to INC10000 and INCvar.
+    pub increments: [Position; 6],
+    /// MD32080; 0 bounds nothing.
+    pub handwheel_maximum: Position,
+    /// MD32084.
+    pub handwheel_stop_conditions: u32,
     /// MD32200 in 1/s.
     pub gain: f64,
     /// MD36000 × MD36012.
@@ -139,6 +146,14 @@ pub struct Parameters {
     pub only_channel_not_ready: bool,
     /// MD11300: keys act as long as they are pressed, in INC and in the reference point approach.
     pub jog_mode: bool,
+    /// MD11300 and SD41050.
+    pub key_modes: KeyModes,
+    /// MD11320: pulses per detent of each handwheel.
+    pub handwheel_pulses: [f64; 3],
+    /// MD11346 is 0 or 2: a handwheel that stands drops the rest of its way.
+    pub handwheel_drops_rest: bool,
+    /// After how many cycles without a pulse a handwheel stands.
+    pub handwheel_still_cycles: u64,
     /// MD12000.
     pub axis_override_is_gray: bool,
     /// MD12010: factor by switch position, from one.
@@ -177,6 +192,13 @@ impl Parameters {
             servo_cycles: servo_cycles(data),
             only_channel_not_ready: data.general.alarm_reaction_chan_noready,
             jog_mode: data.general.jog_inc_mode_leveltriggrd,
+            key_modes: KeyModes {
+                increment_held: data.general.jog_inc_mode_leveltriggrd,
+                continuous_held: data.setting.jog_cont_mode_leveltriggrd,
+            },
+            handwheel_pulses: std::array::from_fn(|index| data.general.handwh_imp_per_latch[index]),
+            handwheel_drops_rest: data.general.handwh_true_distance % 2 == 0,
+            handwheel_still_cycles: Time::from_millis(100).in_cycles(cycle),
             axis_override_is_gray: data.general.ovr_ax_is_gray_code,
             axis_override_factors: data.general.ovr_factor_ax_speed,
             binary_override_limit: data.general.ovr_factor_limit_bin,
@@ -245,6 +267,9 @@ fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresence, cycle: T
         jog_acceleration: if md.jog_max_accel > 0.0 { acceleration(md.jog_max_accel) } else { maximum_acceleration },
         jog_velocity: velocity(if setting > 0.0 { setting } else { md.jog_velo }).min(maximum_velocity),
         jog_rapid_velocity: velocity(md.jog_velo_rapid).min(maximum_velocity),
+        increments: increments(data, md),
+        handwheel_maximum: Position::from_user(md.handwh_max_incr_size),
+        handwheel_stop_conditions: md.handwh_stop_cond,
         gain: md.posctrl_gain[0] * 1_000.0 / 60.0,
         exact_stop_coarse: Position::from_user(md.stop_limit_coarse * factor),
         exact_stop_fine: Position::from_user(md.stop_limit_fine * factor),
@@ -285,6 +310,13 @@ fn reference(md: &Axis, maximum_velocity: f64, velocity: &impl Fn(f64) -> f64) -
         mode: md.enc_refp_mode,
         creep_tolerance: md.spind_des_velo_tol,
     }
+}
+
+/// Bounded as a position is, so that their sums stay exact.
+fn increments(data: &MachineData, md: &Axis) -> [Position; 6] {
+    let [one, ten, hundred, thousand, ten_thousand] = data.general.jog_incr_size_tab;
+    [one, ten, hundred, thousand, ten_thousand, data.setting.jog_var_incr_size]
+        .map(|size| Position::from_user((size * md.jog_incr_weight[0]).clamp(-1e9, 1e9)))
 }
 
 fn gantry(md: &Axis) -> Gantry {

@@ -3,7 +3,9 @@
 //! Signals are set axis by axis (SIG-09). What somebody else wrote into a bit of the NCK is overwritten here (SIG-11).
 
 use super::alarms::Reaction;
+use super::axis::Motion;
 use super::gantry::Phase;
+use super::increments::{Function, Movement};
 use super::mode_group::{MachineFunction, Mode};
 use super::parameters::{AxisParameters, Parameters};
 use super::{Control, State};
@@ -14,11 +16,8 @@ use crate::variables::{AxisValues, Place, Variables};
 impl Control {
     /// Writes what the control shows. Of `restless` axes the iron has not come to rest.
     pub fn publish(&mut self, from_nck: &mut FromNck, hmi: &mut Hmi, variables: &mut Variables, restless: AxisSet) {
+        let mut shown = self.computed();
         let (parameters, state) = (&*self.parameters, &mut *self.state);
-        let mut shown = self.resting.awake();
-        if state.alarms_wake(&self.resting) {
-            shown = parameters.existing;
-        }
         if std::mem::take(&mut state.overwritten) {
             clear_signals(from_nck);
             shown = parameters.existing;
@@ -57,6 +56,9 @@ impl State {
         signals.set_nc_cpu_ready(self.run_up.is_cpu_ready());
         signals.set_drives_in_cyclic_operation(self.run_up.are_drives_cyclic());
         signals.set_drives_ready(self.run_up.are_drives_ready());
+        signals.set_handwheel_1_moved(self.handwheels[0].counter);
+        signals.set_handwheel_2_moved(self.handwheels[1].counter);
+        signals.set_handwheel_3_moved(self.handwheels[2].counter);
         signals.set_emergency_stop_active(self.emergency_stop.is_active());
         signals.set_nc_ready(self.is_nc_ready());
         signals.set_nc_alarm_active(self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, None).is_some());
@@ -77,6 +79,7 @@ impl State {
         signals.set_active_machine_function_teach_in(group.function == MachineFunction::TeachIn);
         signals.set_active_machine_function_repos(group.function == MachineFunction::Repos);
         signals.set_active_machine_function_ref(group.is_referencing());
+        signals.set_active_machine_functions(self.group_functions[number].function.map_or(0, Function::bits));
         let not_ready = self.mode_group_not_ready(number, parameters);
         signals.set_mode_group_ready(self.run_up.is_nc_ready() && not_ready.is_none());
         let mut channels = parameters.existing_channels().filter(|(_, group)| *group == number);
@@ -133,6 +136,11 @@ impl State {
         signals.set_traverse_request_plus(axis.traverse_request > 0);
         signals.set_traverse_command_minus(axis.traverse_command < 0);
         signals.set_traverse_command_plus(axis.traverse_command > 0);
+        let jogging = &axis.jogging;
+        signals.set_active_machine_functions(jogging.shown);
+        signals.set_active_handwheels(jogging.handwheels);
+        signals.set_invert_handwheel_direction_of_rotation_active(jogging.inverted);
+        signals.set_ramp_function_generator_disable_active(axis.signals.fast_stop);
         signals.set_drive_ready(axis.drive_ready);
         signals.set_pulses_enabled(axis.enabling.pulses_enabled());
         signals.set_position_measuring_system_1_activated(axis.measuring_system == Some(0));
@@ -172,13 +180,28 @@ impl State {
     fn values(&self, number: AxisNumber, parameters: &AxisParameters) -> AxisValues {
         let axis = &self.axes[number];
         let per_user_unit = if parameters.rotary { 360.0 } else { 1.0 };
+        let encoders = std::array::from_fn(|encoder| {
+            if encoder < usize::from(parameters.encoders) {
+                self.feedback[number].encoders[encoder].value + axis.offset[encoder]
+            } else {
+                Position::ZERO
+            }
+        });
+        let setpoint = axis.setpoint.position;
+        let distance_to_go = match (axis.jogging.movement, axis.motion) {
+            (Movement::None, Motion::GoTo { target, .. }) => target - setpoint,
+            (movement, _) => movement.distance_to_go(setpoint),
+        };
         AxisValues {
-            position: axis.actual,
+            // With axis disable the display goes on with the setpoint (SIG-03).
+            position: if axis.signals.disabled_at().is_some() { axis.setpoint.position } else { axis.actual },
             setpoint: axis.setpoint.position,
             velocity: axis.velocity * 60.0 / Position::PER_USER_UNIT / per_user_unit,
             following_error: axis.deviation(),
             slide: axis.slide,
             synchronism_difference: Position::ZERO,
+            encoders,
+            distance_to_go,
         }
     }
 }

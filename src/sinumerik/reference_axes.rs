@@ -98,8 +98,16 @@ impl State {
     /// A key that jogs, or is pressed while an approach is on its way, must be released before it starts one.
     pub(super) fn watch_key(&mut self, unit: &Unit, busy: bool, to_nck: &ToNck) {
         let number = unit.leader();
+        let jogging = self.is_jogging(unit);
+        for axis in unit.members() {
+            self.axes[axis].jogging.watch_keys(&to_nck.axes[axis]);
+            // Keys and handwheels of a synchronous axis move nothing (MIS-01).
+            if !jogging || axis != number {
+                self.axes[axis].jogging.end();
+            }
+        }
         let pressed = key_direction(&to_nck.axes[number]) != 0;
-        let used = self.axes[number].key_used || busy || self.is_jogging(unit);
+        let used = self.axes[number].key_used || busy || jogging;
         self.axes[number].key_used = pressed && used;
     }
 
@@ -211,6 +219,8 @@ impl State {
         let pressed = key_direction(&to_nck.axes[number]);
         let (alarm, input) = if let Some(off) = unit.members().find(|&axis| !self.axes[axis].enabling.is_on()) {
             (Some(alarms::APPROACH_ABORTED), axis_bit(off, 61, 5, false))
+        } else if let Some(forbidden) = self.motion_forbidden(unit) {
+            (Some(alarms::APPROACH_ABORTED), forbidden)
         } else if key != 0 && parameters.jog_mode && pressed != key {
             let released = axis_bit(number, 4, if key > 0 { 7 } else { 6 }, false);
             // The datum that makes the approach end with its key.

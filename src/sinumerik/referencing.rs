@@ -379,7 +379,8 @@ impl Approach {
             Phase::GoToReferencePoint | Phase::ExactStop => {
                 let held = view.axis.feed_held;
                 let velocity = (reference.position_velocity * view.axis.feed_factor).min(parameters.maximum_velocity);
-                return Motion::GoTo { target: self.target, velocity: if held { 0.0 } else { velocity } };
+                let velocity = if held { 0.0 } else { velocity };
+                return Motion::GoTo { target: self.target, velocity, acceleration };
             }
         };
         if view.axis.feed_held { brake } else { Motion::Run { velocity, acceleration } }

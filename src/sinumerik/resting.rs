@@ -3,7 +3,7 @@
 //! A cycle of the control is a function of its state, of what the PLC wrote and of what encoders and drives told. An axis
 //! whose state came out of a cycle as it went in, and that gets the same inputs again, comes out of the next one as it is: it
 //! rests, and the stages leave it out until something that it depends on is another one. What all axes depend on (modes,
-//! channels, run-up, emergency stop, machine data, any alarm) wakes all. Nothing that anybody can see depends on who rests
+//! channels, handwheels, run-up, emergency stop, machine data, any alarm) wakes all. Nothing that anybody can see depends on who rests
 //! ([`Control::never_rest`] computes everything always, and tests compare both).
 
 use arrayvec::ArrayVec;
@@ -13,6 +13,8 @@ use super::channel::Channel;
 use super::emergency_stop::EmergencyStop;
 use super::gantry::Grouping;
 use super::gantry_definition::GROUPINGS;
+use super::handwheel::{self, Handwheel};
+use super::increments::GroupFunction;
 use super::mode_group::ModeGroup;
 use super::parameters::Parameters;
 use super::run_up::RunUp;
@@ -35,6 +37,8 @@ struct Shared {
     mode_groups: PerModeGroup<ModeGroup>,
     emergency_stop: EmergencyStop,
     channels: PerChannel<Channel>,
+    handwheels: [Handwheel; handwheel::COUNT],
+    group_functions: PerModeGroup<GroupFunction>,
 }
 
 impl Shared {
@@ -43,6 +47,8 @@ impl Shared {
         self.run_up == state.run_up
             && self.emergency_stop == state.emergency_stop
             && self.mode_groups == state.mode_groups
+            && self.handwheels == state.handwheels
+            && self.group_functions == state.group_functions
             && channels.all(|(channel, _)| self.channels[channel] == state.channels[channel])
     }
 }
@@ -107,6 +113,8 @@ impl State {
             mode_groups: self.mode_groups,
             emergency_stop: self.emergency_stop,
             channels: self.channels,
+            handwheels: self.handwheels,
+            group_functions: self.group_functions,
         }
     }
 
@@ -140,6 +148,11 @@ impl Control {
     #[must_use]
     pub const fn awake(&self) -> AxisSet {
         self.resting.awake
+    }
+
+    /// Who was computed in this cycle: an alarm that came in the middle of it concerns everybody.
+    pub(super) fn computed(&self) -> AxisSet {
+        if self.state.alarms_wake(&self.resting) { self.parameters.existing } else { self.resting.awake }
     }
 
     /// After the stages that concern everybody: who is computed in this cycle.

@@ -47,6 +47,15 @@ rules! {
     TraversingKey "JOG" "key";
     KeyReleased "JOG" "no key";
     MotionBlocked "JOG" "motion blocked";
+    IncrementSelected "INC" "machine function of JOG";
+    IncrementStarted "INC" "one increment";
+    EndReached "INC" "at the end of the way";
+    HandwheelActivated "HANDWHEEL" "handwheel assigned";
+    HandwheelTurned "HANDWHEEL" "handwheel turned";
+    // Axis signals.
+    AxisDisable "SIG-03" "axis disable";
+    DistanceDeleted "SIG-04" "distance-to-go deleted";
+    FastStop "SIG-07" "ramp-function generator fast stop in the unit";
     // Reference point approach.
     KeyStartsApproach "REF-02" "approach started";
     ApproachStarted "REF-31" "reference point approach begins";

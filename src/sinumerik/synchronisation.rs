@@ -109,7 +109,7 @@ impl State {
             let velocity =
                 (axis_parameters.reference.marker_velocity[encoder] * factor).min(axis_parameters.maximum_velocity);
             let at_rest = axis.setpoint.is_at_rest() && axis.setpoint.position == target;
-            axis.motion = Motion::GoTo { target, velocity };
+            axis.motion = Motion::GoTo { target, velocity, acceleration: axis_parameters.maximum_acceleration };
             let direction = axis.motion.direction(axis.setpoint.position);
             let in_position = axis.deviation().abs() <= axis_parameters.exact_stop_fine;
             if !(at_rest && in_position) {

@@ -20,17 +20,26 @@ pub enum AxisValue {
     Slide,
     /// Actual value minus ideal position of a synchronous axis, in mm or degrees.
     SynchronismDifference,
+    /// Actual value of encoder 1, in mm or degrees, whether it is active or not.
+    Encoder1,
+    /// Actual value of encoder 2, as encoder 1.
+    Encoder2,
+    /// The way that is left of a movement that has an end, in mm or degrees, with its sign.
+    DistanceToGo,
 }
 
 impl AxisValue {
     /// All of them, in the order of the manual's service view.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 9] = [
         Self::Position,
         Self::Setpoint,
         Self::Velocity,
         Self::FollowingError,
         Self::Slide,
         Self::SynchronismDifference,
+        Self::Encoder1,
+        Self::Encoder2,
+        Self::DistanceToGo,
     ];
 
     /// The name behind the axis name.
@@ -43,6 +52,9 @@ impl AxisValue {
             Self::FollowingError => "following_error",
             Self::Slide => "slide",
             Self::SynchronismDifference => "synchronism_difference",
+            Self::Encoder1 => "encoder_1",
+            Self::Encoder2 => "encoder_2",
+            Self::DistanceToGo => "distance_to_go",
         }
     }
 
@@ -63,6 +75,9 @@ impl AxisValue {
             Self::FollowingError => values.following_error.user(),
             Self::Slide => values.slide.user(),
             Self::SynchronismDifference => values.synchronism_difference.user(),
+            Self::Encoder1 => values.encoders[0].user(),
+            Self::Encoder2 => values.encoders[1].user(),
+            Self::DistanceToGo => values.distance_to_go.user(),
         }
     }
 }

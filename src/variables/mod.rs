@@ -42,6 +42,10 @@ pub struct AxisValues {
     pub slide: Position,
     /// Actual value minus ideal position (MON-01); zero on everything but a synchronous axis.
     pub synchronism_difference: Position,
+    /// Actual values of encoder 1 and 2, whichever of them is active; zero where there is none.
+    pub encoders: [Position; 2],
+    /// The way that is left of a movement that has an end.
+    pub distance_to_go: Position,
 }
 
 /// One parameter of an alarm, `%1` to `%4` in its text.
