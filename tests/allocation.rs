@@ -3,7 +3,7 @@
 //! What may allocate: a step in which RESET, "set machine data active" or power on makes changed machine data act, the
 //! first write to memory that a clone shares, and the queueing of a command.
 
-use opennck::machine::{Command, Machine};
+use opennck::machine::{Command, DatumValue, Machine};
 use opennck::plc::program;
 
 fn write(machine: &mut Machine, signal: &str, value: u64) {
@@ -57,12 +57,39 @@ fn what_allocates_is_counted() {
 
 #[test]
 fn no_step_of_referencing_and_synchronising_allocates() {
+    reference_and_synchronise(&mut ready());
+}
+
+/// Jerk filters, feed-forward with dead time and matching, on an axis that a NEWCONF gives them.
+#[test]
+fn no_step_with_filters_and_delays_allocates() {
     let mut machine = ready();
-    write(&mut machine, "X.traversing_key_plus", 1);
-    step_until(&mut machine, "DB31.DBX60.4");
-    step_until(&mut machine, "DB33.DBX60.4");
-    write(&mut machine, "X.start_gantry_synchronization", 1);
-    step_until(&mut machine, "DB31.DBX101.5");
+    for axis in ["X", "XF"] {
+        for (number, value) in [("32400", 1.0), ("32410", 0.05), ("32420", 1.0), ("32430", 10.0), ("32620", 3.0)] {
+            let (target, value) = (format!("{number}[{axis}]"), DatumValue::Real(value));
+            machine.queue(Command::MachineDatum { target, value }).expect("a machine datum");
+        }
+        let matching = [(format!("32900[{axis}]"), 1.0), (format!("32910[0,{axis}]"), 0.002)];
+        for (target, value) in matching {
+            machine.queue(Command::MachineDatum { target, value: DatumValue::Real(value) }).expect("a machine datum");
+        }
+    }
+    write(&mut machine, "DB21.DBX7.7", 1);
+    for _ in 0..50 {
+        machine.step();
+        machine.drain();
+    }
+    write(&mut machine, "DB21.DBX7.7", 0);
+    machine.step();
+    reference_and_synchronise(&mut machine);
+}
+
+fn reference_and_synchronise(machine: &mut Machine) {
+    write(machine, "X.traversing_key_plus", 1);
+    step_until(machine, "DB31.DBX60.4");
+    step_until(machine, "DB33.DBX60.4");
+    write(machine, "X.start_gantry_synchronization", 1);
+    step_until(machine, "DB31.DBX101.5");
 }
 
 #[test]

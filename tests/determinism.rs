@@ -147,7 +147,29 @@ fn who_rests_makes_no_difference_to_any_trace() {
 
 #[test]
 fn who_rests_makes_no_difference_to_what_is_saved() {
-    let (mut resting, mut never) = (machine(), machine());
+    compare_resting(machine(), machine());
+}
+
+/// Jerk filters, feed-forward with dead time, and matching have a memory of their own.
+#[test]
+fn who_rests_makes_no_difference_to_filters_and_delays() {
+    let filtered = || {
+        let mut machine = machine();
+        for axis in ["X", "Y", "XF"] {
+            for (number, value) in [("32400", 1.0), ("32410", 0.05), ("32420", 1.0), ("32620", 3.0), ("32900", 1.0)] {
+                let (target, value) = (format!("{number}[{axis}]"), DatumValue::Real(value));
+                machine.queue(Command::MachineDatum { target, value }).expect("a datum");
+            }
+            let (target, value) = (format!("32910[0,{axis}]"), DatumValue::Real(0.002));
+            machine.queue(Command::MachineDatum { target, value }).expect("a datum");
+        }
+        machine.queue(Command::PowerOn).expect("power");
+        machine
+    };
+    compare_resting(filtered(), filtered());
+}
+
+fn compare_resting(mut resting: Machine, mut never: Machine) {
     never.never_rest();
     for cycle in 1..=CYCLES {
         step(&mut resting);

@@ -6,12 +6,16 @@
 //! build and machine computes the same bits.
 
 mod coupling;
+mod delay;
 mod encoder;
+mod jerk;
 mod profile;
 mod servo;
 
 pub use coupling::{Coupling, Difference, Stage};
+pub use delay::{DeadTime, Pt1};
 pub use encoder::{Encoder, EncoderSignal};
+pub use jerk::{JerkFilter, LONGEST_WINDOW};
 pub use profile::{Limits, Setpoint};
 pub use servo::{Drive, velocity_command};
 

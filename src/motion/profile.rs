@@ -25,13 +25,15 @@ pub struct Setpoint {
     pub position: Position,
     carry: f64,
     velocity: f64,
+    /// A filter still holds back some of the movement.
+    held_back: bool,
 }
 
 impl Setpoint {
     /// At rest here.
     #[must_use]
     pub const fn at(position: Position) -> Self {
-        Self { position, carry: 0.0, velocity: 0.0 }
+        Self { position, carry: 0.0, velocity: 0.0, held_back: false }
     }
 
     /// Velocity in increments per second.
@@ -43,11 +45,12 @@ impl Setpoint {
     /// Whether it stands still.
     #[must_use]
     pub fn is_at_rest(&self) -> bool {
-        self.velocity.abs() < 1e-9
+        self.velocity.abs() < 1e-9 && !self.held_back
     }
 
     /// Moves for one cycle towards a velocity (signed, increments per second): jogging, searching, braking with 0.
     pub fn run(&mut self, velocity: f64, acceleration: f64, cycle: f64) {
+        self.held_back = false;
         let step = acceleration * cycle;
         self.velocity += (velocity - self.velocity).clamp(-step, step);
         self.position = super::advance(self.position, &mut self.carry, self.velocity * cycle);
@@ -55,6 +58,7 @@ impl Setpoint {
 
     /// Moves for one cycle towards a target; true once it rests there.
     pub fn go_to(&mut self, target: Position, limits: Limits, cycle: f64) -> bool {
+        self.held_back = false;
         let distance = (target - self.position).increments() as f64 - self.carry;
         let step = limits.acceleration * cycle;
         if distance.abs() < 0.5 && self.velocity.abs() <= step * 1.001 {
@@ -81,10 +85,15 @@ impl Setpoint {
         false
     }
 
-    /// Follows another setpoint: the same movement in the same cycle.
-    pub fn follow(&mut self, movement: Position, velocity: f64) {
+    /// Follows another setpoint: the same movement in the same cycle, with the velocity that the other one has now.
+    pub fn follow(&mut self, movement: Position, other: &Self) {
         self.position += movement;
-        self.velocity = velocity;
+        (self.velocity, self.held_back) = (other.velocity, other.held_back);
+    }
+
+    /// What a filter makes of another setpoint.
+    pub(super) fn show(&mut self, position: Position, velocity: f64, held_back: bool) {
+        *self = Self { position, carry: 0.0, velocity, held_back };
     }
 
     /// Gives the same place another value: setting a reference moves nothing.

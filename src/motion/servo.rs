@@ -8,18 +8,12 @@ use crate::units::Position;
 
 /// The velocity that position control asks for, in increments per second.
 ///
-/// `deviation` is setpoint minus actual value; what is smaller than half an encoder count cannot be seen and asks
-/// for nothing. `feed_forward` is the share of the setpoint velocity that is passed on (0 without feed-forward).
+/// `deviation` is setpoint minus actual value in increments; what is not above half an encoder count cannot be seen and
+/// asks for nothing. `feed_forward` is the part of the setpoint velocity that is passed on (0 without feed-forward).
 #[must_use]
-pub fn velocity_command(
-    deviation: Position,
-    gain: f64,
-    half_count: Position,
-    setpoint_velocity: f64,
-    feed_forward: f64,
-) -> f64 {
-    let seen = if deviation.abs() <= half_count { 0.0 } else { deviation.increments() as f64 };
-    seen * gain + setpoint_velocity * feed_forward
+pub fn velocity_command(deviation: f64, gain: f64, half_count: Position, feed_forward: f64) -> f64 {
+    let seen = if deviation.abs() <= half_count.increments() as f64 { 0.0 } else { deviation };
+    seen * gain + feed_forward
 }
 
 /// A drive: the velocity of its motor, seen at the slide.
@@ -80,11 +74,12 @@ mod tests {
     /// Without feed-forward, the following error at constant velocity is v/Kv.
     #[test]
     fn the_following_error_is_velocity_over_gain() {
-        let (gain, velocity) = (1000.0 / 60.0, 100e6);
+        let gain = 1000.0 / 60.0;
         let (mut setpoint, mut slide, mut drive) = (Position::ZERO, Position::ZERO, Drive::default());
         for _ in 0..2_000 {
             setpoint += Position::new(200_000);
-            let command = velocity_command(setpoint - slide, gain, Position::new(50), velocity, 0.0);
+            let deviation = (setpoint - slide).increments() as f64;
+            let command = velocity_command(deviation, gain, Position::new(50), 0.0);
             drive.answer(command, 0.003, CYCLE);
             slide = drive.moved(slide, CYCLE);
         }
@@ -95,7 +90,7 @@ mod tests {
 
     #[test]
     fn less_than_half_a_count_asks_for_nothing() {
-        assert_eq!(velocity_command(Position::new(50), 16.0, Position::new(50), 0.0, 0.0).to_bits(), 0.0_f64.to_bits());
-        assert!(velocity_command(Position::new(51), 16.0, Position::new(50), 0.0, 0.0) > 0.0);
+        assert_eq!(velocity_command(50.0, 16.0, Position::new(50), 0.0).to_bits(), 0.0_f64.to_bits());
+        assert!(velocity_command(51.0, 16.0, Position::new(50), 0.0) > 0.0);
     }
 }

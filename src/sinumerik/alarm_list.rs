@@ -82,7 +82,6 @@ alarms! {
     25022 [DISPLAY] CancelKey "axis %1 encoder %2 warning %3";
     25042 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset "axis %1 standstill monitoring with torque or force limiting";
     25070 [DISPLAY] CancelKey "axis %1 drift value too large";
-    25200 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "axis %1 requested parameter set invalid";
     26006 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 encoder %2 encoder or output type %3 not possible";
     26014 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 machine datum %2 value not allowed";
     26015 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 machine datum %2[%3] value not allowed";

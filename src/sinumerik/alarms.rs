@@ -275,6 +275,9 @@ alarms! {
     /// 1.6 selects an encoder that the axis does not have.
     ENCODER_NOT_AVAILABLE 25110 [DISPLAY] CancelKey
         "axis %1 selected encoder not available";
+    /// The interface asks for a parameter set that there is not.
+    PARAMETER_SET_INVALID 25200 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "axis %1 requested parameter set invalid";
     /// The drive tells of a fault.
     DRIVE_FAULT 25201
         [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset

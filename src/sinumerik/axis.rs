@@ -3,11 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::axis_signals::AxisSignals;
-use super::enabling::Enabling;
+use super::dynamics::ParameterSet;
+use super::enabling::{Control, Enabling};
 use super::increments::Jogging;
 use super::limits::LimitSwitches;
 use super::monitoring::AxisMonitor;
 use super::parameters::AxisParameters;
+use super::position_control::Shaping;
 use super::referencing::Approach;
 use crate::motion::{EncoderSignal, Limits, Setpoint};
 use crate::units::Position;
@@ -72,6 +74,38 @@ impl Motion {
         }
     }
 
+    /// One cycle of it on a setpoint; whether the target of a [`Motion::GoTo`] is reached and the setpoint rests on it.
+    fn execute(self, setpoint: &mut Setpoint, actual: Position, parameters: &AxisParameters, cycle: f64) -> bool {
+        match self {
+            Self::Brake { deceleration } => setpoint.run(0.0, deceleration, cycle),
+            Self::Run { velocity, acceleration } => setpoint.run(velocity, acceleration, cycle),
+            Self::GoTo { target, velocity, acceleration } if velocity > 0.0 => {
+                return setpoint.go_to(target, Limits { velocity, acceleration }, cycle);
+            }
+            Self::GoTo { .. } => setpoint.run(0.0, parameters.maximum_acceleration, cycle),
+            Self::Track => *setpoint = Setpoint::at(actual),
+            Self::Hold => *setpoint = Setpoint::at(setpoint.position),
+        }
+        false
+    }
+
+    /// It passes the jerk filter by: a braking harder than any acceleration of the axis, or no movement at all.
+    fn is_fast(self, parameters: &AxisParameters) -> bool {
+        match self {
+            Self::Brake { deceleration } => deceleration > parameters.dynamics.jerk.hardest,
+            Self::Track | Self::Hold => true,
+            Self::Run { .. } | Self::GoTo { .. } => false,
+        }
+    }
+
+    /// The acceleration with which it sets off.
+    fn acceleration(self) -> Option<f64> {
+        match self {
+            Self::Run { acceleration, .. } | Self::GoTo { acceleration, .. } => Some(acceleration),
+            Self::Brake { .. } | Self::Track | Self::Hold => None,
+        }
+    }
+
     /// The direction that is commanded: +1, −1, or 0.
     #[must_use]
     pub(super) fn direction(&self, from: Position) -> i8 {
@@ -103,6 +137,10 @@ pub(super) struct Causes {
     pub reference: [EventId; 2],
     /// 64.4 to 64.7.
     pub motion: EventId,
+    /// 69.0 to 69.2.
+    pub parameter_set: EventId,
+    /// 93.0 to 93.4.
+    pub drive_data_set: EventId,
 }
 
 /// One machine axis.
@@ -114,6 +152,15 @@ pub(super) struct Axis {
     pub before: Position,
     /// What this cycle commands.
     pub motion: Motion,
+    /// Counts the cycles in which a filter or delay of its setpoint has not run out.
+    pub unsettled: u32,
+    /// How far position control's setpoint is behind the one of the interpolator, in increments, and the velocity that is fed
+    /// forward, in the last position-control cycle.
+    pub branch: (f64, f64),
+    /// The active parameter set, 0 to 5.
+    pub parameter_set: u8,
+    /// The data set that its drive has taken.
+    pub drive_data_set: u8,
     /// The target of a [`Motion::GoTo`] is reached, and the setpoint rests on it.
     pub arrived: bool,
     /// Actual value minus encoder value, of each measuring system.
@@ -170,6 +217,10 @@ impl Default for Axis {
             setpoint: Setpoint::default(),
             before: Position::ZERO,
             motion: Motion::Hold,
+            unsettled: 0,
+            branch: (0.0, 0.0),
+            parameter_set: 0,
+            drive_data_set: 0,
             arrived: false,
             offset: [Position::ZERO; 2],
             referenced: [false; 2],
@@ -219,6 +270,12 @@ impl Axis {
         self.measuring_system.is_some_and(|active| self.referenced[usize::from(active)])
     }
 
+    /// What it has once per parameter set, of the active one.
+    #[must_use]
+    pub(super) fn active_set<'a>(&self, parameters: &'a AxisParameters) -> &'a ParameterSet {
+        &parameters.dynamics.sets[usize::from(self.parameter_set)]
+    }
+
     /// Setpoint minus actual value; with axis disable, the setpoint that position control holds.
     #[must_use]
     pub(super) fn deviation(&self) -> Position {
@@ -248,18 +305,18 @@ impl Axis {
         }
     }
 
-    /// Executes what the cycle commands.
-    pub(super) fn execute(&mut self, parameters: &AxisParameters, cycle: f64) {
-        self.arrived = false;
-        match self.motion {
-            Motion::Brake { deceleration } => self.setpoint.run(0.0, deceleration, cycle),
-            Motion::Run { velocity, acceleration } => self.setpoint.run(velocity, acceleration, cycle),
-            Motion::GoTo { target, velocity, acceleration } if velocity > 0.0 => {
-                self.arrived = self.setpoint.go_to(target, Limits { velocity, acceleration }, cycle);
-            }
-            Motion::GoTo { .. } => self.setpoint.run(0.0, parameters.maximum_acceleration, cycle),
-            Motion::Track => self.setpoint = Setpoint::at(self.actual),
-            Motion::Hold => self.setpoint = Setpoint::at(self.setpoint.position),
-        }
+    /// Executes what the cycle commands, through the filters that the axis has.
+    pub(super) fn execute(&mut self, shaping: Option<&mut Shaping>, parameters: &AxisParameters, cycle: f64) {
+        let (motion, actual) = (self.motion, self.actual);
+        let command = |setpoint: &mut Setpoint| motion.execute(setpoint, actual, parameters, cycle);
+        let Some(filter) = shaping.and_then(|shaping| shaping.jerk.as_mut()) else {
+            self.arrived = command(&mut self.setpoint);
+            return;
+        };
+        // What takes the axis out of its movement does not wait for a filter.
+        let fast = matches!(self.enabling.control, Control::Braking(_)) || motion.is_fast(parameters);
+        let first = motion.acceleration().map(|rate| parameters.dynamics.jerk.window_for(rate, cycle));
+        self.arrived = filter.step(&mut self.setpoint, first, fast, cycle, command);
+        self.unsettled = self.unsettled.wrapping_add(u32::from(filter.is_busy()));
     }
 }

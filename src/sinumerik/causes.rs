@@ -49,9 +49,10 @@ impl Control {
     fn axis_cause(&mut self, number: AxisNumber, byte: u16, bit: u8) -> EventId {
         let parameters = &self.parameters.axes[number];
         let group = self.parameters.mode_group(parameters.channel);
-        let windows = (parameters.exact_stop_coarse, parameters.exact_stop_fine, parameters.standstill_velocity);
         let state = &mut *self.state;
         let axis: &Axis = &state.axes[number];
+        let set = axis.active_set(parameters);
+        let windows = (set.exact_stop_coarse, set.exact_stop_fine, parameters.standstill_velocity);
         let causes = axis.causes;
         match (byte, bit) {
             (60, 2 | 3) => axis.monitor.encoders[usize::from(bit - 2)].frequency_cause,
@@ -90,7 +91,9 @@ impl Control {
             (64, 0..=2) | (67, 0) => axis.jogging.handwheel_cause.max(state.mode_groups[group].cause()),
             (64, _) => causes.motion,
             (65, _) => axis.jogging.function_cause.max(state.mode_groups[group].cause()),
+            (69, 0..=2) => causes.parameter_set,
             (92, 1) => axis.signals.fast_stop_cause,
+            (93, 0..=4) => causes.drive_data_set,
             (93, 5) => state.run_up.cause,
             (93, 7) => causes.drive,
             (101, 2 | 3) => state.monitored(number, bit == 2),

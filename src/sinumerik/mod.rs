@@ -22,6 +22,7 @@ mod axis_signals;
 mod causes;
 mod channel;
 mod channels;
+mod dynamics;
 mod emergency_stop;
 mod enabling;
 mod gantry;
@@ -34,6 +35,7 @@ mod log;
 pub mod machine_data;
 mod mode_group;
 mod monitoring;
+mod parameter_sets;
 mod parameters;
 mod position_control;
 mod publish;
@@ -49,6 +51,7 @@ mod transitions;
 pub use alarm_list::NOT_RAISED as ALARMS_NOT_RAISED;
 pub use alarms::{Alarm, CATALOGUE as ALARMS, Cancel, Reaction};
 pub use axis::Feedback;
+pub use dynamics::{Dynamics, FeedForward, Jerk, PARAMETER_SETS, ParameterSet};
 pub use gantry::{Phase as GroupingPhase, TRANSITIONS as GROUPING_TRANSITIONS};
 pub use increments::KeyModes;
 pub use parameters::{AxisPresence, Parameters};
@@ -63,9 +66,9 @@ use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
 use crate::image::ToNck;
-use crate::motion::{Coupling, velocity_command};
+use crate::motion::Coupling;
 use crate::source::Problem;
-use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 use crate::variables::{EventId, Place};
 
 use axis::{Axis, Motion};
@@ -76,7 +79,7 @@ use gantry_definition::GROUPINGS;
 use log::Log;
 use machine_data::{Effect, MachineData, Target, Value};
 use mode_group::ModeGroup;
-use position_control::{limited, velocity_wanted};
+use position_control::Shaping;
 use resting::Resting;
 use run_up::RunUp;
 
@@ -138,6 +141,8 @@ struct State {
     emergency_stop: EmergencyStop,
     channels: PerChannel<Channel>,
     axes: PerAxis<Axis>,
+    /// Filters and delays of setpoints, where machine data ask for them.
+    shaping: PerAxis<Option<Box<Shaping>>>,
     groupings: ArrayVec<Grouping, GROUPINGS>,
     units: ArrayVec<Unit, { AxisNumber::MAX as usize }>,
     alarms: alarms::Pending,
@@ -241,6 +246,7 @@ impl Control {
         }
         Arc::make_mut(&mut self.active).activate(&self.stored, level);
         self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
+        self.state.prepare_position_control(&self.parameters);
         self.resting.wake_all();
     }
 
@@ -267,25 +273,6 @@ impl Control {
     #[must_use]
     pub fn taken_transitions(&self) -> TakenTransitions {
         self.state.log.taken
-    }
-
-    /// Position control of an axis in part `part` of `count` of the interpolation cycle, the setpoint finely interpolated: the
-    /// velocity that its drive is to have; `None` for a drive without power.
-    #[must_use]
-    pub fn velocity_command(&self, axis: AxisNumber, encoders: [Position; 2], part: u32, count: u32) -> Option<f64> {
-        let state = &self.state.axes[axis];
-        let active = usize::from(state.measuring_system.filter(|_| state.enabling.is_powered())?);
-        if state.monitor.encoders[active].fault || state.signals.fast_stop {
-            return Some(0.0);
-        }
-        let actual = encoders[active] + state.offset[active];
-        let parameters = &self.parameters.axes[axis];
-        if let Some(held) = state.signals.disabled_at() {
-            let wanted = velocity_command(held - actual, parameters.gain, state.half_count, 0.0, 0.0);
-            return Some(limited(wanted, parameters));
-        }
-        let wanted = velocity_wanted(state, parameters, actual, state.half_count, part, count);
-        Some(limited(wanted, parameters))
     }
 
     /// Somebody else wrote into the NCK's half.
@@ -315,6 +302,7 @@ impl Control {
         self.wake(changes);
         let (parameters, state, resting) = (&*self.parameters, &mut *self.state, &*self.resting);
         state.select_measuring_systems(parameters, to_nck, resting);
+        state.select_parameter_sets(to_nck, resting);
         state.enable(parameters, to_nck, resting);
         state.select_functions(parameters, to_nck, resting);
         let mut next = 0;
@@ -386,6 +374,7 @@ impl State {
             emergency_stop: EmergencyStop::default(),
             channels: PerChannel::default(),
             axes: PerAxis::default(),
+            shaping: PerAxis::default(),
             groupings: parameters.groupings.groupings.iter().map(Grouping::new).collect(),
             units: ArrayVec::new(),
             alarms: alarms::Pending::default(),
@@ -401,6 +390,7 @@ impl State {
         };
         state.note_power_on();
         state.form_units(parameters);
+        state.prepare_position_control(parameters);
         state
     }
 

@@ -6,6 +6,7 @@
 use arrayvec::ArrayVec;
 
 use super::channels::{self, ChannelParameters};
+use super::dynamics::{Dynamics, dynamics, jerk};
 use super::gantry_definition::{self, Definitions};
 use super::increments::KeyModes;
 use super::machine_data::{Axis, MachineData};
@@ -105,16 +106,10 @@ pub struct AxisParameters {
     pub handwheel_maximum: Position,
     /// MD32084.
     pub handwheel_stop_conditions: u32,
-    /// MD32200 in 1/s.
-    pub gain: f64,
-    /// MD36000 × MD36012.
-    pub exact_stop_coarse: Position,
-    /// MD36010 × MD36012.
-    pub exact_stop_fine: Position,
+    /// Position control, and what it has per parameter set.
+    pub dynamics: Dynamics,
     /// MD36020 in cycles.
     pub positioning_cycles: u64,
-    /// MD36030 × MD36012.
-    pub standstill_tolerance: Position,
     /// MD36060; where that is 0, what does not move at all is below it.
     pub standstill_velocity: f64,
     /// MD36600: a hardware limit switch sets the setpoint velocity to 0 without a ramp.
@@ -253,9 +248,10 @@ fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresence, cycle: T
     };
     let (linear_setting, rotary_setting) = (data.setting.jog_set_velo, data.setting.jog_rot_ax_set_velo);
     let setting = if rotary { rotary_setting } else { linear_setting };
-    let factor = md.stop_limit_factor[0];
     let maximum_velocity = velocity(md.max_ax_velo);
     let maximum_acceleration = acceleration(md.max_ax_accel[0]).max(1.0);
+    let jog_acceleration = if md.jog_max_accel > 0.0 { acceleration(md.jog_max_accel) } else { maximum_acceleration };
+    let jerk = jerk(md, acceleration(1.0), [maximum_acceleration, jog_acceleration], cycle);
     AxisParameters {
         exists: presence.exists,
         silent: presence.silent,
@@ -264,17 +260,14 @@ fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresence, cycle: T
         encoders: md.num_encs,
         maximum_velocity,
         maximum_acceleration,
-        jog_acceleration: if md.jog_max_accel > 0.0 { acceleration(md.jog_max_accel) } else { maximum_acceleration },
+        jog_acceleration,
         jog_velocity: velocity(if setting > 0.0 { setting } else { md.jog_velo }).min(maximum_velocity),
         jog_rapid_velocity: velocity(md.jog_velo_rapid).min(maximum_velocity),
         increments: increments(data, md),
         handwheel_maximum: Position::from_user(md.handwh_max_incr_size),
         handwheel_stop_conditions: md.handwh_stop_cond,
-        gain: md.posctrl_gain[0] * 1_000.0 / 60.0,
-        exact_stop_coarse: Position::from_user(md.stop_limit_coarse * factor),
-        exact_stop_fine: Position::from_user(md.stop_limit_fine * factor),
+        dynamics: dynamics(md, jerk, &velocity),
         positioning_cycles: cycles(md.positioning_time),
-        standstill_tolerance: Position::from_user(md.standstill_pos_tol * factor),
         standstill_velocity: velocity(md.standstill_velo_tol).max(f64::MIN_POSITIVE),
         limit_without_ramp: md.brake_mode_choice == 1,
         modulo: md.is_rot_ax && md.rot_is_modulo,
@@ -286,7 +279,7 @@ fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresence, cycle: T
         servo_disable_cycles: cycles(md.servo_disable_delay_time),
         reference: reference(md, maximum_velocity, &velocity),
         gantry: gantry(md),
-        monitoring: monitoring(md, cycle, &velocity),
+        monitoring: monitoring(md, cycle),
     }
 }
 

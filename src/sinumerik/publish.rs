@@ -122,8 +122,9 @@ impl State {
         signals.set_referenced_synchronized_2(axis.referenced[1]);
         let at_rest = position && axis.setpoint.is_at_rest() && axis.traverse_command == 0;
         let within = |window: Position| at_rest && axis.deviation().abs() <= window;
-        signals.set_position_reached_exact_stop_coarse(within(parameters.exact_stop_coarse));
-        signals.set_position_reached_exact_stop_fine(within(parameters.exact_stop_fine));
+        let set = axis.active_set(parameters);
+        signals.set_position_reached_exact_stop_coarse(within(set.exact_stop_coarse));
+        signals.set_position_reached_exact_stop_fine(within(set.exact_stop_fine));
         signals.set_axis_specific_alarm(alarm);
         signals.set_axis_ready(axis.drive_ready && axis.measuring_system.is_some() && !alarm);
         // A parked axis has no actual value that it could follow.
@@ -141,6 +142,8 @@ impl State {
         signals.set_active_handwheels(jogging.handwheels);
         signals.set_invert_handwheel_direction_of_rotation_active(jogging.inverted);
         signals.set_ramp_function_generator_disable_active(axis.signals.fast_stop);
+        signals.set_active_controller_parameter_set(axis.parameter_set);
+        signals.set_active_drive_data_set(axis.drive_data_set);
         signals.set_drive_ready(axis.drive_ready);
         signals.set_pulses_enabled(axis.enabling.pulses_enabled());
         signals.set_position_measuring_system_1_activated(axis.measuring_system == Some(0));

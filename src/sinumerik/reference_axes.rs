@@ -251,6 +251,9 @@ impl State {
     pub(super) fn set_reference(&mut self, number: AxisNumber, shift: Position, event: EventId) {
         let axis = &mut self.axes[number];
         axis.shift(shift);
+        if let Some(filter) = self.shaping[number].as_deref_mut().and_then(|shaping| shaping.jerk.as_mut()) {
+            filter.shift(shift);
+        }
         if let Some(active) = axis.measuring_system {
             axis.referenced[usize::from(active)] = true;
             axis.causes.reference[usize::from(active)] = event;

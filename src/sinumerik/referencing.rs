@@ -341,10 +341,10 @@ impl Approach {
         let deviation = view.axis.deviation().abs();
         let inputs = [
             Input::Length(Quantity::Deviation, view.number, deviation),
-            Input::Datum(36010, Some(view.number), view.parameters.exact_stop_fine.user()),
+            Input::Datum(36010, Some(view.number), view.axis.active_set(view.parameters).exact_stop_fine.user()),
             Input::None,
         ];
-        if deviation <= view.parameters.exact_stop_fine {
+        if deviation <= view.axis.active_set(view.parameters).exact_stop_fine {
             self.step(log, view.number, Rule::Referenced, inputs);
             return Outcome::Referenced(self.set_position - self.target, self.cause);
         }

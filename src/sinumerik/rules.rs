@@ -31,6 +31,9 @@ rules! {
     FollowUpByAlarm "SYN-01" "alarm with the reaction follow-up";
     MeasuringSystem "REF-33" "measuring system selected";
     Parking "SYN-01" "both measuring systems off";
+    ParameterSet "SIG-05" "parameter set that 9.0 to 9.2 select";
+    ParameterSetRefused "25200" "9.0 to 9.2 select a parameter set that there is not";
+    DriveDataSet "SIG-05" "data set of the drive that 21.0 to 21.4 select";
     // Emergency stop.
     EmergencyStop "E-06" "emergency stop";
     EmergencyStopAcknowledged "E-06" "emergency stop acknowledged";

@@ -1,5 +1,5 @@
 //! Setpoints and coupling: what was commanded becomes a setpoint, and the axes of a closed grouping take the movement
-//! of the one that leads, in the same cycle (DYN-01).
+//! of the one that leads, in the same cycle (DYN-01): the filtered one, where its jerk is limited.
 
 use super::enabling::Control;
 use super::parameters::Parameters;
@@ -21,13 +21,13 @@ impl State {
         let coupled = unit.grouping.map(usize::from).filter(|&index| self.groupings[index].coupled);
         let Some(index) = coupled else {
             for axis in unit.members() {
-                self.axes[axis].execute(&parameters.axes[axis], cycle);
+                self.axes[axis].execute(self.shaping[axis].as_deref_mut(), &parameters.axes[axis], cycle);
             }
             return;
         };
         let leads = self.groupings[index].coupling.leads_now();
         let before = self.axes[leads].setpoint.position;
-        self.axes[leads].execute(&parameters.axes[leads], cycle);
+        self.axes[leads].execute(self.shaping[leads].as_deref_mut(), &parameters.axes[leads], cycle);
         let led_by = self.axes[leads].setpoint;
         let moves = matches!(self.axes[leads].enabling.control, Control::On | Control::Braking(_));
         let leader = self.groupings[index].coupling.leader();
@@ -38,9 +38,9 @@ impl State {
         for axis in unit.members().filter(|&axis| axis != leads) {
             let follows = moves && matches!(self.axes[axis].enabling.control, Control::On | Control::Braking(_));
             if follows {
-                self.axes[axis].setpoint.follow(led_by.position - before, led_by.velocity());
+                self.axes[axis].setpoint.follow(led_by.position - before, &led_by);
             } else {
-                self.axes[axis].execute(&parameters.axes[axis], cycle);
+                self.axes[axis].execute(self.shaping[axis].as_deref_mut(), &parameters.axes[axis], cycle);
             }
             // SIG-09: when the leading axis is traversed, its command shows on the synchronous axes, too.
             let mirrored = if leads == leader { (request, command) } else { (0, 0) };

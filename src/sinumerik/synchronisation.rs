@@ -65,7 +65,8 @@ impl State {
         let leader = self.groupings[index].coupling.leader();
         let from_referencing = self.groupings[index].from_referencing;
         let axis = &self.axes[leader];
-        let runs_out = !axis.setpoint.is_at_rest() || axis.deviation().abs() > parameters.axes[leader].exact_stop_fine;
+        let runs_out = !axis.setpoint.is_at_rest()
+            || axis.deviation().abs() > axis.active_set(&parameters.axes[leader]).exact_stop_fine;
         let grouping = &mut self.groupings[index];
         grouping.leading_axis_moves = from_referencing || runs_out;
         grouping.waited = 0;
@@ -111,7 +112,7 @@ impl State {
             let at_rest = axis.setpoint.is_at_rest() && axis.setpoint.position == target;
             axis.motion = Motion::GoTo { target, velocity, acceleration: axis_parameters.maximum_acceleration };
             let direction = axis.motion.direction(axis.setpoint.position);
-            let in_position = axis.deviation().abs() <= axis_parameters.exact_stop_fine;
+            let in_position = axis.deviation().abs() <= axis.active_set(axis_parameters).exact_stop_fine;
             if !(at_rest && in_position) {
                 arrived = false;
                 if at_rest {
@@ -229,7 +230,7 @@ impl State {
         }
         let within = self.groupings[index].coupling.followers().all(|axis| {
             let difference = self.axes[axis].actual - self.axes[leader].actual;
-            difference.abs() <= parameters.axes[axis].standstill_tolerance
+            difference.abs() <= self.axes[axis].active_set(&parameters.axes[axis]).standstill_tolerance
         });
         if within {
             let cause = self.axes[leader].causes.enabling;

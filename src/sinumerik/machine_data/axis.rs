@@ -79,22 +79,24 @@ Axis {
     32300 MAX_AX_ACCEL max_ax_accel: [f64; 5] = [1.0; 5], rotary [2.77; 5]; "m/s2", Range::POSITIVE, NewConf;
     /// acceleration in JOG; 0 takes MD32300
     32301 JOG_MAX_ACCEL jog_max_accel: f64 = 0.0; "m/s2", Range::NOT_NEGATIVE, NewConf;
-    /// axial jerk filter on
+    /// axial jerk filter on, for every movement; a fast stop (enable lost, emergency stop, MD36600 = 1) passes it by
     32400 AX_JERK_ENABLE ax_jerk_enable: bool = false; "", Range::ANY, NewConf;
-    /// kind of jerk filter; 2 is recommended
+    /// kind of jerk filter; 2 is recommended; every kind acts as 2, the moving average
     32402 AX_JERK_MODE ax_jerk_mode: u8 = 1; "", Range::ANY, NewConf;
-    /// time constant of the jerk filter
+    /// time constant of the jerk filter: the window of the average, at most 1000 cycles
     32410 AX_JERK_TIME ax_jerk_time: f64 = 0.001; "s", Range::NOT_NEGATIVE, NewConf;
-    /// jerk limitation in JOG and of positioning axes
+    /// jerk limitation in JOG, referencing and of positioning axes; a fast stop passes it by
     32420 JOG_AND_POS_JERK_ENABLE jog_and_pos_jerk_enable: bool = false; "", Range::ANY, Reset;
-    /// largest jerk in JOG and of positioning axes
+    /// largest jerk in JOG, referencing and of positioning axes; acceleration over it is the jerk time; 0 limits nothing
     32430 JOG_AND_POS_MAX_JERK jog_and_pos_max_jerk: f64 = 100.0; "m/s3", Range::NOT_NEGATIVE, Reset;
     /// backlash, active once referenced
     32450 BACKLASH backlash: [f64; 2] = [0.0; 2]; "mm, deg", Range::POSITION, NewConf;
-    /// share of the speed feedforward
+    /// share of the speed feedforward; 1: at steady speed the following error is that of the balancing time alone
     32610 VELO_FFW_WEIGHT velo_ffw_weight: [f64; 6] = [1.0; 6]; "factor", Range::NOT_NEGATIVE, NewConf;
-    /// feedforward: 0 off, 1 speed PT1, 2 torque PT1, 3 speed Tt, 4 torque Tt
-    32620 FFW_MODE ffw_mode: u8 = 1; "", Range::between(0.0, 4.0), Reset;
+    /// feedforward: 0 off, 1 speed PT1, 2 torque PT1, 3 speed Tt, 4 torque Tt (2 and 4: only their speed part acts, balanced by MD32800); the default 0 is ours, as a machine without archive shows v/Kv (real controls: 1 with MD32630 = 1)
+    32620 FFW_MODE ffw_mode: u8 = 0; "", Range::between(0.0, 4.0), Reset;
+    /// who switches the feedforward: 0 MD32620 alone; 1 and 2 FFWON of a part program, so that nothing switches it on in JOG and REF; the default 0 is ours
+    32630 FFW_ACTIVATION_MODE ffw_activation_mode: u8 = 0; "", Range::between(0.0, 2.0), Reset;
     /// inertia for torque feedforward
     32650 AX_INERTIA ax_inertia: f64 = 0.0; "kgm2", Range::NOT_NEGATIVE, NewConf;
     /// leadscrew error compensation
@@ -103,11 +105,11 @@ Axis {
     32710 CEC_ENABLE cec_enable: bool = false; "", Range::ANY, NewConf;
     /// temperature compensation
     32750 TEMP_COMP_TYPE temp_comp_type: u8 = 0; "", Range::ANY, NewConf;
-    /// time constant of the closed current loop
+    /// time constant of the closed current loop: balancing time of the feedforward modes 2 and 4
     32800 EQUIV_CURRCTRL_TIME equiv_currctrl_time: [f64; 6] = [0.0005; 6]; "s", Range::NOT_NEGATIVE, NewConf;
-    /// time constant of the closed speed loop, as the control believes it
+    /// time constant of the closed speed loop, as the control believes it: balancing time of the feedforward modes 1 and 3
     32810 EQUIV_SPEEDCTRL_TIME equiv_speedctrl_time: [f64; 6] = [0.008; 6]; "s", Range::NOT_NEGATIVE, NewConf;
-    /// dynamic response adaptation
+    /// dynamic response adaptation: the setpoint is delayed by MD32910, also without feedforward
     32900 DYN_MATCH_ENABLE dyn_match_enable: bool = false; "", Range::ANY, NewConf;
     /// time constant of the adaptation: slowest of the grouping less the own
     32910 DYN_MATCH_TIME dyn_match_time: [f64; 6] = [0.0; 6]; "s", Range::NOT_NEGATIVE, NewConf;

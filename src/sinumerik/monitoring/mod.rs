@@ -27,6 +27,7 @@ use super::alarms;
 use super::parameters::{AxisParameters, Parameters};
 use super::rules::Rule;
 use super::{Control, State};
+use crate::motion::advance;
 use crate::units::{AxisNumber, AxisSet, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 
@@ -61,6 +62,21 @@ impl AxisMonitor {
         self.model += by;
     }
 
+    /// Where the axis would be.
+    pub(super) const fn model(&self) -> Position {
+        self.model
+    }
+
+    /// The axis would be here.
+    pub(super) fn restart_model(&mut self, actual: Position) {
+        (self.model, self.carry) = (actual, 0.0);
+    }
+
+    /// The ideal axis moves.
+    pub(super) fn move_model(&mut self, movement: f64) {
+        self.model = advance(self.model, &mut self.carry, movement);
+    }
+
     /// Interpolation has not ended.
     const fn moves(&mut self) {
         (self.rest_cycles, self.positioning_cycles, self.in_position) = (0, 0, false);
@@ -68,7 +84,7 @@ impl AxisMonitor {
 
     /// The axis counts as being here, at rest since now.
     pub(super) fn restart(&mut self, actual: Position) {
-        (self.model, self.carry) = (actual, 0.0);
+        self.restart_model(actual);
         self.moves();
     }
 }
@@ -113,7 +129,7 @@ impl State {
             return;
         }
         self.monitor_speed(number, axis);
-        self.monitor_position(number, axis, parameters);
+        self.monitor_position(number, axis);
     }
 
     /// Raises an alarm with the event behind it, which is noted when the alarm is new; `%1` is the axis.

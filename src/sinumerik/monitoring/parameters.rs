@@ -30,8 +30,6 @@ pub(in crate::sinumerik) struct Monitoring {
     pub clamping_tolerance: Position,
     /// MD36400.
     pub contour_tolerance: Position,
-    /// MD36200.
-    pub velocity_limit: f64,
     /// MD36210 of the rated speed (MD32250, MD32260), at the load.
     pub speed_setpoint_limit: f64,
     /// MD36220 in cycles.
@@ -49,7 +47,7 @@ pub(in crate::sinumerik) struct Monitoring {
 }
 
 /// The limits that machine data say.
-pub(in crate::sinumerik) fn monitoring(md: &Axis, cycle: Time, velocity: &impl Fn(f64) -> f64) -> Monitoring {
+pub(in crate::sinumerik) fn monitoring(md: &Axis, cycle: Time) -> Monitoring {
     let cycles = |seconds: f64| if seconds > 0.0 { Time::from_seconds(seconds).in_cycles(cycle) } else { 0 };
     let turn = if md.is_rot_ax { 360.0 } else { md.leadscrew_pitch } * Position::PER_USER_UNIT;
     let motor_per_load = ratio(md.drive_ax_ratio_numera[0], md.drive_ax_ratio_denom[0]);
@@ -69,7 +67,6 @@ pub(in crate::sinumerik) fn monitoring(md: &Axis, cycle: Time, velocity: &impl F
         standstill_cycles: cycles(md.standstill_delay_time),
         clamping_tolerance: Position::from_user(md.clamp_pos_tol),
         contour_tolerance: Position::from_user(md.contour_tol),
-        velocity_limit: velocity(md.ax_velo_limit[0]),
         speed_setpoint_limit: (md.ctrlout_limit / 100.0 * full_speed / 60.0 * turn / motor_per_load).min(f64::MAX),
         speed_setpoint_cycles: cycles(md.ctrlout_limit_time),
         frequency_limit,
@@ -103,7 +100,7 @@ mod tests {
     fn limits(change: impl FnOnce(&mut Axis)) -> Monitoring {
         let mut md = Axis::default();
         change(&mut md);
-        monitoring(&md, Time::from_millis(2), &|value| value * Position::PER_USER_UNIT / 60.0)
+        monitoring(&md, Time::from_millis(2))
     }
 
     fn assert_mm_per_second(increments: f64, expected: f64) {

@@ -9,41 +9,40 @@
 //! point approach and a synchronising motion watch that themselves and end with 20005.
 //!
 //! Contour: the actual value is compared with an ideal axis, which takes the same setpoints with the same gain and whose drive
-//! answers at once. An axis that brakes to be switched off is stopped already and is not compared.
+//! answers at once; position control moves it along in each of its cycles. An axis that brakes to be switched off is stopped already and is not compared.
 
-use crate::motion::advance;
 use crate::sinumerik::State;
 use crate::sinumerik::alarms;
 use crate::sinumerik::enabling::Control;
 use crate::sinumerik::gantry::Phase;
-use crate::sinumerik::parameters::{AxisParameters, Parameters};
-use crate::sinumerik::position_control::velocity_wanted;
+use crate::sinumerik::parameters::AxisParameters;
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{Input, Quantity};
 
 impl State {
-    pub(super) fn monitor_position(&mut self, number: AxisNumber, parameters: &AxisParameters, all: &Parameters) {
+    pub(super) fn monitor_position(&mut self, number: AxisNumber, parameters: &AxisParameters) {
         let follows_up = self.axes[number].enabling.follow_up;
         let actual = self.axes[number].actual;
         if follows_up {
             self.axes[number].monitor.restart(actual);
             return;
         }
-        self.monitor_contour(number, parameters, all);
+        self.monitor_contour(number, parameters);
         let axis = &mut self.axes[number];
         if !axis.setpoint.is_at_rest() {
             axis.monitor.moves();
             return;
         }
         let deviation = axis.deviation().abs();
+        let set = axis.active_set(parameters);
         let (monitor, delay) = (&mut axis.monitor, parameters.monitoring.standstill_cycles);
         monitor.rest_cycles = (monitor.rest_cycles + 1).min(delay + 1);
         if monitor.rest_cycles > delay {
             let (alarm, tolerance, datum, rule) = if monitor.clamped {
                 (alarms::CLAMPING, parameters.monitoring.clamping_tolerance, 36050, Rule::ClampingMonitoring)
             } else {
-                (alarms::STANDSTILL, parameters.standstill_tolerance, 36030, Rule::StandstillMonitoring)
+                (alarms::STANDSTILL, set.standstill_tolerance, 36030, Rule::StandstillMonitoring)
             };
             if deviation > tolerance {
                 self.raise_monitoring(alarm, number, rule, deviates(number, deviation, datum, tolerance));
@@ -54,6 +53,7 @@ impl State {
 
     fn monitor_positioning(&mut self, number: AxisNumber, deviation: Position, parameters: &AxisParameters) {
         let axis = &mut self.axes[number];
+        let fine = axis.active_set(parameters).exact_stop_fine;
         let (on, monitor) = (axis.enabling.is_on(), &mut axis.monitor);
         if !on {
             (monitor.positioning_cycles, monitor.in_position) = (0, false);
@@ -64,10 +64,10 @@ impl State {
         }
         monitor.positioning_cycles = (monitor.positioning_cycles + 1).min(parameters.positioning_cycles + 1);
         let late = monitor.positioning_cycles > parameters.positioning_cycles;
-        if deviation <= parameters.exact_stop_fine || self.watches_exact_stop_itself(number) {
+        if deviation <= fine || self.watches_exact_stop_itself(number) {
             self.axes[number].monitor.in_position = true;
         } else if late {
-            let inputs = deviates(number, deviation, 36010, parameters.exact_stop_fine);
+            let inputs = deviates(number, deviation, 36010, fine);
             self.raise_monitoring(alarms::POSITIONING, number, Rule::PositioningMonitoring, inputs);
         }
     }
@@ -80,22 +80,14 @@ impl State {
         synchronises || self.axes[number].approach.is_running()
     }
 
-    fn monitor_contour(&mut self, number: AxisNumber, parameters: &AxisParameters, all: &Parameters) {
+    fn monitor_contour(&mut self, number: AxisNumber, parameters: &AxisParameters) {
         let axis = &mut self.axes[number];
         if !axis.enabling.is_powered() {
-            (axis.monitor.model, axis.monitor.carry) = (axis.actual, 0.0);
+            axis.monitor.restart_model(axis.actual);
             return;
         }
-        let (mut model, mut carry) = (axis.monitor.model, axis.monitor.carry);
-        if model != axis.setpoint.position || axis.before != axis.setpoint.position {
-            let servo_cycle = all.cycle.seconds() / f64::from(all.servo_cycles);
-            for part in 1..=all.servo_cycles {
-                let wanted = velocity_wanted(axis, parameters, model, Position::ZERO, part, all.servo_cycles);
-                model = advance(model, &mut carry, wanted * servo_cycle);
-            }
-            (axis.monitor.model, axis.monitor.carry) = (model, carry);
-        }
-        let (difference, tolerance) = ((model - axis.actual).abs(), parameters.monitoring.contour_tolerance);
+        let (difference, tolerance) =
+            ((axis.monitor.model() - axis.actual).abs(), parameters.monitoring.contour_tolerance);
         if difference > tolerance && matches!(axis.enabling.control, Control::On) {
             let inputs = deviates(number, difference, 36400, tolerance);
             self.raise_monitoring(alarms::CONTOUR, number, Rule::ContourMonitoring, inputs);

@@ -8,7 +8,6 @@
 use crate::sinumerik::State;
 use crate::sinumerik::alarms;
 use crate::sinumerik::parameters::AxisParameters;
-use crate::sinumerik::position_control::velocity_wanted;
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{Input, Quantity};
@@ -17,19 +16,20 @@ impl State {
     pub(super) fn monitor_speed(&mut self, number: AxisNumber, parameters: &AxisParameters) {
         let limits = &parameters.monitoring;
         let axis = &mut self.axes[number];
+        let set = axis.active_set(parameters);
         let speed = axis.velocity.abs();
         let resting = axis.setpoint.is_at_rest() && axis.setpoint.position == axis.actual;
         let wanted = if resting || !axis.enabling.is_powered() {
             0.0
         } else {
-            velocity_wanted(axis, parameters, axis.actual, axis.half_count, 1, 1).abs()
+            axis.velocity_wanted(set, axis.setpoint.position, axis.actual, axis.half_count).abs()
         };
         let limited = wanted > limits.speed_setpoint_limit;
         axis.monitor.limited_cycles =
             if limited { (axis.monitor.limited_cycles + 1).min(limits.speed_setpoint_cycles + 1) } else { 0 };
         let too_long = axis.monitor.limited_cycles > limits.speed_setpoint_cycles;
-        if speed > limits.velocity_limit {
-            let inputs = velocities(number, speed, 36200, limits.velocity_limit);
+        if speed > set.velocity_limit {
+            let inputs = velocities(number, speed, 36200, set.velocity_limit);
             self.raise_monitoring(alarms::ACTUAL_VELOCITY, number, Rule::VelocityMonitoring, inputs);
         }
         if too_long {
