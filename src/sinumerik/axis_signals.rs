@@ -68,8 +68,8 @@ impl State {
         let disable = to_nck.axes[leader].axis_spindle_disable();
         for number in unit.members() {
             let delete = to_nck.axes[number].delete_distance_to_go_spindle_reset();
-            let rises = delete && !std::mem::replace(&mut self.axes[number].signals.delete_was, delete);
-            if rises && number == leader {
+            let was = std::mem::replace(&mut self.axes[number].signals.delete_was, delete);
+            if delete && !was && number == leader {
                 self.delete_distance_to_go(leader);
             }
             if stopped_by.is_some() != self.axes[number].signals.fast_stop {

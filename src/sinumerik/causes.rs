@@ -106,8 +106,9 @@ impl Control {
 }
 
 impl State {
-    fn nck_cause(&self, byte: u16, bit: u8) -> EventId {
+    fn nck_cause(&mut self, byte: u16, bit: u8) -> EventId {
         match (byte, bit) {
+            (68..=70, _) => self.log.note_plain(Place::Nck, Rule::HandwheelTurned, EventId::NONE),
             (106, 1) => self.emergency_stop.cause,
             (109, _) => self.any_alarm_event(Reaction::INTERFACE_SIGNALS),
             (108, 7) if self.run_up.is_nc_ready() && !self.is_nc_ready() => {

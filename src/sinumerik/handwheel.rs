@@ -130,8 +130,8 @@ impl State {
             let jogging = &mut self.axes[number].jogging;
             (jogging.handwheels, jogging.inverted, jogging.handwheel_cause) = (active, inverted, event);
             jogging.still = 0;
-            if active == 0 && jogging.movement.is_by_handwheel() {
-                jogging.movement = Movement::None;
+            if active == 0 {
+                self.drop_way_of_handwheels(number);
             }
         }
         let axis_parameters = &parameters.axes[number];
@@ -148,10 +148,10 @@ impl State {
         let increment = limited(jogging.function.way(axis_parameters), axis_parameters.handwheel_maximum);
         jogging.still = if moved { 0 } else { jogging.still.saturating_add(1) };
         let drops = parameters.handwheel_drops_rest && jogging.still > parameters.handwheel_still_cycles;
-        if jogging.movement.is_by_handwheel() && (hold == Hold::Abort || drops) {
-            jogging.movement = Movement::None;
-            jogging.carry = 0.0;
+        if hold == Hold::Abort || drops {
+            self.drop_way_of_handwheels(number);
         }
+        let jogging = &mut self.axes[number].jogging;
         if !moved || increment == Position::ZERO || hold == Hold::Abort {
             return;
         }
@@ -170,6 +170,17 @@ impl State {
                 by_key
             }
         };
+    }
+
+    fn drop_way_of_handwheels(&mut self, number: AxisNumber) {
+        let jogging = &mut self.axes[number].jogging;
+        if jogging.movement.is_by_handwheel() {
+            jogging.movement = Movement::None;
+            jogging.carry = 0.0;
+            let parent = jogging.handwheel_cause;
+            let event = self.log.note_plain(Place::Axis(number), Rule::HandwheelDropped, parent);
+            self.traverse(number, 0, 0, event);
+        }
     }
 
     /// The stop conditions of MD32084.

@@ -52,9 +52,10 @@ rules! {
     MotionBlocked "JOG" "motion blocked";
     IncrementSelected "INC" "machine function of JOG";
     IncrementStarted "INC" "one increment";
-    EndReached "INC" "at the end of the way";
+    EndReached "JOG" "at the end of the way";
     HandwheelActivated "HANDWHEEL" "handwheel assigned";
     HandwheelTurned "HANDWHEEL" "handwheel turned";
+    HandwheelDropped "HANDWHEEL" "the rest of its way is dropped";
     // Axis signals.
     AxisDisable "SIG-03" "axis disable";
     DistanceDeleted "SIG-04" "distance-to-go deleted";
