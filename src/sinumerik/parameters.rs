@@ -192,7 +192,7 @@ impl Parameters {
                 continuous_held: data.setting.jog_cont_mode_leveltriggrd,
             },
             handwheel_pulses: std::array::from_fn(|index| data.general.handwh_imp_per_latch[index]),
-            handwheel_drops_rest: data.general.handwh_true_distance % 2 == 0,
+            handwheel_drops_rest: data.general.handwh_true_distance.is_multiple_of(2),
             handwheel_still_cycles: Time::from_millis(100).in_cycles(cycle),
             axis_override_is_gray: data.general.ovr_ax_is_gray_code,
             axis_override_factors: data.general.ovr_factor_ax_speed,
