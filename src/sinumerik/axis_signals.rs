@@ -45,6 +45,12 @@ impl AxisSignals {
         self.disabled_at
     }
 
+    /// What position control works on is not the setpoint: axis disable, or the fast stop.
+    #[must_use]
+    pub(super) const fn withholds_setpoint(&self) -> bool {
+        self.fast_stop || self.disabled_at.is_some()
+    }
+
     /// The same place gets another value.
     pub(super) fn shift(&mut self, by: Position) {
         if let Some(held) = &mut self.disabled_at {

@@ -146,7 +146,8 @@ impl State {
         let hold = self.handwheel_hold(number, axis_parameters, signals);
         let jogging = &mut self.axes[number].jogging;
         let increment = limited(jogging.function.way(axis_parameters), axis_parameters.handwheel_maximum);
-        jogging.still = if moved { 0 } else { jogging.still.saturating_add(1) };
+        // Counted while it matters only, so that an axis that stands under a handwheel rests.
+        jogging.still = if moved || !jogging.movement.is_by_handwheel() { 0 } else { jogging.still + 1 };
         let drops = parameters.handwheel_drops_rest && jogging.still > parameters.handwheel_still_cycles;
         if hold == Hold::Abort || drops {
             self.drop_way_of_handwheels(number);

@@ -9,7 +9,8 @@
 //! point approach and a synchronising motion watch that themselves and end with 20005.
 //!
 //! Contour: the actual value is compared with an ideal axis, which takes the same setpoints with the same gain and whose drive
-//! answers at once; position control moves it along in each of its cycles. An axis that brakes to be switched off is stopped already and is not compared.
+//! answers at once; position control moves it along in each of its cycles. An axis that brakes to be switched off is stopped
+//! already and is not compared, nor is one whose setpoint is not output (1.3, 20.1).
 
 use crate::sinumerik::State;
 use crate::sinumerik::alarms;
@@ -82,7 +83,7 @@ impl State {
 
     fn monitor_contour(&mut self, number: AxisNumber, parameters: &AxisParameters) {
         let axis = &mut self.axes[number];
-        if !axis.enabling.is_powered() {
+        if !axis.enabling.is_powered() || axis.signals.withholds_setpoint() {
             axis.monitor.restart_model(axis.actual);
             return;
         }
