@@ -208,8 +208,8 @@ impl<'a> Reader<'a> {
                 }
             },
             "handwheel" => command(handwheel(node, cycle)?),
-            "fault" => command(Command::Fault(self.fault(node)?)),
-            "clear_fault" => command(Command::ClearFault(self.fault(node)?)),
+            "fault" => command(Command::Fault(self.fault(node, true)?)),
+            "clear_fault" => command(Command::ClearFault(self.fault(node, false)?)),
             "image" => Action::Image(self.image(node)?),
             _ => {
                 return Err(place.problem(format!("expected a verb, found `{verb}`"), verbs_in_words()));
@@ -297,7 +297,7 @@ impl<'a> Reader<'a> {
         Ok(commands)
     }
 
-    fn fault(&self, node: Node) -> Result<Fault, Problem> {
+    fn fault(&self, node: Node, begins: bool) -> Result<Fault, Problem> {
         let place = node.place.clone();
         let mut table = node.into_table("a fault, as { axis = \"XF\", kind = \"block\" }")?;
         let mut required = |key: &'static str| {
@@ -312,14 +312,19 @@ impl<'a> Reader<'a> {
         let kind = required("kind")?;
         let axis = axis_named(self.machine, axis.text("the name of a machine axis")?)
             .map_err(|problem| problem.at(&axis.place))?;
-        let mut by = |what: &str| {
-            let node = table
-                .take("by")
-                .ok_or_else(|| place.problem("expected the key `by`, found none", "write by = 0.05"))?;
-            let number = node.number(what)?;
-            Ok::<_, Problem>((node, number))
+        // How much it is matters where a fault begins only.
+        let mut by = |what: &str, largest: f64, cure: &str| match table.take("by") {
+            None if begins => Err(place.problem("expected the key `by`, found none", "write by = 0.05")),
+            None => Ok(0.0),
+            Some(node) => match node.number(what)? {
+                number if number.abs() <= largest => Ok(number),
+                _ => Err(node.expected(what, cure)),
+            },
         };
-        let mut distance = || Ok::<_, Problem>(Position::from_user(by("a distance in mm or degrees")?.1));
+        let mut distance = || {
+            let what = "a distance in mm or degrees";
+            Ok::<_, Problem>(Position::from_user(by(what, f64::INFINITY, "write by = 0.05")?))
+        };
         let kind = match kind.text("the kind of a fault")? {
             "block" => FaultKind::Block,
             "push" => FaultKind::Push { by: distance()? },
@@ -340,18 +345,17 @@ impl<'a> Reader<'a> {
                 FaultKind::EncoderFault { encoder: table.take("encoder").map(|node| encoder(&node)).transpose()? }
             }
             "friction" => {
-                let (node, share) = by("a share of the velocity, 0 to 1")?;
-                if !(0.0..=1.0).contains(&share) {
-                    return Err(node.expected("a share of the velocity, 0 to 1", "0 loses nothing, 1 all of it"));
+                let share = by("a share of the velocity, 0 to 1", 1.0, "0 loses nothing, 1 all of it")?;
+                if share < 0.0 {
+                    return Err(
+                        place.problem("expected a share of the velocity, 0 to 1", "0 loses nothing, 1 all of it")
+                    );
                 }
                 FaultKind::Friction { by: share }
             }
             "drift" => {
-                let (node, velocity) = by("a velocity in mm or degrees per second")?;
-                if velocity.abs() > FASTEST_DRIFT {
-                    let what = "a velocity in mm or degrees per second";
-                    return Err(node.expected(what, "velocities are from -1000000 to 1000000"));
-                }
+                let what = "a velocity in mm or degrees per second";
+                let velocity = by(what, FASTEST_DRIFT, "velocities are from -1000000 to 1000000")?;
                 FaultKind::Drift { by: velocity * Position::PER_USER_UNIT }
             }
             other => {
