@@ -221,6 +221,33 @@ fn a_saved_machine_goes_on_elsewhere_byte_for_byte() {
 }
 
 #[test]
+fn every_fault_is_saved_and_forked() {
+    let faults = [
+        FaultKind::DriveFault,
+        FaultKind::EncoderFault { encoder: None },
+        FaultKind::EncoderFault { encoder: Some(1) },
+        FaultKind::Friction { by: 0.5 },
+        FaultKind::Drift { by: 1e6 },
+    ];
+    for kind in faults {
+        let mut origin = machine();
+        run_to(&mut origin, 100);
+        fault(&mut origin, "X", kind);
+        run_to(&mut origin, 120);
+        let mut restored = machine();
+        restored.restore(&origin.save()).expect("it was saved on the same machine");
+        let mut fork = origin.fork().expect("a closure over its state");
+        while origin.cycle() < 700 {
+            step(&mut origin);
+            step(&mut restored);
+            step(&mut fork);
+            assert_same(&origin, &restored, &format!("{kind:?} restored"));
+            assert_same(&origin, &fork, &format!("{kind:?} forked"));
+        }
+    }
+}
+
+#[test]
 fn a_fork_goes_on_like_its_origin_and_does_not_disturb_it() {
     let mut untouched = machine();
     let mut origin = machine();

@@ -409,3 +409,87 @@ impl Slide {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plant::{Hints, PlantDefinition};
+
+    const CYCLE: f64 = 0.002;
+
+    fn mm(value: f64) -> Position {
+        Position::from_user(value)
+    }
+
+    /// One axis at 5 mm with zero marks every 10 mm, run up.
+    fn plant() -> (Layout, Plant, AxisNumber) {
+        let axis = AxisNumber::new(1).unwrap();
+        let names = PerAxis::from_fn(|number| (number == axis).then(|| "X".to_owned()));
+        let hints = PerAxis::from_fn(|number| Hints {
+            exists: number == axis,
+            cam_direction: 0,
+            zero_mark_spacing: [mm(10.0); 2],
+        });
+        let definition = PlantDefinition::parse("[X]\nstart = 5.0\n", "plant.toml").unwrap();
+        let layout = Layout::new(&definition, &names, &hints, &[]);
+        let mut plant = Plant::new(&layout);
+        plant.run_up([axis].into_iter().collect(), Time::from_millis(20));
+        (layout, plant, axis)
+    }
+
+    fn advance(plant: &mut Plant, layout: &Layout, axis: AxisNumber, command: Option<f64>, cycles: u32) {
+        for _ in 0..cycles {
+            plant.advance(layout, [axis].into_iter().collect(), CYCLE, |_, _| command);
+        }
+    }
+
+    #[test]
+    fn a_drive_with_a_fault_is_not_ready_and_does_not_answer() {
+        let (layout, mut plant, axis) = plant();
+        assert!(plant.is_drive_ready(axis) && !plant.has_drive_fault(axis));
+        plant.fault(Fault { axis, kind: FaultKind::DriveFault }, Some(0));
+        advance(&mut plant, &layout, axis, Some(1e9), 10);
+        assert!(!plant.is_drive_ready(axis) && plant.has_drive_fault(axis) && plant.slide(axis) == mm(5.0));
+        plant.clear_fault(Fault { axis, kind: FaultKind::DriveFault });
+        assert!(plant.is_drive_ready(axis) && !plant.has_drive_fault(axis));
+    }
+
+    #[test]
+    fn friction_takes_its_share_of_the_velocity() {
+        let (layout, mut plant, axis) = plant();
+        plant.fault(Fault { axis, kind: FaultKind::Friction { by: 0.25 } }, Some(0));
+        advance(&mut plant, &layout, axis, Some(8e6), 200);
+        assert!((plant.velocity(axis) - 6e6).abs() < 1.0, "{}", plant.velocity(axis));
+        plant.clear_fault(Fault { axis, kind: FaultKind::Friction { by: 0.0 } });
+        advance(&mut plant, &layout, axis, Some(8e6), 200);
+        assert!((plant.velocity(axis) - 8e6).abs() < 1.0, "{}", plant.velocity(axis));
+    }
+
+    #[test]
+    fn drift_moves_a_slide_without_power_only() {
+        let (layout, mut plant, axis) = plant();
+        plant.fault(Fault { axis, kind: FaultKind::Drift { by: -1e6 } }, Some(0));
+        advance(&mut plant, &layout, axis, Some(0.0), 500);
+        assert_eq!(plant.slide(axis), mm(5.0));
+        // 1 mm/s for 500 cycles of 2 ms.
+        advance(&mut plant, &layout, axis, None, 500);
+        assert_eq!(plant.slide(axis), mm(4.0));
+    }
+
+    #[test]
+    fn a_dead_encoder_tells_the_same_and_counts_on_from_there() {
+        let (_, mut plant, axis) = plant();
+        let dead = Fault { axis, kind: FaultKind::EncoderFault { encoder: None } };
+        plant.fault(dead, Some(0));
+        assert_eq!(plant.encoder_faults(axis), [true, false]);
+        plant.fault(Fault { axis, kind: FaultKind::Push { by: mm(6.0) } }, Some(0));
+        // Past the zero mark at 10 mm: only encoder 2 tells of it.
+        let [first, second] = plant.tell(axis);
+        assert_eq!((first.value, first.zero_mark), (mm(0.0), None));
+        assert_eq!((second.value, second.zero_mark), (mm(6.0), Some(mm(5.0))));
+        plant.clear_fault(dead);
+        plant.fault(Fault { axis, kind: FaultKind::Push { by: mm(1.0) } }, Some(0));
+        assert_eq!(plant.tell(axis).map(|signal| signal.value), [mm(1.0), mm(7.0)]);
+        assert_eq!(plant.encoder_faults(axis), [false; 2]);
+    }
+}

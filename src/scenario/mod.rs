@@ -8,6 +8,7 @@
 mod duration;
 mod expression;
 mod failure;
+mod faults;
 mod file;
 mod passing;
 mod run;

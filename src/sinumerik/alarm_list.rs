@@ -1,5 +1,21 @@
 //! Alarms of the Diagnostics Manual that the model cannot raise yet. They are listed, so that a person finds what a number
 //! means; a row moves to `alarms.rs` when something raises it.
+//!
+//! | numbers | what the model lacks for them |
+//! |---|---|
+//! | 2001, 2900, 4xxx, 26014 to 26017, 26024, 26025 | machine data are judged before the control starts, and reported there |
+//! | 10620, 10630, 10631, 107xx, 12550, 14xxx, 16xxx, 17xxx, 20070, 20071, 26072, 26076 | programs, blocks, the PLC's positioning axes, working areas |
+//! | 20003, 20004, 20007, 20008, 22062, 22064 | distance-coded marks, and MD34200 = 6 and 7 |
+//! | 20052, 20053, 20060, 20062 | geometry axes, and overlaid movements such as DRF |
+//! | 20054, 20056, 20058 | indexing axes and revolutional feed |
+//! | 21620 | the emergency braking ramp of a drive that stops by itself |
+//! | 22060 | a movement of an axis that no key, but a program wants out of position control |
+//! | 22321, 22322 | PRESET |
+//! | 25022, 26020, 26030 | absolute encoders |
+//! | 25042 | limits of torque or force |
+//! | 25070 | drift compensation |
+//! | 25200, 26050 | the choice of a parameter set |
+//! | 26006, 26100, 26101, 26105, 26106 | drives and encoders on a bus: those of the plant are always found, and of the type that they should be |
 
 use super::alarms::{Cancel, Reaction, alarms};
 use crate::variables::AlarmNumber;
