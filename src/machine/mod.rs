@@ -24,8 +24,8 @@ mod saved;
 mod step;
 
 pub use crate::plant::{Fault, FaultKind, Switch};
-pub use crate::sinumerik::TakenTransitions;
 pub use crate::sinumerik::machine_data::Value as DatumValue;
+pub use crate::sinumerik::{ApproachPhase, GroupingPhase, TakenTransitions};
 pub use command::Command;
 pub use open::OpenOptions;
 
@@ -151,6 +151,18 @@ impl Machine {
     #[must_use]
     pub fn machine_data(&self) -> &MachineData {
         self.control.active()
+    }
+
+    /// Where the reference point approach of an axis is.
+    #[must_use]
+    pub fn approach_phase(&self, axis: AxisNumber) -> ApproachPhase {
+        self.control.approach_phase(axis)
+    }
+
+    /// Where the gantry grouping of this number, 1 to 8, is; `None` where the machine data define none.
+    #[must_use]
+    pub fn grouping_phase(&self, number: u8) -> Option<GroupingPhase> {
+        self.control.grouping_phase(number)
     }
 
     /// Which steps of referencing and of the gantry groupings its control has taken.

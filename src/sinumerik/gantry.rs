@@ -137,6 +137,8 @@ pub(super) struct Grouping {
     pub(super) start_was: bool,
     /// The axes were in follow-up in the last cycle.
     pub(super) followed_up: bool,
+    /// Follow-up has ended and position control has not come back yet.
+    pub(super) returning: bool,
     /// What monitoring found on each synchronous axis.
     pub monitored: [Monitored; 2],
     /// The latest event of the grouping.
@@ -162,6 +164,7 @@ impl Grouping {
             waited: 0,
             start_was: false,
             followed_up: false,
+            returning: false,
             monitored: [Monitored::default(); 2],
             cause: EventId::NONE,
         }

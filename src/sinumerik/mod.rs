@@ -275,6 +275,19 @@ impl Control {
         self.state.log.taken
     }
 
+    /// Where the reference point approach of an axis is.
+    #[must_use]
+    pub fn approach_phase(&self, axis: AxisNumber) -> ApproachPhase {
+        self.state.axes[axis].approach.phase()
+    }
+
+    /// Where the gantry grouping of this number is.
+    #[must_use]
+    pub fn grouping_phase(&self, number: u8) -> Option<GroupingPhase> {
+        let grouping = self.state.groupings.iter().find(|grouping| grouping.number == number)?;
+        Some(grouping.phase)
+    }
+
     /// Somebody else wrote into the NCK's half.
     pub fn half_overwritten(&mut self) {
         self.state.overwritten = true;

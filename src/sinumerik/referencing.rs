@@ -130,6 +130,12 @@ struct View<'a> {
 }
 
 impl Approach {
+    /// Where it is.
+    #[must_use]
+    pub(super) const fn phase(&self) -> Phase {
+        self.phase
+    }
+
     /// Whether one is running.
     #[must_use]
     pub(super) fn is_running(&self) -> bool {

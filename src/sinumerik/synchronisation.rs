@@ -185,8 +185,14 @@ impl State {
             _ => {}
         }
         if followed_up && follower.is_none() {
+            self.count_anew(index);
+            self.groupings[index].returning = true;
+        }
+        // Where an enable is missing on another axis, follow-up ends in hold.
+        let back = unit.members().all(|axis| self.axes[axis].enabling.is_on());
+        if back && std::mem::take(&mut self.groupings[index].returning) {
             let locked = to_nck.axes[unit.leader()].no_automatic_synchronization();
-            self.end_follow_up(index, unit, parameters, locked);
+            self.restore_synchronism(index, unit, parameters, locked);
         }
     }
 
@@ -218,13 +224,18 @@ impl State {
         }
     }
 
-    /// Back in position control: differences that are not absolute count anew, and synchronism is restored where every
-    /// difference is within the standstill tolerance (SYN-06) and 29.5 is 0 (E-18).
-    fn end_follow_up(&mut self, index: usize, unit: &Unit, parameters: &Parameters, locked: bool) {
+    /// The end of follow-up: differences that are not absolute count anew.
+    fn count_anew(&mut self, index: usize) {
         let axes = &self.axes;
-        let leader = unit.leader();
+        let leader = self.groupings[index].coupling.leader();
         let absolute = |axis: AxisNumber| axes[axis].is_referenced() && axes[leader].is_referenced();
         self.groupings[index].coupling.close(|axis| axes[axis].actual, absolute);
+    }
+
+    /// Back in position control after follow-up: synchronism is restored where every difference is within the standstill tolerance
+    /// (SYN-06) and 29.5 is 0 (E-18).
+    fn restore_synchronism(&mut self, index: usize, unit: &Unit, parameters: &Parameters, locked: bool) {
+        let leader = unit.leader();
         if self.groupings[index].phase != Phase::WaitingForStart || locked {
             return;
         }
@@ -259,9 +270,7 @@ impl State {
         } else if open.is_none() && is_open {
             let input = Input::Datum(37140, Some(unit.leader()), 0.0);
             self.step_grouping(index, Rule::Closed, [input, Input::None, Input::None], EventId::NONE);
-            let (axes, leader) = (&self.axes, unit.leader());
-            let absolute = |axis: AxisNumber| axes[axis].is_referenced() && axes[leader].is_referenced();
-            self.groupings[index].coupling.close(|axis| axes[axis].actual, absolute);
+            self.count_anew(index);
         }
     }
 
