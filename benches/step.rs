@@ -75,6 +75,22 @@ fn arithmetic_by_hand(bencher: Bencher<'_, '_>) {
     });
 }
 
+/// The other peer: the same arithmetic with an interface around it, as somebody would write it for this one machine. A program that
+/// writes bits, all 31 axes moved and monitored, their signals and values, and what of both halves changed, in every cycle.
+#[divan::bench]
+fn loop_by_hand(bencher: Bencher<'_, '_>) {
+    let mut machine = MachineByHand::new();
+    bencher.counter(ItemsCount::new(STEPS)).bench_local(|| {
+        let mut rows = 0;
+        for _ in 0..STEPS {
+            machine.step();
+            rows += machine.rows.len();
+            machine.rows.clear();
+        }
+        rows
+    });
+}
+
 /// A fork of the machine in mid-run.
 #[divan::bench]
 fn fork(bencher: Bencher<'_, '_>) {
@@ -165,6 +181,146 @@ impl ByHand {
         let before = self.slide;
         advance(&mut self.slide, &mut self.slide_carry, self.motor * CYCLE);
         u32::from(before != self.slide && before.div_euclid(spacing) != self.slide.div_euclid(spacing))
+    }
+}
+
+/// A byte of a half, as it was and as it is.
+struct RowByHand {
+    cycle: u64,
+    offset: usize,
+    old: u8,
+    new: u8,
+}
+
+/// Bytes of an axis in either half.
+const BLOCK: usize = 40;
+type Half = [u8; 31 * BLOCK];
+
+/// What the service display shows of an axis.
+#[derive(Clone, Copy, Default)]
+#[expect(dead_code, reason = "they are shown; nobody looks")]
+struct ValuesByHand {
+    position: i64,
+    setpoint: i64,
+    velocity: f64,
+    following_error: i64,
+}
+
+struct MachineByHand {
+    cycle: u64,
+    axes: [ByHand; 31],
+    models: [(i64, f64); 31],
+    rest: [u32; 31],
+    values: [ValuesByHand; 31],
+    to_nck: Box<Half>,
+    from_nck: Box<Half>,
+    before: [Box<Half>; 2],
+    rows: Vec<RowByHand>,
+}
+
+impl MachineByHand {
+    fn new() -> Self {
+        let half = || Box::new([0; 31 * BLOCK]);
+        Self {
+            cycle: 0,
+            axes: [ByHand::default(); 31],
+            models: [(0, 0.0); 31],
+            rest: [0; 31],
+            values: [ValuesByHand::default(); 31],
+            to_nck: half(),
+            from_nck: half(),
+            before: [half(), half()],
+            rows: Vec::with_capacity(2_048),
+        }
+    }
+
+    fn step(&mut self) {
+        self.cycle += 1;
+        self.plc();
+        self.decide();
+        for number in 0..31 {
+            self.axes[number].control();
+            let alarm = self.monitor(number);
+            self.publish(number, alarm);
+        }
+        self.record();
+    }
+
+    /// Enables all, jogs the first to and fro.
+    fn plc(&mut self) {
+        for axis in self.to_nck.chunks_exact_mut(BLOCK) {
+            axis[1] |= 1 << 5;
+            axis[2] |= 1 << 1;
+            axis[21] |= 1 << 7;
+        }
+        let plus = (self.cycle / 500).is_multiple_of(2);
+        self.to_nck[4] = if plus { 1 << 7 } else { 1 << 6 };
+    }
+
+    /// Enables, keys and setpoints; the second follows the first.
+    fn decide(&mut self) {
+        let before = self.axes[0].setpoint;
+        for (axis, bits) in self.axes.iter_mut().zip(self.to_nck.chunks_exact(BLOCK)) {
+            let enabled = bits[1] & 1 << 5 != 0 && bits[2] & 1 << 1 != 0 && bits[21] & 1 << 7 != 0;
+            let key = match bits[4] & 0xC0 {
+                0x80 if enabled => 1.0,
+                0x40 if enabled => -1.0,
+                _ => 0.0,
+            };
+            axis.lead(key * 2_000.0 * 1e6 / 60.0);
+        }
+        let (movement, velocity) = (self.axes[0].setpoint - before, self.axes[0].velocity);
+        self.axes[1].setpoint += movement;
+        self.axes[1].velocity = velocity;
+    }
+
+    /// Standstill, contour, velocity and speed setpoint.
+    fn monitor(&mut self, number: usize) -> bool {
+        let (axis, (model, carry)) = (&self.axes[number], &mut self.models[number]);
+        let wanted = (axis.setpoint - *model) as f64 * 1_000.0 / 60.0;
+        advance(model, carry, wanted * CYCLE);
+        let resting = axis.velocity.abs() < 1e-9;
+        self.rest[number] = if resting { (self.rest[number] + 1).min(200) } else { 0 };
+        let deviation = (axis.setpoint - axis.slide).abs();
+        self.rest[number] == 200 && deviation > 200_000
+            || (*model - axis.slide).abs() > 1_000_000
+            || axis.motor.abs() > 11_500.0 * 1e6 / 60.0
+            || wanted.abs() > 33_000.0 * 1e6 / 60.0
+    }
+
+    fn publish(&mut self, number: usize, alarm: bool) {
+        let axis = &self.axes[number];
+        let deviation = axis.setpoint - axis.slide;
+        let resting = axis.velocity.abs() < 1e-9;
+        let bits = &mut self.from_nck[number * BLOCK..][..BLOCK];
+        let on = |bit: u8, value: bool| u8::from(value) << bit;
+        bits[0] = on(6, resting && deviation.abs() <= 40_000) | on(7, resting && deviation.abs() <= 10_000);
+        bits[1] = on(1, alarm) | on(2, !alarm) | on(4, axis.motor.abs() < 83_333.0) | 0xE0;
+        bits[4] = on(6, axis.velocity < 0.0) | on(7, axis.velocity > 0.0);
+        bits[33] = on(5, true) | on(7, true);
+        bits[39] = on(6, number == 0) | on(7, number < 2) | on(2, number == 1 && deviation.abs() > 1_000_000);
+        self.values[number] = divan::black_box(ValuesByHand {
+            position: axis.slide,
+            setpoint: axis.setpoint,
+            velocity: axis.motor * 60.0 / 1e6,
+            following_error: deviation,
+        });
+    }
+
+    /// What changed in both halves.
+    fn record(&mut self) {
+        for (now, before) in [&self.to_nck, &self.from_nck].into_iter().zip(&mut self.before) {
+            if now == before {
+                continue;
+            }
+            for (offset, (new, old)) in now.iter().zip(before.iter_mut()).enumerate() {
+                if new != old {
+                    self.rows.push(RowByHand { cycle: self.cycle, offset, old: *old, new: *new });
+                    *old = *new;
+                }
+            }
+        }
+        divan::black_box(self.rows.last().map(|row| row.cycle + row.offset as u64 + u64::from(row.old ^ row.new)));
     }
 }
 

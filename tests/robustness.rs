@@ -229,7 +229,7 @@ impl Bench {
     /// Three of four times a leading axis, because that is where the keys of a grouping are.
     fn mostly_leading(&self, index: u8) -> AxisNumber {
         match usize::from(index) {
-            index if index % 4 > 0 => self.groupings[index / 4 % self.groupings.len()].leader,
+            index if !index.is_multiple_of(4) => self.groupings[index / 4 % self.groupings.len()].leader,
             _ => self.axis(index),
         }
     }
@@ -328,7 +328,7 @@ impl Bench {
             }
             Act::EnableLost(axis, which, [before, without, more]) => {
                 let (axis, bit) = (self.axis(axis), ["1.5", "2.1", "21.7"][usize::from(which)]);
-                if before % 2 == 0 {
+                if before.is_multiple_of(2) {
                     self.set_axis(axis, "4.7", true);
                 }
                 self.run(before)?;
