@@ -12,7 +12,7 @@ use super::{Definition, Machine};
 use crate::image::{Location, Memory, Names, OverrideCoding, Part, Preset, Profile};
 use crate::plant::{Db11Byte5Bit2, EncoderKind, Hints, Layout, Plant, PlantDefinition};
 use crate::sinumerik::machine_data::{Archive, Finding, MachineData, Owner, Target, files_of, refusal};
-use crate::sinumerik::{AxisPresence, Control};
+use crate::sinumerik::{AxisPresence, Control, Mechanics};
 use crate::source::{Place, Problem, Table, did_you_mean, read_text};
 use crate::trace::Recorder;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position, Time};
@@ -184,6 +184,7 @@ fn presence(archive: &Archive, plant: &PlantDefinition) -> PerAxis<AxisPresence>
             exists: if any { named(axis) } else { in_channel(axis) },
             // E-26: an axis is a real one unless the archive itself says that it shows nothing.
             silent: simulated && says_so,
+            iron: Mechanics::new(&data.axes[axis]),
         }
     })
 }

@@ -107,7 +107,6 @@ alarms! {
     26024 [DISPLAY] Reset "axis %1 machine datum %2 value was changed";
     26025 [DISPLAY] Reset "axis %1 machine datum %2[%3] value was changed";
     26030 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] ModeGroupReset "axis %1 encoder %2 absolute position lost";
-    26050 [FOLLOW_UP LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "axis %1 parameter set change from %2 to %3 not possible";
     26072 [INTERFACE_SIGNALS DISPLAY] CancelKey "channel %1 axis %2 cannot be controlled by the PLC";
     26076 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 axis %2 not available for the NC program, permanently a PLC axis";
     26100 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 drive %2 sign of life missing";

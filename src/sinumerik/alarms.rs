@@ -289,6 +289,9 @@ alarms! {
     CLAMPING 26000
         [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
         "axis %1 clamping monitoring";
+    /// The parameter set has another load gear, and the axis is in position control with an encoder behind it. %2, %3: 1 to 6.
+    PARAMETER_SET_NOT_POSSIBLE 26050 [FOLLOW_UP LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "axis %1 parameter set change from %2 to %3 not possible";
     /// Linear and rotary axes in one grouping; the manuals give no number (O-18).
     GANTRY_MIXED_AXIS_TYPES 1_000_000
         [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn

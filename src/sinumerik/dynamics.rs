@@ -4,6 +4,7 @@
 //! Which parameter set is active is state of the axis.
 
 use super::machine_data::Axis;
+use super::mechanics::{Mechanics, Misfit};
 use crate::motion::LONGEST_WINDOW;
 use crate::units::{Position, Time};
 
@@ -40,6 +41,8 @@ pub struct ParameterSet {
     pub standstill_tolerance: Position,
     /// MD36200, in increments per second.
     pub velocity_limit: f64,
+    /// How the control is wrong about the iron.
+    pub misfit: Option<Misfit>,
 }
 
 /// What limits the jerk of an axis.
@@ -113,7 +116,7 @@ pub(super) fn jerk(md: &Axis, unit: f64, accelerations: [f64; 2], cycle: Time) -
 }
 
 /// From the machine data of an axis; `velocity` turns theirs into increments per second.
-pub(super) fn dynamics(md: &Axis, jerk: Jerk, velocity: &impl Fn(f64) -> f64) -> Dynamics {
+pub(super) fn dynamics(md: &Axis, jerk: Jerk, iron: &Mechanics, velocity: &impl Fn(f64) -> f64) -> Dynamics {
     let switched_by_programs = md.ffw_activation_mode != 0;
     let feed_forward = match md.ffw_mode {
         _ if switched_by_programs => FeedForward::Off,
@@ -121,6 +124,7 @@ pub(super) fn dynamics(md: &Axis, jerk: Jerk, velocity: &impl Fn(f64) -> f64) ->
         1 | 2 => FeedForward::Pt1,
         _ => FeedForward::DeadTime,
     };
+    let mechanics = Mechanics::new(md);
     let torque = matches!(md.ffw_mode, 2 | 4);
     let sets = std::array::from_fn(|set| {
         let window = |value: f64| Position::from_user(value * md.stop_limit_factor[set]);
@@ -133,6 +137,7 @@ pub(super) fn dynamics(md: &Axis, jerk: Jerk, velocity: &impl Fn(f64) -> f64) ->
             exact_stop_fine: window(md.stop_limit_fine),
             standstill_tolerance: window(md.standstill_pos_tol),
             velocity_limit: velocity(md.ax_velo_limit[set]),
+            misfit: mechanics.misfit(iron, set),
         }
     });
     Dynamics { jerk, feed_forward, sets }

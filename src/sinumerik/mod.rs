@@ -33,6 +33,7 @@ mod jog;
 mod limits;
 mod log;
 pub mod machine_data;
+mod mechanics;
 mod mode_group;
 mod monitoring;
 mod parameter_sets;
@@ -54,6 +55,7 @@ pub use axis::Feedback;
 pub use dynamics::{Dynamics, FeedForward, Jerk, PARAMETER_SETS, ParameterSet};
 pub use gantry::{Phase as GroupingPhase, TRANSITIONS as GROUPING_TRANSITIONS};
 pub use increments::KeyModes;
+pub use mechanics::{Mechanics, Misfit};
 pub use parameters::{AxisPresence, Parameters};
 pub use referencing::{Phase as ApproachPhase, TRANSITIONS as APPROACH_TRANSITIONS};
 pub use resting::Changes;
@@ -315,7 +317,7 @@ impl Control {
         self.wake(changes);
         let (parameters, state, resting) = (&*self.parameters, &mut *self.state, &*self.resting);
         state.select_measuring_systems(parameters, to_nck, resting);
-        state.select_parameter_sets(to_nck, resting);
+        state.select_parameter_sets(parameters, to_nck, resting);
         state.enable(parameters, to_nck, resting);
         state.select_functions(parameters, to_nck, resting);
         let mut next = 0;
@@ -337,13 +339,18 @@ impl Control {
     /// Takes what encoders and drives of these axes tell, and monitors it. The others tell what they told before.
     pub fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet) {
         for number in told.and(self.parameters.existing).iter() {
-            if self.state.feedback[number] != feedback[number] {
-                self.state.feedback[number] = feedback[number];
+            let axis = &self.state.axes[number];
+            let feedback = match &axis.active_set(&self.parameters.axes[number]).misfit {
+                None => feedback[number],
+                Some(misfit) => misfit.seen(&feedback[number], usize::from(axis.measuring_system.unwrap_or(0))),
+            };
+            if self.state.feedback[number] != feedback {
+                self.state.feedback[number] = feedback;
                 self.resting.wake_axis(number);
             }
         }
         for number in self.resting.awake().iter() {
-            self.state.axes[number].sense(&feedback[number]);
+            self.state.axes[number].sense(&self.state.feedback[number]);
         }
         self.monitor();
         for number in self.computed().iter() {

@@ -4,27 +4,29 @@
 //! Writes the active parameter set, from which 69.0 to 69.2 follow, and the data set that a ready drive has taken
 //! (93.0 to 93.4). Servo gain, feed-forward, adaptation, exact stop windows and limits of the set act from this cycle on.
 //!
-//! Choices: the selections 6 and 7, which are no parameter set, raise 25200 and change nothing. 9.3 forbids a change
-//! by the NC, and there is none. A data set of a drive has no effect on the model.
+//! Choices: the selections 6 and 7, which are no parameter set, raise 25200 and change nothing. A set with another load gear
+//! (MD31050, MD31060) by which an encoder counts otherwise is refused with 26050 in position control; without, it is taken: the display
+//! goes on from where it is, and the reference is lost. 9.3 forbids a change by the NC, and there is none. A data set of a drive has no effect on the model.
 
 use super::State;
 use super::alarms;
-use super::dynamics::PARAMETER_SETS;
+use super::mechanics::Misfit;
+use super::parameters::Parameters;
 use super::resting::Resting;
 use super::rules::Rule;
 use crate::image::ToNck;
 use crate::units::AxisNumber;
-use crate::variables::{EventId, Parameter, Place};
+use crate::variables::{AlarmNumber, EventId, Parameter, Place};
 
 impl State {
     /// What the PLC selects for every axis.
-    pub(super) fn select_parameter_sets(&mut self, to_nck: &ToNck, resting: &Resting) {
+    pub(super) fn select_parameter_sets(&mut self, parameters: &Parameters, to_nck: &ToNck, resting: &Resting) {
         for number in resting.awake().iter() {
             let signals = &to_nck.axes[number];
             let (wanted, data_set) = (signals.controller_parameter_set(), signals.drive_data_set_selection());
             let axis = &self.axes[number];
             if wanted != axis.parameter_set {
-                self.change_parameter_set(number, wanted);
+                self.change_parameter_set(number, wanted, parameters);
             }
             let axis = &mut self.axes[number];
             if axis.drive_ready && axis.drive_data_set != data_set {
@@ -35,20 +37,48 @@ impl State {
         }
     }
 
-    fn change_parameter_set(&mut self, number: AxisNumber, wanted: u8) {
+    fn change_parameter_set(&mut self, number: AxisNumber, wanted: u8, parameters: &Parameters) {
         let place = Place::Axis(number);
-        if usize::from(wanted) >= PARAMETER_SETS {
-            let (alarm, pending) = (alarms::PARAMETER_SET_INVALID, &self.alarms);
-            if !pending.iter().any(|(known, _)| known.number == alarm && known.place == place) {
-                let event = self.log.note_plain(place, Rule::ParameterSetRefused, EventId::NONE);
-                let shown = [Parameter::Axis(number), Parameter::None, Parameter::None, Parameter::None];
-                self.alarms.raise(alarm, place, shown, event);
-            }
+        let dynamics = &parameters.axes[number].dynamics;
+        let Some(set) = dynamics.sets.get(usize::from(wanted)) else {
+            let shown = [Parameter::Axis(number), Parameter::None, Parameter::None, Parameter::None];
+            self.refuse(alarms::PARAMETER_SET_INVALID, Rule::ParameterSetRefused, place, shown);
+            return;
+        };
+        let axis = &self.axes[number];
+        let shows = |misfit: &Option<Misfit>| misfit.map_or([1.0; 2], |misfit| misfit.encoders);
+        let (before, after) = (shows(&axis.active_set(&parameters.axes[number]).misfit), shows(&set.misfit));
+        let jumps = [0, 1].map(|encoder| (after[encoder] - before[encoder]).abs() > 0.0);
+        if jumps.contains(&true) && axis.enabling.is_powered() {
+            let name = |set: u8| Parameter::Number(i64::from(set) + 1);
+            let shown = [Parameter::Axis(number), name(axis.parameter_set), name(wanted), Parameter::None];
+            self.refuse(alarms::PARAMETER_SET_NOT_POSSIBLE, Rule::ParameterSetJumps, place, shown);
             return;
         }
         let event = self.log.note_plain(place, Rule::ParameterSet, EventId::NONE);
         let axis = &mut self.axes[number];
         axis.parameter_set = wanted;
         axis.causes.parameter_set = event;
+        for encoder in [0, 1] {
+            if !jumps[encoder] {
+                continue;
+            }
+            // The display goes on from where it is; the reference is worth nothing any more.
+            let value = &mut self.feedback[number].encoders[encoder].value;
+            let was = *value;
+            *value = Misfit { encoders: [after[encoder] / before[encoder]; 2], command: 1.0 }.shown(encoder, was);
+            axis.offset[encoder] += was - *value;
+            if axis.referenced[encoder] {
+                axis.referenced[encoder] = false;
+                axis.causes.reference[encoder] = event;
+            }
+        }
+    }
+
+    fn refuse(&mut self, alarm: AlarmNumber, rule: Rule, place: Place, shown: [Parameter; 4]) {
+        if !self.alarms.iter().any(|(known, _)| known.number == alarm && known.place == place) {
+            let event = self.log.note_plain(place, rule, EventId::NONE);
+            self.alarms.raise(alarm, place, shown, event);
+        }
     }
 }

@@ -10,6 +10,7 @@ use super::dynamics::{Dynamics, dynamics, jerk};
 use super::gantry_definition::{self, Definitions};
 use super::increments::KeyModes;
 use super::machine_data::{Axis, MachineData};
+use super::mechanics::Mechanics;
 use super::monitoring::{Monitoring, monitoring};
 use crate::units::{
     AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position, Time,
@@ -19,12 +20,14 @@ use crate::units::{
 pub(super) type PerEncoder<T> = [T; 2];
 
 /// What is known of a machine beside its machine data.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisPresence {
     /// The axis exists: it belongs to the channel, or machine data or the plant name it.
     pub exists: bool,
     /// The archive itself says MD30350 = 0 and the axis is simulated: no signals in its data block (E-26).
     pub silent: bool,
+    /// What its iron is: that of its machine data when the machine was opened.
+    pub iron: Mechanics,
 }
 
 /// The reference point approach of one axis.
@@ -266,7 +269,7 @@ fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresence, cycle: T
         increments: increments(data, md),
         handwheel_maximum: Position::from_user(md.handwh_max_incr_size),
         handwheel_stop_conditions: md.handwh_stop_cond,
-        dynamics: dynamics(md, jerk, &velocity),
+        dynamics: dynamics(md, jerk, &presence.iron, &velocity),
         positioning_cycles: cycles(md.positioning_time),
         standstill_velocity: velocity(md.standstill_velo_tol).max(f64::MIN_POSITIVE),
         limit_without_ramp: md.brake_mode_choice == 1,

@@ -10,7 +10,8 @@
 //! following error (setpoint of the interpolator minus actual value) is v · (MD32910 + MD32810) + (1 − MD32610) · v / Kv with
 //! feed-forward, and v / Kv + v · MD32910, less one position-control cycle, without.
 //!
-//! Choices: an axis that needs no delay has none, and pays for none. An axis without power starts its branch anew.
+//! Choices: an axis that needs no delay has none, and pays for none. An axis without power, and one whose setpoint
+//! is not put out (1.3, 20.1, an encoder fault), starts its branch anew.
 //! MD32620 = 2 and 4 act by their speed part; MD32650 does nothing.
 
 use serde::{Deserialize, Serialize};
@@ -87,16 +88,25 @@ impl Control {
         let state = &mut *self.state;
         let axis = &mut state.axes[number];
         let branch = state.shaping[number].as_deref_mut().and_then(|shaping| shaping.branch.as_mut());
-        let Some(active) = axis.measuring_system.filter(|_| axis.enabling.is_powered()) else {
-            if let Some(branch) = branch {
+        let powered = axis.measuring_system.filter(|_| axis.enabling.is_powered());
+        let put_out = powered.is_some_and(|active| !axis.monitor.encoders[usize::from(active)].fault)
+            && !axis.signals.fast_stop
+            && axis.signals.disabled_at().is_none();
+        let branch = match branch {
+            Some(branch) if !put_out => {
                 branch.reset();
                 axis.branch = (0.0, 0.0);
+                None
             }
-            return None;
+            other => other,
         };
-        let active = usize::from(active);
-        let actual = encoders[active] + axis.offset[active];
+        let active = usize::from(powered?);
         let set = &dynamics.sets[usize::from(axis.parameter_set)];
+        let (shown, command) = match &set.misfit {
+            None => (encoders[active], 1.0),
+            Some(misfit) => (misfit.shown(active, encoders[active]), misfit.command),
+        };
+        let actual = shown + axis.offset[active];
         if axis.monitor.encoders[active].fault || axis.signals.fast_stop {
             axis.monitor.restart_model(actual);
             return Some(0.0);
@@ -104,7 +114,7 @@ impl Control {
         if let Some(held) = axis.signals.disabled_at() {
             axis.monitor.restart_model(actual);
             let deviation = (held - actual).increments() as f64;
-            return Some(limited(velocity_command(deviation, set.gain, axis.half_count, 0.0), parameters));
+            return Some(limited(velocity_command(deviation, set.gain, axis.half_count, 0.0), parameters) * command);
         }
         let cycle = self.parameters.cycle.seconds() / f64::from(count);
         if let Some(branch) = branch {
@@ -115,7 +125,7 @@ impl Control {
         let wanted = axis.velocity_wanted(set, setpoint, actual, axis.half_count);
         let ideal = axis.velocity_wanted(set, setpoint, axis.monitor.model(), Position::ZERO);
         axis.monitor.move_model(ideal * cycle);
-        Some(limited(wanted, parameters))
+        Some(limited(wanted, parameters) * command)
     }
 }
 
@@ -126,6 +136,9 @@ impl State {
         for (number, axis) in parameters.existing() {
             let dynamics = &axis.dynamics;
             let shaping = &mut self.shaping[number];
+            if !dynamics.delays_setpoints() {
+                self.axes[number].branch = (0.0, 0.0);
+            }
             if !dynamics.jerk.is_limited() && !dynamics.delays_setpoints() {
                 *shaping = None;
                 continue;

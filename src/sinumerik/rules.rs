@@ -33,6 +33,7 @@ rules! {
     Parking "SYN-01" "both measuring systems off";
     ParameterSet "SIG-05" "parameter set that 9.0 to 9.2 select";
     ParameterSetRefused "25200" "9.0 to 9.2 select a parameter set that there is not";
+    ParameterSetJumps "26050" "the parameter set that 9.0 to 9.2 select has another load gear: the actual value would jump";
     DriveDataSet "SIG-05" "data set of the drive that 21.0 to 21.4 select";
     // Emergency stop.
     EmergencyStop "E-06" "emergency stop";

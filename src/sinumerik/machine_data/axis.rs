@@ -65,9 +65,9 @@ Axis {
     32084 HANDWH_STOP_COND handwh_stop_cond: u32 = 0xFF; "", Range::ANY, Reset;
     /// share of the JOG velocity for the overlay of a handwheel
     32090 HANDWH_VELO_OVERLAY_FACTOR handwh_velo_overlay_factor: f64 = 0.5; "factor", Range::NOT_NEGATIVE, Reset;
-    /// -1 reverses the direction of travel
+    /// -1 reverses the direction of travel, against the iron as it was when the machine was opened; position control stays stable
     32100 AX_MOTION_DIR ax_motion_dir: i32 = 1; "", Range::ANY, PowerOn;
-    /// -1 reverses the direction of the encoder
+    /// -1 reverses the direction of the encoder; against the iron as it was when the machine was opened, the axis runs away
     32110 ENC_FEEDBACK_POL enc_feedback_pol: [i32; 2] = [1; 2]; "", Range::ANY, PowerOn;
     /// servo gain: 1 gives 1 mm following error at 1 m/min; times 16.6667 it is 1/s; 0 opens the loop
     32200 POSCTRL_GAIN posctrl_gain: [f64; 6] = [1.0; 6]; "(m/min)/mm", Range::NOT_NEGATIVE, NewConf;
