@@ -113,14 +113,14 @@ fn why_follows_an_edge_back_to_what_was_written() {
     fs::write(directory.join("s.toml"), scenario.replace("../../machine_data/", "")).unwrap();
     assert_eq!(opennck(&["run", "s.toml", "--trace", "t.jsonl"], &directory).status.code(), Some(0));
     for trace in ["s.toml", "t.jsonl"] {
-        for edge in ["X.gantry_grouping_is_synchronized@8", "DB31.DBX101.5@7972ms"] {
+        for edge in ["X.gantry_grouping_is_synchronized@9", "DB31.DBX101.5@8068ms"] {
             let output = opennck(&["why", trace, edge], &directory);
             assert_eq!(output.status.code(), Some(0), "{}", err(&output));
             for words in [
-                "7.972  X.gantry_grouping_is_synchronized (DB31.DBX101.5)  0 -> 1  by nck\n",
-                "7.972    because REF-10: ",
-                "7.596    after REF-14: start, X.start_gantry_synchronization = 1  [X]\n",
-                "7.596      X.start_gantry_synchronization (DB31.DBX29.4)  0 -> 1  by outside\n",
+                "8.068  X.gantry_grouping_is_synchronized (DB31.DBX101.5)  0 -> 1  by nck\n",
+                "8.068    because REF-10: ",
+                "7.690    after REF-14: start, X.start_gantry_synchronization = 1  [X]\n",
+                "7.690      X.start_gantry_synchronization (DB31.DBX29.4)  0 -> 1  by outside\n",
                 "0.040      X.traversing_key_plus (DB31.DBX4.7)  0 -> 1  by outside\n",
             ] {
                 assert!(out(&output).contains(words), "{words} in {}", out(&output));
@@ -133,7 +133,7 @@ fn why_follows_an_edge_back_to_what_was_written() {
         ("t.jsonl", "X.gantry_axis", "expected a signal or an alarm and a time"),
         ("t.jsonl", "X.gantry_axis@soon", "expected a signal or an alarm and a time"),
         ("t.jsonl", "X.gantri_axis@1", "did you mean `X.gantry_axis`?"),
-        ("t.jsonl", "DB31.DBX101.5@1", "its first edge is at 7.972 s"),
+        ("t.jsonl", "DB31.DBX101.5@1", "its first edge is at 8.068 s"),
         ("missing.jsonl", "X.gantry_axis@1", "cannot be read"),
         ("missing.toml", "X.gantry_axis@1", "missing.toml"),
     ] {

@@ -118,7 +118,7 @@ fn the_parser_of_the_crate_finds_scopes_start_values_and_the_end() {
         vcd::Command::Timestamp(time) => Some(*time),
         _ => None,
     });
-    assert_eq!(last, Some(8472), "the file lasts as long as the scenario");
+    assert_eq!(last, Some(8568), "the file lasts as long as the scenario");
 }
 
 #[test]

@@ -3,12 +3,14 @@
 //! Called by the machine MD10070 / MD10060 times in each interpolation cycle, after the stage "setpoints", for every axis. Reads
 //! setpoints, encoders and the active parameter set; writes nothing but the delays of the setpoint branch.
 //!
+//! Position control compares the setpoint and the actual value of one instant, the end of the position-control cycle before: the
+//! following error that is shown is the one that it works on, v / Kv at steady speed.
+//!
 //! The setpoint branch: MD32900 delays the whole of it by MD32910 (PT1). Behind that, MD32610 times the setpoint velocity goes
-//! to the drive, and what the actual value is compared with is delayed by the balancing time, PT1 or dead time. With
-//! feed-forward the comparison uses the setpoint of the time at which the actual value was taken, one position-control
-//! cycle ago; then a drive with the time constant that MD32810 says leaves nothing to be corrected. At steady speed the
-//! following error (setpoint of the interpolator minus actual value) is v · (MD32910 + MD32810) + (1 − MD32610) · v / Kv with
-//! feed-forward, and v / Kv + v · MD32910, less one position-control cycle, without.
+//! to the drive, and what the actual value is compared with is delayed by the balancing time, PT1 or dead time; a drive with the
+//! time constant that MD32810 says leaves nothing to be corrected. At steady speed the following error (setpoint of the
+//! interpolator minus actual value) is v · (MD32910 + MD32810) + (1 − MD32610) · v / Kv with feed-forward, and
+//! v / Kv + v · MD32910 without.
 //!
 //! Choices: an axis that needs no delay has none, and pays for none. An axis without power, and one whose setpoint
 //! is not put out (1.3, 20.1, an encoder fault), starts its branch anew.
@@ -58,14 +60,14 @@ impl SetpointBranch {
         let matched = self.matching.delay(movement, set.matching_time, cycle);
         let feed_forward = set.feed_forward_weight * matched / cycle;
         match mode {
-            FeedForward::Off => (self.matching.behind(), 0.0),
+            FeedForward::Off => (before, 0.0),
             FeedForward::Pt1 => {
-                let behind = movement + before + self.balancing.behind();
+                let behind = before + self.balancing.behind();
                 self.balancing.delay(matched, set.balancing_time, cycle);
                 (behind, feed_forward)
             }
             FeedForward::DeadTime => {
-                let behind = movement + before + self.dead_time.behind();
+                let behind = before + self.dead_time.behind();
                 self.dead_time.delay(matched, set.balancing_time / cycle);
                 (behind, feed_forward)
             }
@@ -121,7 +123,8 @@ impl Control {
             axis.branch = branch.pass(dynamics.feed_forward, set, axis.setpoint.velocity() * cycle, cycle);
             axis.unsettled = axis.unsettled.wrapping_add(u32::from(branch.is_behind()));
         }
-        let setpoint = axis.finely_interpolated(part, count);
+        // Of the time at which the actual value was taken.
+        let setpoint = axis.finely_interpolated(part - 1, count);
         let wanted = axis.velocity_wanted(set, setpoint, actual, axis.half_count);
         let ideal = axis.velocity_wanted(set, setpoint, axis.monitor.model(), Position::ZERO);
         axis.monitor.move_model(ideal * cycle);
@@ -175,6 +178,9 @@ impl Axis {
     fn finely_interpolated(&self, part: u32, count: u32) -> Position {
         if part == count {
             return self.setpoint.position;
+        }
+        if part == 0 {
+            return self.before;
         }
         let way = (self.setpoint.position - self.before).increments();
         self.before + Position::new(way * i64::from(part) / i64::from(count))
