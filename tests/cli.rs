@@ -127,8 +127,8 @@ fn why_follows_an_edge_back_to_what_was_written() {
             }
         }
     }
-    let output = opennck(&["why", "t.jsonl", "alarm(10654)@7.5"], &directory);
-    assert!(out(&output).contains("alarm(10654) (X)  raised  by nck\n    7.466    because REF-11"), "{}", out(&output));
+    let output = opennck(&["why", "t.jsonl", "alarm(10654)@7.6"], &directory);
+    assert!(out(&output).contains("alarm(10654) (X)  raised  by nck\n    7.558    because REF-11"), "{}", out(&output));
     for (trace, edge, cause) in [
         ("t.jsonl", "X.gantry_axis", "expected a signal or an alarm and a time"),
         ("t.jsonl", "X.gantry_axis@soon", "expected a signal or an alarm and a time"),

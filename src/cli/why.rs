@@ -53,7 +53,7 @@ fn asked(edge: &str) -> Result<(&str, Time), Problem> {
     parsed.filter(|(what, _)| !what.is_empty()).ok_or_else(|| {
         Problem::new(
             format!("expected a signal or an alarm and a time, found `{edge}`"),
-            "write `X.gantry_grouping_is_synchronized@8.068`, `DB31.DBX101.5@9s` or `alarm(10654)@7.5`",
+            "write `X.gantry_grouping_is_synchronized@8.068`, `DB31.DBX101.5@9s` or `alarm(10654)@7.6`",
         )
     })
 }
