@@ -29,9 +29,34 @@ pub(crate) fn advance(position: crate::units::Position, carry: &mut f64, movemen
         return position;
     }
     let wanted = movement + *carry;
-    let whole = wanted.round();
-    *carry = wanted - whole;
+    // Half away from zero, as `round` does, which is a call on some processors; the cast drops the fraction and saturates.
     #[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
-    let whole = whole as i64;
+    let truncated = wanted as i64;
+    let fraction = wanted - truncated as f64;
+    let whole = if fraction >= 0.5 {
+        truncated.saturating_add(1)
+    } else if fraction <= -0.5 {
+        truncated.saturating_sub(1)
+    } else {
+        truncated
+    };
+    *carry = wanted - whole as f64;
     crate::units::Position::new(position.increments().saturating_add(whole).clamp(-FARTHEST, FARTHEST))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::advance;
+    use crate::units::Position;
+
+    #[test]
+    fn a_fraction_of_an_increment_is_carried_and_halves_go_away_from_zero() {
+        for movement in [0.0, 0.25, 0.5, -0.5, 1.5, -2.5, 0.499_999_999_999_999_94, 1e9 + 0.5, -4.75, 1e17] {
+            let mut carry = 0.0;
+            let moved = advance(Position::ZERO, &mut carry, movement);
+            let rounded = f64::round(movement).clamp(-(super::FARTHEST as f64), super::FARTHEST as f64);
+            assert!((moved.increments() as f64 - rounded).abs() <= 0.0, "{movement}");
+            assert!((carry - (movement - movement.round())).abs() <= 0.0, "{movement}");
+        }
+    }
 }
