@@ -76,7 +76,7 @@ fn arithmetic_by_hand(bencher: Bencher<'_, '_>) {
 }
 
 /// The other peer: the same arithmetic with an interface around it, as somebody would write it for this one machine. A program that
-/// writes bits, all 31 axes moved and monitored, their signals and values, and what of both halves changed, in every cycle.
+/// writes bits, all 31 axes moved and monitored, their signals and values, and what of the interface changed, in every cycle.
 #[divan::bench]
 fn loop_by_hand(bencher: Bencher<'_, '_>) {
     let mut machine = MachineByHand::new();
@@ -184,7 +184,7 @@ impl ByHand {
     }
 }
 
-/// A byte of a half, as it was and as it is.
+/// A byte of the interface, as it was and as it is.
 struct RowByHand {
     cycle: u64,
     offset: usize,
@@ -192,9 +192,9 @@ struct RowByHand {
     new: u8,
 }
 
-/// Bytes of an axis in either half.
-const BLOCK: usize = 40;
-type Half = [u8; 31 * BLOCK];
+/// Bytes of the data block of an axis, and of all interface blocks: DB31 to DB61, DB21 to DB30, DB10 and DB11.
+const BLOCK: usize = 148;
+const BLOCKS: usize = 31 * BLOCK + 10 * 416 + 272 + 64;
 
 /// What the service display shows of an axis.
 #[derive(Clone, Copy, Default)]
@@ -212,24 +212,21 @@ struct MachineByHand {
     models: [(i64, f64); 31],
     rest: [u32; 31],
     values: [ValuesByHand; 31],
-    to_nck: Box<Half>,
-    from_nck: Box<Half>,
-    before: [Box<Half>; 2],
+    interface: Box<[u8; BLOCKS]>,
+    before: Box<[u8; BLOCKS]>,
     rows: Vec<RowByHand>,
 }
 
 impl MachineByHand {
     fn new() -> Self {
-        let half = || Box::new([0; 31 * BLOCK]);
         Self {
             cycle: 0,
             axes: [ByHand::default(); 31],
             models: [(0, 0.0); 31],
             rest: [0; 31],
             values: [ValuesByHand::default(); 31],
-            to_nck: half(),
-            from_nck: half(),
-            before: [half(), half()],
+            interface: Box::new([0; BLOCKS]),
+            before: Box::new([0; BLOCKS]),
             rows: Vec::with_capacity(2_048),
         }
     }
@@ -248,19 +245,19 @@ impl MachineByHand {
 
     /// Enables all, jogs the first to and fro.
     fn plc(&mut self) {
-        for axis in self.to_nck.chunks_exact_mut(BLOCK) {
+        for axis in self.interface[..31 * BLOCK].chunks_exact_mut(BLOCK) {
             axis[1] |= 1 << 5;
             axis[2] |= 1 << 1;
             axis[21] |= 1 << 7;
         }
         let plus = (self.cycle / 500).is_multiple_of(2);
-        self.to_nck[4] = if plus { 1 << 7 } else { 1 << 6 };
+        self.interface[4] = if plus { 1 << 7 } else { 1 << 6 };
     }
 
     /// Enables, keys and setpoints; the second follows the first.
     fn decide(&mut self) {
         let before = self.axes[0].setpoint;
-        for (axis, bits) in self.axes.iter_mut().zip(self.to_nck.chunks_exact(BLOCK)) {
+        for (axis, bits) in self.axes.iter_mut().zip(self.interface.chunks_exact(BLOCK)) {
             let enabled = bits[1] & 1 << 5 != 0 && bits[2] & 1 << 1 != 0 && bits[21] & 1 << 7 != 0;
             let key = match bits[4] & 0xC0 {
                 0x80 if enabled => 1.0,
@@ -292,13 +289,13 @@ impl MachineByHand {
         let axis = &self.axes[number];
         let deviation = axis.setpoint - axis.slide;
         let resting = axis.velocity.abs() < 1e-9;
-        let bits = &mut self.from_nck[number * BLOCK..][..BLOCK];
+        let bits = &mut self.interface[number * BLOCK + 60..][..BLOCK - 60];
         let on = |bit: u8, value: bool| u8::from(value) << bit;
         bits[0] = on(6, resting && deviation.abs() <= 40_000) | on(7, resting && deviation.abs() <= 10_000);
         bits[1] = on(1, alarm) | on(2, !alarm) | on(4, axis.motor.abs() < 83_333.0) | 0xE0;
         bits[4] = on(6, axis.velocity < 0.0) | on(7, axis.velocity > 0.0);
         bits[33] = on(5, true) | on(7, true);
-        bits[39] = on(6, number == 0) | on(7, number < 2) | on(2, number == 1 && deviation.abs() > 1_000_000);
+        bits[41] = on(6, number == 0) | on(7, number < 2) | on(2, number == 1 && deviation.abs() > 1_000_000);
         self.values[number] = divan::black_box(ValuesByHand {
             position: axis.slide,
             setpoint: axis.setpoint,
@@ -307,14 +304,19 @@ impl MachineByHand {
         });
     }
 
-    /// What changed in both halves.
+    /// What changed.
     fn record(&mut self) {
-        for (now, before) in [&self.to_nck, &self.from_nck].into_iter().zip(&mut self.before) {
+        if self.interface == self.before {
+            return;
+        }
+        let (now, before) = (self.interface.chunks(64), self.before.chunks_mut(64));
+        for (piece, (now, before)) in now.zip(before).enumerate() {
             if now == before {
                 continue;
             }
-            for (offset, (new, old)) in now.iter().zip(before.iter_mut()).enumerate() {
+            for (place, (new, old)) in now.iter().zip(before).enumerate() {
                 if new != old {
+                    let offset = piece * 64 + place;
                     self.rows.push(RowByHand { cycle: self.cycle, offset, old: *old, new: *new });
                     *old = *new;
                 }
