@@ -17,6 +17,7 @@ use crate::plc::Programs;
 use crate::scenario::{Compare, Failure, Finished, Scenario, profile_name};
 use crate::source::{Place, Problem, unreadable};
 use crate::trace::{difference, difference_in_sequence};
+use crate::units::Time;
 
 /// What happens to a golden file whose trace is another one, or that is missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -173,7 +174,10 @@ impl Case {
     fn outcome(&self, finished: &Finished, update: Update) -> Result<Outcome, Problem> {
         match &finished.failure {
             Some(Failure::Unusable(problem)) => return Err(problem.clone()),
-            Some(Failure::Missed(missed)) => return Ok(Outcome::Failed(missed.to_string())),
+            Some(Failure::Missed(missed)) => {
+                let before = self.difference_before(finished).map(|difference| format!("\n{difference}"));
+                return Ok(Outcome::Failed(format!("{missed}{}", before.unwrap_or_default())));
+            }
             None => {}
         }
         let body = finished.golden();
@@ -200,6 +204,24 @@ impl Case {
             Some(difference) => Outcome::Differs(format!("{}: {difference}", self.snap.display())),
             None => Outcome::Missing(self.snap.clone()),
         })
+    }
+
+    /// What was already another trace when a scenario failed: the golden file, as far as the scenario came.
+    fn difference_before(&self, finished: &Finished) -> Option<String> {
+        let time = |row: &str| row.split_whitespace().next().and_then(|time| time.parse::<f64>().ok());
+        let found = finished.golden();
+        let last = found.lines().filter_map(time).fold(0.0, f64::max);
+        let known = Snapshot::read(&self.snap).ok()?;
+        let came = |row: &&str| time(row).is_none_or(|time| time <= last);
+        let expected: String = known.body.lines().filter(came).flat_map(|row| [row, "\n"]).collect();
+        // Columns are as wide as what stands in them, and less stands in a trace that ended early.
+        let tolerance = match self.scenario.compare {
+            Compare::Exact => Some(Time::ZERO),
+            Compare::Sequence => None,
+            Compare::Within(tolerance) => Some(tolerance),
+        };
+        let difference = difference_in_sequence(&normalized(&expected), &normalized(&found), tolerance)?;
+        Some(format!("its trace was another one before: {}: {difference}", self.snap.display()))
     }
 
     /// The first difference, as far as the scenario wants it told.

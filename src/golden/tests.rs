@@ -50,6 +50,24 @@ fn a_changed_trace_is_reported_with_its_first_difference_and_keeps_the_header_wh
 }
 
 #[test]
+fn a_failed_scenario_tells_where_its_trace_had_left_the_golden_file_before() {
+    let directory = directory("before", SCENARIO);
+    outcomes(&directory, Update::Accept);
+    let changed = SCENARIO.replace("\"M0.0\" = 1", "\"M0.1\" = 1");
+    fs::write(directory.join("flags.toml"), format!("{changed}[[step]]\nexpect = \"M0.0\"\n")).unwrap();
+    let outcome = &outcomes(&directory, Update::No)[0];
+    assert!(
+        matches!(outcome, Outcome::Failed(text) if text.contains("first difference in line 6, at 0.002 s")),
+        "{outcome}"
+    );
+    // What the golden file has after the end of the failed run is no difference.
+    fs::write(directory.join("flags.toml"), SCENARIO.replace("\"10ms\"", "\"2ms\"\n[[step]]\nexpect = \"M0.1\""))
+        .unwrap();
+    let outcome = &outcomes(&directory, Update::No)[0];
+    assert!(matches!(outcome, Outcome::Failed(text) if !text.contains("difference")), "{outcome}");
+}
+
+#[test]
 fn a_failed_expectation_and_an_unusable_file_are_told_apart() {
     let directory = directory("failed", &format!("{SCENARIO}[[step]]\nexpect = \"M0.1\"\n"));
     let outcome = &outcomes(&directory, Update::Accept)[0];
