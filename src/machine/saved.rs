@@ -17,10 +17,10 @@ use crate::units::{PerAxis, Time};
 use crate::variables::{Alarms, EventId, Variables};
 
 /// Which form of saved machine this is.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 #[derive(Serialize, Deserialize)]
-struct SavedV3 {
+struct SavedV4 {
     names: Names,
     control: SavedControl,
     plant: Plant,
@@ -51,7 +51,7 @@ impl Machine {
     #[must_use]
     #[expect(clippy::missing_panics_doc, reason = "plain data is always written")]
     pub fn save(&self) -> Vec<u8> {
-        let saved = SavedV3 {
+        let saved = SavedV4 {
             names: self.definition.names.clone(),
             control: self.control.save(),
             plant: self.plant.clone(),
@@ -84,7 +84,7 @@ impl Machine {
         let damaged =
             |what: String| Problem::new(what, "restore what `save` of this version gave, on the same machine");
         let content = content(bytes).map_err(damaged)?;
-        let saved: SavedV3 = postcard::from_bytes(content)
+        let saved: SavedV4 = postcard::from_bytes(content)
             .map_err(|error| damaged(format!("expected a saved machine, found damaged bytes: {error}")))?;
         if saved.names != self.definition.names {
             return Err(damaged("expected a saved machine with the same axes and channels, found others".to_owned()));

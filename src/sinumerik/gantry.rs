@@ -100,6 +100,8 @@ pub(super) struct Monitored {
     pub warning: bool,
     /// Beyond MD37120 or MD37130: 101.2.
     pub trip: bool,
+    /// The amount when position control came back after synchronism was lost in operation (MON-08).
+    pub base: Option<Position>,
     /// Why the warning came or went.
     pub warning_cause: EventId,
     /// Why the trip came or went.
@@ -139,6 +141,10 @@ pub(super) struct Grouping {
     pub(super) followed_up: bool,
     /// Follow-up has ended and position control has not come back yet.
     pub(super) returning: bool,
+    /// Synchronism was lost by follow-up, and nothing has given it back or begun anew since.
+    pub(super) lost_in_operation: bool,
+    /// Closing was refused with 10658 (BRK-05).
+    pub(super) kept_open: bool,
     /// What monitoring found on each synchronous axis.
     pub monitored: [Monitored; 2],
     /// The latest event of the grouping.
@@ -165,6 +171,8 @@ impl Grouping {
             start_was: false,
             followed_up: false,
             returning: false,
+            lost_in_operation: false,
+            kept_open: false,
             monitored: [Monitored::default(); 2],
             cause: EventId::NONE,
         }
@@ -203,8 +211,8 @@ impl State {
         self.watch_synchronism(index, unit, parameters, to_nck);
         if !self.groupings[index].coupled {
             let rest = unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest());
-            let synchronising = self.groupings[index].phase == Phase::Synchronising;
-            self.groupings[index].coupled = rest && !synchronising;
+            let decoupled = matches!(self.groupings[index].phase, Phase::Synchronising | Phase::Open);
+            self.groupings[index].coupled = rest && !decoupled;
         }
         if !self.mode_group(unit).is_referencing() {
             self.groupings[index].from_referencing = false;
@@ -243,7 +251,11 @@ impl State {
             Phase::WaitingForStart => (grouping.message, grouping.waited_for) = (true, true),
             Phase::Synchronising => grouping.coupled = false,
             Phase::ReferencingLeadingAxis => grouping.waited_for = false,
-            Phase::NotSynchronised | Phase::ReferencingSynchronousAxis | Phase::Synchronised | Phase::Open => {}
+            Phase::NotSynchronised => grouping.lost_in_operation |= by == Rule::SynchronismLostFollowUp,
+            Phase::ReferencingSynchronousAxis | Phase::Synchronised | Phase::Open => {}
+        }
+        if matches!(self.groupings[index].phase, Phase::ReferencingLeadingAxis | Phase::Synchronised | Phase::Open) {
+            self.clear_bases(index);
         }
     }
 

@@ -103,7 +103,14 @@ rules! {
     ReadyNoMore "E-13" "not ready for synchronisation any more";
     Opened "BRK-01" "grouping opened";
     Closed "BRK-05" "grouping closed";
+    ClosingRefused "BRK-05" "the grouping stays open: a movement of the axis is pending";
+    ConcurrentAxisIgnored "DEF-11" "no meaning on a synchronous axis, that of the leading axis counts";
+    UnequalData "DYN-03" "not as the leading axis has it";
+    Overloaded "DYN-02" "the leading axis asks for more than the synchronous axis can";
+    NotMonitored "BRK-02" "not watched while the grouping is open or follows up";
     WarningLimit "MON-02" "above the warning limit";
+    WarningLimitBeyondBase "MON-08" "further apart than at the return to position control by more than the warning limit";
+    TripLimitBeyondBase "MON-08" "further apart than at the return to position control by more than the trip limit";
     WarningGone "MON-02" "not above the warning limit";
     TripLimitSynchronised "MON-04" "above the trip limit";
     TripLimitNotSynchronised "MON-05" "above the trip limit";

@@ -187,12 +187,17 @@ impl State {
         if followed_up && follower.is_none() {
             self.count_anew(index);
             self.groupings[index].returning = true;
+            self.groupings[index].monitored.iter_mut().for_each(|monitored| monitored.base = None);
+        }
+        if unreferenced.is_some() {
+            self.clear_bases(index);
         }
         // Where an enable is missing on another axis, follow-up ends in hold.
         let back = unit.members().all(|axis| self.axes[axis].enabling.is_on());
         if back && std::mem::take(&mut self.groupings[index].returning) {
             let locked = to_nck.axes[unit.leader()].no_automatic_synchronization();
             self.restore_synchronism(index, unit, parameters, locked);
+            self.set_bases(index);
         }
     }
 
