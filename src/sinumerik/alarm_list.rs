@@ -41,13 +41,10 @@ alarms! {
     4113 [DISPLAY] Reset "system clock cycle changed to %1 ms";
     4200 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 geometry axis %2 must not be a rotary axis";
     4210 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 spindle %2: declaration as rotary axis is missing";
-    4300 [DISPLAY] Reset "axis %2 machine datum %1: declaration not allowed";
     10620 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %3 axis %2 reaches software limit switch %4";
     10630 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %2 axis %3 reaches working area limit %4";
     10631 [DISPLAY] ByItself "channel %1 axis %2 rests on working area limit %3";
-    10656 [MODE_GROUP_NOT_READY LOCAL CHANNEL_NOT_READY INTERFACE_SIGNALS DISPLAY] ModeGroupReset "channel %1 axis %2 gantry synchronized axis dynamically overloaded";
     10657 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 switched off while the gantry error limit was exceeded";
-    10658 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP LOCAL] Reset "channel %1 axis %2 impermissible axis state %3";
     10720 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %3 axis %2 programmed end point is behind software limit switch %4";
     10721 [LOCAL INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %3 axis %2 programmed end point is behind software limit switch %4";
     10722 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %5 axis %2 software limit switch violated, residual distance %3 %4";

@@ -161,6 +161,9 @@ alarms! {
     EMERGENCY_STOP 3000
         [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP NO_DELAY] ModeGroupReset
         "emergency stop";
+    /// MD30450 on a synchronous axis of a closed grouping: it is ignored, the leading axis' counts. %1: the machine datum.
+    DECLARATION_NOT_ALLOWED 4300 [DISPLAY] Reset
+        "axis %2 machine datum %1: declaration not allowed";
     /// NC start in AUTOMATIC or MDI while an axis that needs its reference point has none (MD20700).
     START_WITHOUT_REFERENCE 10203 [INTERFACE_SIGNALS DISPLAY] NcStart
         "channel %1 NC start without reference point";
@@ -187,6 +190,13 @@ alarms! {
     /// Synchronisation running.
     GANTRY_SYNCHRONISING 10655 [DISPLAY] ByItself
         "channel %1 synchronization of gantry grouping %2 running";
+    /// The leading axis asks for more than MD32000 or MD32300 of the synchronous axis.
+    GANTRY_OVERLOADED 10656
+        [MODE_GROUP_NOT_READY LOCAL CHANNEL_NOT_READY INTERFACE_SIGNALS DISPLAY] ModeGroupReset
+        "channel %1 axis %2 gantry synchronized axis dynamically overloaded";
+    /// The grouping cannot be closed. %3: thousands say what (7: motion pending), the last two digits the grouping.
+    IMPERMISSIBLE_AXIS_STATE 10658 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP LOCAL] Reset
+        "channel %1 axis %2 impermissible axis state %3";
     /// Reference cam not reached within MD34030.
     CAM_NOT_REACHED 20000 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 reference cam not reached";
@@ -296,10 +306,13 @@ alarms! {
     GANTRY_MIXED_AXIS_TYPES 1_000_000
         [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
         "channel %1 axis %2 gantry grouping %3 mixes linear and rotary axes";
+    /// Data that must be equal within a grouping are not, at power on (DYN-03); the manuals give no number (O-18).
+    GANTRY_UNEQUAL_DATA 1_000_001 [DISPLAY] Reset
+        "channel %1 axis %2 machine datum %3 differs from that of the leading axis of gantry grouping %4";
 }
 
 /// The names of the alarms for which no source gives a number (O-18), in order of their own numbers.
-const OWN_NAMES: &[&str] = &["gantry-mixed-axis-types"];
+const OWN_NAMES: &[&str] = &["gantry-mixed-axis-types", "gantry-unequal-data"];
 
 impl Alarm {
     /// As it is called: its number, or its name where no source gives a number.

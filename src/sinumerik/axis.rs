@@ -90,7 +90,7 @@ impl Motion {
     }
 
     /// It passes the jerk filter by: a braking harder than any acceleration of the axis, or no movement at all.
-    fn is_fast(self, parameters: &AxisParameters) -> bool {
+    pub(super) fn is_fast(self, parameters: &AxisParameters) -> bool {
         match self {
             Self::Brake { deceleration } => deceleration > parameters.dynamics.jerk.hardest,
             Self::Track | Self::Hold => true,

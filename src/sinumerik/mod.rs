@@ -36,6 +36,7 @@ pub mod machine_data;
 mod mechanics;
 mod mode_group;
 mod monitoring;
+mod overload;
 mod parameter_sets;
 mod parameters;
 mod position_control;

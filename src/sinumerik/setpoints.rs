@@ -35,10 +35,16 @@ impl State {
             let axis = &self.axes[leads];
             (axis.traverse_request, axis.traverse_command, axis.causes.motion)
         };
+        // Braking harder than any acceleration, and towards being switched off, is a stop that all axes make alike.
+        let stops = !self.axes[leads].enabling.is_on() || self.axes[leads].motion.is_fast(&parameters.axes[leads]);
         for axis in unit.members().filter(|&axis| axis != leads) {
             let follows = moves && matches!(self.axes[axis].enabling.control, Control::On | Control::Braking(_));
             if follows {
+                let velocity = self.axes[axis].setpoint.velocity();
                 self.axes[axis].setpoint.follow(led_by.position - before, &led_by);
+                if axis != leader && !stops && self.axes[axis].enabling.is_on() {
+                    self.watch_overload(axis, velocity, parameters);
+                }
             } else {
                 self.axes[axis].execute(self.shaping[axis].as_deref_mut(), &parameters.axes[axis], cycle);
             }
