@@ -5,7 +5,7 @@
 use arrayvec::ArrayVec;
 
 use super::alarms;
-use super::machine_data::MachineData;
+use super::machine_data::{MachineData, unequal_data};
 use super::parameters::AxisParameters;
 use crate::motion::Coupling;
 use crate::units::{AxisNumber, ChannelNumber, PerAxis};
@@ -34,13 +34,30 @@ pub struct Fault {
     pub parameters: [Parameter; 4],
 }
 
+/// A machine datum that must be equal within a grouping and is not (DYN-03).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unequal {
+    /// The number of the grouping.
+    pub grouping: u8,
+    /// The leading axis.
+    pub leader: AxisNumber,
+    /// The synchronous axis.
+    pub axis: AxisNumber,
+    /// Which datum.
+    pub datum: u32,
+    /// Of the leading axis, and of the synchronous axis.
+    pub values: [f64; 2],
+}
+
 /// The groupings of a machine and the faults found in their definition.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Definitions {
     /// What could be formed.
     pub groupings: ArrayVec<Definition, GROUPINGS>,
     /// What is wrong.
     pub faults: Vec<Fault>,
+    /// What differs within the groupings that could be formed.
+    pub unequal: Vec<Unequal>,
 }
 
 /// Reads MD37100 of all axes.
@@ -73,6 +90,11 @@ pub(super) fn define(data: &MachineData, axes: &PerAxis<AxisParameters>) -> Defi
         }
         if let Some(coupling) = Coupling::new(leaders[0], &followers) {
             // At most eight numbers pass here.
+            for &axis in &followers {
+                let [leading, own] = [leaders[0], axis].map(|axis| &data.axes[axis]);
+                let unequal = |(datum, values)| Unequal { grouping: number, leader: leaders[0], axis, datum, values };
+                found.unequal.extend(unequal_data(leading, own).map(unequal));
+            }
             found.groupings.push(Definition { number, coupling });
         }
     }

@@ -22,6 +22,7 @@ mod axis_signals;
 mod causes;
 mod channel;
 mod channels;
+mod declarations;
 mod dynamics;
 mod emergency_stop;
 mod enabling;
@@ -157,6 +158,7 @@ struct State {
     definition_cause: EventId,
     plc_missing: bool,
     plc_cause: EventId,
+    declared: declarations::Declared,
     /// Somebody else wrote into the NCK's half; the next publication overwrites all of it (SIG-11).
     overwritten: bool,
 }
@@ -311,6 +313,7 @@ impl Control {
         self.reset_and_cancel(to_nck, cancel_key);
         if self.resting.take_units_stale() {
             self.state.form_units(&self.parameters);
+            self.state.report_declarations(&self.parameters);
         }
         self.state.start_channel_referencing(&self.parameters, to_nck);
         self.state.select_group_functions(&self.parameters, to_nck);
@@ -407,6 +410,7 @@ impl State {
             definition_cause: EventId::NONE,
             plc_missing: false,
             plc_cause: EventId::NONE,
+            declared: declarations::Declared::default(),
             overwritten: true,
         };
         state.note_power_on();

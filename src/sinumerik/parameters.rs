@@ -74,6 +74,8 @@ pub struct Gantry {
     pub trip_limit_not_synchronised: Position,
     /// MD37140.
     pub broken_up: bool,
+    /// MD30450.
+    pub concurrent: bool,
     /// MD37150 bit 1: the synchronous axis is referenced in the leading axis' direction.
     pub direction_of_leading_axis: bool,
     /// MD37150 bit 2: no message 10655.
@@ -321,6 +323,7 @@ fn gantry(md: &Axis) -> Gantry {
         trip_limit: Position::from_user(md.gantry_pos_tol_error),
         trip_limit_not_synchronised: Position::from_user(md.gantry_pos_tol_ref),
         broken_up: md.gantry_break_up,
+        concurrent: md.is_concurrent_pos_ax,
         direction_of_leading_axis: md.gantry_function_mask & 2 != 0,
         suppress_message: md.gantry_function_mask & 4 != 0,
     }

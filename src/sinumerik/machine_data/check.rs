@@ -6,7 +6,7 @@ use crate::source::Place;
 use crate::units::AxisNumber;
 
 use super::archive::{Archive, Finding, Severity};
-use super::{Datum, Owner, Target, by_number};
+use super::{Axis, Datum, Owner, Target, by_number};
 
 /// Every finding about an archive.
 #[must_use]
@@ -18,9 +18,27 @@ pub fn check(archive: &Archive) -> Vec<Finding> {
         gantry_code(archive, axis, &mut findings);
         if archive.data.axes[axis].gantry_axis_type != 0 {
             gantry_limits(archive, axis, &mut findings);
+            gantry_dynamics(archive, axis, &mut findings);
         }
     }
     findings
+}
+
+/// DYN-03: the data of interpolation and jerk that must be equal within a grouping and are not, with the value of the
+/// leading axis and that of the synchronous axis.
+pub(in crate::sinumerik) fn unequal_data(leading: &Axis, synchronous: &Axis) -> impl Iterator<Item = (u32, [f64; 2])> {
+    let values = |axis: &Axis| {
+        [
+            (33000, f64::from(axis.fipo_type)),
+            (32400, f64::from(u8::from(axis.ax_jerk_enable))),
+            (32410, axis.ax_jerk_time),
+            (32420, f64::from(u8::from(axis.jog_and_pos_jerk_enable))),
+            (32430, axis.jog_and_pos_max_jerk),
+        ]
+    };
+    let both = values(leading).into_iter().zip(values(synchronous));
+    both.map(|((datum, wanted), (_, found))| (datum, [wanted, found]))
+        .filter(|(_, [wanted, found])| (wanted - found).abs() > 0.0)
 }
 
 /// A finding at the place where the datum was given.
@@ -88,6 +106,18 @@ fn gantry_code(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>)
             what,
             "1 leading, 11 synchronous axis of grouping 1",
         ));
+    }
+}
+
+/// DYN-03, of a synchronous axis.
+fn gantry_dynamics(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>) {
+    let axes = &archive.data.axes;
+    let Some(grouping @ 1..=8) = axes[axis].gantry_axis_type.checked_sub(10) else { return };
+    let Some(leader) = AxisNumber::all().find(|&other| axes[other].gantry_axis_type == grouping) else { return };
+    let [leading, name] = [leader, axis].map(|axis| archive.data.axis_name(axis));
+    for (datum, [wanted, found]) in unequal_data(&axes[leader], &axes[axis]) {
+        let what = format!("DYN-03: expected {wanted} for axis {name}, as leading axis {leading} has, found {found}");
+        findings.push(finding(archive, datum, Owner::Axis(axis), 0, what, "make it equal within the grouping"));
     }
 }
 

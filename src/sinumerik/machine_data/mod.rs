@@ -29,6 +29,7 @@ pub use axis::Axis;
 pub use catalogue::{by_identifier, by_number, catalogue, nearest_identifier};
 pub use channel::Channel;
 pub use check::check;
+pub(super) use check::unequal_data;
 pub use general::General;
 pub use setting::Setting;
 pub use table::{Datum, Effect, Kind, Range, Scope};

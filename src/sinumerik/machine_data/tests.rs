@@ -580,6 +580,33 @@ mod checking {
         assert_eq!(found(&text.replace("TYPE[AX1]=1", "TYPE[AX1]=0")), [""; 0]);
     }
 
+    /// DYN-03
+    #[test]
+    fn data_that_must_be_equal_within_a_grouping_are_found_on_the_synchronous_axis() {
+        let grouping = "$MA_GANTRY_AXIS_TYPE[AX1]=2\n$MA_GANTRY_AXIS_TYPE[AX3]=12\n";
+        let text = format!(
+            "{grouping}$MA_FIPO_TYPE[AX3]=1\n$MA_AX_JERK_ENABLE[AX3]=1\n$MA_AX_JERK_TIME[AX1]=0.004\n\
+            $MA_JOG_AND_POS_JERK_ENABLE[AX3]=1\n$MA_JOG_AND_POS_MAX_JERK[AX3]=50\n"
+        );
+        let findings = found(&text);
+        let starts = [
+            "a.tea:3: warning: MD33000 $MA_FIPO_TYPE: DYN-03: expected 2 for axis Z1, as leading axis X1 has, found 1",
+            "a.tea:4: warning: MD32400 $MA_AX_JERK_ENABLE: DYN-03: expected 0 for axis Z1",
+            "warning: MD32410 $MA_AX_JERK_TIME: DYN-03: expected 0.004 for axis Z1, as leading axis X1 has, found 0.001",
+            "a.tea:6: warning: MD32420 $MA_JOG_AND_POS_JERK_ENABLE: DYN-03: ",
+            "a.tea:7: warning: MD32430 $MA_JOG_AND_POS_MAX_JERK: DYN-03: expected 100 for axis Z1",
+        ];
+        assert_eq!(findings.len(), starts.len(), "{findings:?}");
+        for (finding, start) in findings.iter().zip(starts) {
+            assert!(finding.starts_with(start), "{finding}");
+        }
+        // Equal, in another grouping, or in none: nothing.
+        let equal = "$MA_FIPO_TYPE[AX1]=1\n$MA_FIPO_TYPE[AX3]=1\n";
+        assert_eq!(found(&format!("{grouping}{equal}")), [""; 0]);
+        assert_eq!(found(&text.replace("=12", "=13")), [""; 0]);
+        assert_eq!(found(&text.replace("=12", "=0")), [""; 0]);
+    }
+
     /// REF-28
     #[test]
     fn an_encoder_switch_over_tolerance_not_below_the_warning_limit_is_found_with_two_encoders() {
