@@ -37,6 +37,7 @@ pub mod machine_data;
 mod mechanics;
 mod mode_group;
 mod monitoring;
+mod opening;
 mod overload;
 mod parameter_sets;
 mod parameters;
@@ -311,7 +312,7 @@ impl Control {
         self.state.select_modes(&self.parameters, to_nck);
         self.state.watch_emergency_stop(&self.parameters, to_nck);
         self.reset_and_cancel(to_nck, cancel_key);
-        if self.resting.take_units_stale() {
+        if self.resting.take_units_stale() | self.state.check_closings(&self.parameters) {
             self.state.form_units(&self.parameters);
             self.state.report_declarations(&self.parameters);
         }
@@ -430,8 +431,7 @@ impl State {
         let mut taken = 0_u32;
         for (index, grouping) in self.groupings.iter().enumerate() {
             let unit = Unit::of(&grouping.coupling, index, parameters);
-            let broken_up = unit.members().any(|axis| parameters.axes[axis].gantry.broken_up);
-            if broken_up && grouping.phase == gantry::Phase::Open {
+            if grouping.phase == gantry::Phase::Open && self.is_kept_open(index, parameters) {
                 continue;
             }
             for axis in unit.members() {
