@@ -61,7 +61,7 @@
 //! | [`trace`] | THE RECORD: what changed when and why, as text and JSON lines | `image`, `source`, `units`, `variables` |
 //! | [`machine`] | ONE STEP, and open, queue, power, save, restore, fork | `image`, `motion`, `plant`, `plc`, `sinumerik`, `source`, `trace`, `units`, `variables` |
 //! | [`scenario`] | files that act, and the session that tests in Rust use | `image`, `machine`, `plc`, `source`, `trace`, `units`, `variables` |
-//! | [`golden`] | scenarios below a folder, each against its golden trace | `image`, `machine`, `plc`, `scenario`, `source`, `trace` |
+//! | [`golden`] | scenarios below a folder, each against its golden trace | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units` |
 //! | [`cli`] | the program's arguments and wiring (feature `cli`) | all |
 //!
 //! # The order of a step

@@ -17,7 +17,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("trace", &["image", "source", "units", "variables"]),
     ("machine", &["image", "motion", "plant", "plc", "sinumerik", "source", "trace", "units", "variables"]),
     ("scenario", &["image", "machine", "plc", "source", "trace", "units", "variables"]),
-    ("golden", &["image", "machine", "plc", "scenario", "source", "trace"]),
+    ("golden", &["image", "machine", "plc", "scenario", "source", "trace", "units"]),
     ("cli", &["*"]),
 ];
 
