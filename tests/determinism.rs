@@ -220,6 +220,41 @@ fn a_saved_machine_goes_on_elsewhere_byte_for_byte() {
     }
 }
 
+/// What a cycle is compared with is the one before it, not the one that was computed last.
+#[test]
+fn a_machine_that_goes_back_goes_on_byte_for_byte() {
+    let opens = |machine: &mut Machine| {
+        let value = match machine.cycle() {
+            120 => 1.0,
+            130 => 0.0,
+            _ => return,
+        };
+        let value = DatumValue::Real(value);
+        machine.queue(Command::MachineDatum { target: "37140[XF]".to_owned(), value }).expect("a datum");
+        machine.queue(Command::NewConf).expect("it acts now");
+    };
+    for (back_at, ahead) in (115..140).flat_map(|cycle| [(cycle, 1), (cycle, 2), (cycle, 7)]) {
+        let (mut back, mut never) = (machine(), machine());
+        never.never_rest();
+        while never.cycle() < 150 {
+            opens(&mut back);
+            opens(&mut never);
+            if back.cycle() == back_at {
+                let saved = back.save();
+                for _ in 0..ahead {
+                    back.step();
+                }
+                back.restore(&saved).expect("it was saved here");
+            }
+            step(&mut back);
+            step(&mut never);
+            let what = format!("from {ahead} cycles ahead back to {back_at}");
+            assert_same(&never, &back, &what);
+            assert!(never.save() == back.save(), "{what}: what is saved differs in cycle {}", never.cycle());
+        }
+    }
+}
+
 #[test]
 fn every_fault_is_saved_and_forked() {
     let faults = [

@@ -207,7 +207,7 @@ impl Control {
         *self.state = State::new(&self.parameters);
         self.state.log = Log { cycle, events, taken };
         self.state.note_power_on();
-        self.resting.wake_all();
+        self.resting.begin_anew(&self.state);
     }
 
     /// What the stages work with.
@@ -386,7 +386,7 @@ impl Control {
         let taken = self.state.log.taken;
         *self.state = saved.state;
         self.state.log.taken = taken;
-        self.resting.wake_all();
+        self.resting.begin_anew(&self.state);
     }
 }
 

@@ -84,6 +84,11 @@ impl Resting {
         }
     }
 
+    /// The state is another one, after power on or restored: what was before is nothing to compare with.
+    pub(super) fn begin_anew(&mut self, state: &State) {
+        *self = Self { never: self.never, ..Self::new(state) };
+    }
+
     /// Everybody is computed in the next cycle.
     pub(super) fn wake_all(&mut self) {
         self.awake = AxisSet::ALL;
