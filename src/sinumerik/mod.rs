@@ -354,11 +354,11 @@ impl Control {
                 self.resting.wake_axis(number);
             }
         }
-        for number in self.resting.awake().iter() {
+        for number in self.awake().iter() {
             self.state.axes[number].sense(&self.state.feedback[number]);
         }
         self.monitor();
-        for number in self.computed().iter() {
+        for number in self.awake().iter() {
             let (axis, summary) = (&self.state.axes[number], &mut self.state.summary);
             summary.drive_ready.set(number, axis.drive_ready);
             summary.referenced.set(number, axis.is_referenced());

@@ -16,7 +16,7 @@ use crate::variables::{AxisValues, Place, Variables};
 impl Control {
     /// Writes what the control shows. Of `restless` axes the iron has not come to rest.
     pub fn publish(&mut self, from_nck: &mut FromNck, hmi: &mut Hmi, variables: &mut Variables, restless: AxisSet) {
-        let mut shown = self.computed();
+        let mut shown = self.awake();
         let (parameters, state) = (&*self.parameters, &mut *self.state);
         if std::mem::take(&mut state.overwritten) {
             clear_signals(from_nck);

@@ -149,14 +149,9 @@ impl Control {
         self.resting.wake_all();
     }
 
-    /// The axes that are computed in this cycle.
+    /// The axes that are computed in this cycle: an alarm that comes in the middle of it concerns everybody from there on.
     #[must_use]
-    pub const fn awake(&self) -> AxisSet {
-        self.resting.awake
-    }
-
-    /// Who was computed in this cycle: an alarm that came in the middle of it concerns everybody.
-    pub(super) fn computed(&self) -> AxisSet {
+    pub fn awake(&self) -> AxisSet {
         if self.state.alarms_wake(&self.resting) { self.parameters.existing } else { self.resting.awake }
     }
 
@@ -181,11 +176,13 @@ impl Control {
     /// At the end of a cycle: who came out of it as it went in, and of whom the iron says that it rests, rests.
     pub(super) fn rest(&mut self, restless: AxisSet) {
         let (state, resting) = (&*self.state, &mut *self.resting);
+        let mut awake = restless;
         if state.alarms_wake(resting) {
+            // One that has just gone by itself held others in this cycle, and will not in the next.
             resting.wake_all();
+            awake = AxisSet::ALL;
         }
         resting.alarm_version = state.alarms.version();
-        let mut awake = restless;
         for axis in resting.awake.iter() {
             if state.axes[axis] != resting.axes[axis] {
                 resting.axes[axis] = state.axes[axis].clone();

@@ -92,16 +92,17 @@ impl AxisMonitor {
 impl Control {
     /// Monitoring and alarms.
     pub(super) fn monitor(&mut self) {
+        let awake = self.awake();
         let (parameters, state) = (&*self.parameters, &mut *self.state);
         for index in 0..state.groupings.len() {
             let members: AxisSet = state.groupings[index].coupling.members().collect();
-            if self.resting.awake().and(members).is_empty() {
+            if awake.and(members).is_empty() {
                 continue;
             }
             state.monitor_grouping(index, parameters);
             state.raise_grouping_messages(index, parameters);
         }
-        for number in self.resting.awake().iter() {
+        for number in awake.iter() {
             state.monitor_axis(number, &parameters.axes[number], parameters);
         }
         for fault in &parameters.groupings.faults {
