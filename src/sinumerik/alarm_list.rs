@@ -3,7 +3,7 @@
 //!
 //! | numbers | what the model lacks for them |
 //! |---|---|
-//! | 2001, 2900, 4xxx, 26014 to 26017, 26024, 26025 | machine data are judged before the control starts, and reported there |
+//! | 2001, 2900, 4xxx but 4300, 26014 to 26017, 26024, 26025 | machine data are judged before the control starts, and reported there |
 //! | 10620, 10630, 10631, 107xx, 12550, 14xxx, 16xxx, 17xxx, 20070, 20071, 26072, 26076 | programs, blocks, the PLC's positioning axes, working areas |
 //! | 20003, 20004, 20007, 20008, 22062, 22064 | distance-coded marks, and MD34200 = 6 and 7 |
 //! | 20052, 20053, 20060, 20062 | geometry axes, and overlaid movements such as DRF |
