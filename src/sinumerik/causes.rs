@@ -72,7 +72,7 @@ impl Control {
                 let alarm = state.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, Some(Place::Axis(number)));
                 alarm.unwrap_or_else(|| match axis.measuring_system {
                     None => causes.measuring_system,
-                    Some(_) if !axis.drive_ready => state.run_up.cause,
+                    Some(_) if !axis.drive_ready => state.run_up.cause.max(axis.monitor.drive_cause),
                     Some(_) => state
                         .run_up
                         .cause
@@ -94,7 +94,7 @@ impl Control {
             (69, 0..=2) => causes.parameter_set,
             (92, 1) => axis.signals.fast_stop_cause,
             (93, 0..=4) => causes.drive_data_set,
-            (93, 5) => state.run_up.cause,
+            (93, 5) => state.run_up.cause.max(axis.monitor.drive_cause),
             (93, 7) => causes.drive,
             (101, 2 | 3) => state.monitored(number, bit == 2),
             (101, 4 | 5) => state.grouping_of(number).map_or(EventId::NONE, |grouping| grouping.cause),

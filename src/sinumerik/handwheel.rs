@@ -21,12 +21,13 @@ use serde::{Deserialize, Serialize};
 
 use super::alarms;
 use super::increments::{By, Movement};
+use super::log::axis_bit;
 use super::parameters::{AxisParameters, Parameters};
 use super::rules::Rule;
 use super::{Control, State};
 use crate::image::{AxisToNck, NckHmi};
 use crate::units::{AxisNumber, Position};
-use crate::variables::{EventId, Place};
+use crate::variables::{EventId, Input, Place, SignalBit};
 
 /// How many handwheels there are.
 pub(super) const COUNT: usize = 3;
@@ -126,7 +127,9 @@ impl State {
         let inverted = active != 0 && signals.invert_handwheel_direction_of_rotation();
         let shown = &self.axes[number].jogging;
         if active != shown.handwheels || inverted != shown.inverted {
-            let event = self.log.note_plain(Place::Axis(number), Rule::HandwheelActivated, EventId::NONE);
+            let changed = active ^ shown.handwheels;
+            let inputs = self.selection_inputs(number, if changed == 0 { active } else { changed }, signals);
+            let event = self.log.note(Place::Axis(number), Rule::HandwheelActivated, inputs, EventId::NONE);
             let jogging = &mut self.axes[number].jogging;
             (jogging.handwheels, jogging.inverted, jogging.handwheel_cause) = (active, inverted, event);
             jogging.still = 0;
@@ -182,6 +185,17 @@ impl State {
             let event = self.log.note_plain(Place::Axis(number), Rule::HandwheelDropped, parent);
             self.traverse(number, 0, 0, event);
         }
+    }
+
+    /// The signals that assign these handwheels, and the one that turns their direction round.
+    fn selection_inputs(&self, number: AxisNumber, handwheels: u8, signals: &AxisToNck) -> [Input; 3] {
+        let handwheel = u8::try_from(handwheels.trailing_zeros().min(2)).unwrap_or(0);
+        let by_plc = axis_bit(number, 4, handwheel, signals.activated_handwheels() >> handwheel & 1 == 1);
+        let selected = self.handwheels[usize::from(handwheel)].selected == Some(number);
+        let strobe = SignalBit { place: Place::Nck, byte: 100 + u16::from(handwheel), bit: 6 };
+        let by_hmi = if selected { Input::Bit(strobe, true) } else { Input::None };
+        let inverted = signals.invert_handwheel_direction_of_rotation();
+        [by_plc, by_hmi, if inverted { axis_bit(number, 7, 0, true) } else { Input::None }]
     }
 
     /// The stop conditions of MD32084.

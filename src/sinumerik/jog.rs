@@ -131,7 +131,10 @@ impl State {
         let event = if axis.jogging.movement.is_by_handwheel() {
             self.log.note_plain(Place::Axis(number), rule, axis.jogging.handwheel_cause)
         } else {
-            self.log.note(Place::Axis(number), rule, key_inputs(number, signals), axis.causes.motion)
+            // What begins a movement has nothing to do with the one before.
+            let begins = axis.traverse_request == 0;
+            let parent = if begins { EventId::NONE } else { axis.causes.motion };
+            self.log.note(Place::Axis(number), rule, key_inputs(number, signals), parent)
         };
         self.traverse(number, request, command, event);
     }

@@ -134,6 +134,7 @@ rules! {
     EncoderMissing "25110" "measuring system 2 is selected, and the axis has none";
     FollowUpInMotion "21615" "in motion when the drive lost its power";
     DriveFault "25201" "the drive tells of a fault";
+    DriveReadyAgain "25201" "the drive is ready again";
     DriveNotReady "25202" "the drive does not run up";
     AlarmCancelled "ALARM" "alarm cancelled";
     ExactStop "exact stop" "";

@@ -59,7 +59,10 @@ impl State {
         }
         let steps = |r: &RunUp| (r.is_cpu_ready(), r.are_drives_cyclic(), r.are_drives_ready(), r.is_nc_ready());
         if steps(&before) != steps(run_up) {
-            run_up.cause = self.log.note_plain(Place::Nck, Rule::RunUp, EventId::NONE);
+            // Later than the run-up itself, a drive is behind it.
+            let drives = parameters.existing.iter().map(|axis| self.axes[axis].monitor.drive_cause);
+            let parent = drives.max().unwrap_or(EventId::NONE);
+            run_up.cause = self.log.note_plain(Place::Nck, Rule::RunUp, parent);
         }
     }
 

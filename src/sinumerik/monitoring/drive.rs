@@ -8,7 +8,7 @@ use crate::sinumerik::alarms;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, Time};
-use crate::variables::Input;
+use crate::variables::{Input, Place};
 
 /// How long a drive may run up without a message.
 const PATIENCE: Time = Time::from_millis(1_000);
@@ -16,12 +16,21 @@ const PATIENCE: Time = Time::from_millis(1_000);
 impl State {
     pub(super) fn monitor_drive(&mut self, number: AxisNumber, parameters: &Parameters) {
         let (ready, fault) = (self.feedback[number].drive_ready, self.feedback[number].drive_fault);
+        let was_ready = std::mem::replace(&mut self.axes[number].monitor.drive_was_ready, ready);
         if ready {
-            self.axes[number].monitor.drive_waits = 0;
+            let monitor = &mut self.axes[number].monitor;
+            monitor.drive_waits = 0;
+            if !was_ready && monitor.drive_cause.is_some() {
+                let parent = monitor.drive_cause;
+                monitor.drive_cause = self.log.note_plain(Place::Axis(number), Rule::DriveReadyAgain, parent);
+            }
             return;
         }
         if fault {
             self.raise_monitoring(alarms::DRIVE_FAULT, number, Rule::DriveFault, [Input::None; 3]);
+            if was_ready {
+                self.axes[number].monitor.drive_cause = self.alarms.cause(alarms::DRIVE_FAULT, Place::Axis(number));
+            }
         } else if self.run_up.are_drives_cyclic() {
             let (monitor, patience) = (&mut self.axes[number].monitor, PATIENCE.in_cycles(parameters.cycle));
             monitor.drive_waits = (monitor.drive_waits + 1).min(patience + 1);

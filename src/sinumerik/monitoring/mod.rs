@@ -54,6 +54,10 @@ pub(super) struct AxisMonitor {
     pub encoders: [EncoderMonitor; 2],
     /// Cycles that the drive has been waited for.
     drive_waits: u64,
+    /// The drive was ready in the last cycle.
+    drive_was_ready: bool,
+    /// Why 93.5 went, or came again; none after the run-up.
+    pub drive_cause: EventId,
 }
 
 impl AxisMonitor {
