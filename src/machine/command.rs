@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Fault, Machine};
+use super::{Fault, FaultKind, Machine};
 use crate::image::{Location, Part};
 use crate::sinumerik::machine_data::{MachineData, Value};
 use crate::source::Problem;
@@ -128,6 +128,11 @@ impl Machine {
                 }
                 Command::Cancel => taken.cancel = true,
                 Command::Handwheel { number, pulses, cycles } => self.control.turn_handwheel(number, pulses, cycles),
+                // What displaces once does so after the mechanics of this step, where encoders and monitoring see all of it.
+                Command::Fault(fault @ Fault { kind: FaultKind::Push { .. } | FaultKind::EncoderSlip { .. }, .. }) => {
+                    self.displaced.push((fault, self.control.measuring_system(fault.axis)));
+                    self.control.wake_all();
+                }
                 Command::Fault(fault) => self.break_something(fault),
                 Command::ClearFault(fault) => {
                     self.plant.clear_fault(fault);
@@ -151,6 +156,12 @@ impl Machine {
                 }
             }
             _ => {}
+        }
+    }
+
+    pub(super) fn displace(&mut self) {
+        while let Some((fault, active)) = self.displaced.pop() {
+            self.plant.fault(fault, active);
         }
     }
 

@@ -69,6 +69,8 @@ pub struct Machine {
     plc: Plc,
     forces: Vec<Force>,
     queue: Vec<Command>,
+    /// Slides and encoders to be displaced in this step, with the measuring system that was active then.
+    displaced: Vec<(Fault, Option<u8>)>,
     cycle: u64,
     time: Time,
     feedback: PerAxis<Feedback>,

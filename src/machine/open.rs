@@ -120,6 +120,7 @@ fn assemble(definition: Definition, mut control: Control, memory: Memory) -> Mac
         plc: Plc::default(),
         forces: Vec::new(),
         queue: Vec::new(),
+        displaced: Vec::new(),
         cycle: 0,
         time: Time::ZERO,
         feedback: PerAxis::default(),

@@ -155,6 +155,7 @@ impl Machine {
             plc,
             forces: self.forces.clone(),
             queue: self.queue.clone(),
+            displaced: Vec::new(),
             cycle: self.cycle,
             time: self.time,
             feedback: self.feedback,

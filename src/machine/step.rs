@@ -70,6 +70,7 @@ impl Machine {
         // Position control, drives and mechanics.
         let axes = self.definition.layout.with_bridged(self.control.awake());
         self.move_axes(axes);
+        self.displace();
         self.sense(axes);
         // Monitoring and alarms, publication, record.
         self.control.observe(&self.feedback, axes);

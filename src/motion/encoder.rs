@@ -58,7 +58,7 @@ impl Encoder {
 
     /// Gains or loses counts once.
     pub fn slip(&mut self, by: Position) {
-        self.slip += by;
+        self.slip = super::within_reach(self.slip.increments().saturating_add(by.increments()));
     }
 
     /// What it tells after the slide moved.

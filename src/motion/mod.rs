@@ -23,6 +23,12 @@ pub use servo::{Drive, velocity_command};
 /// for sums, differences and fine interpolation of positions.
 const FARTHEST: i64 = 1 << 52;
 
+/// A position as far away as an axis can be at most.
+#[must_use]
+pub fn within_reach(position: i64) -> crate::units::Position {
+    crate::units::Position::new(position.clamp(-FARTHEST, FARTHEST))
+}
+
 /// Adds a movement in increments to a position, carrying the fraction; it ends at [`FARTHEST`]. No movement changes neither.
 pub(crate) fn advance(position: crate::units::Position, carry: &mut f64, movement: f64) -> crate::units::Position {
     if movement == 0.0 {
@@ -41,7 +47,7 @@ pub(crate) fn advance(position: crate::units::Position, carry: &mut f64, movemen
         truncated
     };
     *carry = wanted - whole as f64;
-    crate::units::Position::new(position.increments().saturating_add(whole).clamp(-FARTHEST, FARTHEST))
+    within_reach(position.increments().saturating_add(whole))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Iron, Layout};
-use crate::motion::{Drive, Encoder, EncoderSignal};
+use crate::motion::{Drive, Encoder, EncoderSignal, within_reach};
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 
 /// A switch of an axis.
@@ -135,7 +135,7 @@ impl Plant {
         };
         match fault.kind {
             FaultKind::Block => slide.blocked = true,
-            FaultKind::Push { by } => slide.position += by,
+            FaultKind::Push { by } => slide.push(by),
             FaultKind::EncoderSlip { by } => {
                 slide.encoders[usize::from(active.unwrap_or(0))].slip(by);
                 slide.count();
@@ -374,6 +374,11 @@ impl Slide {
             drift: 0.0,
             stuck: [None; 3],
         }
+    }
+
+    /// It is somewhere else, within the way that a slide can have.
+    fn push(&mut self, by: Position) {
+        self.position = within_reach(self.position.increments().saturating_add(by.increments()));
     }
 
     /// The encoders count from somewhere else.

@@ -7,6 +7,8 @@ use crate::units::Position;
 
 /// The fastest drift, in mm or degrees per second: nothing real is faster.
 const FASTEST_DRIFT: f64 = 1e6;
+/// A kilometre is beyond every machine.
+const FARTHEST_PUSH: f64 = 1e6;
 
 /// Reads a fault; how much it is must be said where it begins.
 pub(super) fn fault(node: Node, begins: bool, machine: &Machine) -> Result<Fault, Problem> {
@@ -30,8 +32,8 @@ pub(super) fn fault(node: Node, begins: bool, machine: &Machine) -> Result<Fault
         },
     };
     let mut distance = || {
-        let what = "a distance in mm or degrees";
-        Ok::<_, Problem>(Position::from_user(by(what, f64::INFINITY, "write by = 0.05")?))
+        let what = "a distance in mm or degrees from -1000000 to 1000000";
+        Ok::<_, Problem>(Position::from_user(by(what, FARTHEST_PUSH, "write by = 0.05")?))
     };
     let kind = match kind.text("the kind of a fault")? {
         "block" => FaultKind::Block,

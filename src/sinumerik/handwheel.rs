@@ -11,8 +11,8 @@
 //! missing controller and pulse enable; 1 drops the way and ignores pulses, 0 keeps the way and collects pulses.
 //! Its bit 6 takes MD32000 as the largest velocity, else that of the keys; with bit 7 the override counts as 100 %, but 0 % holds.
 //!
-//! Choices where the manuals leave one: with continuous, a pulse has no way and nothing moves; several handwheels
-//! of one axis add up; pulses that lead beyond a software limit are ignored; without path mode (MD11346 = 0 or 2) the
+//! Choices where the manuals leave one: with continuous, a pulse has no way and nothing moves; of several handwheels
+//! that are assigned to an axis, 1 counts before 2 before 3; pulses that lead beyond a software limit are ignored; without path mode (MD11346 = 0 or 2) the
 //! rest of the way is dropped 100 ms after the last pulse; the inversion acts at once on the pulses that follow; a
 //! handwheel that is taken from an axis drops its way; 20051 stays until the key has ended its movement; a key that meets a
 //! moving handwheel (20050) moves nothing until it is released and pressed again.
@@ -121,6 +121,8 @@ impl State {
         for (bit, handwheel) in self.handwheels.iter().enumerate() {
             active |= u8::from(handwheel.selected == Some(number)) << bit;
         }
+        // One handwheel moves an axis: 1 before 2 before 3.
+        active &= active.wrapping_neg();
         if active == 0 && self.axes[number].jogging.handwheels == 0 {
             return;
         }

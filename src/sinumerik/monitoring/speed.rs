@@ -18,7 +18,8 @@ impl State {
         let axis = &mut self.axes[number];
         let set = axis.active_set(parameters);
         let speed = axis.velocity.abs();
-        let resting = axis.setpoint.is_at_rest() && axis.setpoint.position == axis.actual;
+        let resting =
+            axis.setpoint.is_at_rest() && axis.setpoint.position == axis.actual || axis.signals.withholds_setpoint();
         let wanted = if resting || !axis.enabling.is_powered() {
             0.0
         } else {
