@@ -200,7 +200,8 @@ impl Machine {
         let cycle = self.cycle;
         for &alarm in &self.alarms_before {
             if !self.variables.alarms.iter().any(|other| *other == alarm) {
-                self.recorder.push(Row { cycle, change: Change::Alarm { alarm, raised: false, cause: EventId::NONE } });
+                let cause = self.control.cleared_cause(alarm.number, alarm.place);
+                self.recorder.push(Row { cycle, change: Change::Alarm { alarm, raised: false, cause } });
             }
         }
         for &alarm in self.variables.alarms.iter() {

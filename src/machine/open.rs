@@ -257,6 +257,10 @@ fn not_modelled(control: &Control, names: &Names, plant: &PlantDefinition) -> Ve
                 warnings.push(format!("axis {name}: the kind of encoder {number} is not modelled; it is incremental"));
             }
         }
+        if axis.modulo {
+            warnings
+                .push(format!("axis {name}: MD30310, modulo, is modelled as no software limits; positions count on"));
+        }
         if control.active().axes[number].gantry_function_mask & 1 != 0 {
             warnings.push(format!("axis {name}: MD37150 bit 0, extended monitoring, is not modelled"));
         }

@@ -3,7 +3,7 @@
 //! States have their events; what follows from a value at the moment (exact stop, standstill, sums over axes and alarms)
 //! is noted when its edge is seen.
 
-use super::alarms::Reaction;
+use super::alarms::{self, Alarm, Cancel, Reaction};
 use super::axis::Axis;
 use super::gantry::Grouping;
 use super::parameters::Parameters;
@@ -33,6 +33,27 @@ impl Control {
             .iter()
             .find(|(alarm, _)| alarm.number == number && alarm.place == place)
             .map_or(EventId::NONE, |(_, cause)| cause)
+    }
+
+    /// The event that took an alarm away: of one that goes by itself, what its place did last; else RESET, a key or power on.
+    #[must_use]
+    pub fn cleared_cause(&self, number: AlarmNumber, place: Place) -> EventId {
+        let state = &*self.state;
+        let cancel = Alarm::find(number).map(|alarm| alarm.cancel);
+        let cause = match (number, place) {
+            (alarms::EMERGENCY_STOP, _) => state.emergency_stop.cause,
+            (alarms::GANTRY_WARNING_LIMIT, Place::Axis(axis)) => state.monitored(axis, false),
+            (alarms::GANTRY_WAITING | alarms::GANTRY_SYNCHRONISING, Place::Axis(axis)) => {
+                let reset = state.channels[self.parameters.axes[axis].channel].reset_cause;
+                state.grouping_of(axis).map_or(EventId::NONE, |grouping| grouping.cause.max(reset))
+            }
+            (alarms::WAITING_FOR_DRIVE, Place::Axis(_)) => state.run_up.cause,
+            (_, Place::Axis(axis)) if cancel == Some(Cancel::ByItself) => state.axes[axis].causes.motion,
+            (_, Place::Axis(axis)) => state.channels[self.parameters.axes[axis].channel].cancel_cause,
+            (_, Place::Channel(channel)) => state.channels[channel].cancel_cause,
+            (_, Place::Nck | Place::ModeGroup(_)) => state.cancel_event(),
+        };
+        if cause.is_some() { cause } else { state.power_on_cause }
     }
 
     /// The number of the latest event.

@@ -10,13 +10,14 @@
 
 use super::State;
 use super::alarms;
+use super::log::axis_bit;
 use super::mechanics::Misfit;
 use super::parameters::Parameters;
 use super::resting::Resting;
 use super::rules::Rule;
 use crate::image::ToNck;
 use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, EventId, Parameter, Place};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 
 impl State {
     /// What the PLC selects for every axis.
@@ -42,7 +43,13 @@ impl State {
         let dynamics = &parameters.axes[number].dynamics;
         let Some(set) = dynamics.sets.get(usize::from(wanted)) else {
             let shown = [Parameter::Axis(number), Parameter::None, Parameter::None, Parameter::None];
-            self.refuse(alarms::PARAMETER_SET_INVALID, Rule::ParameterSetRefused, place, shown);
+            self.refuse(
+                alarms::PARAMETER_SET_INVALID,
+                Rule::ParameterSetRefused,
+                requested(number, wanted),
+                place,
+                shown,
+            );
             return;
         };
         let axis = &self.axes[number];
@@ -52,10 +59,16 @@ impl State {
         if jumps.contains(&true) && axis.enabling.is_powered() {
             let name = |set: u8| Parameter::Number(i64::from(set) + 1);
             let shown = [Parameter::Axis(number), name(axis.parameter_set), name(wanted), Parameter::None];
-            self.refuse(alarms::PARAMETER_SET_NOT_POSSIBLE, Rule::ParameterSetJumps, place, shown);
+            self.refuse(
+                alarms::PARAMETER_SET_NOT_POSSIBLE,
+                Rule::ParameterSetJumps,
+                requested(number, wanted),
+                place,
+                shown,
+            );
             return;
         }
-        let event = self.log.note_plain(place, Rule::ParameterSet, EventId::NONE);
+        let event = self.log.note(place, Rule::ParameterSet, requested(number, wanted), EventId::NONE);
         let axis = &mut self.axes[number];
         axis.parameter_set = wanted;
         axis.causes.parameter_set = event;
@@ -75,10 +88,15 @@ impl State {
         }
     }
 
-    fn refuse(&mut self, alarm: AlarmNumber, rule: Rule, place: Place, shown: [Parameter; 4]) {
+    fn refuse(&mut self, alarm: AlarmNumber, rule: Rule, inputs: [Input; 3], place: Place, shown: [Parameter; 4]) {
         if !self.alarms.iter().any(|(known, _)| known.number == alarm && known.place == place) {
-            let event = self.log.note_plain(place, rule, EventId::NONE);
+            let event = self.log.note(place, rule, inputs, EventId::NONE);
             self.alarms.raise(alarm, place, shown, event);
         }
     }
+}
+
+/// DBX9.0 to 9.2 of an axis, as they ask for a set.
+fn requested(number: AxisNumber, set: u8) -> [Input; 3] {
+    [0, 1, 2].map(|bit| axis_bit(number, 9, bit, set >> bit & 1 == 1))
 }

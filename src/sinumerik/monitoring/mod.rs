@@ -144,7 +144,17 @@ impl State {
         let cause = if self.alarms.is_pending(alarm, place) {
             EventId::NONE
         } else {
-            self.log.note(place, rule, inputs, self.axes[number].causes.motion)
+            // What breaks does so whether the axis moves or not.
+            let breaks = matches!(
+                rule,
+                Rule::DriveFault
+                    | Rule::DriveNotReady
+                    | Rule::EncoderFault
+                    | Rule::EncoderPollution
+                    | Rule::EncoderMissing
+            );
+            let parent = if breaks { EventId::NONE } else { self.axes[number].causes.motion };
+            self.log.note(place, rule, inputs, parent)
         };
         self.alarms.raise(alarm, place, shown, cause);
     }
