@@ -127,7 +127,9 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Problem> {
     for entry in entries {
         let entry = entry.map_err(|error| unreadable(path, &error))?;
         let path = entry.path();
-        let is_toml = path.extension().is_some_and(|extension| extension == "toml");
+        // A machine may lie beside its scenarios.
+        let is_plant = path.file_name().is_some_and(|name| name == "plant.toml");
+        let is_toml = path.extension().is_some_and(|extension| extension == "toml") && !is_plant;
         if path.is_dir() || is_toml {
             collect(&path, files)?;
         }

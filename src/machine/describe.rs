@@ -2,7 +2,7 @@
 
 use super::Machine;
 use crate::image::Names;
-use crate::sinumerik::{Alarm, Rule as ControlRule};
+use crate::sinumerik::{ALARMS_NOT_RAISED, Alarm, Rule as ControlRule};
 use crate::units::AxisNumber;
 use crate::variables::{AlarmNumber, Describe, Parameter, RaisedAlarm, Rule, RuleNumber};
 
@@ -31,7 +31,7 @@ impl Describe for Machine {
     }
 
     fn has_alarm(&self, number: AlarmNumber) -> bool {
-        Alarm::find(number).is_some()
+        Alarm::find(number).is_some() || ALARMS_NOT_RAISED.iter().any(|alarm| alarm.number == number)
     }
 
     fn rule(&self, rule: RuleNumber) -> Rule {

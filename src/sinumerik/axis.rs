@@ -13,7 +13,7 @@ use super::position_control::Shaping;
 use super::referencing::Approach;
 use crate::motion::{EncoderSignal, Limits, Setpoint};
 use crate::units::Position;
-use crate::variables::EventId;
+use crate::variables::{EventId, Input};
 
 /// What drive and encoders tell in one cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -199,6 +199,8 @@ pub(super) struct Axis {
     pub feed_held: bool,
     /// Feed disable of its channel.
     pub feed_disabled: bool,
+    /// The signal that holds it, of itself or of another axis of its unit.
+    pub feed_holder: Input,
     /// Hardware limit switches.
     pub(super) limits: LimitSwitches,
     /// What monitoring remembers.
@@ -240,6 +242,7 @@ impl Default for Axis {
             feed_factor: 1.0,
             feed_held: false,
             feed_disabled: false,
+            feed_holder: Input::None,
             limits: LimitSwitches::default(),
             monitor: AxisMonitor::default(),
             jogging: Jogging::default(),

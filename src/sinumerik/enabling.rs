@@ -293,7 +293,11 @@ impl State {
         self.axes[number].enabling.follow_up = follow_up;
         let after = self.axes[number].enabling;
         if before.controllers() != after.controllers() || before.follow_up != after.follow_up {
-            let (rule, parent) = if wanted {
+            // What began to switch off goes on to do so, also when its reason is gone.
+            let goes_off = matches!(before.control, Control::Braking(_));
+            let (rule, parent) = if wanted && goes_off {
+                (Rule::ControllerOff, self.axes[number].causes.enabling)
+            } else if wanted {
                 (Rule::ControllerOn, EventId::NONE)
             } else if conditions.alarm.is_some() {
                 (Rule::FollowUpByAlarm, conditions.alarm)
@@ -302,7 +306,7 @@ impl State {
             } else {
                 (Rule::ControllerOff, EventId::NONE)
             };
-            let input = if wanted { axis_bit(number, 2, 1, true) } else { conditions.missing };
+            let input = if wanted && !goes_off { axis_bit(number, 2, 1, true) } else { conditions.missing };
             let event = self.log.note_one(Place::Axis(number), rule, input, parent);
             self.axes[number].causes.enabling = event;
         }

@@ -18,7 +18,7 @@ use super::rules::Rule;
 use super::{State, Unit};
 use crate::image::{AxisToNck, ToNck};
 use crate::units::AxisNumber;
-use crate::variables::{EventId, Input, Place};
+use crate::variables::{EventId, Input, Place, SignalBit};
 
 /// The direction of the traversing keys: +1, −1, or 0 for none, both, or keys that are disabled (4.4).
 #[must_use]
@@ -35,7 +35,11 @@ impl State {
     /// What holds every movement of a unit: override factor 0, feed stop on any of its axes (SIG-06), feed disable.
     pub(super) fn take_feed(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let disabled = to_nck.channels[unit.channel].feed_disable();
-        let stopped = unit.members().any(|axis| to_nck.axes[axis].feed_stop());
+        let stopper = unit.members().find(|&axis| to_nck.axes[axis].feed_stop());
+        let stopped = stopper.is_some();
+        let channel = SignalBit { place: Place::Channel(unit.channel), byte: 6, bit: 0 };
+        let holder = stopper.map_or(Input::None, |axis| axis_bit(axis, 4, 3, true));
+        let holder = if disabled { Input::Bit(channel, true) } else { holder };
         for axis in unit.members() {
             let signals = &to_nck.axes[axis];
             // O-21: the axial override acts while 1.7 = 1, else 100 %.
@@ -44,6 +48,7 @@ impl State {
             self.axes[axis].feed_factor = factor;
             self.axes[axis].feed_held = stopped || disabled;
             self.axes[axis].feed_disabled = disabled;
+            self.axes[axis].feed_holder = holder;
         }
     }
 
@@ -61,17 +66,17 @@ impl State {
         let axis = &self.axes[number];
         if let Some(cause) = self.stop_cause(unit.channel, parameters) {
             // The unit brakes as it was told (O-04).
-            self.stop_jogging(number, parameters, cause);
+            self.stop_jogging(number, parameters, signals, cause);
             return;
         }
         if let Some(cause) = self.limited(unit, axis.jogging.movement.direction(axis.setpoint.position)) {
             // Towards a pressed switch nothing moves; away from it everything does.
             self.brake_at_limit(unit, parameters);
-            self.stop_jogging(number, parameters, cause);
+            self.stop_jogging(number, parameters, signals, cause);
             return;
         }
         if axis.signals.fast_stop {
-            self.stop_jogging(number, parameters, axis.signals.fast_stop_cause);
+            self.stop_jogging(number, parameters, signals, axis.signals.fast_stop_cause);
             return;
         }
         self.axes[number].motion = Motion::Brake { deceleration: axis_parameters.jog_acceleration };
@@ -88,7 +93,7 @@ impl State {
         if !held && axis.enabling.is_on() {
             let ahead = self.software_limit_ahead(number, direction, parameters, to_nck);
             if direction != 0 && ahead == Ahead::Reached && !matches!(movement, Movement::Pending(..)) {
-                self.rest_on_software_limit(number, direction, parameters);
+                self.rest_on_software_limit(number, direction, parameters, signals);
                 return;
             }
             self.axes[number].follow_keys(direction, velocity, ahead, axis_parameters.jog_acceleration);
@@ -105,22 +110,35 @@ impl State {
     }
 
     /// Something stops: what has an end is dropped, a key that acts while it is held stays visible.
-    fn stop_jogging(&mut self, number: AxisNumber, parameters: &Parameters, cause: EventId) {
+    fn stop_jogging(&mut self, number: AxisNumber, parameters: &Parameters, signals: &AxisToNck, cause: EventId) {
         let axis = &mut self.axes[number];
         if !(parameters.key_modes.continuous_held && matches!(axis.jogging.movement, Movement::Continuous(_))) {
             axis.jogging.movement = Movement::None;
         }
         let request = axis.jogging.movement.direction(axis.setpoint.position);
-        self.traverse(number, request, 0, cause);
+        if axis.traverse_command == 0 && axis.traverse_request != request {
+            // It stands already: only what is wanted is another thing.
+            let rule = if request == 0 { Rule::KeyReleased } else { Rule::MotionBlocked };
+            let event = self.log.note(Place::Axis(number), rule, key_inputs(number, axis, signals), cause);
+            self.traverse(number, request, 0, event);
+        } else {
+            self.traverse(number, request, 0, cause);
+        }
     }
 
-    fn rest_on_software_limit(&mut self, number: AxisNumber, direction: i8, parameters: &Parameters) {
+    fn rest_on_software_limit(
+        &mut self,
+        number: AxisNumber,
+        direction: i8,
+        parameters: &Parameters,
+        signals: &AxisToNck,
+    ) {
         let axis = &self.axes[number];
         let mut cause = axis.causes.motion;
         if (axis.traverse_request, axis.traverse_command) != (direction, 0) {
             cause = self.log.note_plain(Place::Axis(number), Rule::SoftwareLimit, cause);
         }
-        self.stop_jogging(number, parameters, cause);
+        self.stop_jogging(number, parameters, signals, cause);
     }
 
     fn show_jogging(&mut self, number: AxisNumber, request: i8, command: i8, rule: Rule, signals: &AxisToNck) {
@@ -134,7 +152,7 @@ impl State {
             // What begins a movement has nothing to do with the one before.
             let begins = axis.traverse_request == 0;
             let parent = if begins { EventId::NONE } else { axis.causes.motion };
-            self.log.note(Place::Axis(number), rule, key_inputs(number, signals), parent)
+            self.log.note(Place::Axis(number), rule, key_inputs(number, axis, signals), parent)
         };
         self.traverse(number, request, command, event);
     }
@@ -199,10 +217,19 @@ impl Axis {
     }
 }
 
-fn key_inputs(number: AxisNumber, signals: &AxisToNck) -> [Input; 3] {
+/// The keys, and what of the axis itself holds its movement.
+fn key_inputs(number: AxisNumber, axis: &Axis, signals: &AxisToNck) -> [Input; 3] {
+    let holds = if signals.feed_stop() {
+        axis_bit(number, 4, 3, true)
+    } else if axis.feed_factor <= 0.0 {
+        // The override that acts is 0 %.
+        axis_bit(number, 1, 7, true)
+    } else {
+        axis.feed_holder
+    };
     [
         axis_bit(number, 4, 7, signals.traversing_key_plus()),
         axis_bit(number, 4, 6, signals.traversing_key_minus()),
-        if signals.feed_stop() { axis_bit(number, 4, 3, true) } else { Input::None },
+        holds,
     ]
 }

@@ -363,7 +363,8 @@ impl Control {
             summary.drive_ready.set(number, axis.drive_ready);
             summary.referenced.set(number, axis.is_referenced());
             summary.standing.set(number, axis.stands(&self.parameters.axes[number]));
-            summary.in_motion.set(number, axis.is_in_motion());
+            // An approach that waits at rest is on its way, too.
+            summary.in_motion.set(number, axis.is_in_motion() || axis.approach.is_running());
         }
     }
 
