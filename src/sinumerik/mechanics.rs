@@ -58,6 +58,18 @@ impl Mechanics {
         }
     }
 
+    /// The way of one revolution of the motor in the first parameter set, in mm or degrees, without a direction.
+    #[must_use]
+    pub fn motor_revolution(&self) -> f64 {
+        self.motor[0].abs()
+    }
+
+    /// The way of one line of an encoder, 0 or 1, in the first parameter set, in mm or degrees, without a direction.
+    #[must_use]
+    pub fn encoder_line(&self, encoder: usize) -> f64 {
+        self.encoders[0][encoder].abs()
+    }
+
     /// How it misses the iron in a parameter set; `None` where it fits.
     #[must_use]
     pub fn misfit(&self, iron: &Self, set: usize) -> Option<Misfit> {

@@ -1,10 +1,10 @@
 //! The limits of monitoring in the units of the model, made anew with all parameters.
 //!
-//! Speeds of the motor and frequencies of the encoders become velocities of the axis: one turn of the load is MD31030 on a
-//! linear axis and 360 degrees on a rotary one; the motor turns MD31060 / MD31050 times as fast (parameter set 1), a rotary
-//! encoder MD31070 / MD31080 times as fast as the shaft that it sits on (MD31040: the load's or the motor's). A gear of 0 counts as 1.
+//! Speeds of the motor and frequencies of the encoders become velocities of the axis by the ways that `mechanics.rs` knows, of
+//! the first parameter set.
 
 use crate::sinumerik::machine_data::Axis;
+use crate::sinumerik::mechanics::Mechanics;
 use crate::sinumerik::parameters::PerEncoder;
 use crate::units::{Position, Time};
 
@@ -49,25 +49,17 @@ pub(in crate::sinumerik) struct Monitoring {
 /// The limits that machine data say.
 pub(in crate::sinumerik) fn monitoring(md: &Axis, cycle: Time) -> Monitoring {
     let cycles = |seconds: f64| if seconds > 0.0 { Time::from_seconds(seconds).in_cycles(cycle) } else { 0 };
-    let turn = if md.is_rot_ax { 360.0 } else { md.leadscrew_pitch } * Position::PER_USER_UNIT;
-    let motor_per_load = ratio(md.drive_ax_ratio_numera[0], md.drive_ax_ratio_denom[0]);
+    let mechanics = Mechanics::new(md);
+    let revolution = mechanics.motor_revolution() * Position::PER_USER_UNIT;
     // MD32250 percent of the output are MD32260; 0 means that 100 percent are.
     let full_speed = if md.rated_outval > 0.0 { md.rated_velo * 100.0 / md.rated_outval } else { md.rated_velo };
-    let frequency_limit = [0, 1].map(|encoder| {
-        let line = if md.enc_is_linear[encoder] {
-            md.enc_grid_point_dist[encoder] * Position::PER_USER_UNIT
-        } else {
-            let shaft = if md.enc_is_direct[encoder] { 1.0 } else { motor_per_load };
-            let turns = shaft * ratio(md.drive_enc_ratio_denom[encoder], md.drive_enc_ratio_numera[encoder]);
-            turn / (turns * f64::from(md.enc_resol[encoder].max(1)))
-        };
-        md.enc_freq_limit[encoder] * line
-    });
+    let frequency_limit = [0, 1]
+        .map(|encoder| md.enc_freq_limit[encoder] * mechanics.encoder_line(encoder) * Position::PER_USER_UNIT);
     Monitoring {
         standstill_cycles: cycles(md.standstill_delay_time),
         clamping_tolerance: Position::from_user(md.clamp_pos_tol),
         contour_tolerance: Position::from_user(md.contour_tol),
-        speed_setpoint_limit: (md.ctrlout_limit / 100.0 * full_speed / 60.0 * turn / motor_per_load).min(f64::MAX),
+        speed_setpoint_limit: (md.ctrlout_limit / 100.0 * full_speed / 60.0 * revolution).min(f64::MAX),
         speed_setpoint_cycles: cycles(md.ctrlout_limit_time),
         frequency_limit,
         frequency_low: [0, 1].map(|encoder| frequency_limit[encoder] * md.enc_freq_limit_low[encoder] / 100.0),
@@ -87,10 +79,6 @@ pub(in crate::sinumerik) fn monitoring(md: &Axis, cycle: Time) -> Monitoring {
         switch_over_tolerance: Position::from_user(md.enc_change_tol),
         encoder_difference: (md.enc_diff_tol > 0.0).then(|| Position::from_user(md.enc_diff_tol)),
     }
-}
-
-fn ratio(numerator: i32, denominator: i32) -> f64 {
-    f64::from(numerator.max(1)) / f64::from(denominator.max(1))
 }
 
 #[cfg(test)]
