@@ -81,6 +81,7 @@ impl State {
             let was = *value;
             *value = Misfit { encoders: [after[encoder] / before[encoder]; 2], command: 1.0 }.shown(encoder, was);
             axis.offset[encoder] += was - *value;
+            axis.monitor.encoders[encoder].forget_mark();
             if axis.referenced[encoder] {
                 axis.referenced[encoder] = false;
                 axis.causes.reference[encoder] = event;

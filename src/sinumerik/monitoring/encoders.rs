@@ -37,6 +37,13 @@ pub(in crate::sinumerik) struct EncoderMonitor {
     errors: u32,
 }
 
+impl EncoderMonitor {
+    /// It counts in another measure from now on: the next zero mark has none before it.
+    pub(in crate::sinumerik) fn forget_mark(&mut self) {
+        self.mark = None;
+    }
+}
+
 impl State {
     pub(super) fn monitor_encoders(&mut self, number: AxisNumber, parameters: &AxisParameters) {
         for encoder in 0..usize::from(parameters.encoders).min(2) {
