@@ -12,7 +12,6 @@ use super::alarms::Cancel;
 use super::parameters::Parameters;
 use super::rules::Rule;
 use crate::image::ToNck;
-use crate::units::ModeGroupNumber;
 use crate::variables::{EventId, Input, Place, SignalBit};
 
 /// The state of the emergency stop.
@@ -46,14 +45,15 @@ impl State {
     pub(super) fn watch_emergency_stop(&mut self, parameters: &Parameters, to_nck: &ToNck) {
         let requested = to_nck.nck.emergency_stop();
         let acknowledged = to_nck.nck.acknowledge_emergency_stop();
-        let mut groups = parameters.existing_mode_groups();
-        let reset = groups.all(|group| to_nck.mode_groups[group].mode_group_reset());
+        let reset = parameters.existing_mode_groups().all(|group| to_nck.mode_groups[group].mode_group_reset());
         if requested && !self.emergency_stop.active {
             let cause = self.log.note_one(Place::Nck, Rule::EmergencyStop, bit(1, true), EventId::NONE);
             self.emergency_stop = EmergencyStop { active: true, cause };
         } else if !requested && acknowledged && reset && self.emergency_stop.active {
-            let group = SignalBit { place: Place::ModeGroup(ModeGroupNumber::FIRST), byte: 0, bit: 7 };
-            let inputs = [bit(1, false), bit(2, true), Input::Bit(group, true)];
+            let pressed = |group| Input::Bit(SignalBit { place: Place::ModeGroup(group), byte: 0, bit: 7 }, true);
+            // There is room for one; without RESET of the others it would not have ended.
+            let group = parameters.existing_mode_groups().next().map_or(Input::None, pressed);
+            let inputs = [bit(1, false), bit(2, true), group];
             let cause = self.log.note(Place::Nck, Rule::EmergencyStopAcknowledged, inputs, self.emergency_stop.cause);
             self.emergency_stop = EmergencyStop { active: false, cause };
             self.alarms.cancel(Cancel::ModeGroupReset, |_| true);
