@@ -4,17 +4,19 @@
 //! | numbers | what the model lacks for them |
 //! |---|---|
 //! | 2001, 2900, 4xxx but 4300, 26014 to 26017, 26024, 26025 | machine data are judged before the control starts, and reported there |
+//! | 10657 | extended monitoring: MD37150 bit 0 with MD37135 |
 //! | 10620, 10630, 10631, 107xx, 12550, 14xxx, 16xxx, 17xxx, 20070, 20071, 26072, 26076 | programs, blocks, the PLC's positioning axes, working areas |
 //! | 20003, 20004, 20007, 20008, 22062, 22064 | distance-coded marks, and MD34200 = 6 and 7 |
 //! | 20052, 20053, 20060, 20062 | geometry axes, and overlaid movements such as DRF |
 //! | 20054, 20056, 20058 | indexing axes and revolutional feed |
+//! | 20059 | AUTOMATIC with JOG at the same time (MD10735) |
+//! | 21550 | couplings other than gantry groupings, which would retract an axis from its limit switch |
 //! | 21620 | the emergency braking ramp of a drive that stops by itself |
 //! | 22060 | a movement of an axis that no key, but a program wants out of position control |
 //! | 22321, 22322 | PRESET |
 //! | 25022, 26020, 26030 | absolute encoders |
 //! | 25042 | limits of torque or force |
 //! | 25070 | drift compensation |
-//! | 25200, 26050 | the choice of a parameter set |
 //! | 26006, 26100, 26101, 26105, 26106 | drives and encoders on a bus: those of the plant are always found, and of the type that they should be |
 
 use super::alarms::{Cancel, Reaction, alarms};
@@ -110,4 +112,31 @@ alarms! {
     26101 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED REFERENCE_AGAIN INTERFACE_SIGNALS DISPLAY STOP] Reset "axis %1 drive %2 communication failure";
     26105 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "drive of axis %1 not found";
     26106 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "encoder %2 of axis %1 not found";
+}
+
+#[cfg(test)]
+mod tests {
+    use super::NOT_RAISED;
+
+    /// `4xxx but 4300`, `26014 to 26017`, `2001`.
+    fn means(numbers: &str, number: &str) -> bool {
+        let (numbers, but) = numbers.split_once(" but ").unwrap_or((numbers, ""));
+        let (first, last) = numbers.split_once(" to ").unwrap_or((numbers, numbers));
+        let within = |end: &str, bound: char| end.replace('x', &bound.to_string()).parse::<u32>().unwrap();
+        number != but && (within(first, '0')..=within(last, '9')).contains(&number.parse().unwrap())
+    }
+
+    #[test]
+    fn the_table_says_of_every_alarm_why_and_of_no_other() {
+        let rows = include_str!("alarm_list.rs").lines().filter_map(|line| line.strip_prefix("//! | "));
+        let said: Vec<_> = rows.skip(1).flat_map(|row| row.split(" | ").next().unwrap().split(", ")).collect();
+        for alarm in NOT_RAISED {
+            let number = alarm.number.0.to_string();
+            let rows = said.iter().filter(|numbers| means(numbers, &number)).count();
+            assert_eq!(rows, 1, "alarm {number}");
+        }
+        for numbers in said {
+            assert!(NOT_RAISED.iter().any(|alarm| means(numbers, &alarm.number.0.to_string())), "{numbers}");
+        }
+    }
 }
