@@ -69,12 +69,12 @@
 //! One step is one interpolation cycle. [`Machine::step`](machine::Machine::step) lists its stages, and their order is the
 //! specification of who sees whom when:
 //!
-//! 1. Commands from outside that were queued: writes, forces, machine data, faults, power, the cancel key.
+//! 1. Commands from outside that were queued: writes, forces, machine data, handwheels, faults, power, the cancel key.
 //! 2. The plant senses: wired switches become inputs of the PLC.
 //! 3. PLC scan, when its time has come. It reads what the control published at the end of the cycle before.
 //! 4. Cams and limit switches that are not wired, then forces.
-//! 5. The control decides: run-up, mode group, RESET, measuring systems, enabling, referencing and gantry or JOG, setpoints
-//!    and coupling.
+//! 5. The control decides: run-up, mode groups, emergency stop, RESET, handwheels, measuring systems, parameter sets, enabling,
+//!    referencing and gantry or JOG, setpoints and coupling.
 //! 6. Position control, drives and mechanics, MD10070 / MD10060 times; encoders tell.
 //! 7. Monitoring and alarms.
 //! 8. Publication of signals and variables.
@@ -107,7 +107,7 @@
 //! | an alarm | a row in `sinumerik/alarms.rs`, a `raise` where it happens | `alarm(N)` in scenarios, its text in traces |
 //! | a rule | a row in `sinumerik/rules.rs`, a `note` where it is decided | the cause behind an edge |
 //! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `sinumerik/referencing.rs` or `gantry.rs` | golden traces that move |
-//! | a fault | an arm of [`FaultKind`](machine::FaultKind), what it does in `plant/moving.rs`, its name in `scenario/steps.rs` | `fault = {…}` in scenarios |
+//! | a fault | an arm of [`FaultKind`](machine::FaultKind), what it does in `plant/moving.rs`, its name in `scenario/faults.rs` | `fault = {…}` in scenarios |
 //! | a PLC program | a file in `plc/programs/`, a line in `plc/registry.rs`; or a closure of your own | `plc = "name"` in scenarios |
 //! | a machine | a folder below `machine_data/` | `machine = "path"` in scenarios |
 //! | a scenario | a `.toml` below `golden/<area>/`, then read and accept its trace | the `.snap` beside it |

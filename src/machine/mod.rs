@@ -14,7 +14,8 @@
 //! ```
 //!
 //! `step.rs` holds the order of a step, `open.rs` reads machines, `command.rs` says what can be done to a machine from
-//! outside (it is queued and acts at the edge of the next step), `changes.rs` finds what changed for the record.
+//! outside (it is queued and acts at the edge of the next step), `changes.rs` finds what changed for the record, `saved.rs`
+//! saves, restores and forks.
 
 mod changes;
 mod command;

@@ -63,7 +63,7 @@ impl Machine {
         self.note_overwritten();
         self.sense_unwired_switches();
         self.apply_forces();
-        // Mode group, channel, enabling, referencing and gantry, setpoints, coupling.
+        // The control decides.
         self.control.select_handwheels(&self.memory.hmi.nck);
         let changes = self.plc_changes();
         self.control.decide(self.cycle, &self.memory.to_nck, changes, taken.cancel);

@@ -3,7 +3,7 @@
 //!
 //! Called once per cycle for each grouping in the stage "referencing and gantry". Reads REF, traversing keys of the
 //! leading axis, 29.4 and 29.5 of the leading axis; writes the motions of all its axes. Monitoring is in
-//! `monitoring.rs`.
+//! `monitoring/synchronism.rs`.
 //!
 //! Choices where the manuals leave one: 29.4 acts by its rising edge while the grouping waits (O-01), and not while
 //! an axis of the grouping is not in position control; the key is held through sections 1 and 2 but not 3 (O-02); the

@@ -1,9 +1,10 @@
 //! Machine functions of JOG, INC1 to INC10000, INCvar and continuous: which one is active, and what a press of a traversing
 //! key begins and ends.
 //!
-//! Called once per cycle: [`State::select_group_functions`] and [`State::select_functions`] before the units, [`Jogging::take_keys`] from `jog.rs` while an axis is
-//! jogged. Reads DBX5.0 to 5.6 of the axis, or DB11.DBX2.0 to 2.6 for all axes where DB10.DBX57.0 = 1; shows DBX65.0 to 65.6,
-//! and DB11.DBX8.0 to 8.6 where 57.0 = 1. An increment is MD11330 (INCvar: SD41010) times MD31090; a negative MD31090 turns it round.
+//! Called once per cycle: [`State::select_group_functions`] and [`State::select_functions`] before the units,
+//! [`Jogging::take_keys`] from `jog.rs` while an axis is jogged. Reads DBX5.0 to 5.6 of the axis, or DB11.DBX2.0 to 2.6 (22.0
+//! to 22.6) for all axes of a mode group where DB10.DBX57.0 = 1; shows DBX65.0 to 65.6, and DB11.DBX8.0 to 8.6 (28.0 to 28.6)
+//! where 57.0 = 1. An increment is MD11330 (INCvar: SD41010) times MD31090; a negative MD31090 turns it round.
 //!
 //! Choices where the manuals leave one: no request means continuous, and of several requests the smallest increment counts;
 //! what is selected acts on the next press of a key, a movement that runs goes on as it began; an increment

@@ -2,10 +2,11 @@
 //! gantry groupings, alarms.
 //!
 //! The machine calls [`Control`] in this order, once per interpolation cycle, and that order is the specification:
-//! [`Control::decide`] takes what the PLC wrote and commands setpoints (modes, RESET, measuring systems, enabling,
-//! referencing and gantry or JOG, setpoints, coupling); position control, drives and mechanics move;
-//! [`Control::observe`] takes what encoders and drives tell and monitors it; [`Control::publish`] writes the
-//! NCK's half of the interface and the variables. The control reads [`ToNck`] and nothing else of the PLC.
+//! [`Control::decide`] takes what the PLC wrote and commands setpoints (run-up, modes, emergency stop, RESET, handwheels,
+//! measuring systems, parameter sets, enabling, referencing and gantry or JOG, setpoints, coupling);
+//! [`Control::velocity_command`] is position control, while drives and mechanics move; [`Control::observe`] takes what encoders
+//! and drives tell and monitors it; [`Control::publish`] writes the NCK's half of the interface and the variables. The control
+//! reads [`ToNck`], the HMI's selection of handwheels, and nothing else. Axes that rest are left out (`resting.rs`).
 //!
 //! | I want to add | I do |
 //! |---|---|
@@ -13,6 +14,8 @@
 //! | an alarm | a row in `alarms.rs`, a `raise` where it happens |
 //! | a rule that causes an edge | a row in `rules.rs`, a `note` where it is decided |
 //! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `referencing.rs` or `gantry.rs` |
+//! | something that all axes depend on | a field of `Shared` in `resting.rs`, or nobody wakes for it |
+//! | something to watch | a file in `monitoring/`, a row in its table |
 //! | a signal that the control shows | a line in `publish.rs`, and its cause in `causes.rs` |
 
 mod alarm_list;
@@ -429,18 +432,16 @@ impl State {
     /// Closed groupings and single axes; an open grouping is single axes that are still run as a grouping.
     fn form_units(&mut self, parameters: &Parameters) {
         self.units.clear();
-        let mut taken = 0_u32;
+        let mut taken = AxisSet::NONE;
         for (index, grouping) in self.groupings.iter().enumerate() {
             let unit = Unit::of(&grouping.coupling, index, parameters);
             if grouping.phase == gantry::Phase::Open && self.is_kept_open(index, parameters) {
                 continue;
             }
-            for axis in unit.members() {
-                taken |= 1 << axis.index();
-            }
+            taken = taken.with(unit.set);
             self.units.push(unit);
         }
-        for (axis, _) in parameters.existing().filter(|(axis, _)| taken >> axis.index() & 1 == 0) {
+        for (axis, _) in parameters.existing().filter(|(axis, _)| !taken.contains(*axis)) {
             self.units.push(Unit::single(axis, parameters));
         }
     }

@@ -8,7 +8,7 @@
 //! | `synchronism.rs` | the synchronism difference of a grouping | 10652, 10653 |
 //! | `position.rs` | an axis at rest, on its way into exact stop, clamped, and its contour | 25040, 25080, 26000, 25050 |
 //! | `speed.rs` | actual velocity and speed setpoint | 25030, 25060 |
-//! | `encoders.rs` | frequency, faults, zero marks and differences of the encoders | 21610, 25000 to 25021, 25105 |
+//! | `encoders.rs` | frequency, faults, zero marks and differences of the encoders, and their switch-over | 21610, 21613, 25000 to 25021, 25100 to 25110 |
 //! | `drive.rs` | what a drive tells of itself | 25201, 25202 |
 //!
 //! At a limit, strictly greater trips and equal does not (O-11). What is said to last longer than a time is counted in
