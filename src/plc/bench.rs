@@ -1,6 +1,6 @@
 //! A test bench: a program on a memory, scan by scan.
 
-use crate::image::{Memory, Names};
+use crate::image::{Location, Memory, Names, Profile};
 use crate::plc::{PlcFault, PlcIo, PlcProgram};
 use crate::units::{AxisNumber, Time};
 
@@ -19,6 +19,20 @@ impl Bench {
             names.axes[number] = Some((*name).to_owned());
         }
         Self { memory: Memory::new(), names, time: Time::ZERO }
+    }
+
+    /// What stands at an address.
+    pub(super) fn get(&self, address: &str) -> u64 {
+        self.memory.read(self.at(address))
+    }
+
+    /// Writes to an address.
+    pub(super) fn set(&mut self, address: &str, value: u64) {
+        self.memory.write(self.at(address), value);
+    }
+
+    fn at(&self, address: &str) -> Location {
+        self.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap()
     }
 
     /// One scan, 10 ms after the last one.

@@ -23,24 +23,17 @@ pub fn gantry_start() -> ClosureProgram<()> {
 #[cfg(test)]
 mod tests {
     use super::gantry_start;
-    use crate::image::Profile;
     use crate::plc::bench::Bench;
 
     #[test]
     fn the_start_follows_ready_to_start_on_its_axis() {
         let mut bench = Bench::with_axes(&["X", "XF"]);
-        let at = |bench: &Bench, address: &str| {
-            bench.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap()
-        };
-        let (ready, start) = (at(&bench, "DB31.DBX101.4"), at(&bench, "DB31.DBX29.4"));
-        let other = at(&bench, "DB32.DBX29.4");
         let mut program = gantry_start();
         for value in [0, 1, 0] {
-            bench.memory.write(ready, value);
+            bench.set("DB31.DBX101.4", value);
             bench.scan(&mut program).unwrap();
-            assert_eq!(bench.memory.read(start), value);
-            assert_eq!(bench.memory.read(other), 0);
+            assert_eq!((bench.get("DB31.DBX29.4"), bench.get("DB32.DBX29.4")), (value, 0));
         }
-        assert_eq!(bench.memory.read(at(&bench, "DB31.DBX2.1")), 1, "it enables the axes as well");
+        assert_eq!(bench.get("DB31.DBX2.1"), 1, "it enables the axes as well");
     }
 }

@@ -61,53 +61,43 @@ pub fn limit_edge_marker() -> ClosureProgram<LimitEdgeMarker> {
 #[cfg(test)]
 mod tests {
     use super::limit_edge_marker;
-    use crate::image::Profile;
     use crate::plc::bench::Bench;
-
-    fn get(bench: &Bench, address: &str) -> u64 {
-        bench.memory.read(bench.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap())
-    }
-
-    fn set(bench: &mut Bench, address: &str, value: u64) {
-        let at = bench.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap();
-        bench.memory.write(at, value);
-    }
 
     #[test]
     fn edges_of_synchronous_axes_are_marked_and_counted_and_those_of_no_other() {
         let mut bench = Bench::with_axes(&["X", "Y", "XF"]);
         let mut program = limit_edge_marker();
         for value in [0, 1, 1, 0, 1] {
-            set(&mut bench, "DB31.DBB101", 0b1100_0000 | value << 3); // leading axis
-            set(&mut bench, "DB32.DBB101", value << 3); // no gantry axis
-            set(&mut bench, "DB33.DBB101", 0b1000_0000 | value << 3); // synchronous axis
+            bench.set("DB31.DBB101", 0b1100_0000 | value << 3); // leading axis
+            bench.set("DB32.DBB101", value << 3); // no gantry axis
+            bench.set("DB33.DBB101", 0b1000_0000 | value << 3); // synchronous axis
             bench.scan(&mut program).unwrap();
         }
-        assert_eq!(get(&bench, "MB20"), 0b100);
-        assert_eq!(get(&bench, "M24.0"), 1);
-        assert_eq!(["MW30", "MW32", "MW34"].map(|word| get(&bench, word)), [0, 0, 2]);
+        assert_eq!(bench.get("MB20"), 0b100);
+        assert_eq!(bench.get("M24.0"), 1);
+        assert_eq!(["MW30", "MW32", "MW34"].map(|word| bench.get(word)), [0, 0, 2]);
     }
 
     #[test]
     fn markers_and_counts_are_taken_back_and_what_is_still_there_is_no_new_edge() {
         let mut bench = Bench::with_axes(&["X", "XF"]);
         let mut program = limit_edge_marker();
-        set(&mut bench, "DB32.DBB101", 0b1000_1000);
+        bench.set("DB32.DBB101", 0b1000_1000);
         bench.scan(&mut program).unwrap();
-        assert_eq!((get(&bench, "M20.1"), get(&bench, "MW32")), (1, 1));
-        set(&mut bench, "M24.1", 1);
+        assert_eq!((bench.get("M20.1"), bench.get("MW32")), (1, 1));
+        bench.set("M24.1", 1);
         for _ in 0..2 {
             bench.scan(&mut program).unwrap();
-            assert_eq!(["M20.1", "M24.0", "M24.1", "MW32"].map(|flag| get(&bench, flag)), [0; 4]);
+            assert_eq!(["M20.1", "M24.0", "M24.1", "MW32"].map(|flag| bench.get(flag)), [0; 4]);
         }
     }
 
     #[test]
     fn a_count_stays_at_its_greatest_value() {
         let mut bench = Bench::with_axes(&["X", "XF"]);
-        set(&mut bench, "MW32", 65535);
-        set(&mut bench, "DB32.DBB101", 0b1000_1000);
+        bench.set("MW32", 65535);
+        bench.set("DB32.DBB101", 0b1000_1000);
         bench.scan(&mut limit_edge_marker()).unwrap();
-        assert_eq!(get(&bench, "MW32"), 65535);
+        assert_eq!(bench.get("MW32"), 65535);
     }
 }

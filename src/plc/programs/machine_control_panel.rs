@@ -22,8 +22,8 @@
 //! * RESET is RESET of mode group 1 (DB11.DBX0.7) and of channel 1 (DB21.DBX7.7). START, STOP (of the NC) and SINGLE (block) are
 //!   DB21.DBX7.1, 7.3 and 0.4. The key-operated switch is DB10.DBX56.4 to 56.7.
 //! * The emergency stop chain is closed current: I7.0 = 0 is an emergency stop (DB10.DBX56.1), so a panel without any input stands
-//!   still. E-STOP ACK, pressed when the chain is closed, holds 56.2 and mode group RESET until the control has left the
-//!   emergency stop (106.1 = 0); an open chain ends that.
+//!   still. E-STOP ACK, pressed when the chain is closed, holds 56.2 and mode group RESET of both mode groups (DB11.DBX0.7 and
+//!   20.7) until the control has left the emergency stop (106.1 = 0); an open chain ends that.
 
 use serde::{Deserialize, Serialize};
 
@@ -94,7 +94,8 @@ impl MachineControlPanel {
         let (closed, key) = (io.inputs.bit(7, 0), io.inputs.bit(7, 1));
         let stopped = io.from_nck.nck().emergency_stop_active();
         let pressed = self.acknowledge.scan(key);
-        self.acknowledging = closed && stopped && (pressed || self.acknowledging);
+        let acknowledged = self.acknowledging;
+        self.acknowledging = closed && stopped && (pressed || acknowledged);
         let reset = io.inputs.bit(3, 7);
         let nck = io.to_nck.nck();
         nck.set_emergency_stop(!closed);
@@ -105,6 +106,12 @@ impl MachineControlPanel {
         nck.set_key_operated_switch_position_3(io.inputs.bit(2, 7));
         io.to_nck.mode_group(ModeGroupNumber::FIRST).set_mode_group_reset(reset || self.acknowledging);
         io.to_nck.channel(ChannelNumber::FIRST).set_channel_reset(reset);
+        // RESET of another mode group is not the panel's, but for the acknowledgement, which needs it of all.
+        if self.acknowledging || acknowledged {
+            for group in ModeGroupNumber::all().filter(|group| *group != ModeGroupNumber::FIRST) {
+                io.to_nck.mode_group(group).set_mode_group_reset(self.acknowledging);
+            }
+        }
     }
 
     fn traverse(&mut self, io: &mut PlcIo<'_>) {
@@ -176,27 +183,17 @@ fn run_programs(io: &mut PlcIo<'_>) {
 #[cfg(test)]
 mod tests {
     use super::{MACHINE_CONTROL_PANEL_LAYOUT, machine_control_panel};
-    use crate::image::Profile;
     use crate::plc::ClosureProgram;
     use crate::plc::bench::Bench;
-
-    fn get(bench: &Bench, address: &str) -> u64 {
-        bench.memory.read(bench.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap())
-    }
-
-    fn set(bench: &mut Bench, address: &str, value: u64) {
-        let at = bench.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap();
-        bench.memory.write(at, value);
-    }
 
     /// A key is pressed for one scan, and released for another.
     fn press<S>(bench: &mut Bench, program: &mut ClosureProgram<S>, key: &str)
     where
         ClosureProgram<S>: crate::plc::PlcProgram,
     {
-        set(bench, key, 1);
+        bench.set(key, 1);
         bench.scan(program).unwrap();
-        set(bench, key, 0);
+        bench.set(key, 0);
         bench.scan(program).unwrap();
     }
 
@@ -220,13 +217,13 @@ mod tests {
             let mut bench = Bench::with_axes(&["X"]);
             let mut program = machine_control_panel();
             bench.scan(&mut program).unwrap();
-            assert_eq!(get(&bench, signal), 0, "{key}");
-            set(&mut bench, key, 1);
+            assert_eq!(bench.get(signal), 0, "{key}");
+            bench.set(key, 1);
             bench.scan(&mut program).unwrap();
-            assert_eq!(get(&bench, signal), 1, "{key}");
-            set(&mut bench, key, 0);
+            assert_eq!(bench.get(signal), 1, "{key}");
+            bench.set(key, 0);
             bench.scan(&mut program).unwrap();
-            assert_eq!(get(&bench, signal), 0, "{key}");
+            assert_eq!(bench.get(signal), 0, "{key}");
         }
     }
 
@@ -234,15 +231,15 @@ mod tests {
     fn ref_stays_until_a_mode_key_or_until_jog_is_left() {
         let mut bench = Bench::with_axes(&["X"]);
         let mut program = machine_control_panel();
-        set(&mut bench, "DB11.DBX6.2", 1); // JOG is active
+        bench.set("DB11.DBX6.2", 1); // JOG is active
         press(&mut bench, &mut program, "I1.6");
-        assert_eq!(get(&bench, "DB11.DBX1.2"), 1);
+        assert_eq!(bench.get("DB11.DBX1.2"), 1);
         press(&mut bench, &mut program, "I0.3");
-        assert_eq!(get(&bench, "DB11.DBX1.2"), 0);
+        assert_eq!(bench.get("DB11.DBX1.2"), 0);
         press(&mut bench, &mut program, "I1.6");
-        set(&mut bench, "DB11.DBX6.2", 0);
+        bench.set("DB11.DBX6.2", 0);
         bench.scan(&mut program).unwrap();
-        assert_eq!(get(&bench, "DB11.DBX1.2"), 0);
+        assert_eq!(bench.get("DB11.DBX1.2"), 0);
     }
 
     #[test]
@@ -250,21 +247,21 @@ mod tests {
         let mut bench = Bench::with_axes(&["X"]);
         let mut program = machine_control_panel();
         bench.scan(&mut program).unwrap();
-        assert_eq!((get(&bench, "DB11.DBB2"), get(&bench, "DB10.DBX57.0")), (0b0100_0000, 1));
+        assert_eq!((bench.get("DB11.DBB2"), bench.get("DB10.DBX57.0")), (0b0100_0000, 1));
         for (key, bits) in [("I1.0", 1), ("I1.1", 2), ("I1.2", 4), ("I1.3", 8), ("I1.4", 16), ("I1.5", 32)] {
             press(&mut bench, &mut program, key);
-            assert_eq!(get(&bench, "DB11.DBB2"), bits, "{key}");
+            assert_eq!(bench.get("DB11.DBB2"), bits, "{key}");
         }
         press(&mut bench, &mut program, "I0.3");
-        assert_eq!(get(&bench, "DB11.DBB2"), 0b0100_0000);
+        assert_eq!(bench.get("DB11.DBB2"), 0b0100_0000);
     }
 
     #[test]
     fn the_direction_keys_are_those_of_the_selected_axis() {
         let mut bench = Bench::with_axes(&["X", "Y"]);
         let mut program = machine_control_panel();
-        let keys = |bench: &Bench| [get(bench, "DB31.DBB4"), get(bench, "DB32.DBB4")];
-        set(&mut bench, "I5.2", 1);
+        let keys = |bench: &Bench| [bench.get("DB31.DBB4"), bench.get("DB32.DBB4")];
+        bench.set("I5.2", 1);
         bench.scan(&mut program).unwrap();
         assert_eq!(keys(&bench), [0, 0], "nothing is selected after power on");
         press(&mut bench, &mut program, "I4.1");
@@ -272,20 +269,20 @@ mod tests {
         press(&mut bench, &mut program, "I4.2");
         assert_eq!(keys(&bench), [0, 0b1000_0000], "there is no third axis");
         press(&mut bench, &mut program, "I4.0");
-        set(&mut bench, "IB5", 0b011);
+        bench.set("IB5", 0b011);
         bench.scan(&mut program).unwrap();
         assert_eq!(keys(&bench), [0b0110_0000, 0], "minus and rapid traverse");
-        assert_eq!(get(&bench, "QB4"), 1);
+        assert_eq!(bench.get("QB4"), 1);
     }
 
     #[test]
     fn the_override_goes_to_every_axis_and_to_the_channel() {
         let mut bench = Bench::with_axes(&["X", "Y"]);
-        set(&mut bench, "IB3", 0b0001_1010);
+        bench.set("IB3", 0b0001_1010);
         bench.scan(&mut machine_control_panel()).unwrap();
         for (byte, active) in [("DB31.DBB0", "DB31.DBX1.7"), ("DB32.DBB0", "DB32.DBX1.7"), ("DB21.DBB4", "DB21.DBX6.7")]
         {
-            assert_eq!((get(&bench, byte), get(&bench, active)), (0b11010, 1), "{byte}");
+            assert_eq!((bench.get(byte), bench.get(active)), (0b11010, 1), "{byte}");
         }
     }
 
@@ -293,20 +290,21 @@ mod tests {
     fn an_open_chain_stops_and_the_acknowledgement_is_held_until_the_stop_is_left() {
         let mut bench = Bench::with_axes(&["X"]);
         let mut program = machine_control_panel();
-        let bits = |bench: &Bench| ["DB10.DBX56.1", "DB10.DBX56.2", "DB11.DBX0.7"].map(|bit| get(bench, bit));
+        let bits =
+            |bench: &Bench| ["DB10.DBX56.1", "DB10.DBX56.2", "DB11.DBX0.7", "DB11.DBX20.7"].map(|bit| bench.get(bit));
         bench.scan(&mut program).unwrap();
-        assert_eq!(bits(&bench), [1, 0, 0]);
-        set(&mut bench, "DB10.DBX106.1", 1);
+        assert_eq!(bits(&bench), [1, 0, 0, 0]);
+        bench.set("DB10.DBX106.1", 1);
         press(&mut bench, &mut program, "I7.1");
-        assert_eq!(bits(&bench), [1, 0, 0], "the chain is open");
-        set(&mut bench, "I7.0", 1);
+        assert_eq!(bits(&bench), [1, 0, 0, 0], "the chain is open");
+        bench.set("I7.0", 1);
         bench.scan(&mut program).unwrap();
-        assert_eq!(bits(&bench), [0, 0, 0]);
+        assert_eq!(bits(&bench), [0, 0, 0, 0]);
         press(&mut bench, &mut program, "I7.1");
-        assert_eq!(bits(&bench), [0, 1, 1], "held although the key is released");
-        set(&mut bench, "DB10.DBX106.1", 0);
+        assert_eq!(bits(&bench), [0, 1, 1, 1], "held although the key is released");
+        bench.set("DB10.DBX106.1", 0);
         bench.scan(&mut program).unwrap();
-        assert_eq!(bits(&bench), [0, 0, 0]);
+        assert_eq!(bits(&bench), [0, 0, 0, 0]);
     }
 
     #[test]

@@ -28,32 +28,23 @@ pub fn shared_reference_cam() -> ClosureProgram<()> {
 #[cfg(test)]
 mod tests {
     use super::shared_reference_cam;
-    use crate::image::Profile;
     use crate::plc::bench::Bench;
 
-    fn set(bench: &mut Bench, address: &str, value: u64) {
-        let at = bench.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap();
-        bench.memory.write(at, value);
-    }
-
     fn cams(bench: &Bench) -> [u64; 3] {
-        [31, 32, 33].map(|db| {
-            let address = format!("DB{db}.DBX12.7").parse().unwrap();
-            bench.memory.read(bench.memory.locate(&address, Profile::Sinumerik840dSl).unwrap())
-        })
+        ["DB31.DBX12.7", "DB32.DBX12.7", "DB33.DBX12.7"].map(|cam| bench.get(cam))
     }
 
     #[test]
     fn the_cam_of_the_leading_axis_reaches_the_grouping_and_no_other_axis() {
         let mut bench = Bench::with_axes(&["X", "Y", "XF"]);
-        set(&mut bench, "DB31.DBB101", 0xC0); // leading axis
-        set(&mut bench, "DB33.DBB101", 0x80); // synchronized axis
+        bench.set("DB31.DBB101", 0xC0); // leading axis
+        bench.set("DB33.DBB101", 0x80); // synchronized axis
         let mut program = shared_reference_cam();
-        set(&mut bench, "DB31.DBX12.7", 1);
+        bench.set("DB31.DBX12.7", 1);
         bench.scan(&mut program).unwrap();
         assert_eq!(cams(&bench), [1, 0, 1]);
-        set(&mut bench, "DB31.DBX12.7", 0);
-        set(&mut bench, "DB32.DBX12.7", 1);
+        bench.set("DB31.DBX12.7", 0);
+        bench.set("DB32.DBX12.7", 1);
         bench.scan(&mut program).unwrap();
         assert_eq!(cams(&bench), [0, 1, 0]);
     }
@@ -61,8 +52,8 @@ mod tests {
     #[test]
     fn without_a_leading_axis_every_cam_stays_as_it_is() {
         let mut bench = Bench::with_axes(&["X", "Y", "XF"]);
-        set(&mut bench, "DB33.DBB101", 0x80);
-        set(&mut bench, "DB33.DBX12.7", 1);
+        bench.set("DB33.DBB101", 0x80);
+        bench.set("DB33.DBX12.7", 1);
         bench.scan(&mut shared_reference_cam()).unwrap();
         assert_eq!(cams(&bench), [0, 0, 1]);
     }

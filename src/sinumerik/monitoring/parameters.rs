@@ -53,8 +53,8 @@ pub(in crate::sinumerik) fn monitoring(md: &Axis, cycle: Time) -> Monitoring {
     let revolution = mechanics.motor_revolution() * Position::PER_USER_UNIT;
     // MD32250 percent of the output are MD32260; 0 means that 100 percent are.
     let full_speed = if md.rated_outval > 0.0 { md.rated_velo * 100.0 / md.rated_outval } else { md.rated_velo };
-    let frequency_limit = [0, 1]
-        .map(|encoder| md.enc_freq_limit[encoder] * mechanics.encoder_line(encoder) * Position::PER_USER_UNIT);
+    let frequency_limit =
+        [0, 1].map(|encoder| md.enc_freq_limit[encoder] * mechanics.encoder_line(encoder) * Position::PER_USER_UNIT);
     Monitoring {
         standstill_cycles: cycles(md.standstill_delay_time),
         clamping_tolerance: Position::from_user(md.clamp_pos_tol),
