@@ -62,6 +62,7 @@
 //! | [`machine`] | ONE STEP, and open, queue, power, save, restore, fork | `image`, `motion`, `plant`, `plc`, `sinumerik`, `source`, `trace`, `units`, `variables` |
 //! | [`scenario`] | files that act, and the session that tests in Rust use | `image`, `machine`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`golden`] | scenarios below a folder, each against its golden trace | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units` |
+//! | [`s7`] | THE WINDOW: S7 communication, wire formats and sessions without a socket (feature `s7`) | `image`, `units`, `variables` |
 //! | [`cli`] | the program's arguments and wiring (feature `cli`) | all |
 //!
 //! # The order of a step
@@ -111,6 +112,7 @@
 //! | a PLC program | a file in `plc/programs/`, a line in `plc/registry.rs`; or a closure of your own | `plc = "name"` in scenarios |
 //! | a machine | a folder below `machine_data/` | `machine = "path"` in scenarios |
 //! | a scenario | a `.toml` below `golden/<area>/`, then read and accept its trace | the `.snap` beside it |
+//! | an NC variable that clients read | a row in `s7/nck/catalogue.rs` | its value by area, module, column and line |
 //! | a room | a folder in `src`, a row here and one in `tests/layers.rs` | the test that compares both |
 
 #[cfg(feature = "cli")]
@@ -121,6 +123,8 @@ pub mod machine;
 pub mod motion;
 pub mod plant;
 pub mod plc;
+#[cfg(feature = "s7")]
+pub mod s7;
 pub mod scenario;
 pub mod sinumerik;
 pub mod source;

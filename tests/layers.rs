@@ -18,6 +18,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("machine", &["image", "motion", "plant", "plc", "sinumerik", "source", "trace", "units", "variables"]),
     ("scenario", &["image", "machine", "plc", "source", "trace", "units", "variables"]),
     ("golden", &["image", "machine", "plc", "scenario", "source", "trace", "units"]),
+    ("s7", &["image", "units", "variables"]),
     ("cli", &["*"]),
 ];
 

@@ -1,0 +1,44 @@
+//! THE WINDOW: S7 communication, through which operator panels, data collectors and test tools see PLC and NCK.
+//!
+//! [`wire`] holds the formats, [`Session`] is one client's conversation without a socket (bytes in, answers out), and
+//! [`Station`] is what it serves. [`Bridge`] is the station of this simulator: the [`Memory`](crate::image::Memory) of one step
+//! to read, and commands for the edge of the next step to write. [`nck`] is the catalogue of NC variables.
+//!
+//! ```
+//! use opennck::image::{Memory, Names};
+//! use opennck::s7::{Answers, Bridge, Directory, Session, Settings};
+//! use opennck::variables::Variables;
+//!
+//! let (memory, names, variables) = (Memory::new(), Names::default(), Variables::default());
+//! let directory = Directory::of(&memory, names.profile);
+//! let mut station = Bridge::new(&memory, &variables, &names, &directory);
+//! let (mut session, mut answers) = (Session::new(Settings::default()), Answers::default());
+//! // The connection request of most clients, and the confirm: 22 bytes, and the TSAPs as they came.
+//! let request = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
+//! session.receive(&request, &mut station, &mut answers);
+//! assert_eq!(answers.bytes()[5], 0xD0);
+//! ```
+//!
+//! A session asks no clock and opens no socket: time comes in with [`Session::tick`], bytes with [`Session::receive`].
+
+pub mod nck;
+pub mod wire;
+
+mod bridge;
+mod directory;
+mod session;
+mod station;
+
+#[cfg(test)]
+mod tests;
+
+pub use bridge::{Bridge, Command, Machinery};
+pub use directory::Directory;
+pub use session::{Connection, Session, Settings};
+pub use station::{
+    Areas, BlockInfo, Blocks, Cpu, CpuState, Diagnosis, Identity, NcVariables, Protection, Restart, Station, Value,
+    Write,
+};
+pub use wire::data::Refusal;
+pub use wire::date_and_time::DateAndTime;
+pub use wire::pdu::Answers;

@@ -1,0 +1,50 @@
+//! Long answers of user data, sent in parts: the first with the answer, each further one when the client asks for it. The
+//! last part says so. One answer is kept at a time; a new request forgets it.
+
+use super::{Exchange, Session};
+use crate::s7::wire::header::ErrorCode;
+use crate::s7::wire::user_data::{Head, Request, payload_room};
+
+/// What has not been sent yet.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Parts {
+    payload: Vec<u8>,
+    sent: usize,
+    /// Group, function and sequence of the answer; none when all is sent.
+    of: Option<[u8; 3]>,
+}
+
+impl Session {
+    /// Sends an answer, in as many parts as it needs.
+    pub(super) fn send_in_parts(&mut self, request: &Request<'_>, exchange: &mut Exchange<'_>, payload: Vec<u8>) {
+        let sequence = self.next_sequence();
+        self.parts = Parts { payload, sent: 0, of: Some([request.group, request.function, sequence]) };
+        self.send_part(request, exchange, sequence);
+    }
+
+    /// The next part of a long answer.
+    pub(super) fn next_part(&mut self, request: &Request<'_>, exchange: &mut Exchange<'_>) {
+        if self.parts.of == Some([request.group, request.function, request.sequence]) {
+            self.send_part(request, exchange, request.sequence);
+        } else {
+            self.refuse_user_data(request, exchange, ErrorCode::WRONG_SEQUENCE);
+        }
+    }
+
+    fn send_part(&mut self, request: &Request<'_>, exchange: &mut Exchange<'_>, sequence: u8) {
+        let Parts { payload, sent, of } = &mut self.parts;
+        let left = &payload[*sent..];
+        let part = &left[..left.len().min(payload_room(exchange.budget))];
+        let more = part.len() < left.len();
+        // An answer in one part has no data unit.
+        let unit = if more || *sent > 0 { sequence } else { 0 };
+        let head = Head { unit, more, ..Head::answer(request, sequence) };
+        head.send(exchange.answers, exchange.reference, exchange.budget, part);
+        *sent += part.len();
+        if !more {
+            *of = None;
+            payload.clear();
+            *sent = 0;
+        }
+    }
+}

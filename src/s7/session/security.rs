@@ -1,0 +1,47 @@
+//! Passwords. A client gives one for its connection; it counts until it is taken back or the connection ends.
+//!
+//! On the wire the eight characters are folded: the first two with `55`, each further one with `55` and the folded one two before.
+
+use super::{Exchange, Session};
+use crate::s7::wire::header::ErrorCode;
+use crate::s7::wire::user_data::Request;
+
+impl Session {
+    /// Whether what needs this level is permitted to this client.
+    pub(super) fn permit(&self, level: u8, exchange: &Exchange<'_>) -> Result<(), ErrorCode> {
+        let is_protected = exchange.station.protection().level >= level;
+        if is_protected && !self.knows_password { Err(ErrorCode::PROTECTED) } else { Ok(()) }
+    }
+
+    pub(super) fn give_password(
+        &mut self,
+        request: &Request<'_>,
+        exchange: &mut Exchange<'_>,
+    ) -> Result<(), ErrorCode> {
+        let given = <[u8; 8]>::try_from(request.payload).map_err(|_| ErrorCode::NOT_SUPPORTED)?;
+        match exchange.station.protection().password {
+            None => return Err(ErrorCode::NO_PASSWORD),
+            Some(password) if password != unfolded(given) => return Err(ErrorCode::WRONG_PASSWORD),
+            Some(_) => self.knows_password = true,
+        }
+        self.acknowledge(request, exchange);
+        Ok(())
+    }
+
+    pub(super) fn take_password_back(
+        &mut self,
+        request: &Request<'_>,
+        exchange: &mut Exchange<'_>,
+    ) -> Result<(), ErrorCode> {
+        if exchange.station.protection().password.is_none() {
+            return Err(ErrorCode::NO_PASSWORD);
+        }
+        self.knows_password = false;
+        self.acknowledge(request, exchange);
+        Ok(())
+    }
+}
+
+fn unfolded(given: [u8; 8]) -> [u8; 8] {
+    std::array::from_fn(|at| given[at] ^ 0x55 ^ if at < 2 { 0 } else { given[at - 2] })
+}

@@ -1,0 +1,328 @@
+//! System state lists (SZL): what a module tells of itself, in lists of records. A list that is longer than the PDU goes in parts.
+//!
+//! | list | record | index | of what |
+//! |---|---|---|---|
+//! | `0000` | 2 | 0 | all lists |
+//! | `0011`, `0111` | 28 | 1, 6, 7 | order number, hardware, firmware |
+//! | `0012`, `0112` | 2 | | features of the CPU |
+//! | `0013`, `0113` | 36 | 1 | memories |
+//! | `0014` | 8 | | areas and their sizes |
+//! | `0015` | 10 | | types of block |
+//! | `0019`, `0119`, `0074`, `0174` | 4 | number of a lamp | lamps |
+//! | `001C`, `011C` | 34 | 1 to 11 | names, serial number, place |
+//! | `0131` | 40 | 1, 3 | communication |
+//! | `0132`, `0232` | 40 | 4 | protection |
+//! | `0222` | 28 | 1 | the last start of OB1 |
+//! | `0424` | 20 | | operating state and the change into it |
+//! | `00A0`, `01A0` | 20 | how many | diagnostic buffer |
+//!
+//! The extract `0Fxx` of a list is its head alone.
+
+use super::{Exchange, Session};
+use crate::image::Area;
+use crate::s7::station::{CpuState, Diagnosis, Station};
+use crate::s7::wire::header::ErrorCode;
+use crate::s7::wire::user_data::{Head, Request};
+
+/// All lists, ascending.
+const LISTS: [u16; 34] = [
+    0x0000, 0x0011, 0x0012, 0x0013, 0x0014, 0x0015, 0x0019, 0x001C, 0x0074, 0x00A0, 0x0111, 0x0112, 0x0113, 0x0119,
+    0x011C, 0x0131, 0x0132, 0x0174, 0x01A0, 0x0222, 0x0232, 0x0424, 0x0F00, 0x0F11, 0x0F12, 0x0F13, 0x0F14, 0x0F15,
+    0x0F19, 0x0F1C, 0x0F31, 0x0F32, 0x0F74, 0x0FA0,
+];
+
+/// Lamps of a CPU: SF, RUN, STOP, FRCE, bus fault 1.
+const LAMPS: [u16; 5] = [1, 4, 5, 6, 11];
+
+/// Features: groups and what is in them, as a CPU with floating point, a BCD clock and restart.
+const FEATURES: [u16; 14] =
+    [0x0000, 0x0002, 0x0100, 0x0102, 0x0104, 0x0200, 0x0202, 0x0203, 0x0300, 0x0301, 0x0302, 0x0303, 0x0304, 0x0305];
+
+/// The most entries of the diagnostic buffer that are shown.
+const ENTRIES: usize = 100;
+
+impl Session {
+    pub(super) fn read_list(&mut self, request: &Request<'_>, exchange: &mut Exchange<'_>) -> Result<(), ErrorCode> {
+        let Some((list, index)) = two_words(request.payload) else {
+            return Err(ErrorCode::NOT_SUPPORTED);
+        };
+        let payload = system_state_list(list, index, exchange.station, exchange.budget.pdu)?;
+        self.send_in_parts(request, exchange, payload);
+        Ok(())
+    }
+
+    /// The message service. Nobody sends messages here; a client that logs on is told that it is, and hears of none.
+    pub(super) fn log_on_to_messages(
+        &mut self,
+        request: &Request<'_>,
+        exchange: &mut Exchange<'_>,
+    ) -> Result<(), ErrorCode> {
+        /// Events and a reserved byte, then the name of the client.
+        const WITHOUT_KIND: usize = 2 + 8;
+        let head = Head::answer(request, self.next_sequence());
+        let answer: &[u8] = match request.payload.get(WITHOUT_KIND) {
+            Some(&kind) => &[2, 0, kind, 0, 0],
+            None if request.payload.len() >= 2 => &[2, 0],
+            None => return Err(ErrorCode::NOT_SUPPORTED),
+        };
+        head.send(exchange.answers, exchange.reference, exchange.budget, answer);
+        Ok(())
+    }
+}
+
+fn two_words(payload: &[u8]) -> Option<(u16, u16)> {
+    let [a, b, c, d] = payload else { return None };
+    Some((u16::from_be_bytes([*a, *b]), u16::from_be_bytes([*c, *d])))
+}
+
+/// A list with its head: identifier, index, length and number of records.
+fn system_state_list(list: u16, index: u16, station: &dyn Station, pdu: usize) -> Result<Vec<u8>, ErrorCode> {
+    let is_head = list >> 8 == 0x0F;
+    // The head of 0Fxx tells of the whole list; some lists have no form without an extract.
+    let whole = match list {
+        0x0F31 => 0x0131,
+        0x0F32 => 0x0132,
+        _ if is_head => list & 0xFF,
+        _ => list,
+    };
+    if LISTS.binary_search(&list).is_err() {
+        return Err(ErrorCode::WRONG_LIST);
+    }
+    let index = if is_head { 0 } else { index };
+    let mut records = records(whole, index, station, pdu)?;
+    if is_head {
+        records.bytes.clear();
+    }
+    let count = records.count();
+    let mut payload = Vec::with_capacity(8 + records.bytes.len());
+    for word in [list, index, records.length, count] {
+        payload.extend_from_slice(&word.to_be_bytes());
+    }
+    payload.extend_from_slice(&records.bytes);
+    Ok(payload)
+}
+
+/// Records of one length.
+#[derive(Debug)]
+struct Records {
+    length: u16,
+    bytes: Vec<u8>,
+}
+
+impl Records {
+    /// Records of so many bytes.
+    fn of(length: u16) -> Self {
+        Self { length, bytes: Vec::new() }
+    }
+
+    /// Appends a record; it is filled with zeros or cut to its length.
+    fn add(&mut self, parts: &[&[u8]]) {
+        let end = self.bytes.len() + usize::from(self.length);
+        for part in parts {
+            self.bytes.extend_from_slice(part);
+        }
+        self.bytes.resize(end, 0);
+    }
+
+    fn words(&mut self, words: &[u16]) {
+        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_be_bytes()).collect();
+        self.add(&[&bytes]);
+    }
+
+    fn count(&self) -> u16 {
+        u16::try_from(self.bytes.len() / usize::from(self.length)).unwrap_or(u16::MAX)
+    }
+
+    /// The record that begins with an index.
+    fn only(mut self, index: u16) -> Result<Self, ErrorCode> {
+        let mut each = self.bytes.chunks(self.length.into());
+        let found = each.find(|record| record.starts_with(&index.to_be_bytes())).map(<[u8]>::to_vec);
+        self.bytes = found.ok_or(ErrorCode::WRONG_INDEX)?;
+        Ok(self)
+    }
+}
+
+/// The records of a list. Where a list has one record, index 0 means it, too: several clients ask so.
+fn records(list: u16, index: u16, station: &dyn Station, pdu: usize) -> Result<Records, ErrorCode> {
+    match list {
+        0x0000 => {
+            let mut records = Records::of(2);
+            LISTS.iter().for_each(|list| records.words(&[*list]));
+            Ok(records)
+        }
+        0x0011 => Ok(order_numbers(station)),
+        0x0111 => order_numbers(station).only(index),
+        0x0012 => Ok(features(0)),
+        0x0112 => match features(index) {
+            none if none.bytes.is_empty() => Err(ErrorCode::WRONG_INDEX),
+            found => Ok(found),
+        },
+        0x0013 => Ok(memories(station)),
+        0x0113 => memories(station).only(index),
+        0x0014 => Ok(areas(station)),
+        0x0015 => Ok(block_types()),
+        0x0019 | 0x0074 => Ok(lamps(station)),
+        0x0119 | 0x0174 => lamps(station).only(index),
+        0x001C => Ok(names(station)),
+        0x011C => names(station).only(index),
+        0x0131 => match index {
+            0 => communication(pdu).only(1),
+            index => communication(pdu).only(index),
+        },
+        0x0132 | 0x0232 => match index {
+            0 | 4 => Ok(protection(station)),
+            _ => Err(ErrorCode::WRONG_INDEX),
+        },
+        0x0222 => match index {
+            0 | 1 => {
+                let mut records = Records::of(28);
+                // OB1: event class, start by a cycle that ended, priority class, number.
+                records.add(&[&[0x11, 0x03, 0x01, 0x01]]);
+                Ok(records)
+            }
+            _ => Err(ErrorCode::WRONG_INDEX),
+        },
+        0x0424 => Ok(operating_state(station)),
+        0x00A0 | 0x01A0 => {
+            let wanted = if index == 0 || list == 0x00A0 { ENTRIES } else { usize::from(index).min(ENTRIES) };
+            let mut records = Records::of(20);
+            station.diagnosis().iter().take(wanted).for_each(|entry| diagnosis(&mut records, entry));
+            Ok(records)
+        }
+        _ => Err(ErrorCode::WRONG_LIST),
+    }
+}
+
+/// A text in a field of fixed length.
+fn field<const N: usize>(text: &str, fill: u8) -> [u8; N] {
+    let mut field = [fill; N];
+    for (to, from) in field.iter_mut().zip(text.bytes()) {
+        *to = from;
+    }
+    field
+}
+
+fn order_numbers(station: &dyn Station) -> Records {
+    let identity = station.identity();
+    let number: [u8; 20] = field(identity.order_number, b' ');
+    let [major, minor, patch] = identity.version;
+    let mut records = Records::of(28);
+    records.add(&[&[0, 1], &number, &[0, 0xC0, 0, 1, 0, 1]]);
+    records.add(&[&[0, 6], &number, &[0, 0xC0, 0, 1, 0, 1]]);
+    records.add(&[&[0, 7], &number, &[0, 0xC0, b'V', major, minor, patch]]);
+    records
+}
+
+fn features(group: u16) -> Records {
+    let mut records = Records::of(2);
+    let is_wanted = |feature: &&u16| group == 0 || **feature & 0xFF00 == group;
+    FEATURES.iter().filter(is_wanted).for_each(|feature| records.words(&[*feature]));
+    records
+}
+
+fn memories(station: &dyn Station) -> Records {
+    let used: u32 = station.data_blocks().iter().map(|block| u32::from(block.length)).sum();
+    let size: u32 = 16 << 20;
+    let mut records = Records::of(36);
+    // Work memory: code 1, RAM, its size, its mode, then what is used of its one area.
+    let (size, used) = (size.to_be_bytes(), used.to_be_bytes());
+    records.add(&[&[0, 1, 0, 1], &size, &[0, 1, 0, 0], &size, &used]);
+    records
+}
+
+fn areas(station: &dyn Station) -> Records {
+    let bytes = |area| u16::try_from(station.area_length(area)).unwrap_or(u16::MAX);
+    let mut records = Records::of(8);
+    let areas = [
+        (1, bytes(Area::Inputs)),
+        (2, bytes(Area::Outputs)),
+        (3, bytes(Area::Flags)),
+        (4, bytes(Area::Timers) / 2),
+        (5, bytes(Area::Counters) / 2),
+    ];
+    for (index, size) in areas {
+        records.words(&[index, 1, size, 0]);
+    }
+    records
+}
+
+fn block_types() -> Records {
+    let mut records = Records::of(10);
+    // DB: at most 65535 of 64 KB, 16 MB in all.
+    records.words(&[0x0A00, u16::MAX, 64, 0, 16384]);
+    records
+}
+
+fn lamps(station: &dyn Station) -> Records {
+    let runs = station.state() == CpuState::Run;
+    let mut records = Records::of(4);
+    for lamp in LAMPS {
+        let is_on = match lamp {
+            4 => runs,
+            5 => !runs,
+            _ => false,
+        };
+        records.add(&[&lamp.to_be_bytes(), &[u8::from(is_on), 0]]);
+    }
+    records
+}
+
+fn names(station: &dyn Station) -> Records {
+    let identity = station.identity();
+    let mut records = Records::of(34);
+    let texts = [
+        (1_u16, identity.system_name),
+        (2, identity.module_name),
+        (3, identity.plant),
+        (4, identity.copyright),
+        (5, identity.serial_number),
+        (7, identity.module_type),
+        (8, ""),
+    ];
+    for (index, text) in texts {
+        records.add(&[&index.to_be_bytes(), &field::<32>(text, 0)]);
+    }
+    // 9 is manufacturer and profile: no number of ours is registered.
+    records.add(&[&[0, 9]]);
+    records.add(&[&[0, 10]]);
+    records.add(&[&[0, 11], &field::<32>(identity.location, 0)]);
+    records
+}
+
+fn communication(pdu: usize) -> Records {
+    let mut records = Records::of(40);
+    let pdu = u16::try_from(pdu).unwrap_or(0);
+    // Longest PDU, connections, and the rates of two buses that are not there.
+    records.words(&[1, pdu, 32, 0, 0, 0, 0]);
+    // Operator interface: what is served (setup, read, write, cycles, state lists), no scan reports.
+    records.add(&[&[0, 3], &[0b1111_0000, 0b1000_0000, 0, 0], &pdu.to_be_bytes(), &[0, 32, 0, 1, 0, 100]]);
+    records
+}
+
+fn protection(station: &dyn Station) -> Records {
+    let protection = station.protection();
+    let parameter = if protection.password.is_some() { protection.level } else { 0 };
+    // The switch stands on RUN-P or, when the PLC does not run, on STOP.
+    let switch = match station.state() {
+        CpuState::Run => 2,
+        CpuState::Stop => 3,
+    };
+    let mut records = Records::of(40);
+    records.words(&[4, 1, parameter.into(), protection.level.into(), switch, 0]);
+    records
+}
+
+fn operating_state(station: &dyn Station) -> Records {
+    // Event, identifier of the change, and from which state into which: 08 RUN, 04 STOP.
+    let change: [u8; 4] = match station.state() {
+        CpuState::Run => [0x53, 0x02, 0xFF, 0x08],
+        CpuState::Stop => [0x43, 0x04, 0xFF, 0x04],
+    };
+    let mut records = Records::of(20);
+    records.add(&[&change, &[0; 8], &station.clock().bytes()]);
+    records
+}
+
+fn diagnosis(records: &mut Records, entry: &Diagnosis) {
+    records.add(&[&entry.event.to_be_bytes(), &entry.information, &entry.time.bytes()]);
+}

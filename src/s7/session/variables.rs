@@ -1,0 +1,137 @@
+//! Read and write variables. Each item succeeds or is refused by itself; what a request writes is judged first and then
+//! handed over whole. An answer that would be longer than the negotiated PDU is refused as a wrong frame, as a module does.
+
+use arrayvec::ArrayVec;
+
+use super::{Exchange, Session};
+use crate::s7::station::{Station, Value, Write};
+use crate::s7::wire::data::{Refusal, SUCCESS, TransportSize, Type, Values};
+use crate::s7::wire::header::{ErrorCode, function};
+use crate::s7::wire::items::{AnyItem, Item, Items};
+use crate::s7::wire::pdu::Pdu;
+
+impl Session {
+    pub(super) fn read_variables(&mut self, rest: &[u8], exchange: &mut Exchange<'_>) {
+        let Some((&count, bytes)) = rest.split_first().filter(|(count, _)| **count > 0) else {
+            return exchange.refuse(ErrorCode::WRONG_FRAME);
+        };
+        let items = Items::new(bytes, count.into());
+        if items.clone().any(|item| item.is_err()) {
+            return exchange.refuse(ErrorCode::WRONG_FRAME);
+        }
+        let mut pdu = Pdu::ack_data(exchange.answers, exchange.reference, exchange.budget);
+        pdu.put(&[function::READ, count]);
+        pdu.data();
+        put_values(&mut pdu, items, &mut self.scratch, exchange.station);
+        pdu.finish();
+    }
+
+    pub(super) fn write_variables(rest: &[u8], data: &[u8], exchange: &mut Exchange<'_>) {
+        let Some((&count, bytes)) = rest.split_first().filter(|(count, _)| **count > 0) else {
+            return exchange.refuse(ErrorCode::WRONG_FRAME);
+        };
+        let items = Items::new(bytes, count.into());
+        let Some(values) = Values::new(data, count.into()) else {
+            return exchange.refuse(ErrorCode::WRONG_FRAME);
+        };
+        let mut codes = ArrayVec::<u8, 255>::new();
+        let mut writes = ArrayVec::<Write<'_>, 255>::new();
+        for (item, (_, value)) in items.zip(values) {
+            let Ok(item) = item else {
+                return exchange.refuse(ErrorCode::WRONG_FRAME);
+            };
+            codes.push(match accepted(&item, value, exchange.station) {
+                Ok(write) => {
+                    writes.push(write);
+                    SUCCESS
+                }
+                Err(refusal) => refusal.code(),
+            });
+        }
+        if !writes.is_empty() {
+            exchange.station.write(&writes);
+        }
+        let mut pdu = Pdu::ack_data(exchange.answers, exchange.reference, exchange.budget);
+        pdu.put(&[function::WRITE, count]);
+        pdu.data();
+        pdu.put(&codes);
+        pdu.finish();
+    }
+}
+
+/// Appends the value of each item, or why there is none. Items that do not fit leave the PDU full.
+pub(super) fn put_values(pdu: &mut Pdu<'_>, items: Items<'_>, scratch: &mut Vec<u8>, station: &dyn Station) {
+    // Where the first value begins: behind a payload's own head, whose length is even.
+    for item in items {
+        if pdu.is_full() {
+            return;
+        }
+        if pdu.data_length() % 2 == 1 {
+            pdu.put(&[0]);
+        }
+        let start = pdu.data_length();
+        let put = match item {
+            Ok(Item::Any(item)) => put_area(pdu, &item, station),
+            Ok(Item::Nck(item)) => {
+                scratch.clear();
+                let read = station.read_variable(&item, scratch);
+                read.map(|()| {
+                    put_head(pdu, TransportSize::OCTETS, scratch.len());
+                    pdu.put(scratch);
+                })
+            }
+            Ok(Item::Refused(refusal)) => Err(refusal),
+            Err(_) => Err(Refusal::TypeNotSupported),
+        };
+        if let Err(refusal) = put {
+            pdu.truncate_data(start);
+            pdu.put(&[refusal.code(), TransportSize::NULL.0, 0, 0]);
+        }
+    }
+}
+
+fn put_head(pdu: &mut Pdu<'_>, size: TransportSize, bytes: usize) {
+    let [high, low] = size.field(bytes).to_be_bytes();
+    pdu.put(&[SUCCESS, size.0, high, low]);
+}
+
+fn put_area(pdu: &mut Pdu<'_>, item: &AnyItem, station: &dyn Station) -> Result<(), Refusal> {
+    if item.count == 0 {
+        return Err(Refusal::OutOfRange);
+    }
+    let length = item.length();
+    put_head(pdu, item.kind.answered_as(), length);
+    let Some(space) = pdu.space(length) else {
+        return Ok(()); // the answer is full
+    };
+    station.read(item.area, item.byte, space)?;
+    if let (Type::Bit, [byte]) = (item.kind, space) {
+        *byte = *byte >> item.bit & 1;
+    }
+    Ok(())
+}
+
+/// What an item writes, if it may.
+fn accepted<'a>(item: &Item, value: &'a [u8], station: &dyn Station) -> Result<Write<'a>, Refusal> {
+    match item {
+        Item::Any(item) => {
+            if item.count == 0 {
+                return Err(Refusal::OutOfRange);
+            }
+            if value.len() != item.length() {
+                return Err(Refusal::TypeInconsistent);
+            }
+            station.may_write(item.area, item.byte, item.span())?;
+            let value = match (item.kind, value) {
+                (Type::Bit, [value]) => Value::Bit { bit: item.bit, value: value & 1 == 1 },
+                _ => Value::Bytes { bytes: value, element: item.kind.bytes() },
+            };
+            Ok(Write::Area { area: item.area, byte: item.byte, value })
+        }
+        Item::Nck(item) => {
+            station.may_write_variable(item, value)?;
+            Ok(Write::Variable { item: *item, bytes: value })
+        }
+        Item::Refused(refusal) => Err(*refusal),
+    }
+}

@@ -1,0 +1,275 @@
+//! The CPU: system state lists, clock, stop and restart, passwords, messages.
+
+use super::{Client, bytes, hex};
+use crate::s7::station::{Diagnosis, Protection};
+use crate::s7::{Command, CpuState, DateAndTime, Restart};
+
+/// A list with a PDU that holds it whole: length and number of its records, and the records.
+fn list(client: &mut Client, list: &str, index: &str) -> (u16, u16, Vec<u8>) {
+    let (error, answer) = client.user_data(4, 1, &format!("{list} {index}"));
+    assert_eq!(error, "00 00", "{list} {index}");
+    let answer = bytes(&answer);
+    assert_eq!(hex(&answer[..2]), "FF 09");
+    assert_eq!(usize::from(u16::from_be_bytes([answer[2], answer[3]])), answer.len() - 4);
+    assert_eq!(hex(&answer[4..6]), list);
+    let (length, count) = (u16::from_be_bytes([answer[8], answer[9]]), u16::from_be_bytes([answer[10], answer[11]]));
+    assert_eq!(answer.len() - 12, usize::from(length) * usize::from(count), "{list}");
+    (length, count, answer[12..].to_vec())
+}
+
+#[test]
+fn every_list_that_is_listed_can_be_read() {
+    let mut client = Client::ready(960);
+    let (length, count, lists) = list(&mut client, "00 00", "00 00");
+    assert_eq!(length, 2);
+    let lists: Vec<String> = lists.chunks(2).map(hex).collect();
+    assert_eq!(lists.len(), usize::from(count));
+    assert!(lists.is_sorted());
+    for needed in [
+        "00 00", "00 11", "00 12", "00 13", "00 19", "00 1C", "00 74", "00 A0", "01 11", "01 1C", "01 31", "01 32",
+        "01 74", "02 22", "02 32", "04 24", "0F 00",
+    ] {
+        assert!(lists.contains(&needed.to_owned()), "{needed}");
+    }
+    for known in &lists {
+        let index = match known.as_str() {
+            "01 11" | "01 1C" | "01 13" | "01 19" | "01 74" => "00 01",
+            "01 12" => "01 00",
+            _ => "00 00",
+        };
+        list(&mut client, known, index);
+    }
+}
+
+#[test]
+fn a_list_or_an_index_that_does_not_exist_is_refused() {
+    let mut client = Client::ready(480);
+    for (asked, error) in [
+        ("00 91 00 00", "D4 01"),
+        ("FF FF FF FF", "D4 01"),
+        ("01 11 00 02", "D4 02"),
+        ("01 1C 00 06", "D4 02"),
+        ("01 31 00 02", "D4 02"),
+        ("02 32 00 01", "D4 02"),
+        ("01 74 00 02", "D4 02"),
+        ("01 12 09 00", "D4 02"),
+        ("00 11", "D4 05"),
+        ("", "D4 05"),
+    ] {
+        assert_eq!(client.user_data(4, 1, asked), (error.to_owned(), "0A 00 00 00".to_owned()), "{asked}");
+    }
+}
+
+/// conpot issue 586: nmap and plcscan want at least 125 bytes and records of 28; the last three bytes are the version.
+#[test]
+fn the_order_number_lies_where_nmap_looks_for_it() {
+    let mut client = Client::ready(480);
+    let ask = "32 07 00 00 00 00 00 08 00 08 00 01 12 04 11 44 01 00 FF 09 00 04 00 11 00 01";
+    let packet = super::packet(&bytes(&client.ask(ask)));
+    assert!(packet.len() >= 125);
+    assert_eq!(&packet[43..63], b"6ES7 317-2EK14-0AB0 ");
+    assert_eq!(&packet[71..91], b"6ES7 317-2EK14-0AB0 ");
+    assert_eq!(packet[121..], [b'V', 3, 2, 6]);
+    let (length, count, _) = list(&mut client, "00 11", "00 00");
+    assert_eq!((length, count), (28, 3));
+    let (_, count, one) = list(&mut client, "01 11", "00 06");
+    assert_eq!((count, &one[..3]), (1, &[0, 6, b'6'][..]));
+}
+
+/// python-snap7 finds each name at its offset behind length and number of the records.
+#[test]
+fn the_names_lie_where_clients_look_for_them() {
+    let mut client = Client::ready(480);
+    let (length, count, records) = list(&mut client, "00 1C", "00 00");
+    assert_eq!((length, count), (34, 10));
+    for (at, text) in [(2, "OpenNCK\0"), (36, "PLC 317-2 PN/DP\0"), (104, "OpenNCK simulator\0"), (138, "SIMULATED\0")]
+    {
+        assert_eq!(&records[at..at + text.len()], text.as_bytes());
+    }
+    assert_eq!(&records[172..188], b"CPU 317-2 PN/DP\0");
+    let (_, _, one) = list(&mut client, "01 1C", "00 05");
+    assert_eq!(&one[..5], &[0, 5, b'S', b'I', b'M']);
+}
+
+/// 08 RUN, 04 STOP in the fourth byte of the record, where snap7 and Sharp7 look.
+#[test]
+fn the_operating_state_is_live() {
+    let mut client = Client::ready(480);
+    let (length, count, run) = list(&mut client, "04 24", "00 00");
+    assert_eq!((length, count, run[3]), (20, 1, 8));
+    client.state = CpuState::Stop;
+    assert_eq!(list(&mut client, "04 24", "00 00").2[3], 4);
+    // Lamps: 4 is RUN, 5 STOP.
+    assert_eq!(list(&mut client, "01 74", "00 04").2, [0, 4, 0, 0]);
+    assert_eq!(list(&mut client, "01 19", "00 05").2, [0, 5, 1, 0]);
+}
+
+#[test]
+fn communication_and_protection_have_records_of_40_bytes() {
+    let mut client = Client::ready(480);
+    for (asked, index, start) in [
+        ("01 31", "00 01", "00 01 01 E0 00 20"),
+        ("01 31", "00 00", "00 01 01 E0 00 20"),
+        ("01 32", "00 04", "00 04 00 01 00 00 00 01 00 02 00 00"),
+        ("02 32", "00 00", "00 04 00 01 00 00 00 01 00 02 00 00"),
+    ] {
+        let (length, count, record) = list(&mut client, asked, index);
+        assert_eq!((length, count), (40, 1));
+        assert!(hex(&record).starts_with(start), "{asked}: {}", hex(&record));
+    }
+}
+
+#[test]
+fn the_diagnostic_buffer_shows_the_newest_entries_first() {
+    let mut client = Client::ready(240);
+    let time = client.clock;
+    client.diagnosis = (1..=20).rev().map(|event| Diagnosis { event, information: [0; 10], time }).collect();
+    let (length, count, records) = list(&mut client, "01 A0", "00 03");
+    assert_eq!((length, count), (20, 3));
+    assert_eq!(hex(&records[..2]), "00 14");
+    assert_eq!(hex(&records[12..20]), "26 11 22 03 04 05 67 81");
+    // All 20 are 408 bytes: 214, then 194.
+    let first = bytes(&client.ask("32 07 00 00 00 09 00 08 00 08 00 01 12 04 11 44 01 00 FF 09 00 04 00 A0 00 00"));
+    let sequence = first[17];
+    assert_eq!((first[19], hex(&first[22..26])), (1, "FF 09 00 D6".to_owned()));
+    assert_eq!(hex(&first[26..34]), "00 A0 00 00 00 14 00 14");
+    let next = format!("32 07 00 00 00 0A 00 0C 00 04 00 01 12 08 12 44 01 {sequence:02X} 00 00 00 00 0A 00 00 00");
+    let last = bytes(&client.ask(&next));
+    assert_eq!((last[19], hex(&last[22..26])), (0, "FF 09 00 C2".to_owned()));
+}
+
+/// pyS7 leaves the type of its requests 0.
+#[test]
+fn a_request_without_a_type_is_a_request() {
+    let mut client = Client::ready(480);
+    let with = client.ask("32 07 00 00 00 09 00 08 00 08 00 01 12 04 11 44 01 00 FF 09 00 04 04 24 00 00");
+    let without = client.ask("32 07 00 00 00 09 00 08 00 08 00 01 12 04 11 04 01 00 FF 09 00 04 04 24 00 00");
+    let but_sequence = |answer: &str| [bytes(answer)[..17].to_vec(), bytes(answer)[18..].to_vec()].concat();
+    assert_eq!(but_sequence(&with), but_sequence(&without));
+}
+
+/// 22 November 2026 is a Sunday: 1.
+#[test]
+fn the_clock_is_read_with_its_day_of_the_week() {
+    let mut client = Client::ready(240);
+    let (error, answer) = client.user_data(7, 1, "");
+    assert_eq!((error.as_str(), answer.as_str()), ("00 00", "FF 09 00 0A 00 20 26 11 22 03 04 05 67 81"));
+}
+
+#[test]
+fn the_clock_is_set_with_the_next_step_if_the_time_exists() {
+    let mut client = Client::ready(240);
+    let set = client.user_data(7, 2, "00 20 28 02 29 23 59 59 99 93");
+    assert_eq!(set, ("00 00".to_owned(), "0A 00 00 00".to_owned()));
+    let time = DateAndTime { year: 2028, month: 2, day: 29, hour: 23, minute: 59, second: 59, millisecond: 999 };
+    assert_eq!(client.commands, [Command::SetClock(time)]);
+    client.commands.clear();
+    for wrong in [
+        "00 20 27 02 29 00 00 00 00 00", // no leap year
+        "00 20 27 13 01 00 00 00 00 00",
+        "00 20 27 00 01 00 00 00 00 00",
+        "00 20 27 01 01 24 00 00 00 00",
+        "00 20 27 01 01 00 60 00 00 00",
+        "00 20 2A 01 01 00 00 00 00 00", // no BCD
+        "00 20 27 01",
+        "",
+    ] {
+        assert_eq!(client.user_data(7, 2, wrong).0, "DC 01", "{wrong}");
+    }
+    assert!(client.commands.is_empty());
+}
+
+#[test]
+fn dates_go_on_over_the_ends_of_months_and_years() {
+    let day = 86_400_000;
+    let start = DateAndTime { year: 1999, month: 12, day: 31, hour: 23, minute: 59, second: 59, millisecond: 999 };
+    let next = start.later(1);
+    assert_eq!(hex(&next.bytes()), "00 01 01 00 00 00 00 07"); // a Saturday
+    assert_eq!(DateAndTime::parse(&next.bytes()), Some(next));
+    let leap = next.later(59 * day);
+    assert_eq!((leap.month, leap.day), (2, 29));
+    assert_eq!(next.later(366 * day).year, 2001);
+    assert_eq!(hex(&DateAndTime::FIRST.bytes()), "90 01 01 00 00 00 00 02"); // a Monday
+    assert_eq!(DateAndTime::FIRST.later(u64::MAX).year, 2090);
+}
+
+const STOP: &str = "29 00 00 00 00 00 09 50 5F 50 52 4F 47 52 41 4D";
+const WARM: &str = "28 00 00 00 00 00 00 FD 00 00 09 50 5F 50 52 4F 47 52 41 4D";
+const COLD: &str = "28 00 00 00 00 00 00 FD 00 02 43 20 09 50 5F 50 52 4F 47 52 41 4D";
+
+#[test]
+fn the_plc_is_stopped_and_started_by_request() {
+    let mut client = Client::ready(240);
+    assert_eq!(client.job(WARM, ""), "00 02 00 00 00 00 28 03"); // runs already
+    assert_eq!(client.job(STOP, ""), "00 01 00 00 00 00 29");
+    assert_eq!(client.commands, [Command::PlcStop]);
+    client.step();
+    assert_eq!(client.job(STOP, ""), "00 02 00 00 00 00 29 07"); // stands already
+    assert_eq!(client.job(COLD, ""), "00 01 00 00 00 00 28");
+    assert_eq!(client.commands, [Command::PlcStart(Restart::Cold)]);
+    client.commands.clear();
+    assert_eq!(client.job(WARM, ""), "00 01 00 00 00 00 28");
+    assert_eq!(client.commands, [Command::PlcStart(Restart::Warm)]);
+}
+
+#[test]
+fn services_by_name_are_acknowledged_and_unknown_ones_refused() {
+    let mut client = Client::ready(240);
+    let compress = "28 00 00 00 00 00 00 FD 00 00 05 5F 47 41 52 42";
+    let copy = "28 00 00 00 00 00 00 FD 00 02 45 50 05 5F 4D 4F 44 55";
+    for service in [compress, copy] {
+        assert_eq!(client.job(service, ""), "00 01 00 00 00 00 28");
+    }
+    for (service, error) in [
+        ("28 00 00 00 00 00 00 FD 00 00 05 5F 44 45 4C 45", "D2 02"), // _DELE
+        ("28 00 00 00 00 00 00 FD 00 00 06 5F 47 41 52 42", "85 00"),
+        ("28 00 00 00 00 00 00 FD 00 09 05", "85 00"),
+        ("28", "85 00"),
+        ("29 00 00 00 00 00 09 50", "85 00"),
+        ("29", "85 00"),
+    ] {
+        assert_eq!(client.job(service, ""), format!("00 00 00 00 {error}"), "{service}");
+    }
+    assert!(client.commands.is_empty());
+}
+
+#[test]
+fn a_protected_module_wants_its_password_first() {
+    let mut client = Client::ready(240);
+    client.protection = Protection { level: 3, password: Some(*b"geheim  ") };
+    let upload = "1D 00 00 00 00 00 00 00 09 5F 30 41 30 31 30 30 30 41";
+    for job in [STOP, WARM, upload] {
+        assert_eq!(client.job(job, ""), "00 00 00 00 D2 41");
+    }
+    assert_eq!(client.user_data(7, 2, "00 20 28 02 29 23 59 59 99 93").0, "D2 41");
+    // "geheim  " folded: 67^55=32, 65^55=30, 68^55^32=0F, 65^55^30=00, 69^55^0F=33, 6D^55^00=38, 20^55^33=46, 20^55^38=4D.
+    assert_eq!(client.user_data(5, 1, "32 30 0F 00 33 38 46 4C").0, "D6 02");
+    assert_eq!(client.job(STOP, ""), "00 00 00 00 D2 41");
+    assert_eq!(client.user_data(5, 1, "32 30 0F 00 33 38 46 4D").0, "00 00");
+    assert_eq!(client.job(STOP, ""), "00 01 00 00 00 00 29");
+    assert!(client.job(upload, "").starts_with("00 10"));
+    assert_eq!(client.user_data(5, 2, "").0, "00 00");
+    assert_eq!(client.job(STOP, ""), "00 00 00 00 D2 41");
+    // Variables are not what this protects.
+    assert!(client.read(&["02 00 01 03 E8 84 00 00 00"]).ends_with("FF 04 00 08 A5"));
+    client.protection.level = 2;
+    assert_eq!(client.job(STOP, ""), "00 00 00 00 D2 41");
+    assert!(client.job(upload, "").starts_with("00 10"));
+}
+
+#[test]
+fn a_module_without_a_password_says_so() {
+    let mut client = Client::ready(240);
+    assert_eq!(client.user_data(5, 1, "32 30 0F 00 33 38 46 4D").0, "D6 05");
+    assert_eq!(client.user_data(5, 2, "").0, "D6 05");
+    assert_eq!(client.user_data(5, 1, "32 30").0, "D4 05");
+}
+
+#[test]
+fn whoever_logs_on_to_messages_is_told_that_it_is() {
+    let mut client = Client::ready(240);
+    let name = "48 4D 49 5F 52 54 4D 20";
+    assert_eq!(client.user_data(4, 2, &format!("01 00 {name}")).1, "FF 09 00 02 02 00");
+    assert_eq!(client.user_data(4, 2, &format!("80 00 {name} 04 00")).1, "FF 09 00 05 02 00 04 00 00");
+    assert_eq!(client.user_data(4, 2, "").0, "D4 05");
+}

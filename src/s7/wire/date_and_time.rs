@@ -1,0 +1,124 @@
+//! DATE_AND_TIME of SIMATIC: year, month, day, hour, minute and second in BCD, three digits of milliseconds, and the day
+//! of the week, Sunday as 1.
+
+/// A point in time on a calendar, from 1990 to 2089.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct DateAndTime {
+    /// 1990 to 2089.
+    pub year: u16,
+    /// 1 to 12.
+    pub month: u8,
+    /// 1 to 31.
+    pub day: u8,
+    /// 0 to 23.
+    pub hour: u8,
+    /// 0 to 59.
+    pub minute: u8,
+    /// 0 to 59.
+    pub second: u8,
+    /// 0 to 999.
+    pub millisecond: u16,
+}
+
+impl DateAndTime {
+    /// The first one.
+    pub const FIRST: Self = Self { year: 1990, month: 1, day: 1, hour: 0, minute: 0, second: 0, millisecond: 0 };
+
+    /// Its eight bytes.
+    #[must_use]
+    pub fn bytes(&self) -> [u8; 8] {
+        let (hundreds, ones) = (self.millisecond / 10, self.millisecond % 10);
+        let small = |number: u16| u8::try_from(number % 100).unwrap_or(0);
+        let last = small(ones) << 4 | self.weekday();
+        let parts = [small(self.year), self.month, self.day, self.hour, self.minute, self.second, small(hundreds)];
+        let [a, b, c, d, e, f, g] = parts.map(bcd);
+        [a, b, c, d, e, f, g, last]
+    }
+
+    /// Reads eight bytes; the day of the week is not looked at.
+    #[must_use]
+    pub fn parse(bytes: &[u8]) -> Option<Self> {
+        let [year, month, day, hour, minute, second, hundreds, last] = *<&[u8; 8]>::try_from(bytes).ok()?;
+        let year = u16::from(number(year)?);
+        let year = if year < 90 { 2000 + year } else { 1900 + year };
+        let milliseconds = u16::from(number(hundreds)?) * 10 + u16::from(number(last >> 4)?);
+        let time = Self {
+            year,
+            month: number(month)?,
+            day: number(day)?,
+            hour: number(hour)?,
+            minute: number(minute)?,
+            second: number(second)?,
+            millisecond: milliseconds,
+        };
+        let valid = (1..=12).contains(&time.month)
+            && (1..=days_of(time.year, time.month)).contains(&time.day)
+            && time.hour < 24
+            && time.minute < 60
+            && time.second < 60;
+        valid.then_some(time)
+    }
+
+    /// Sunday is 1, Saturday 7.
+    #[must_use]
+    pub fn weekday(&self) -> u8 {
+        // 1 January 1990 was a Monday.
+        u8::try_from((self.days() + 1) % 7 + 1).unwrap_or(1)
+    }
+
+    /// Days since 1 January 1990.
+    #[must_use]
+    pub fn days(&self) -> u32 {
+        let years = (1990..self.year).map(|year| if is_leap(year) { 366 } else { 365 }).sum::<u32>();
+        let months = (1..self.month).map(|month| u32::from(days_of(self.year, month))).sum::<u32>();
+        years + months + u32::from(self.day.saturating_sub(1))
+    }
+
+    /// So many milliseconds later; 2089 is the last year.
+    #[must_use]
+    pub fn later(self, milliseconds: u64) -> Self {
+        let of_day = u64::from(self.hour) * 3_600_000 + u64::from(self.minute) * 60_000;
+        let of_day = of_day + u64::from(self.second) * 1000 + u64::from(self.millisecond);
+        let total = of_day.saturating_add(milliseconds);
+        let mut date = Self { hour: 0, minute: 0, second: 0, millisecond: 0, ..self };
+        let mut days = (total / 86_400_000).min(36_600);
+        while days > 0 && date.year < 2090 {
+            let left = u64::from(days_of(date.year, date.month) - date.day.min(days_of(date.year, date.month)));
+            if days <= left {
+                date.day += u8::try_from(days).unwrap_or(0);
+                break;
+            }
+            days -= left + 1;
+            date.day = 1;
+            (date.year, date.month) = if date.month >= 12 { (date.year + 1, 1) } else { (date.year, date.month + 1) };
+        }
+        let of_day = total % 86_400_000;
+        let small = |number: u64| u8::try_from(number).unwrap_or(0);
+        date.hour = small(of_day / 3_600_000);
+        date.minute = small(of_day / 60_000 % 60);
+        date.second = small(of_day / 1000 % 60);
+        date.millisecond = u16::try_from(of_day % 1000).unwrap_or(0);
+        date
+    }
+}
+
+fn is_leap(year: u16) -> bool {
+    year.is_multiple_of(4) // 2000 is one; 2100 is beyond the end
+}
+
+fn days_of(year: u16, month: u8) -> u8 {
+    match month {
+        2 if is_leap(year) => 29,
+        2 => 28,
+        4 | 6 | 9 | 11 => 30,
+        _ => 31,
+    }
+}
+
+fn bcd(number: u8) -> u8 {
+    (number / 10 % 10) * 16 + number % 10
+}
+
+fn number(bcd: u8) -> Option<u8> {
+    (bcd >> 4 < 10 && bcd & 0xF < 10).then_some((bcd >> 4) * 10 + (bcd & 0xF))
+}

@@ -1,0 +1,228 @@
+//! Answers being built: an S7 PDU with a budget, and its way into packets.
+//!
+//! A PDU never grows beyond its budget, the negotiated length: what does not fit is not taken, and [`Pdu::finish`] sends
+//! a refusal in its place. An answer is one piece of bytes for one write to the socket, even where the agreed TPDU is so small
+//! that it becomes several packets.
+
+use zerocopy::IntoBytes;
+
+use super::header::{ErrorCode, Header, PROTOCOL, kind};
+use super::{cotp, tpkt};
+
+/// Answers, one after another; each is written at once.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Answers {
+    bytes: Vec<u8>,
+    ends: Vec<usize>,
+}
+
+impl Answers {
+    /// All bytes.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// One answer after another.
+    pub fn iter(&self) -> impl Iterator<Item = &[u8]> {
+        let starts = std::iter::once(0).chain(self.ends.iter().copied());
+        starts.zip(&self.ends).map(|(start, end)| &self.bytes[start..*end])
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Whether nothing is to be sent.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// Forgets what was sent and keeps the space.
+    pub fn clear(&mut self) {
+        self.bytes.clear();
+        self.ends.clear();
+    }
+
+    /// Appends one answer of transport: connection or disconnect confirm.
+    pub fn transport(&mut self, put: impl FnOnce(&mut Vec<u8>)) {
+        put(&mut self.bytes);
+        self.ends.push(self.bytes.len());
+    }
+}
+
+/// How far an answer may go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// Bytes of an S7 PDU, as negotiated.
+    pub pdu: usize,
+    /// Bytes of an S7 PDU in one packet, as the size of a TPDU says.
+    pub piece: usize,
+}
+
+/// The longest PDU that is built, whatever the budget says.
+const LONGEST: usize = 4096;
+
+/// Packet and TPDU headers before the PDU.
+const TRANSPORT: usize = tpkt::HEADER + cotp::DATA_LAST.len();
+
+/// An S7 PDU that is being built.
+#[derive(Debug)]
+pub struct Pdu<'a> {
+    answers: &'a mut Answers,
+    /// Where its packet begins.
+    start: usize,
+    budget: Budget,
+    kind: u8,
+    reference: u16,
+    error: ErrorCode,
+    /// Where the data part begins, once it has.
+    data: Option<usize>,
+    full: bool,
+}
+
+impl<'a> Pdu<'a> {
+    /// Begins an acknowledgement with data.
+    pub fn ack_data(answers: &'a mut Answers, reference: u16, budget: Budget) -> Self {
+        Self::begin(answers, kind::ACK_DATA, reference, budget)
+    }
+
+    /// Begins a user data PDU.
+    pub fn user_data(answers: &'a mut Answers, reference: u16, budget: Budget) -> Self {
+        Self::begin(answers, kind::USER_DATA, reference, budget)
+    }
+
+    fn begin(answers: &'a mut Answers, kind: u8, reference: u16, budget: Budget) -> Self {
+        let start = answers.bytes.len();
+        let error = ErrorCode::NONE;
+        answers.bytes.resize(start + TRANSPORT + header_length(kind), 0);
+        Self { answers, start, budget, kind, reference, error, data: None, full: false }
+    }
+
+    /// The refusal of a job: an acknowledgement with an error and nothing else.
+    pub fn refuse(answers: &'a mut Answers, reference: u16, budget: Budget, error: ErrorCode) {
+        let mut pdu = Self::begin(answers, kind::ACK, reference, budget);
+        pdu.error = error;
+        pdu.finish();
+    }
+
+    /// How many bytes it has.
+    #[must_use]
+    pub fn length(&self) -> usize {
+        self.answers.bytes.len() - self.start - TRANSPORT
+    }
+
+    /// How many more fit.
+    #[must_use]
+    pub fn room(&self) -> usize {
+        self.budget.pdu.min(LONGEST).saturating_sub(self.length())
+    }
+
+    /// Appends bytes to the current part; nothing if they do not fit.
+    pub fn put(&mut self, bytes: &[u8]) {
+        if let Some(space) = self.space(bytes.len()) {
+            space.copy_from_slice(bytes);
+        }
+    }
+
+    /// Appends zeros to the current part, to be filled in; none if they do not fit.
+    pub fn space(&mut self, length: usize) -> Option<&mut [u8]> {
+        if self.full || length > self.room() {
+            self.full = true;
+            return None;
+        }
+        let at = self.answers.bytes.len();
+        self.answers.bytes.resize(at + length, 0);
+        self.answers.bytes.get_mut(at..)
+    }
+
+    /// Ends the parameter part; what follows is data.
+    pub fn data(&mut self) {
+        self.data = Some(self.answers.bytes.len());
+    }
+
+    /// The bytes of the data part so far.
+    #[must_use]
+    pub fn data_length(&self) -> usize {
+        self.data.map_or(0, |start| self.answers.bytes.len() - start)
+    }
+
+    /// The data part, to be looked at or patched.
+    pub fn data_mut(&mut self) -> &mut [u8] {
+        let end = self.answers.bytes.len();
+        &mut self.answers.bytes[self.data.unwrap_or(end)..]
+    }
+
+    /// Takes back what was appended to the data part behind its first `length` bytes.
+    pub fn truncate_data(&mut self, length: usize) {
+        if let Some(start) = self.data {
+            self.answers.bytes.truncate(start + length);
+        }
+    }
+
+    /// Takes all of it back, as if nothing was to be said.
+    pub fn discard(self) {
+        self.answers.bytes.truncate(self.start);
+    }
+
+    /// Whether something did not fit.
+    #[must_use]
+    pub fn is_full(&self) -> bool {
+        self.full
+    }
+
+    /// Closes it: an answer that did not fit becomes the refusal "wrong frame".
+    pub fn finish(self) {
+        let Self { answers, start, budget, kind, reference, error, data, full } = self;
+        if full {
+            answers.bytes.truncate(start);
+            return Self::refuse(answers, reference, budget, ErrorCode::WRONG_FRAME);
+        }
+        let end = answers.bytes.len();
+        let parameter = start + TRANSPORT + header_length(kind);
+        let data = data.unwrap_or(end);
+        let length = |bytes: usize| u16::try_from(bytes).unwrap_or(u16::MAX).into(); // it has at most LONGEST
+        let header = Header {
+            protocol: PROTOCOL,
+            kind,
+            redundancy: 0.into(),
+            reference: reference.into(),
+            parameter_length: length(data - parameter),
+            data_length: length(end - data),
+        };
+        let at = start + TRANSPORT;
+        answers.bytes[at..at + size_of::<Header>()].copy_from_slice(header.as_bytes());
+        if kind != kind::USER_DATA {
+            answers.bytes[parameter - 2..parameter].copy_from_slice(&error.0.to_be_bytes());
+        }
+        answers.close(start, budget.piece);
+    }
+}
+
+impl Answers {
+    /// Writes the transport headers of the PDU that begins at `start`, in several packets if it is longer than a piece.
+    fn close(&mut self, start: usize, piece: usize) {
+        let length = self.bytes.len() - start - TRANSPORT;
+        if length <= piece {
+            let packet = u16::try_from(TRANSPORT + length).unwrap_or(u16::MAX).to_be_bytes();
+            let [a, b, c] = cotp::DATA_LAST;
+            self.bytes[start..start + TRANSPORT].copy_from_slice(&[3, 0, packet[0], packet[1], a, b, c]);
+        } else {
+            let pdu = self.bytes.split_off(start + TRANSPORT);
+            self.bytes.truncate(start);
+            let mut pieces = pdu.chunks(piece.max(1)).peekable();
+            while let Some(piece) = pieces.next() {
+                let header = if pieces.peek().is_some() { cotp::DATA_MORE } else { cotp::DATA_LAST };
+                tpkt::put(&mut self.bytes, [&header, piece]);
+            }
+        }
+        self.ends.push(self.bytes.len());
+    }
+}
+
+const fn header_length(kind: u8) -> usize {
+    size_of::<Header>() + if kind == kind::USER_DATA || kind == kind::JOB { 0 } else { 2 }
+}
