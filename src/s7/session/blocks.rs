@@ -55,7 +55,7 @@ impl Session {
         exchange: &mut Exchange<'_>,
     ) -> Result<(), ErrorCode> {
         let block = named(request.payload, exchange.station)?;
-        let mut payload = vec![1, DATA_BLOCK, 0, 0x4A, 0, 0];
+        let mut payload = vec![b'0', DATA_BLOCK, 0, 0x4A, 0, 0];
         payload.extend_from_slice(&head(block));
         payload.extend_from_slice(&signature());
         // Version 0.1, no checksum.

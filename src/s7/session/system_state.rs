@@ -34,9 +34,10 @@ const LISTS: [u16; 34] = [
 /// Lamps of a CPU: SF, RUN, STOP, FRCE, bus fault 1.
 const LAMPS: [u16; 5] = [1, 4, 5, 6, 11];
 
-/// Features: groups and what is in them, as a CPU with floating point, a BCD clock and restart.
-const FEATURES: [u16; 14] =
-    [0x0000, 0x0002, 0x0100, 0x0102, 0x0104, 0x0200, 0x0202, 0x0203, 0x0300, 0x0301, 0x0302, 0x0303, 0x0304, 0x0305];
+/// Features by group: MC7 interpreter; a clock in BCD with a resolution of 1 ms; restarts; floating point, its functions and
+/// four accumulators.
+const FEATURES: [u16; 12] =
+    [0x0000, 0x0002, 0x0100, 0x0101, 0x0104, 0x0200, 0x0202, 0x0300, 0x0302, 0x0303, 0x0304, 0x0305];
 
 /// The most entries of the diagnostic buffer that are shown.
 const ENTRIES: usize = 100;
@@ -223,10 +224,11 @@ fn features(group: u16) -> Records {
 fn memories(station: &dyn Station) -> Records {
     let used: u32 = station.data_blocks().iter().map(|block| u32::from(block.length)).sum();
     let size: u32 = 16 << 20;
-    let mut records = Records::of(36);
-    // Work memory: code 1, RAM, its size, its mode, then what is used of its one area.
+    let free = size.saturating_sub(used).to_be_bytes();
     let (size, used) = (size.to_be_bytes(), used.to_be_bytes());
-    records.add(&[&[0, 1, 0, 1], &size, &[0, 1, 0, 0], &size, &used]);
+    let mut records = Records::of(36);
+    // Work memory: RAM, its size, volatile; then size, what is used and the largest free piece of its one area.
+    records.add(&[&[0, 1, 0, 1], &size, &[0, 1, 0, 0], &size, &used, &free]);
     records
 }
 
@@ -248,8 +250,8 @@ fn areas(station: &dyn Station) -> Records {
 
 fn block_types() -> Records {
     let mut records = Records::of(10);
-    // DB: at most 65535 of 64 KB, 16 MB in all.
-    records.words(&[0x0A00, u16::MAX, 64, 0, 16384]);
+    // DB: at most 65535 of 64 KB, and so many bytes of each in work memory.
+    records.words(&[0x0A00, u16::MAX, 64, 0, u16::MAX]);
     records
 }
 
@@ -294,8 +296,11 @@ fn communication(pdu: usize) -> Records {
     let pdu = u16::try_from(pdu).unwrap_or(0);
     // Longest PDU, connections, and the rates of two buses that are not there.
     records.words(&[1, pdu, 32, 0, 0, 0, 0]);
-    // Operator interface: what is served (setup, read, write, cycles, state lists), no scan reports.
-    records.add(&[&[0, 3], &[0b1111_0000, 0b1000_0000, 0, 0], &pdu.to_be_bytes(), &[0, 32, 0, 1, 0, 100]]);
+    // Operator interface: read once, write once, cycles that start at once and can be cleared; inputs, outputs and flags; data
+    // blocks and counters; timers.
+    let served = [0b0100_0111, 0b1110_0000, 0b1000_0001, 0b0000_0001];
+    // 32 jobs in cycles of 0.1 s to 2550 s.
+    records.add(&[&[0, 3], &served, &pdu.to_be_bytes(), &[0, 32, 0, 1], &25_500_u16.to_be_bytes()]);
     records
 }
 

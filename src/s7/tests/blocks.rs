@@ -54,7 +54,7 @@ fn a_block_is_described() {
     let (error, answer) = client.user_data(3, 3, "30 41 30 31 30 30 31 41");
     assert_eq!(error, "00 00");
     // DB1001 with 7 bytes: 36 + 7 + 36 = 79 in load memory.
-    let head = "FF 09 00 4E 01 41 00 4A 00 00 70 70 01 01 05 0A 03 E9 00 00 00 4F";
+    let head = "FF 09 00 4E 30 41 00 4A 00 00 70 70 01 01 05 0A 03 E9 00 00 00 4F";
     assert!(answer.starts_with(head), "{answer}");
     let answer = bytes(&answer);
     assert_eq!(answer.len(), 4 + 78);

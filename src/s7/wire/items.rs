@@ -110,12 +110,6 @@ impl<'a> Items<'a> {
     pub fn new(bytes: &'a [u8], count: usize) -> Self {
         Self { rest: bytes, left: count }
     }
-
-    /// What lies behind the items taken so far.
-    #[must_use]
-    pub fn rest(&self) -> &'a [u8] {
-        self.rest
-    }
 }
 
 /// The bytes end before the last item does.
