@@ -61,7 +61,7 @@ impl Session {
 
 /// Appends the value of each item, or why there is none. Items that do not fit leave the PDU full.
 pub(super) fn put_values(pdu: &mut Pdu<'_>, items: Items<'_>, scratch: &mut Vec<u8>, station: &dyn Station) {
-    // Where the first value begins: behind a payload's own head, whose length is even.
+    // Values begin at even places: what stands before them in a data part, if anything, has an even length.
     for item in items {
         if pdu.is_full() {
             return;
