@@ -21,6 +21,7 @@ macro_rules! row {
 #[rustfmt::skip]
 pub const CATALOGUE: &[Variable] = &[
     // Axes; the row is the number of the axis.
+    row!("C/MachineAxis/cmdToolBasePos",        Channel,   SMA,    0x0001, Length,    |v, c, l| axis(v, c, l, |a| a.setpoint.user())),
     row!("C/MachineAxis/actToolBasePos",        Channel,   SMA,    0x0002, Length,    |v, c, l| axis(v, c, l, |a| a.position.user())),
     row!("C/MachineAxis/toolBaseDistToGo",      Channel,   SMA,    0x0003, Length,    |v, c, l| axis(v, c, l, |a| a.distance_to_go.user())),
     row!("C/GeometricAxis/actToolBasePos",      Channel,   SGA,    0x0002, Length,    |v, c, l| geometry_axis(v, c, l, |a| a.position.user())),

@@ -17,6 +17,7 @@ fn client() -> Client {
     let (x, y) = (axes.next().unwrap(), axes.next().unwrap());
     let values = &mut client.variables.axes;
     values[x].position = Position::from_user(100.0);
+    values[x].setpoint = Position::from_user(100.25);
     values[x].distance_to_go = Position::from_user(2.54);
     values[y].position = Position::from_user(-0.5);
     values[y].following_error = Position::from_user(0.25);
@@ -44,6 +45,7 @@ fn a_position_is_a_little_endian_double_in_a_string_of_octets() {
     let mut client = client();
     // C1, actToolBasePos, axis 1, machine axes: 100.0 is 4059000000000000.
     assert_eq!(read(&mut client, "82 41 00 02 00 01 74 01"), "FF 09 00 08 00 00 00 00 00 00 59 40");
+    assert_eq!(read(&mut client, "82 41 00 01 00 01 74 01"), double(&[100.25]));
     assert_eq!(read(&mut client, "82 41 00 02 00 02 74 01"), double(&[-0.5]));
     assert_eq!(read(&mut client, "82 41 00 02 00 01 73 01"), double(&[100.0]));
     assert_eq!(read(&mut client, "82 41 00 19 00 01 70 01"), double(&[100.0]));
