@@ -16,6 +16,7 @@ pub fn check(archive: &Archive) -> Vec<Finding> {
     names(archive, &mut findings);
     for axis in AxisNumber::all() {
         gantry_code(archive, axis, &mut findings);
+        monitoring_order(archive, axis, &mut findings);
         if archive.data.axes[axis].gantry_axis_type != 0 {
             gantry_limits(archive, axis, &mut findings);
             gantry_dynamics(archive, axis, &mut findings);
@@ -106,6 +107,42 @@ fn gantry_code(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>)
             what,
             "1 leading, 11 synchronous axis of grouping 1",
         ));
+    }
+}
+
+/// Limits and times of an axis that must lie in an order, where the archive says one of the two.
+fn monitoring_order(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>) {
+    let (data, owner) = (&archive.data.axes[axis], Owner::Axis(axis));
+    let order = [
+        (36010, data.stop_limit_fine, 36000, data.stop_limit_coarse, "exact stop fine lies below exact stop coarse"),
+        (
+            36000,
+            data.stop_limit_coarse,
+            36030,
+            data.standstill_pos_tol,
+            "exact stop coarse lies below the standstill tolerance",
+        ),
+        (
+            32000,
+            data.max_ax_velo,
+            36200,
+            data.ax_velo_limit[0],
+            "the alarm limit lies 10 to 15 % above the largest velocity",
+        ),
+        (
+            36610,
+            data.ax_emergency_stop_time,
+            36620,
+            data.servo_disable_delay_time,
+            "the ramp ends before the enables are taken away",
+        ),
+    ];
+    for (lower, least, upper, found, cure) in order {
+        if found < least && (archive.is_given_for(lower, owner) || archive.is_given_for(upper, owner)) {
+            let name = archive.data.axis_name(axis);
+            let what = format!("expected at least MD{lower} = {least} for axis {name}, found {found}");
+            findings.push(finding(archive, upper, owner, 0, what, cure));
+        }
     }
 }
 

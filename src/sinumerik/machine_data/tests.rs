@@ -580,6 +580,25 @@ mod checking {
         assert_eq!(found(&text.replace("TYPE[AX1]=1", "TYPE[AX1]=0")), [""; 0]);
     }
 
+    #[test]
+    fn limits_and_times_of_monitoring_out_of_order_are_found() {
+        let text = "$MA_STOP_LIMIT_FINE[AX1]=0.05\n$MA_STANDSTILL_POS_TOL[AX2]=0.03\n$MA_MAX_AX_VELO[AX2]=12000\n\
+            $MA_SERVO_DISABLE_DELAY_TIME[AX3]=0.04\n";
+        let findings = found(text);
+        let starts = [
+            "warning: MD36000 $MA_STOP_LIMIT_COARSE: expected at least MD36010 = 0.05 for axis X1, found 0.04",
+            "a.tea:2: warning: MD36030 $MA_STANDSTILL_POS_TOL: expected at least MD36000 = 0.04 for axis Y1, found 0.03",
+            "warning: MD36200 $MA_AX_VELO_LIMIT: expected at least MD32000 = 12000 for axis Y1, found 11500",
+            "a.tea:4: warning: MD36620 $MA_SERVO_DISABLE_DELAY_TIME: expected at least MD36610 = 0.05 for axis Z1",
+        ];
+        assert_eq!(findings.len(), starts.len(), "{findings:?}");
+        for (finding, start) in findings.iter().zip(starts) {
+            assert!(finding.contains(start), "{finding} is not {start}");
+        }
+        let equal = "$MA_STOP_LIMIT_FINE[AX1]=0.04\n$MA_SERVO_DISABLE_DELAY_TIME[AX3]=0.05\n";
+        assert_eq!(found(equal), [""; 0]);
+    }
+
     /// DYN-03
     #[test]
     fn data_that_must_be_equal_within_a_grouping_are_found_on_the_synchronous_axis() {
