@@ -471,3 +471,12 @@ fn what_the_files_ask_for_and_nobody_does_is_said() {
     assert_eq!(machine.warnings(), ["axis XF: the kind of encoder 1 is not modelled; it is incremental"]);
     assert!(example().warnings().is_empty(), "{:?}", example().warnings());
 }
+
+#[test]
+fn there_are_three_handwheels() {
+    let mut machine = example();
+    for (number, there) in [(0, false), (1, true), (3, true), (4, false)] {
+        let turned = machine.queue(Command::Handwheel { number, pulses: 1, cycles: 1 });
+        assert_eq!(turned.is_ok(), there, "{number}");
+    }
+}

@@ -1,5 +1,7 @@
 //! The steps of a scenario, looked up and checked for one machine, before anything runs.
 
+use std::ops::RangeInclusive;
+
 use super::expression::{Expression, Scope};
 use super::faults::fault;
 use super::file::{duration, not_available, texts};
@@ -324,20 +326,23 @@ fn handwheel(node: Node, cycle: Time) -> Result<Command, Problem> {
             )
         })
     };
-    let whole = |node: &Node, what: &str, largest: i64| match node.value {
-        Value::Integer(number) if (-largest..=largest).contains(&number) => Ok(number),
-        _ => Err(node.expected(what, "write a whole number")),
-    };
     let (number, pulses, over) = (required("number")?, required("pulses")?, required("over")?);
-    let turned = whole(&pulses, "a number of pulses between -1000000 and 1000000", 1_000_000)?;
-    let cycles = duration(&over, "how long the turn takes")?.cycles(cycle);
-    let wheel = whole(&number, "the number of a handwheel, 1 to 3", 255)?;
+    let command = Command::Handwheel {
+        number: whole(&number, "the number of a handwheel, 1 to 3", 1..=3)?,
+        pulses: whole(&pulses, "a number of pulses between -1000000 and 1000000", -1_000_000..=1_000_000)?,
+        cycles: duration(&over, "how long the turn takes")?.cycles(cycle),
+    };
     table.finish()?;
-    Ok(Command::Handwheel {
-        number: u8::try_from(wheel).unwrap_or(0),
-        pulses: i32::try_from(turned).unwrap_or(0),
-        cycles,
-    })
+    Ok(command)
+}
+
+/// A whole number within a range.
+fn whole<T: TryFrom<i64> + PartialOrd>(node: &Node, what: &str, range: RangeInclusive<T>) -> Result<T, Problem> {
+    let number = match node.value {
+        Value::Integer(number) => T::try_from(number).ok().filter(|number| range.contains(number)),
+        _ => None,
+    };
+    number.ok_or_else(|| node.expected(what, "write a whole number"))
 }
 
 /// The axis of this name.
