@@ -19,6 +19,8 @@ mod list;
 mod machine_data;
 mod output;
 mod run;
+#[cfg(feature = "s7")]
+pub mod serve;
 mod signals;
 mod test;
 mod why;
@@ -85,6 +87,13 @@ enum Command {
         #[arg(long, value_name = "F.mmd")]
         flowchart: Option<PathBuf>,
     },
+    /// Runs a machine in real time and serves it to S7 clients: operator panels, data collectors, test tools.
+    ///
+    /// They read and write DB10, DB11, DB21..., DB31..., the own data blocks and flags of the PLC, inputs and outputs, and read NC
+    /// variables. What one request reads is of one cycle; what it writes acts at the edge of the next, whole. Ctrl-C and SIGTERM end it
+    /// with 0.
+    #[cfg(feature = "s7")]
+    Serve(serve::Arguments),
     /// Lists the signal catalogue: address, symbol, writer, name.
     ///
     /// Addresses and symbols are those of the first axis (AX1), channel (CHAN1) and mode group; a machine has its own
@@ -178,6 +187,8 @@ pub fn main(programs: Programs) -> ExitCode {
             let options = test::Options { accept, junit, jobs, flowchart };
             test::test(&paths, &options, &programs, &mut output)
         }
+        #[cfg(feature = "s7")]
+        Some(Command::Serve(arguments)) => serve::serve(&arguments, &programs, &mut output),
         Some(Command::Signals { filter, profile, format }) => {
             signals::signals(filter.as_deref(), &profile, format, &mut output)
         }

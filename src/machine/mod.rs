@@ -156,6 +156,12 @@ impl Machine {
         self.control.active()
     }
 
+    /// The machine data as they are stored; those that differ from [`Machine::machine_data`] act when their class says.
+    #[must_use]
+    pub fn stored_machine_data(&self) -> &MachineData {
+        self.control.stored()
+    }
+
     /// Where the reference point approach of an axis is.
     #[must_use]
     pub fn approach_phase(&self, axis: AxisNumber) -> ApproachPhase {
@@ -172,6 +178,12 @@ impl Machine {
     #[must_use]
     pub fn taken_transitions(&self) -> TakenTransitions {
         self.control.taken_transitions()
+    }
+
+    /// Whether the PLC is stopped: it was asked to, or its program failed.
+    #[must_use]
+    pub fn is_plc_stopped(&self) -> bool {
+        self.plc.stopped
     }
 
     /// Why the PLC program stopped by itself, if it did.

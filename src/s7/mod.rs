@@ -19,13 +19,15 @@
 //! assert_eq!(answers.bytes()[5], 0xD0);
 //! ```
 //!
-//! A session asks no clock and opens no socket: time comes in with [`Session::tick`], bytes with [`Session::receive`].
+//! A session asks no clock and opens no socket: time comes in with [`Session::tick`], bytes with [`Session::receive`]. [`server`] does
+//! both, for many clients.
 
 pub mod nck;
 pub mod wire;
 
 mod bridge;
 mod directory;
+pub mod server;
 mod session;
 mod station;
 

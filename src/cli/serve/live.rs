@@ -1,0 +1,244 @@
+//! A machine in real time: a thread that steps it when its cycle is due, and a lock that lends it between two steps.
+//!
+//! The schedule is absolute: cycle n is due n cycles after the start, so delays do not add up. A cycle that begins later than the
+//! next one was due is an overrun and is made up for at once. Who is late by more than [`GIVE_UP`] lets the time go: a computer that
+//! slept does not rush.
+
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError, TryRecvError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use tokio::sync::watch;
+
+use crate::machine::Machine;
+use crate::s7::DateAndTime;
+use crate::units::Time;
+use crate::variables::{Describe, RaisedAlarm};
+
+/// Later than this, and the time is lost.
+pub const GIVE_UP: Duration = Duration::from_millis(500);
+/// A computer wakes nobody more exactly than this.
+const EXACT: Duration = Duration::from_millis(1);
+/// How often the stepping thread lets others go first, at most.
+const COURTESY: u32 = 100;
+
+/// How many times real time, in thousandths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Speed(u32);
+
+impl Default for Speed {
+    fn default() -> Self {
+        Self(1000)
+    }
+}
+
+impl std::str::FromStr for Speed {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let number = text.parse::<f64>().ok().filter(|number| (0.001..=1000.0).contains(number));
+        let number = number.ok_or("expected a number from 0.001 to 1000, where 1 is real time")?;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is from 1 to 1,000,000")]
+        Ok(Self((number * 1000.0).round() as u32))
+    }
+}
+
+impl std::fmt::Display for Speed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}", f64::from(self.0) / 1000.0)
+    }
+}
+
+/// A machine that runs in real time until it is dropped.
+#[derive(Debug)]
+pub struct Live {
+    shared: Arc<Shared>,
+    end: Option<mpsc::Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// How well the schedule was kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Pace {
+    /// Cycles that began later than the next one was due.
+    pub overruns: u64,
+    /// The latest of them.
+    pub worst: Duration,
+    /// Time that was given up.
+    pub lost: Duration,
+}
+
+/// What the stepping thread and those outside share.
+#[derive(Debug)]
+pub(super) struct Shared {
+    clocked: Mutex<Clocked>,
+    /// How many wait for the lock.
+    waiting: AtomicUsize,
+    /// How many cycles are over.
+    pub(super) cycle: watch::Sender<u64>,
+    overruns: AtomicU64,
+    worst: AtomicU64,
+    lost: AtomicU64,
+}
+
+/// A machine with the clock of its CPU.
+#[derive(Debug)]
+pub(super) struct Clocked {
+    pub(super) machine: Machine,
+    set: DateAndTime,
+    set_at: Time,
+}
+
+impl Clocked {
+    /// The clock goes with the machine, at whatever speed.
+    pub(super) fn clock(&self) -> DateAndTime {
+        let nanos = (self.machine.time() - self.set_at).nanos();
+        self.set.later(u64::try_from(nanos / 1_000_000).unwrap_or(0))
+    }
+
+    pub(super) fn set_clock(&mut self, time: DateAndTime) {
+        (self.set, self.set_at) = (time, self.machine.time());
+    }
+}
+
+impl Live {
+    /// Starts a machine. The clock of its CPU begins with the computer's, in UTC.
+    #[must_use]
+    pub fn start(machine: Machine, speed: Speed) -> Self {
+        let clocked = Clocked { set: today(), set_at: machine.time(), machine };
+        let shared = Arc::new(Shared {
+            cycle: watch::Sender::new(clocked.machine.cycle()),
+            clocked: Mutex::new(clocked),
+            waiting: AtomicUsize::new(0),
+            overruns: AtomicU64::new(0),
+            worst: AtomicU64::new(0),
+            lost: AtomicU64::new(0),
+        });
+        let (end, ended) = mpsc::channel();
+        let stepped = Arc::clone(&shared);
+        let thread = std::thread::spawn(move || stepped.run(speed, &ended));
+        Self { shared, end: Some(end), thread: Some(thread) }
+    }
+
+    /// Looks at the machine between two steps, or queues commands.
+    pub fn with<T>(&self, look: impl FnOnce(&mut Machine) -> T) -> T {
+        look(&mut self.shared.lend().machine)
+    }
+
+    /// How well the schedule was kept so far.
+    #[must_use]
+    pub fn pace(&self) -> Pace {
+        let nanos = |counter: &AtomicU64| Duration::from_nanos(counter.load(Ordering::Relaxed));
+        let Shared { overruns, worst, lost, .. } = &*self.shared;
+        Pace { overruns: overruns.load(Ordering::Relaxed), worst: nanos(worst), lost: nanos(lost) }
+    }
+
+    /// Whether it still runs; only a defect of the simulator ends it otherwise than by dropping it.
+    #[must_use]
+    pub fn is_running(&self) -> bool {
+        self.thread.as_ref().is_some_and(|thread| !thread.is_finished())
+    }
+
+    pub(super) fn shared(&self) -> Arc<Shared> {
+        Arc::clone(&self.shared)
+    }
+}
+
+impl Drop for Live {
+    fn drop(&mut self) {
+        drop(self.end.take());
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Shared {
+    /// The machine between two steps.
+    pub(super) fn lend(&self) -> MutexGuard<'_, Clocked> {
+        self.waiting.fetch_add(1, Ordering::Relaxed);
+        let lent = self.clocked.lock().unwrap_or_else(PoisonError::into_inner);
+        self.waiting.fetch_sub(1, Ordering::Relaxed);
+        lent
+    }
+
+    fn run(&self, speed: Speed, ended: &mpsc::Receiver<()>) {
+        let mut begin = Instant::now();
+        let mut simulated = 0_u128; // nanoseconds since then
+        let mut alarms = Vec::new();
+        loop {
+            let period = self.step(&mut alarms);
+            simulated += period;
+            let real = |simulated: u128| {
+                Duration::from_nanos(u64::try_from(simulated * 1000 / u128::from(speed.0)).unwrap_or(u64::MAX))
+            };
+            let due = begin + real(simulated);
+            let ahead = due.saturating_duration_since(Instant::now());
+            let is_ended = if ahead.is_zero() {
+                ended.try_recv() != Err(TryRecvError::Empty)
+            } else {
+                ended.recv_timeout(ahead) != Err(RecvTimeoutError::Timeout)
+            };
+            if is_ended {
+                return;
+            }
+            let late = due.elapsed();
+            if late > real(period).max(EXACT) {
+                let nanos = u64::try_from(late.as_nanos()).unwrap_or(u64::MAX);
+                self.overruns.fetch_add(1, Ordering::Relaxed);
+                self.worst.fetch_max(nanos, Ordering::Relaxed);
+                if late > GIVE_UP {
+                    self.lost.fetch_add(nanos, Ordering::Relaxed);
+                    begin += late;
+                }
+            }
+        }
+    }
+
+    /// One step; gives the nanoseconds of its cycle.
+    fn step(&self, alarms: &mut Vec<RaisedAlarm>) -> u128 {
+        for _ in 0..COURTESY {
+            if self.waiting.load(Ordering::Relaxed) == 0 {
+                break;
+            }
+            std::thread::yield_now();
+        }
+        let mut clocked = self.clocked.lock().unwrap_or_else(PoisonError::into_inner);
+        let machine = &mut clocked.machine;
+        machine.step();
+        machine.drain();
+        log_alarms(machine, alarms);
+        let (cycle, period) = (machine.cycle(), machine.cycle_time().nanos());
+        drop(clocked);
+        self.cycle.send_replace(cycle);
+        u128::try_from(period).unwrap_or(1).max(1)
+    }
+}
+
+/// Logs alarms that have come or gone.
+fn log_alarms(machine: &Machine, known: &mut Vec<RaisedAlarm>) {
+    let pending = &machine.variables().alarms;
+    if pending.iter().eq(known.iter()) {
+        return;
+    }
+    let said =
+        |alarm: &RaisedAlarm| format!("alarm {} {}", machine.alarm_name(alarm.number), machine.alarm_text(alarm));
+    for alarm in pending.iter().filter(|alarm| !known.contains(alarm)) {
+        tracing::info!("{}", said(alarm));
+    }
+    for alarm in known.iter().filter(|known| !pending.iter().any(|alarm| alarm == *known)) {
+        tracing::info!("gone: {}", said(alarm));
+    }
+    known.clear();
+    known.extend(pending.iter().copied());
+}
+
+/// The computer's clock in UTC.
+fn today() -> DateAndTime {
+    /// From 1970 to 1990.
+    const EARLIER: Duration = Duration::from_secs(7305 * 86_400);
+    let since = SystemTime::now().duration_since(UNIX_EPOCH + EARLIER).unwrap_or_default();
+    DateAndTime::FIRST.later(u64::try_from(since.as_millis()).unwrap_or(0))
+}

@@ -1,0 +1,226 @@
+//! `opennck serve`: a machine in real time, and its windows for operator panels and data collectors.
+//!
+//! The parts are public, so that a test of a panel can have a machine of its own in its own process:
+//!
+//! ```
+//! use opennck::cli::serve::{Limits, Live, Speed, Window};
+//! use opennck::machine::Machine;
+//!
+//! let live = Live::start(Machine::open("g1_example")?, Speed::default());
+//! let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default())?;
+//! let port = window.addresses()[0].port(); // for the client
+//! assert!(port > 0 && live.with(|machine| machine.axis("X").is_some()));
+//! # Ok::<(), opennck::source::Problem>(())
+//! ```
+
+#![expect(clippy::disallowed_methods, reason = "real time is what it is for")]
+
+mod live;
+mod log;
+mod window;
+
+pub use crate::s7::server::{Limits, Network};
+pub use live::{GIVE_UP, Live, Pace, Speed};
+pub use window::Window;
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use tokio::runtime::Builder;
+
+use super::output::Output;
+use crate::image::Preset;
+use crate::machine::{Machine, OpenOptions};
+use crate::plc::Programs;
+use crate::source::Problem;
+use crate::variables::Describe;
+
+/// How often the status line is drawn.
+const DRAW: Duration = Duration::from_millis(200);
+/// Over how long its rates are taken.
+const RATES: Duration = Duration::from_secs(1);
+
+/// What is served, and to whom.
+#[derive(Debug, clap::Args)]
+pub(super) struct Arguments {
+    /// A directory, an archive file, or the name of a built-in machine.
+    machine: PathBuf,
+    /// Where S7 clients connect; it may be given several times.
+    #[arg(long, value_name = "ADDR:PORT", default_value = "127.0.0.1:10102")]
+    s7: Vec<String>,
+    /// How many times real time, from 0.001 to 1000.
+    #[arg(long, value_name = "N", default_value_t = Speed::default())]
+    speed: Speed,
+    /// Clients may change nothing.
+    #[arg(long)]
+    read_only: bool,
+    /// The PLC program; without one, clients write the PLC's side.
+    #[arg(long, value_name = "NAME")]
+    plc: Option<String>,
+    /// Memory of the PLC beside the interface: a file (*.toml), or a name in `plc_images` here or above.
+    #[arg(long, value_name = "NAME|FILE")]
+    plc_image: Option<String>,
+    /// From which networks clients may come, for example 192.168.0.0/24; it may be given several times.
+    #[arg(long, value_name = "NET")]
+    allow: Vec<Network>,
+}
+
+pub(super) fn serve(arguments: &Arguments, programs: &Programs, output: &mut Output) -> u8 {
+    match open(arguments, programs, output).and_then(|(live, window)| attend(arguments, &live, &window)) {
+        Ok(()) => 0,
+        Err(problem) => {
+            output.error(problem);
+            2
+        }
+    }
+}
+
+/// Opens all doors, or says which one stays closed.
+fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Result<(Live, Window), Problem> {
+    let preset = arguments.plc_image.as_deref().map(preset).transpose()?;
+    let mut machine = Machine::open_with(&arguments.machine, OpenOptions { preset, ..OpenOptions::default() })?;
+    let plc = match &arguments.plc {
+        Some(name) => {
+            machine.load_program(programs.program(name, machine.names())?);
+            format!("PLC program {name}")
+        }
+        None => "no PLC program: clients write the PLC's side".to_owned(),
+    };
+    for warning in machine.warnings() {
+        output.warning(warning);
+    }
+    let axes: Vec<_> = machine.names().axes.iter().filter_map(|(_, name)| name.clone()).collect();
+    let cycle = machine.cycle_time().seconds() * 1000.0;
+    let live = Live::start(machine, arguments.speed);
+    let addresses: Vec<_> = arguments.s7.iter().map(String::as_str).collect();
+    let limits = Limits { networks: arguments.allow.clone(), ..Limits::default() };
+    let window = Window::open(&live, &addresses, arguments.read_only, limits)?;
+    output.line(format!("{}: axes {}, a cycle of {cycle} ms, {plc}", arguments.machine.display(), axes.join(", ")));
+    let rights = if arguments.read_only { "read only" } else { "read and write" };
+    for address in window.addresses() {
+        output.line(format!("S7 on {address}: rack 0, slot 2, {rights}"));
+    }
+    output.line("Ctrl-C ends");
+    Ok((live, window))
+}
+
+/// Waits for Ctrl-C or SIGTERM.
+fn attend(arguments: &Arguments, live: &Live, window: &Window) -> Result<(), Problem> {
+    let bar = if std::io::stderr().is_terminal() {
+        ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr())
+    } else {
+        ProgressBar::hidden()
+    };
+    bar.set_style(ProgressStyle::with_template("{wide_msg}").unwrap_or_else(|_| ProgressStyle::default_bar()));
+    // A program that has a log of its own keeps it.
+    let _ = tracing::subscriber::set_global_default(log::Log { status: bar.clone() });
+    let mut status = Status::new(live, window);
+    let no_signals = |error: std::io::Error| {
+        Problem::new(
+            format!("the system gives no signals: {error}"),
+            "close other programs: it may have no handles left",
+        )
+    };
+    let runtime = Builder::new_current_thread().enable_all().build().map_err(no_signals)?;
+    let ended = runtime.block_on(async {
+        let mut end = std::pin::pin!(signals());
+        let mut draw = tokio::time::interval(DRAW);
+        loop {
+            tokio::select! {
+                ended = &mut end => return ended.map_err(no_signals),
+                _ = draw.tick() => bar.set_message(status.line(arguments.speed)),
+            }
+            if !live.is_running() {
+                return Err(Problem::new(
+                    "the machine has stopped by a defect of the simulator",
+                    "please report it with what stands above",
+                ));
+            }
+        }
+    });
+    bar.finish_and_clear();
+    ended
+}
+
+#[cfg(unix)]
+async fn signals() -> std::io::Result<()> {
+    use tokio::signal::unix::{SignalKind, signal};
+    let mut terminate = signal(SignalKind::terminate())?;
+    tokio::select! {
+        ended = tokio::signal::ctrl_c() => ended,
+        _ = terminate.recv() => Ok(()),
+    }
+}
+
+#[cfg(not(unix))]
+async fn signals() -> std::io::Result<()> {
+    tokio::signal::ctrl_c().await
+}
+
+/// The line at the bottom of a terminal.
+struct Status<'a> {
+    live: &'a Live,
+    window: &'a Window,
+    /// When rates were taken last: time of the machine, answers.
+    last: (Instant, f64, u64),
+    speed: Option<f64>,
+    rate: u64,
+}
+
+impl<'a> Status<'a> {
+    fn new(live: &'a Live, window: &'a Window) -> Self {
+        let time = live.with(|machine| machine.time().seconds());
+        Self { live, window, last: (Instant::now(), time, window.answers()), speed: None, rate: 0 }
+    }
+
+    fn line(&mut self, wanted: Speed) -> String {
+        let (time, cycle, alarms) = self.live.with(|machine| {
+            let name = |number| machine.alarm_name(number);
+            let alarms: Vec<_> = machine.variables().alarms.iter().map(|alarm| name(alarm.number)).collect();
+            (machine.time().seconds(), machine.cycle(), alarms)
+        });
+        let elapsed = self.last.0.elapsed();
+        if elapsed >= RATES {
+            let answers = self.window.answers();
+            self.speed = Some((time - self.last.1) / elapsed.as_secs_f64());
+            let millis = u64::try_from(elapsed.as_millis()).unwrap_or(u64::MAX).max(1);
+            self.rate = (answers - self.last.2) * 1000 / millis;
+            self.last = (Instant::now(), time, answers);
+        }
+        let speed = self.speed.map_or_else(|| wanted.to_string(), |speed| format!("{speed:.2}"));
+        let pace = self.live.pace();
+        let alarms = if alarms.is_empty() { "none".to_owned() } else { alarms.join(" ") };
+        let mut line = format!(
+            "{time:.1} s  step {cycle}  speed {speed}  clients {}  {} answers/s  alarms {alarms}",
+            self.window.clients(),
+            self.rate
+        );
+        if pace.overruns > 0 {
+            line += &format!("  overruns {} (worst {} ms", pace.overruns, pace.worst.as_millis());
+            if !pace.lost.is_zero() {
+                line += &format!(", lost {:.1} s", pace.lost.as_secs_f64());
+            }
+            line += ")";
+        }
+        line
+    }
+}
+
+/// A PLC image: a file, or a name that is looked for in `plc_images` here or above.
+fn preset(name: &str) -> Result<Preset, Problem> {
+    if name.ends_with(".toml") {
+        return Preset::read(Path::new(name));
+    }
+    let file = Path::new("plc_images").join(format!("{name}.toml"));
+    let here = std::env::current_dir().unwrap_or_default();
+    let found = here.ancestors().map(|directory| directory.join(&file)).find(|file| file.is_file());
+    let file = found.ok_or_else(|| {
+        Problem::new(
+            format!("expected a PLC image, found no plc_images/{name}.toml here or above"),
+            "name a file that ends in .toml, or start where plc_images is",
+        )
+    })?;
+    Preset::read(&file)
+}

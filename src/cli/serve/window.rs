@@ -1,0 +1,255 @@
+//! The S7 server of a live machine: a thread with all its clients, and what it lends them.
+//!
+//! A request reads the machine between two steps. What it writes is queued as commands of the machine, all of them at once, so they
+//! act at the edge of the same step.
+
+use std::io;
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::thread::JoinHandle;
+
+use tokio::runtime::{Builder, Runtime};
+use tokio::sync::watch;
+use tokio::task::JoinSet;
+
+use super::live::{Clocked, Live, Shared};
+use crate::machine::{Command, DatumValue, Machine};
+use crate::s7::nck::{self, Datum};
+use crate::s7::server::{Limits, Server, Stations, listen};
+use crate::s7::{self, Bridge, CpuState, Directory, Machinery, Settings, Station};
+use crate::sinumerik::machine_data::{Kind, Owner, Target};
+use crate::source::Problem;
+use crate::variables::Place;
+
+/// An S7 server that shows a live machine until it is dropped.
+#[derive(Debug)]
+pub struct Window {
+    server: Arc<Server<Lender>>,
+    addresses: Vec<SocketAddr>,
+    end: watch::Sender<bool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Window {
+    /// Opens a server on addresses such as `127.0.0.1:10102`, `[::1]:10102`, `localhost:10102`; port 0 is any free one.
+    ///
+    /// # Errors
+    /// An address is none, is not of this computer, may not be used, or is in use.
+    pub fn open(live: &Live, addresses: &[&str], is_read_only: bool, limits: Limits) -> Result<Self, Problem> {
+        let shared = live.shared();
+        let directory = live.with(|machine| Directory::of(machine.memory(), machine.names().profile));
+        let server = Server::new(Lender { shared, directory, is_read_only }, Settings::default(), limits);
+        let runtime = Builder::new_current_thread().enable_all().build().map_err(|error| {
+            Problem::new(
+                format!("the server cannot start: {error}"),
+                "close other programs: the system has no handles left",
+            )
+        })?;
+        let mut listeners = Vec::new();
+        for address in addresses {
+            let opened = runtime.block_on(listen(address)).map_err(|error| closed_door(address, &error))?;
+            listeners.extend(opened);
+        }
+        let addresses = listeners.iter().filter_map(|listener| listener.local_addr().ok()).collect();
+        let (end, ended) = watch::channel(false);
+        let server = Arc::new(server);
+        let served = Arc::clone(&server);
+        let thread = std::thread::spawn(move || serve(&runtime, &served, listeners, &ended));
+        Ok(Self { server, addresses, end, thread: Some(thread) })
+    }
+
+    /// Where it can be reached.
+    #[must_use]
+    pub fn addresses(&self) -> &[SocketAddr] {
+        &self.addresses
+    }
+
+    /// How many clients there are now.
+    #[must_use]
+    pub fn clients(&self) -> usize {
+        self.server.clients()
+    }
+
+    /// How many answers were given so far.
+    #[must_use]
+    pub fn answers(&self) -> u64 {
+        self.server.answers()
+    }
+}
+
+impl Drop for Window {
+    fn drop(&mut self) {
+        self.end.send_replace(true);
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+/// Runs a server on all its listeners until the end.
+fn serve(
+    runtime: &Runtime,
+    server: &Arc<Server<Lender>>,
+    listeners: Vec<tokio::net::TcpListener>,
+    ended: &watch::Receiver<bool>,
+) {
+    runtime.block_on(async {
+        let mut running = JoinSet::new();
+        for listener in listeners {
+            let mut ended = ended.clone();
+            let end = async move {
+                let _ = ended.wait_for(|ended| *ended).await;
+            };
+            running.spawn(Arc::clone(server).run(listener, end));
+        }
+        while running.join_next().await.is_some() {}
+    });
+}
+
+fn closed_door(address: &str, error: &io::Error) -> Problem {
+    let (what, cure) = match error.kind() {
+        io::ErrorKind::AddrInUse => (
+            "expected a free port, found one in use".to_owned(),
+            "end the program that has it, or choose another port, for example --s7 127.0.0.1:10103",
+        ),
+        io::ErrorKind::PermissionDenied => (
+            "expected a port that may be opened, found a protected one".to_owned(),
+            "choose a port from 1024 on, as 10102 is; the usual 102 needs the rights of an administrator",
+        ),
+        io::ErrorKind::AddrNotAvailable => (
+            "expected an address of this computer, found another one".to_owned(),
+            "127.0.0.1 is this computer only, 0.0.0.0 everybody who can reach it",
+        ),
+        _ => (
+            format!("expected an address and a port, found what cannot be opened: {error}"),
+            "write it as 127.0.0.1:10102, [::1]:10102 or localhost:10102",
+        ),
+    };
+    Problem::new(format!("--s7 {address}: {what}"), cure)
+}
+
+/// Lends a live machine to one request after another.
+#[derive(Debug)]
+struct Lender {
+    shared: Arc<Shared>,
+    directory: Directory,
+    is_read_only: bool,
+}
+
+impl Stations for Lender {
+    fn lend(&self, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
+        let mut clocked = self.shared.lend();
+        let machine = &clocked.machine;
+        let data = StoredData(machine);
+        let machinery = Machinery {
+            state: if machine.is_plc_stopped() { CpuState::Stop } else { CpuState::Run },
+            clock: clocked.clock(),
+            is_read_only: self.is_read_only,
+            machine_data: Some(&data),
+            ..Machinery::default()
+        };
+        let bridge = Bridge::new(machine.memory(), machine.variables(), machine.names(), &self.directory);
+        let mut bridge = bridge.with(machinery);
+        work(&mut bridge);
+        let commands = bridge.into_commands();
+        if commands.is_empty() {
+            return None;
+        }
+        for command in commands {
+            if let Err(problem) = queue(&mut clocked, &command) {
+                tracing::info!("a client wrote what the machine does not take: {problem}");
+            }
+        }
+        Some(clocked.machine.cycle() + 1)
+    }
+
+    async fn taken_up(&self, step: u64) {
+        let _ = self.shared.cycle.subscribe().wait_for(|cycle| *cycle >= step).await;
+    }
+}
+
+/// Queues what a client asked for.
+fn queue(clocked: &mut Clocked, command: &s7::Command) -> Result<(), Problem> {
+    let command = match *command {
+        s7::Command::Write { location, value } => Command::Write { location, value },
+        s7::Command::MachineDatum { place, number, index, value } => machine_datum(place, number, index, value)?,
+        s7::Command::PlcStop => Command::PlcStop,
+        // The program keeps what it remembers in both: a machine has no other restart.
+        s7::Command::PlcStart(s7::Restart::Warm | s7::Restart::Cold) => Command::PlcRun,
+        s7::Command::SetClock(time) => {
+            clocked.set_clock(time);
+            return Ok(());
+        }
+    };
+    clocked.machine.queue(command)
+}
+
+fn machine_datum(place: Place, number: u16, index: u16, value: f64) -> Result<Command, Problem> {
+    let target = target(place, number, index)?;
+    let value = match target.datum().kind {
+        Kind::Boolean => DatumValue::Boolean(value > 0.5),
+        // A whole number is written without a point, and read as one.
+        Kind::Byte | Kind::Dword | Kind::Udword => {
+            DatumValue::parse(&value.to_string()).unwrap_or(DatumValue::Real(value))
+        }
+        Kind::Double | Kind::String => DatumValue::Real(value),
+    };
+    let index = target.index();
+    let target = match (place, target.datum().count) {
+        (Place::Axis(axis), 1) => format!("{number}[AX{axis}]"),
+        (Place::Axis(axis), _) => format!("{number}[{index},AX{axis}]"),
+        (Place::Channel(channel), 1) => format!("{number}[CHAN{channel}]"),
+        (Place::Channel(channel), _) => format!("{number}[{index},CHAN{channel}]"),
+        (Place::Nck | Place::ModeGroup(_), 1) => number.to_string(),
+        (Place::Nck | Place::ModeGroup(_), _) => format!("{number}[{index}]"),
+    };
+    Ok(Command::MachineDatum { target, value })
+}
+
+fn target(place: Place, number: u16, index: u16) -> Result<Target, Problem> {
+    let owner = match place {
+        Place::Nck | Place::ModeGroup(_) => Owner::Nck,
+        Place::Channel(channel) => Owner::Channel(channel),
+        Place::Axis(axis) => Owner::Axis(axis),
+    };
+    Target::new(number.into(), owner, u8::try_from(index).unwrap_or(u8::MAX))
+}
+
+/// Machine data as an operator panel shows them: those that are stored.
+struct StoredData<'a>(&'a Machine);
+
+impl nck::MachineData for StoredData<'_> {
+    fn datum(&self, place: Place, number: u16, index: u16) -> Option<Datum<'_>> {
+        let target = target(place, number, index).ok()?;
+        let data = self.0.stored_machine_data();
+        if target.datum().kind == Kind::String {
+            return text(self.0, place, number, index).map(Datum::Text);
+        }
+        let value = data.get(&target)?;
+        Some(match target.datum().kind {
+            Kind::Boolean => Datum::Boolean(value == DatumValue::Boolean(true)),
+            Kind::Byte => Datum::Byte(u8::try_from(value.whole()?).ok()?),
+            Kind::Dword => Datum::Whole(i32::try_from(value.whole()?).ok()?),
+            // The same 32 bits.
+            Kind::Udword => Datum::Whole(u32::try_from(value.whole()?).ok()?.cast_signed()),
+            Kind::Double => Datum::Number(value.number()?),
+            Kind::String => return None,
+        })
+    }
+}
+
+/// Names of axes and channels.
+fn text(machine: &Machine, place: Place, number: u16, index: u16) -> Option<&str> {
+    let data = machine.stored_machine_data();
+    let index = usize::from(index);
+    match (place, number) {
+        (Place::Nck, 10000) => data.general.axconf_machax_name_tab.get(index).map(String::as_str),
+        (Place::Nck, 10002) => data.general.axconf_logic_machax_tab.get(index).map(String::as_str),
+        (Place::Channel(channel), 20000) => Some(&data.channels[channel].chan_name),
+        (Place::Channel(channel), 20060) => data.channels[channel].axconf_geoax_name_tab.get(index).map(String::as_str),
+        (Place::Channel(channel), 20080) => {
+            data.channels[channel].axconf_chanax_name_tab.get(index).map(String::as_str)
+        }
+        _ => None,
+    }
+}

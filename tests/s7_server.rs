@@ -1,0 +1,321 @@
+//! A live machine and clients of S7 communication over TCP: rust7, by the author of snap7, which shares no line with this project;
+//! and bare sockets, for what no proper client does.
+#![cfg(all(feature = "cli", feature = "s7"))]
+
+use std::io::{Read, Write};
+use std::net::{Shutdown, SocketAddr, TcpStream};
+use std::time::{Duration, Instant};
+
+use opennck::cli::serve::{Limits, Live, Speed, Window};
+use opennck::machine::Machine;
+use opennck::plc::Programs;
+use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE, S7Client};
+
+/// The connection request of most clients.
+const CONNECT: [u8; 22] = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
+/// Setup communication: one job, a PDU of 480 bytes.
+const SETUP: [u8; 25] = [3, 0, 0, 25, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 1, 0, 8, 0, 0, 0xF0, 0, 0, 1, 0, 1, 1, 0xE0];
+/// Read one byte: MB0.
+const READ: [u8; 31] =
+    [3, 0, 0, 31, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 2, 0, 14, 0, 0, 4, 1, 0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 0];
+
+fn live() -> Live {
+    Live::start(Machine::open("g1_example").expect("it is built in"), Speed::default())
+}
+
+fn window(live: &Live, limits: Limits) -> (Window, SocketAddr) {
+    let window = Window::open(live, &["127.0.0.1:0"], false, limits).expect("some port is free");
+    let address = window.addresses()[0];
+    (window, address)
+}
+
+fn client(address: SocketAddr) -> S7Client {
+    let mut client = S7Client::new();
+    client.set_connection_port(address.port()).expect("it is not connected yet");
+    client.set_timeout(5000, 5000, 5000).expect("it is not connected yet");
+    client.connect_rack_slot(&address.ip().to_string(), 0, 2).expect("the server is there");
+    client
+}
+
+fn bare(address: SocketAddr) -> TcpStream {
+    let stream = TcpStream::connect(address).expect("the server is there");
+    stream.set_read_timeout(Some(Duration::from_secs(10))).expect("it is a time");
+    stream
+}
+
+/// Waits until something is true, at most ten seconds.
+#[track_caller]
+fn wait(what: &str, mut is_true: impl FnMut() -> bool) {
+    let begin = Instant::now();
+    while !is_true() {
+        assert!(begin.elapsed() < Duration::from_secs(10), "{what} did not come");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn is_any_set(bytes: &[u8]) -> bool {
+    bytes.iter().any(|byte| *byte != 0)
+}
+
+#[test]
+fn a_foreign_client_reads_interface_blocks_and_flags() {
+    let live = live();
+    let (_window, address) = window(&live, Limits::default());
+    let mut client = client(address);
+    // X is the leading axis of the gantry, XF is none: DB31.DBX101.6, DB33.DBX101.6; axes stand: DBX61.4.
+    wait("the axes at rest", || client.read_bit(S7_AREA_DB, 31, 61, 4).unwrap());
+    assert!(client.read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
+    assert!(!client.read_bit(S7_AREA_DB, 33, 101, 6).unwrap());
+    let (mut axis, mut channel, mut mode_group, mut flags) = ([0; 60], [0; 40], [0; 7], [0xFF; 16]);
+    client.read_db(31, 60, &mut axis).unwrap();
+    client.read_db(21, 0, &mut channel).unwrap();
+    client.read_db(11, 0, &mut mode_group).unwrap();
+    client.read_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &mut flags).unwrap();
+    assert!(is_any_set(&axis) && !is_any_set(&flags));
+    assert!(mode_group[6] & 0b100 != 0, "JOG is active after power on: {mode_group:?}"); // DB11.DBX6.2
+    // What is not there is refused, and the conversation goes on.
+    assert!(client.read_db(99, 0, &mut axis).is_err());
+    assert!(client.read_db(31, 60, &mut axis).is_ok());
+}
+
+#[test]
+fn who_writes_and_then_reads_finds_what_was_written() {
+    let live = live();
+    let (_window, address) = window(&live, Limits::default());
+    let mut client = client(address);
+    for round in 0..20_u8 {
+        client.write_area(S7_AREA_MK, 0, 100, S7_WL_BYTE, &[round, !round]).unwrap();
+        let mut found = [0; 2];
+        client.read_area(S7_AREA_MK, 0, 100, S7_WL_BYTE, &mut found).unwrap();
+        assert_eq!(found, [round, !round]);
+    }
+    assert_eq!(live.with(|machine| machine.memory().flags[100]), 19);
+}
+
+/// Everything by S7: enables, the mode, the key.
+#[test]
+fn an_axis_is_moved_through_s7_only() {
+    let live = live();
+    let (_window, address) = window(&live, Limits::default());
+    let mut client = client(address);
+    let y = live.with(|machine| machine.axis("Y")).unwrap();
+    let position = || live.with(|machine| machine.variables().axes[y].position.user());
+    let begin = position();
+    client.write_bit(S7_AREA_DB, 32, 1, 5, true).unwrap(); // position measuring system 1
+    client.write_bit(S7_AREA_DB, 32, 2, 1, true).unwrap(); // controller enable
+    client.write_bit(S7_AREA_DB, 32, 21, 7, true).unwrap(); // pulse enable
+    wait("the position controller", || client.read_bit(S7_AREA_DB, 32, 61, 5).unwrap());
+    assert!((position() - begin).abs() < 0.001);
+    client.write_bit(S7_AREA_DB, 32, 4, 7, true).unwrap(); // traversing key plus
+    wait("the traverse command", || client.read_bit(S7_AREA_DB, 32, 64, 7).unwrap());
+    wait("a millimetre", || position() > begin + 1.0);
+    client.write_bit(S7_AREA_DB, 32, 4, 7, false).unwrap();
+    wait("the standstill", || client.read_bit(S7_AREA_DB, 32, 61, 4).unwrap());
+    wait("rest", || {
+        let before = position();
+        std::thread::sleep(Duration::from_millis(50));
+        (position() - before).abs() < 0.001
+    });
+}
+
+/// Each writes its own four flags, and nobody ever finds four that differ.
+#[test]
+fn eight_clients_at_once_see_whole_requests() {
+    let live = live();
+    let (window, address) = window(&live, Limits::default());
+    std::thread::scope(|scope| {
+        for number in 0..8_u16 {
+            scope.spawn(move || {
+                let mut client = client(address);
+                let mut all = [0; 32];
+                for round in 0..50_u8 {
+                    client.write_area(S7_AREA_MK, 0, 4 * number, S7_WL_BYTE, &[round; 4]).unwrap();
+                    client.read_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &mut all).unwrap();
+                    for part in all.chunks(4) {
+                        assert!(part.iter().all(|byte| *byte == part[0]), "half a request: {part:?}");
+                    }
+                    assert_eq!(all[usize::from(4 * number)], round);
+                }
+                client.disconnect();
+            });
+        }
+    });
+    assert!(window.answers() >= 8 * 102);
+    wait("the last client's leave", || window.clients() == 0);
+}
+
+#[test]
+fn garbage_and_half_packets_hold_up_nobody() {
+    let live = live();
+    let limits = Limits { greeting: Duration::from_millis(300), ..Limits::default() };
+    let (window, address) = window(&live, limits);
+    let mut good = client(address);
+    // Another protocol: disconnected at once.
+    let mut stream = bare(address);
+    stream.write_all(b"GET / HTTP/1.1\r\n\r\n").unwrap();
+    assert_eq!(stream.read(&mut [0; 100]).unwrap_or(0), 0);
+    // A packet that says it is longer than any: disconnected at once.
+    let mut stream = bare(address);
+    stream.write_all(&[3, 0, 0xFF, 0xFF]).unwrap();
+    assert_eq!(stream.read(&mut [0; 100]).unwrap_or(0), 0);
+    // Half packets that never become whole: after the time for the first request.
+    let mut halves: Vec<_> = (0..20).map(|_| bare(address)).collect();
+    for stream in &mut halves {
+        stream.write_all(&CONNECT[..11]).unwrap();
+    }
+    // Half a packet, and gone.
+    for length in 1..CONNECT.len() {
+        bare(address).write_all(&CONNECT[..length]).unwrap();
+    }
+    assert!(good.read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
+    for stream in &mut halves {
+        assert_eq!(stream.read(&mut [0; 100]).unwrap_or(0), 0);
+    }
+    // Byte by byte is slow, and right.
+    let mut stream = bare(address);
+    stream.set_nodelay(true).unwrap();
+    for byte in CONNECT {
+        stream.write_all(&[byte]).unwrap();
+    }
+    let mut confirm = [0; 22];
+    stream.read_exact(&mut confirm).unwrap();
+    assert_eq!(confirm[5], 0xD0);
+    drop(stream);
+    assert!(good.read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
+    wait("the others' leave", || window.clients() == 1);
+}
+
+/// It asks again and again and never reads: the server stops reading it, others are answered all the time.
+#[test]
+fn a_client_that_takes_no_answers_is_left() {
+    let live = live();
+    let limits = Limits { writing: Duration::from_millis(300), ..Limits::default() };
+    let (window, address) = window(&live, limits);
+    let mut good = client(address);
+    let mut stream = bare(address);
+    stream.set_write_timeout(Some(Duration::from_millis(50))).unwrap();
+    stream.write_all(&[&CONNECT[..], &SETUP].concat()).unwrap();
+    let requests = READ.repeat(1000);
+    while stream.write_all(&requests).is_ok() {}
+    assert!(good.read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
+    wait("its end", || window.clients() == 1);
+    assert!(good.read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
+}
+
+#[test]
+fn one_client_too_many_is_sent_away_and_a_free_place_is_given_again() {
+    let live = live();
+    let (window, address) = window(&live, Limits { clients: 2, ..Limits::default() });
+    let (first, mut second) = (bare(address), client(address));
+    wait("two clients", || window.clients() == 2);
+    let mut third = bare(address);
+    assert_eq!(third.read(&mut [0; 10]).unwrap_or(0), 0);
+    first.shutdown(Shutdown::Both).unwrap();
+    wait("a free place", || window.clients() == 1);
+    let mut fourth = client(address);
+    assert!(fourth.read_bit(S7_AREA_DB, 31, 101, 6).unwrap() && second.read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
+}
+
+#[test]
+fn only_allowed_networks_may_come() {
+    let live = live();
+    let networks = |networks: &[&str]| Limits {
+        networks: networks.iter().map(|network| network.parse().unwrap()).collect(),
+        ..Limits::default()
+    };
+    let (_window, address) = window(&live, networks(&["10.0.0.0/8", "::1"]));
+    assert_eq!(bare(address).read(&mut [0; 10]).unwrap_or(0), 0);
+    let (_window, address) = window(&live, networks(&["10.0.0.0/8", "127.0.0.0/8"]));
+    assert!(client(address).read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
+}
+
+#[test]
+fn nothing_is_written_where_clients_may_only_read() {
+    let live = live();
+    let window = Window::open(&live, &["127.0.0.1:0"], true, Limits::default()).unwrap();
+    let mut client = client(window.addresses()[0]);
+    assert!(client.write_bit(S7_AREA_MK, 0, 0, 0, true).is_err());
+    assert!(!client.read_bit(S7_AREA_MK, 0, 0, 0).unwrap());
+}
+
+/// Stop, state and start by the bytes that snap7's client sends.
+#[test]
+fn the_plc_is_stopped_and_started_by_a_client() {
+    let mut machine = Machine::open("g1_example").unwrap();
+    let program = Programs::ready().program("enable_all", machine.names()).unwrap();
+    machine.load_program(program);
+    let live = Live::start(machine, Speed::default());
+    let (_window, address) = window(&live, Limits::default());
+    let mut stream = bare(address);
+    let mut ask = |request: &[u8]| {
+        stream.write_all(request).unwrap();
+        let mut answer = [0; 256];
+        let length = stream.read(&mut answer).unwrap();
+        answer[..length].to_vec()
+    };
+    ask(&CONNECT);
+    ask(&SETUP);
+    let name = b"P_PROGRAM";
+    let stop =
+        [&[3, 0, 0, 33, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 3, 0, 16, 0, 0, 0x29, 0, 0, 0, 0, 0, 9], &name[..]].concat();
+    assert_eq!(ask(&stop)[17..19], [0, 0]);
+    assert!(live.with(|machine| machine.is_plc_stopped()));
+    wait("alarm 2000", || live.with(|machine| machine.variables().alarms.count() > 0));
+    let head = [3, 0, 0, 37, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 4, 0, 20, 0, 0, 0x28, 0, 0, 0, 0, 0, 0, 0xFD, 0, 0, 9];
+    assert_eq!(ask(&[&head[..], name].concat())[17..19], [0, 0]);
+    assert!(!live.with(|machine| machine.is_plc_stopped()));
+}
+
+/// A request on its way is answered; then the connection ends properly, and the port is free.
+#[test]
+fn the_end_is_graceful() {
+    let live = live();
+    let (window, address) = window(&live, Limits::default());
+    let mut idle = bare(address);
+    idle.write_all(&CONNECT).unwrap();
+    idle.read_exact(&mut [0; 22]).unwrap();
+    let begin = Instant::now();
+    drop(window);
+    assert!(begin.elapsed() < Duration::from_secs(1), "{:?}", begin.elapsed());
+    assert_eq!(idle.read(&mut [0; 10]).unwrap(), 0, "the end of the stream, no reset");
+    assert!(TcpStream::connect(address).is_err());
+    let again = Window::open(&live, &[&address.to_string()], false, Limits::default()).unwrap();
+    assert!(client(again.addresses()[0]).read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
+}
+
+#[test]
+fn ipv6_is_served_too() {
+    let live = live();
+    let Ok(window) = Window::open(&live, &["[::1]:0"], false, Limits::default()) else {
+        return; // a computer without IPv6
+    };
+    let mut stream = bare(window.addresses()[0]);
+    stream.write_all(&CONNECT).unwrap();
+    stream.read_exact(&mut [0; 22]).unwrap();
+}
+
+#[test]
+fn the_schedule_does_not_drift() {
+    let begin = Instant::now();
+    let live = Live::start(Machine::open("g1_example").unwrap(), "10".parse().unwrap());
+    std::thread::sleep(Duration::from_millis(1000));
+    let simulated = live.with(|machine| machine.time().seconds());
+    let real = begin.elapsed().as_secs_f64();
+    let lost = live.pace().lost.as_secs_f64();
+    assert!((simulated / 10.0 - (real - lost)).abs() < 0.2, "{simulated} s in {real} s, {lost} s lost");
+}
+
+#[test]
+fn a_closed_door_says_why() {
+    let live = live();
+    let (window, address) = window(&live, Limits::default());
+    for (address, cause) in [
+        (address.to_string().as_str(), "in use"),
+        ("127.0.0.1", "127.0.0.1:10102"),
+        ("198.51.100.1:10102", "of this computer"),
+    ] {
+        let problem = Window::open(&live, &[address], false, Limits::default()).unwrap_err().to_string();
+        assert!(problem.contains(cause) && problem.contains(address), "{problem}");
+    }
+    drop(window);
+}
