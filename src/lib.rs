@@ -62,7 +62,7 @@
 //! | [`machine`] | ONE STEP, and open, queue, power, save, restore, fork | `image`, `motion`, `plant`, `plc`, `sinumerik`, `source`, `trace`, `units`, `variables` |
 //! | [`scenario`] | files that act, and the session that tests in Rust use | `image`, `machine`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`golden`] | scenarios below a folder, each against its golden trace | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units` |
-//! | [`s7`] | THE WINDOW: S7 communication, wire formats and sessions without a socket (feature `s7`) | `image`, `units`, `variables` |
+//! | [`s7`] | THE WINDOW: S7 communication, wire formats, sessions without a socket, a server on TCP (feature `s7`) | `image`, `units`, `variables` |
 //! | [`cli`] | the program's arguments and wiring (feature `cli`) | all |
 //!
 //! # The order of a step

@@ -1,6 +1,7 @@
 //! A live machine and clients of S7 communication over TCP: rust7, by the author of snap7, which shares no line with this project;
 //! and bare sockets, for what no proper client does.
 #![cfg(all(feature = "cli", feature = "s7"))]
+#![expect(clippy::disallowed_methods, reason = "a live machine is watched in real time")]
 
 use std::io::{Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -20,7 +21,11 @@ const READ: [u8; 31] =
     [3, 0, 0, 31, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 2, 0, 14, 0, 0, 4, 1, 0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 0];
 
 fn live() -> Live {
-    Live::start(Machine::open("g1_example").expect("it is built in"), Speed::default())
+    let live = Live::start(Machine::open("g1_example").expect("it is built in"), Speed::default());
+    wait("the run-up", || {
+        live.with(|machine| machine.axis("X").is_some_and(|x| machine.memory().from_nck.axes[x].gantry_leading_axis()))
+    });
+    live
 }
 
 fn window(live: &Live, limits: Limits) -> (Window, SocketAddr) {
@@ -51,6 +56,15 @@ fn wait(what: &str, mut is_true: impl FnMut() -> bool) {
         assert!(begin.elapsed() < Duration::from_secs(10), "{what} did not come");
         std::thread::sleep(Duration::from_millis(5));
     }
+}
+
+fn read_packet(stream: &mut TcpStream) -> Vec<u8> {
+    let mut head = [0; 4];
+    stream.read_exact(&mut head).expect("a packet comes");
+    let mut packet = vec![0; usize::from(u16::from_be_bytes([head[2], head[3]]))];
+    packet[..4].copy_from_slice(&head);
+    stream.read_exact(&mut packet[4..]).expect("its rest comes");
+    packet
 }
 
 fn is_any_set(bytes: &[u8]) -> bool {
@@ -264,6 +278,44 @@ fn the_plc_is_stopped_and_started_by_a_client() {
     let head = [3, 0, 0, 37, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 4, 0, 20, 0, 0, 0x28, 0, 0, 0, 0, 0, 0, 0xFD, 0, 0, 9];
     assert_eq!(ask(&[&head[..], name].concat())[17..19], [0, 0]);
     assert!(!live.with(|machine| machine.is_plc_stopped()));
+}
+
+/// MB0 every 100 ms: subscribed by the bytes of a panel (user data, group 2, function 1), and the writes of another client arrive.
+#[test]
+fn values_come_in_cycles() {
+    let live = live();
+    let (_window, address) = window(&live, Limits { idle: Duration::from_millis(300), ..Limits::default() });
+    let mut panel = bare(address);
+    let mut packet = |request: &[u8]| {
+        panel.write_all(request).unwrap();
+        read_packet(&mut panel)
+    };
+    packet(&CONNECT);
+    packet(&SETUP);
+    let mut subscribe =
+        vec![3, 0, 0, 45, 2, 0xF0, 0x80, 0x32, 7, 0, 0, 0, 9, 0, 8, 0, 20, 0, 1, 0x12, 4, 0x11, 0x42, 1, 0];
+    subscribe.extend([0xFF, 9, 0, 16, 0, 1, 0, 1, 0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 0]);
+    let answer = packet(&subscribe);
+    assert_eq!(answer[answer.len() - 5..answer.len() - 1], [0xFF, 4, 0, 8], "{answer:02X?}");
+    for value in [1, 2] {
+        client(address).write_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &[value]).unwrap();
+        let begin = Instant::now();
+        while read_packet(&mut panel).last() != Some(&value) {
+            assert!(begin.elapsed() < Duration::from_secs(10));
+        }
+    }
+}
+
+/// Who asks nothing for too long loses its place, even one that sends bytes that ask nothing.
+#[test]
+fn silence_is_not_served_for_ever() {
+    let live = live();
+    let (window, address) = window(&live, Limits { idle: Duration::from_millis(200), ..Limits::default() });
+    let mut stream = bare(address);
+    stream.write_all(&CONNECT).unwrap();
+    read_packet(&mut stream);
+    let empty = [3, 0, 0, 7, 2, 0xF0, 0]; // data without data, which collectors send
+    wait("the end", || stream.write_all(&empty).is_err() || window.clients() == 0);
 }
 
 /// A request on its way is answered; then the connection ends properly, and the port is free.

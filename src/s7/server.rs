@@ -7,7 +7,8 @@
 //! | an answer to a write waits until the write was taken up | who writes and then reads finds what was written |
 //! | answers leave in one write, in order; no delay of TCP | clients that read once find all of it |
 //! | a client that does not take its answers is not read any more, and is left after a while | it holds up nobody else |
-//! | idle is who has asked nothing, not who has sent nothing | half packets keep no place |
+//! | idle is who got no answer for long, not who has sent nothing | half packets keep no place |
+//! | who waits for values that change is never idle; keep-alive of TCP finds out who has gone | panels stay connected over night |
 //!
 //! Nothing here knows a machine; it is the only file of the room that knows a clock.
 
@@ -290,14 +291,19 @@ impl<S: Stations> Conversation<'_, S> {
                     }
                 },
                 () = &mut idle => {
-                    if last.elapsed() >= allowed {
+                    let waits = self.session.has_subscriptions();
+                    if last.elapsed() >= allowed && !waits {
                         return End::Idle;
                     }
-                    idle.as_mut().reset(last + allowed);
+                    idle.as_mut().reset(if waits { Instant::now() } else { last } + allowed);
                 }
             }
             if !self.answers.is_empty() {
-                (last, allowed) = (Instant::now(), limits.idle);
+                last = Instant::now();
+                if allowed != limits.idle {
+                    allowed = limits.idle;
+                    idle.as_mut().reset(last + allowed);
+                }
                 if let Some(end) = self.send().await {
                     return end;
                 }
