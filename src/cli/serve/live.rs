@@ -209,30 +209,32 @@ impl Shared {
         let machine = &mut clocked.machine;
         machine.step();
         machine.drain();
-        log_alarms(machine, alarms);
+        let changed = changed_alarms(machine, alarms);
         let (cycle, period) = (machine.cycle(), machine.cycle_time().nanos());
         drop(clocked);
         self.cycle.send_replace(cycle);
+        // Nobody waits for the machine while a terminal waits for its reader.
+        for line in changed {
+            tracing::info!("{line}");
+        }
         u128::try_from(period).unwrap_or(1).max(1)
     }
 }
 
-/// Logs alarms that have come or gone.
-fn log_alarms(machine: &Machine, known: &mut Vec<RaisedAlarm>) {
+/// What to say of alarms that have come or gone.
+fn changed_alarms(machine: &Machine, known: &mut Vec<RaisedAlarm>) -> Vec<String> {
     let pending = &machine.variables().alarms;
     if pending.iter().eq(known.iter()) {
-        return;
+        return Vec::new();
     }
     let said =
         |alarm: &RaisedAlarm| format!("alarm {} {}", machine.alarm_name(alarm.number), machine.alarm_text(alarm));
-    for alarm in pending.iter().filter(|alarm| !known.contains(alarm)) {
-        tracing::info!("{}", said(alarm));
-    }
-    for alarm in known.iter().filter(|known| !pending.iter().any(|alarm| alarm == *known)) {
-        tracing::info!("gone: {}", said(alarm));
-    }
+    let come = pending.iter().filter(|alarm| !known.contains(alarm)).map(said);
+    let gone = known.iter().filter(|known| !pending.iter().any(|alarm| alarm == *known));
+    let changed = come.chain(gone.map(|alarm| format!("gone: {}", said(alarm)))).collect();
     known.clear();
     known.extend(pending.iter().copied());
+    changed
 }
 
 /// The computer's clock in UTC.

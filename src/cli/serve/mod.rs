@@ -192,11 +192,7 @@ impl<'a> Status<'a> {
         let speed = self.speed.map_or_else(|| wanted.to_string(), |speed| format!("{speed:.2}"));
         let pace = self.live.pace();
         let alarms = if alarms.is_empty() { "none".to_owned() } else { alarms.join(" ") };
-        let mut line = format!(
-            "{time:.1} s  step {cycle}  speed {speed}  clients {}  {} answers/s  alarms {alarms}",
-            self.window.clients(),
-            self.rate
-        );
+        let mut line = format!("{time:.1} s  step {cycle}  speed {speed}");
         if pace.overruns > 0 {
             line += &format!("  overruns {} (worst {} ms", pace.overruns, pace.worst.as_millis());
             if !pace.lost.is_zero() {
@@ -204,6 +200,7 @@ impl<'a> Status<'a> {
             }
             line += ")";
         }
+        line += &format!("  clients {} ({}/s)  alarms {alarms}", self.window.clients(), self.rate);
         line
     }
 }
