@@ -68,7 +68,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn serve(arguments: &Arguments, programs: &Programs, output: &mut Output) -> u8 {
-    match open(arguments, programs, output).and_then(|(live, window)| attend(arguments, &live, &window)) {
+    match open(arguments, programs, output).and_then(|served| attend(arguments, &served, output)) {
         Ok(()) => 0,
         Err(problem) => {
             output.error(problem);
@@ -77,8 +77,18 @@ pub(super) fn serve(arguments: &Arguments, programs: &Programs, output: &mut Out
     }
 }
 
+/// What is open.
+struct Served {
+    /// It closes before the machine ends.
+    window: Window,
+    live: Live,
+    status: ProgressBar,
+    /// What to say of it.
+    head: String,
+}
+
 /// Opens all doors, or says which one stays closed.
-fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Result<(Live, Window), Problem> {
+fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Result<Served, Problem> {
     let preset = arguments.plc_image.as_deref().map(preset).transpose()?;
     let mut machine = Machine::open_with(&arguments.machine, OpenOptions { preset, ..OpenOptions::default() })?;
     let plc = match &arguments.plc {
@@ -93,29 +103,35 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     }
     let axes: Vec<_> = machine.names().axes.iter().filter_map(|(_, name)| name.clone()).collect();
     let cycle = machine.cycle_time().seconds() * 1000.0;
+    let status = status_line();
+    // A program that has a log of its own keeps it.
+    let _ = tracing::subscriber::set_global_default(log::Log { status: status.clone() });
     let live = Live::start(machine, arguments.speed);
     let addresses: Vec<_> = arguments.s7.iter().map(String::as_str).collect();
     let limits = Limits { networks: arguments.allow.clone(), ..Limits::default() };
     let window = Window::open(&live, &addresses, arguments.read_only, limits)?;
-    output.line(format!("{}: axes {}, a cycle of {cycle} ms, {plc}", arguments.machine.display(), axes.join(", ")));
+    let mut head = format!("{}: axes {}, a cycle of {cycle} ms, {plc}\n", arguments.machine.display(), axes.join(", "));
     let rights = if arguments.read_only { "read only" } else { "read and write" };
     for address in window.addresses() {
-        output.line(format!("S7 on {address}: rack 0, slot 2, {rights}"));
+        head += &format!("S7 on {address}: rack 0, slot 2, {rights}\n");
     }
-    output.line("Ctrl-C ends");
-    Ok((live, window))
+    head += "Ctrl-C ends\n";
+    Ok(Served { live, window, status, head })
 }
 
-/// Waits for Ctrl-C or SIGTERM.
-fn attend(arguments: &Arguments, live: &Live, window: &Window) -> Result<(), Problem> {
+fn status_line() -> ProgressBar {
     let bar = if std::io::stderr().is_terminal() {
         ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr())
     } else {
         ProgressBar::hidden()
     };
     bar.set_style(ProgressStyle::with_template("{wide_msg}").unwrap_or_else(|_| ProgressStyle::default_bar()));
-    // A program that has a log of its own keeps it.
-    let _ = tracing::subscriber::set_global_default(log::Log { status: bar.clone() });
+    bar
+}
+
+/// Waits for Ctrl-C or SIGTERM.
+fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result<(), Problem> {
+    let Served { live, window, status: bar, head } = served;
     let mut status = Status::new(live, window);
     let no_signals = |error: std::io::Error| {
         Problem::new(
@@ -125,11 +141,13 @@ fn attend(arguments: &Arguments, live: &Live, window: &Window) -> Result<(), Pro
     };
     let runtime = Builder::new_current_thread().enable_all().build().map_err(no_signals)?;
     let ended = runtime.block_on(async {
-        let mut end = std::pin::pin!(signals());
+        let mut end = std::pin::pin!(signals().map_err(no_signals)?);
+        // From here on a signal ends it properly.
+        output.print(head);
         let mut draw = tokio::time::interval(DRAW);
         loop {
             tokio::select! {
-                ended = &mut end => return ended.map_err(no_signals),
+                () = &mut end => return Ok(()),
                 _ = draw.tick() => bar.set_message(status.line(arguments.speed)),
             }
             if !live.is_running() {
@@ -144,19 +162,24 @@ fn attend(arguments: &Arguments, live: &Live, window: &Window) -> Result<(), Pro
     ended
 }
 
+/// Listens for signals from now on, and waits for the first.
 #[cfg(unix)]
-async fn signals() -> std::io::Result<()> {
+fn signals() -> std::io::Result<impl Future<Output = ()>> {
     use tokio::signal::unix::{SignalKind, signal};
-    let mut terminate = signal(SignalKind::terminate())?;
-    tokio::select! {
-        ended = tokio::signal::ctrl_c() => ended,
-        _ = terminate.recv() => Ok(()),
-    }
+    let (mut interrupt, mut terminate) = (signal(SignalKind::interrupt())?, signal(SignalKind::terminate())?);
+    Ok(async move {
+        tokio::select! {
+            _ = interrupt.recv() => {}
+            _ = terminate.recv() => {}
+        }
+    })
 }
 
 #[cfg(not(unix))]
-async fn signals() -> std::io::Result<()> {
-    tokio::signal::ctrl_c().await
+fn signals() -> std::io::Result<impl Future<Output = ()>> {
+    Ok(async {
+        let _ = tokio::signal::ctrl_c().await;
+    })
 }
 
 /// The line at the bottom of a terminal.
