@@ -33,6 +33,20 @@ fn step(bencher: Bencher<'_, '_>) {
     });
 }
 
+/// The same, and every axis is computed in every cycle, as `loop_by_hand` does: what a step costs where all are awake.
+#[divan::bench]
+fn step_that_never_rests(bencher: Bencher<'_, '_>) {
+    let mut machine = jogging_machine();
+    machine.never_rest();
+    bencher.counter(ItemsCount::new(STEPS)).bench_local(|| {
+        for _ in 0..STEPS {
+            machine.step();
+            machine.drain();
+        }
+        machine.cycle()
+    });
+}
+
 /// The same, and nobody drains the record: it is full from the start, and rows are only counted.
 #[divan::bench]
 fn step_with_a_full_record(bencher: Bencher<'_, '_>) {
