@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
+use super::Part;
 use crate::source::Problem;
 
 /// What an address starts from.
@@ -24,6 +25,21 @@ pub enum Area {
     Timers,
     /// Counters, `C`.
     Counters,
+}
+
+impl Area {
+    /// Where its bytes lie; of a data block, those of a plain one.
+    #[must_use]
+    pub fn plain_part(self) -> Part {
+        match self {
+            Self::DataBlock(number) => Part::Block(number),
+            Self::Inputs => Part::Inputs,
+            Self::Outputs => Part::Outputs,
+            Self::Flags => Part::Flags,
+            Self::Timers => Part::Timers,
+            Self::Counters => Part::Counters,
+        }
+    }
 }
 
 /// How much an address takes.

@@ -173,18 +173,15 @@ pub(super) fn is_interface(db: u16, profile: Profile) -> bool {
 /// Where `bytes` bytes from `byte` of an area lie; the run may be shorter, but the whole span exists.
 pub(super) fn run(memory: &Memory, area: Area, byte: u32, bytes: u32, profile: Profile) -> Result<Run, Problem> {
     let part = match area {
-        Area::Inputs => Part::Inputs,
-        Area::Outputs => Part::Outputs,
-        Area::Flags => Part::Flags,
-        Area::Timers => Part::Timers,
-        Area::Counters => Part::Counters,
         Area::DataBlock(db) if is_interface(db, profile) => {
             return interface(db, byte, bytes, profile);
         }
         Area::DataBlock(db) if memory.blocks.get(db).is_none() => {
             return Err(unknown(memory, db, profile));
         }
-        Area::DataBlock(db) => Part::Block(db),
+        Area::DataBlock(_) | Area::Inputs | Area::Outputs | Area::Flags | Area::Timers | Area::Counters => {
+            area.plain_part()
+        }
     };
     let length = u32::try_from(memory.part(part).len()).unwrap_or(u32::MAX);
     if byte.saturating_add(bytes) > length {

@@ -12,7 +12,7 @@ use super::station::{
 use super::wire::data::Refusal;
 use super::wire::date_and_time::DateAndTime;
 use super::wire::items::NckItem;
-use crate::image::{Address, Area, Format, Location, Memory, Names, Part, Width};
+use crate::image::{Address, Area, Format, Location, Memory, Names, Width};
 use crate::variables::{Place, Variables};
 
 /// What a client asks of the machine, for the edge of its next step.
@@ -194,15 +194,7 @@ impl Areas for Bridge<'_> {
     }
 
     fn area_length(&self, area: Area) -> u32 {
-        let part = match area {
-            Area::Inputs => Part::Inputs,
-            Area::Outputs => Part::Outputs,
-            Area::Flags => Part::Flags,
-            Area::Timers => Part::Timers,
-            Area::Counters => Part::Counters,
-            Area::DataBlock(number) => Part::Block(number),
-        };
-        u32::try_from(self.memory.part(part).len()).unwrap_or(u32::MAX)
+        u32::try_from(self.memory.part(area.plain_part()).len()).unwrap_or(u32::MAX)
     }
 
     fn write(&mut self, writes: &[Write<'_>]) {
