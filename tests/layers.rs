@@ -23,7 +23,7 @@ const ROOMS: &[(&str, &[&str])] = &[
 ];
 
 /// Where clocks, threads, sockets and random numbers may be.
-const OUTSIDE: &[&str] = &["src/cli/", "src/s7/server.rs"];
+const OUTSIDE: &[&str] = &["src/cli/", "src/s7/server/"];
 
 /// A text, why it is refused, and what stands in its place. (`\x21` and the like keep this file from finding itself.)
 const REFUSED_IN_RUST: &[(&str, &str)] = &[
@@ -44,7 +44,7 @@ const REFUSED_INSIDE: &[(&str, &str)] = &[
     ("Instant", "`opennck::units::Time`; a step does not ask a clock"),
     ("SystemTime", "`opennck::units::Time`; a step does not ask a clock"),
     ("std::thread", "one thread inside a step; threads belong to `cli`"),
-    ("std::net", "sockets belong to `s7/server.rs`"),
+    ("std::net", "sockets belong to `s7/server`"),
     ("rand", "the same input gives the same bytes; take numbers from the input"),
     ("fastrand", "the same input gives the same bytes; take numbers from the input"),
 ];

@@ -1,0 +1,171 @@
+//! Sessions on TCP: who may come, how long anybody may take, and how it ends. What the clients see is lent by [`Stations`], one
+//! request at a time.
+//!
+//! | what | and why |
+//! |---|---|
+//! | one request, one loan | what it reads is of one step, and what it writes is taken up whole |
+//! | an answer to a write waits until the write was taken up | who writes and then reads finds what was written |
+//! | answers leave in one write, in order; no delay of TCP | clients that read once find all of it |
+//! | a client that does not take its answers is not read any more, and is left after a while | it holds up nobody else |
+//! | idle is who got no answer for long, not who has sent nothing | half packets keep no place |
+//! | who waits for values that change is never idle; keep-alive of TCP finds out who has gone | panels stay connected over night |
+//!
+//! Nothing here knows a machine; this folder is all of the room that knows a clock.
+
+mod conversation;
+mod limits;
+
+use std::future::Future;
+use std::io;
+use std::net::SocketAddr;
+use std::pin::pin;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::time::Duration;
+
+use socket2::{SockRef, TcpKeepalive};
+use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
+use tokio::task::JoinSet;
+use tokio::time::{Instant, sleep, timeout};
+
+use super::session::Settings;
+use super::station::Station;
+use conversation::Conversation;
+pub use limits::{Limits, Network};
+
+/// Whoever has stations to lend.
+pub trait Stations: Send + Sync + 'static {
+    /// Lends a station, which nobody else changes meanwhile. Gives the number of the step that takes up what was written;
+    /// nothing where nothing was written.
+    fn lend(&self, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64>;
+
+    /// Waits until that step is over.
+    fn taken_up(&self, step: u64) -> impl Future<Output = ()> + Send;
+}
+
+/// A server of S7 communication.
+#[derive(Debug)]
+pub struct Server<S> {
+    stations: S,
+    settings: Settings,
+    limits: Limits,
+    places: Arc<Semaphore>,
+    clients: AtomicUsize,
+    answers: AtomicU64,
+    begin: Instant,
+}
+
+impl<S: Stations> Server<S> {
+    /// A server that nobody can reach yet.
+    #[must_use]
+    pub fn new(stations: S, settings: Settings, limits: Limits) -> Self {
+        let places = Arc::new(Semaphore::new(limits.clients.min(Semaphore::MAX_PERMITS)));
+        let begin = Instant::now();
+        Self { stations, settings, limits, places, clients: AtomicUsize::new(0), answers: AtomicU64::new(0), begin }
+    }
+
+    /// How many clients there are now.
+    #[must_use]
+    pub fn clients(&self) -> usize {
+        self.clients.load(Ordering::Relaxed)
+    }
+
+    /// How many answers were given so far.
+    #[must_use]
+    pub fn answers(&self) -> u64 {
+        self.answers.load(Ordering::Relaxed)
+    }
+
+    /// Serves everybody who comes to a listener, until the end is there. Requests on their way are still answered. One server
+    /// may run on several listeners; its limits are for all of them together.
+    pub async fn run(self: Arc<Self>, listener: TcpListener, end: impl Future<Output = ()>) {
+        let (ending, ended) = watch::channel(false);
+        let mut conversations = JoinSet::new();
+        let mut end = pin!(end);
+        loop {
+            tokio::select! {
+                () = &mut end => break,
+                Some(_) = conversations.join_next() => {}
+                accepted = listener.accept() => match accepted {
+                    Ok((stream, peer)) => {
+                        if let Some(place) = self.admit(&stream, peer) {
+                            conversations.spawn(Arc::clone(&self).attend(stream, peer, ended.clone(), place));
+                        }
+                    }
+                    Err(error) => {
+                        // No more handles, or a client that has gone already: others may still come.
+                        tracing::warn!("a client could not be accepted: {error}");
+                        sleep(Duration::from_millis(50)).await;
+                    }
+                },
+            }
+        }
+        drop(listener);
+        ending.send_replace(true);
+        let _ = timeout(self.limits.end, async { while conversations.join_next().await.is_some() {} }).await;
+        conversations.shutdown().await;
+    }
+
+    /// A place for a client, if it may come.
+    fn admit(&self, stream: &TcpStream, peer: SocketAddr) -> Option<OwnedSemaphorePermit> {
+        let networks = &self.limits.networks;
+        if !networks.is_empty() && !networks.iter().any(|network| network.contains(peer.ip())) {
+            tracing::warn!("{peer} was sent away: it is in none of the networks that are allowed");
+            return None;
+        }
+        let Ok(place) = Arc::clone(&self.places).try_acquire_owned() else {
+            tracing::warn!("{peer} was sent away: {} clients are there already", self.limits.clients);
+            return None;
+        };
+        // Without these it works, too, only later.
+        let _ = stream.set_nodelay(true);
+        let keep_alive = TcpKeepalive::new().with_time(Duration::from_secs(30));
+        let _ = SockRef::from(stream).set_tcp_keepalive(&keep_alive);
+        Some(place)
+    }
+
+    async fn attend(
+        self: Arc<Self>,
+        stream: TcpStream,
+        peer: SocketAddr,
+        ended: watch::Receiver<bool>,
+        place: OwnedSemaphorePermit,
+    ) {
+        let _counted = Counted::new(&self.clients);
+        tracing::info!("{peer} has come");
+        let mut conversation = Conversation::new(&self, peer, stream);
+        let end = conversation.hold(ended).await;
+        conversation.close().await;
+        tracing::info!("{peer} {end}");
+        drop(place);
+    }
+}
+
+/// Counts a client as long as it lives.
+struct Counted<'a>(&'a AtomicUsize);
+
+impl<'a> Counted<'a> {
+    fn new(count: &'a AtomicUsize) -> Self {
+        count.fetch_add(1, Ordering::Relaxed);
+        Self(count)
+    }
+}
+
+impl Drop for Counted<'_> {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// Opens every address that a text such as `127.0.0.1:10102`, `[::1]:10102` or `localhost:10102` stands for.
+///
+/// # Errors
+/// There is no such address here, or its port is in use.
+pub async fn listen(address: &str) -> io::Result<Vec<TcpListener>> {
+    let mut listeners = Vec::new();
+    for address in tokio::net::lookup_host(address).await? {
+        listeners.push(TcpListener::bind(address).await?);
+    }
+    Ok(listeners)
+}
