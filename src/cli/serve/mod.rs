@@ -15,16 +15,18 @@
 
 #![expect(clippy::disallowed_methods, reason = "real time is what it is for")]
 
+mod arguments;
 mod live;
 mod log;
 mod window;
 
 pub use crate::s7::server::{Limits, Network};
+pub(super) use arguments::Arguments;
 pub use live::{GIVE_UP, Live, Pace, Speed};
 pub use window::Window;
 
 use std::io::IsTerminal;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -41,31 +43,6 @@ use crate::variables::Describe;
 const DRAW: Duration = Duration::from_millis(200);
 /// Over how long its rates are taken.
 const RATES: Duration = Duration::from_secs(1);
-
-/// What is served, and to whom.
-#[derive(Debug, clap::Args)]
-pub(super) struct Arguments {
-    /// A directory, an archive file, or the name of a built-in machine.
-    machine: PathBuf,
-    /// Where S7 clients connect; it may be given several times.
-    #[arg(long, value_name = "ADDR:PORT", default_value = "127.0.0.1:10102")]
-    s7: Vec<String>,
-    /// How many times real time, from 0.001 to 1000.
-    #[arg(long, value_name = "N", default_value_t = Speed::default())]
-    speed: Speed,
-    /// Clients may change nothing.
-    #[arg(long)]
-    read_only: bool,
-    /// The PLC program; without one, clients write the PLC's side.
-    #[arg(long, value_name = "NAME")]
-    plc: Option<String>,
-    /// Memory of the PLC beside the interface: a file (*.toml), or a name in `plc_images` here or above.
-    #[arg(long, value_name = "NAME|FILE")]
-    plc_image: Option<String>,
-    /// From which networks clients may come, for example 192.168.0.0/24; it may be given several times.
-    #[arg(long, value_name = "NET")]
-    allow: Vec<Network>,
-}
 
 pub(super) fn serve(arguments: &Arguments, programs: &Programs, output: &mut Output) -> u8 {
     match open(arguments, programs, output).and_then(|served| attend(arguments, &served, output)) {
