@@ -25,7 +25,7 @@ pub struct Limits {
 impl Default for Limits {
     fn default() -> Self {
         Self {
-            clients: 64,
+            clients: 2048,
             networks: Vec::new(),
             idle: Duration::from_mins(10),
             greeting: Duration::from_secs(10),
