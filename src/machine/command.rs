@@ -1,12 +1,15 @@
 //! What can be done to a machine from outside. A command is checked when it is queued and acts at the edge of the next step.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Fault, FaultKind, Machine};
 use crate::image::{Location, Part};
 use crate::sinumerik::machine_data::{MachineData, Value};
 use crate::source::Problem;
-use crate::units::AxisSet;
+use crate::units::{AxisSet, ChannelNumber};
+use crate::variables::RParameters;
 
 /// Something that is done to a machine from outside.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,6 +40,15 @@ pub enum Command {
         /// Its value.
         value: Value,
     },
+    /// Writes an R parameter.
+    RParameter {
+        /// Whose.
+        channel: ChannelNumber,
+        /// `R number`.
+        number: u16,
+        /// Its value.
+        value: f64,
+    },
     /// "Set machine data active".
     NewConf,
     /// Power off and on.
@@ -45,6 +57,9 @@ pub enum Command {
     PlcStop,
     /// The PLC restarts: OB100, then OB1.
     PlcRun,
+    /// The PLC restarts from the beginning: flags, timers, counters, outputs, own blocks and its half of the interface have their first
+    /// values again, and so has its program.
+    PlcColdRestart,
     /// The operator's alarm-cancel key.
     Cancel,
     /// Somebody turns a handwheel; the pulses spread evenly over the cycles.
@@ -79,8 +94,7 @@ impl Machine {
     /// Queues a command for the edge of the next step.
     ///
     /// # Errors
-    /// A machine datum that does not exist or a value that does not fit it, or a handwheel that does not exist; nothing
-    /// is queued then.
+    /// A machine datum, R parameter or handwheel that does not exist, or a value that does not fit it; nothing is queued then.
     pub fn queue(&mut self, command: Command) -> Result<(), Problem> {
         if let Command::MachineDatum { target, value } = &command {
             let stored = self.control.stored();
@@ -93,6 +107,14 @@ impl Machine {
             return Err(Problem::new(
                 format!("expected a handwheel from 1 to 3, found {number}"),
                 "there are handwheels 1, 2 and 3",
+            ));
+        }
+        if let Command::RParameter { number, value, .. } = &command
+            && (*number >= RParameters::COUNT || !value.is_finite())
+        {
+            return Err(Problem::new(
+                format!("expected a finite value for R0 to R{}, found {value} for R{number}", RParameters::COUNT - 1),
+                "a channel has 100 R parameters",
             ));
         }
         self.queue.push(command);
@@ -119,11 +141,19 @@ impl Machine {
                         let _ = self.control.store(&target, &value);
                     }
                 }
+                Command::RParameter { channel, number, value } => {
+                    self.r_parameters.set(channel, number, value);
+                }
                 Command::NewConf => self.control.new_conf(),
                 Command::PowerOn => self.power_on(),
                 Command::PlcStop => self.plc.stop(),
                 Command::PlcRun => {
                     self.plc.restart();
+                    self.control.plc_restarted();
+                }
+                Command::PlcColdRestart => {
+                    self.forget_plc_memory();
+                    self.plc.power_on();
                     self.control.plc_restarted();
                 }
                 Command::Cancel => taken.cancel = true,
@@ -156,6 +186,17 @@ impl Machine {
                 }
             }
             _ => {}
+        }
+    }
+
+    /// What the PLC writes has its first values again. What others write to it stays: the NCK's half, the operator panel's, inputs.
+    fn forget_plc_memory(&mut self) {
+        let first = Arc::clone(&self.definition);
+        for part in [Part::ToNck, Part::Outputs, Part::Flags, Part::Timers, Part::Counters] {
+            self.memory.part_mut(part).copy_from_slice(first.memory.part(part));
+        }
+        for block in first.memory.blocks.iter() {
+            self.memory.part_mut(Part::Block(block.number)).copy_from_slice(&block.bytes);
         }
     }
 

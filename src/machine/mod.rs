@@ -40,8 +40,8 @@ use crate::sinumerik::machine_data::MachineData;
 use crate::sinumerik::{Control, Feedback};
 use crate::source::Problem;
 use crate::trace::Recorder;
-use crate::units::{AxisNumber, PerAxis, Time};
-use crate::variables::{RaisedAlarm, Variables};
+use crate::units::{AxisNumber, ChannelNumber, PerAxis, Time};
+use crate::variables::{RParameters, RaisedAlarm, Variables};
 
 use changes::Before;
 use command::Force;
@@ -67,6 +67,7 @@ pub struct Machine {
     plant: Plant,
     memory: Memory,
     variables: Variables,
+    r_parameters: RParameters,
     plc: Plc,
     forces: Vec<Force>,
     queue: Vec<Command>,
@@ -136,6 +137,24 @@ impl Machine {
     #[must_use]
     pub fn variables(&self) -> &Variables {
         &self.variables
+    }
+
+    /// The R parameters of its channels.
+    #[must_use]
+    pub fn r_parameters(&self) -> &RParameters {
+        &self.r_parameters
+    }
+
+    /// The override of an axis that acts, in per cent.
+    #[must_use]
+    pub fn axis_override(&self, axis: AxisNumber) -> f64 {
+        self.control.axis_override(&self.memory.to_nck.axes[axis])
+    }
+
+    /// The overrides of a channel that act, in per cent: feed and rapid traverse.
+    #[must_use]
+    pub fn channel_overrides(&self, channel: ChannelNumber) -> [f64; 2] {
+        self.control.channel_overrides(&self.memory.to_nck.channels[channel])
     }
 
     /// What axes and channels are called.

@@ -117,6 +117,7 @@ fn assemble(definition: Definition, mut control: Control, memory: Memory) -> Mac
         control,
         definition: Arc::new(definition),
         variables: crate::variables::Variables::default(),
+        r_parameters: crate::variables::RParameters::default(),
         plc: Plc::default(),
         forces: Vec::new(),
         queue: Vec::new(),

@@ -14,18 +14,19 @@ use crate::sinumerik::{Feedback, SavedControl};
 use crate::source::Problem;
 use crate::trace::Recorder;
 use crate::units::{PerAxis, Time};
-use crate::variables::{Alarms, EventId, Variables};
+use crate::variables::{Alarms, EventId, RParameters, Variables};
 
 /// Which form of saved machine this is.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 #[derive(Serialize, Deserialize)]
-struct SavedV4 {
+struct SavedV5 {
     names: Names,
     control: SavedControl,
     plant: Plant,
     memory: Memory,
     variables: Variables,
+    r_parameters: RParameters,
     feedback: PerAxis<Feedback>,
     forces: Vec<Force>,
     queue: Vec<Command>,
@@ -51,12 +52,13 @@ impl Machine {
     #[must_use]
     #[expect(clippy::missing_panics_doc, reason = "plain data is always written")]
     pub fn save(&self) -> Vec<u8> {
-        let saved = SavedV4 {
+        let saved = SavedV5 {
             names: self.definition.names.clone(),
             control: self.control.save(),
             plant: self.plant.clone(),
             memory: self.memory.clone(),
             variables: self.variables.clone(),
+            r_parameters: self.r_parameters.clone(),
             feedback: self.feedback,
             forces: self.forces.clone(),
             queue: self.queue.clone(),
@@ -84,7 +86,7 @@ impl Machine {
         let damaged =
             |what: String| Problem::new(what, "restore what `save` of this version gave, on the same machine");
         let content = content(bytes).map_err(damaged)?;
-        let saved: SavedV4 = postcard::from_bytes(content)
+        let saved: SavedV5 = postcard::from_bytes(content)
             .map_err(|error| damaged(format!("expected a saved machine, found damaged bytes: {error}")))?;
         if saved.names != self.definition.names {
             return Err(damaged("expected a saved machine with the same axes and channels, found others".to_owned()));
@@ -107,6 +109,7 @@ impl Machine {
         self.plant.press_switches(&self.definition.layout, crate::units::AxisSet::ALL);
         self.memory = saved.memory;
         self.variables = saved.variables;
+        self.r_parameters = saved.r_parameters;
         self.feedback = saved.feedback;
         self.forces = saved.forces;
         self.queue = saved.queue;
@@ -152,6 +155,7 @@ impl Machine {
             plant: self.plant.clone(),
             memory: self.memory.clone(),
             variables: self.variables.clone(),
+            r_parameters: self.r_parameters.clone(),
             plc,
             forces: self.forces.clone(),
             queue: self.queue.clone(),

@@ -77,6 +77,7 @@ impl Machine {
         let restless = self.plant.restless(axes);
         let memory = &mut self.memory;
         self.control.publish(&mut memory.from_nck, &mut memory.hmi, &mut self.variables, restless);
+        self.variables.alarms.date(self.time);
         self.record();
     }
 

@@ -5,7 +5,7 @@ use crate::image::Location;
 use crate::plc::{PlcIo, enable_all, program};
 use crate::source::Table;
 use crate::trace::Change;
-use crate::units::{AxisNumber, Position};
+use crate::units::{AxisNumber, ChannelNumber, Position};
 use crate::variables::Describe;
 
 /// The worked example without a PLC program, with tables merged over its plant.
@@ -229,6 +229,75 @@ fn power_on_restarts_interface_and_plc_memory_and_keeps_slides_faults_and_machin
     run(&mut machine, 60);
     assert!(machine.variables().axes[x].slide > slide);
     assert_eq!(machine.variables().axes[xf].slide, other, "still blocked");
+}
+
+/// What the PLC itself wrote is gone, whatever a client wrote into its memory too; the axes keep their reference, NC and panel their
+/// halves.
+#[test]
+fn a_cold_restart_begins_plc_memory_and_program_anew_and_a_warm_one_does_not() {
+    let mut machine = example();
+    let count = |count: &mut u8, io: &mut PlcIo<'_>| {
+        *count += 1;
+        io.flags.set_byte(0, *count);
+    };
+    machine.load_program(program("counts", 0_u8, count).boxed());
+    run(&mut machine, 5);
+    for (name, value) in [("MB1", 7), ("QB3", 9), ("DB31.DBX1.5", 1), ("DB11.DBX0.2", 1)] {
+        set(&mut machine, name, value);
+    }
+    machine.queue(Command::PlcStop).unwrap();
+    run(&mut machine, 1);
+    let all = |machine: &Machine| ["MB0", "MB1", "QB3", "DB31.DBX1.5", "DB11.DBX0.2"].map(|name| get(machine, name));
+    assert_eq!(all(&machine), [5, 7, 9, 1, 1]);
+    machine.queue(Command::PlcRun).unwrap();
+    run(&mut machine, 1);
+    assert_eq!(all(&machine), [6, 7, 9, 1, 1]);
+    machine.queue(Command::PlcColdRestart).unwrap();
+    run(&mut machine, 1);
+    assert_eq!(all(&machine), [1, 0, 0, 0, 0]);
+    assert!(!machine.is_plc_stopped());
+    // Own bits of the NCK are not the PLC's: JOG is active still.
+    assert_eq!(get(&machine, "DB11.DBX6.2"), 1);
+}
+
+#[test]
+fn r_parameters_are_written_at_the_edge_of_a_step_saved_and_kept_without_power() {
+    let mut machine = example();
+    let first = ChannelNumber::FIRST;
+    let write = |number, value| Command::RParameter { channel: first, number, value };
+    assert_eq!(machine.r_parameters().get(first, 99), Some(0.0));
+    assert!(machine.queue(write(100, 1.0)).is_err() && machine.queue(write(1, f64::NAN)).is_err());
+    machine.queue(write(99, -2.5)).unwrap();
+    assert_eq!(machine.r_parameters().get(first, 99), Some(0.0));
+    run(&mut machine, 1);
+    machine.queue(Command::PowerOn).unwrap();
+    run(&mut machine, 1);
+    let mut other = example();
+    other.restore(&machine.save()).unwrap();
+    for machine in [&machine, &other, &machine.fork().unwrap()] {
+        assert_eq!(machine.r_parameters().get(first, 99), Some(-2.5));
+        assert_eq!(machine.r_parameters().get(first, 100), None);
+    }
+}
+
+/// Positions of MD12010 in Gray code: 8 is 20 % (8 ^ 4 = 12); rapid traverse is never faster than 100 %: 23 is 120 % (23 ^ 11 = 28).
+#[test]
+fn an_override_counts_as_100_per_cent_unless_it_is_active() {
+    let mut machine = example();
+    let (x, first) = (machine.axis("X").unwrap(), ChannelNumber::FIRST);
+    for (name, value) in [("DB31.DBB0", 12), ("DB21.DBB4", 28), ("DB21.DBB5", 28)] {
+        set(&mut machine, name, value);
+    }
+    run(&mut machine, 1);
+    assert_eq!((machine.axis_override(x), machine.channel_overrides(first)), (100.0, [100.0, 100.0]));
+    for name in ["DB31.DBX1.7", "DB21.DBX6.7", "DB21.DBX6.6"] {
+        set(&mut machine, name, 1);
+    }
+    run(&mut machine, 1);
+    assert_eq!((machine.axis_override(x), machine.channel_overrides(first)), (20.0, [120.0, 100.0]));
+    set(&mut machine, "DB21.DBB5", 12);
+    run(&mut machine, 1);
+    assert_eq!(machine.channel_overrides(first), [120.0, 20.0]);
 }
 
 #[test]

@@ -42,6 +42,7 @@ mod mode_group;
 mod monitoring;
 mod opening;
 mod overload;
+mod overrides;
 mod parameter_sets;
 mod parameters;
 mod position_control;

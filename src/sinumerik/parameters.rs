@@ -12,6 +12,7 @@ use super::increments::KeyModes;
 use super::machine_data::{Axis, MachineData};
 use super::mechanics::Mechanics;
 use super::monitoring::{Monitoring, monitoring};
+use super::overrides::factor;
 use crate::units::{
     AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position, Time,
 };
@@ -218,14 +219,7 @@ impl Parameters {
     /// The factor of an axial override byte (O-21); Gray code 0 counts as position 1.
     #[must_use]
     pub fn axis_override(&self, code: u8) -> f64 {
-        if self.axis_override_is_gray {
-            let gray = code & 0x1F;
-            // Each bit of the position is the parity of the Gray bits from it upwards.
-            let position = gray ^ gray >> 1 ^ gray >> 2 ^ gray >> 3 ^ gray >> 4;
-            self.axis_override_factors[usize::from(position.max(1)) - 1]
-        } else {
-            (f64::from(code) / 100.0).min(self.binary_override_limit)
-        }
+        factor(code, self.axis_override_is_gray, &self.axis_override_factors, self.binary_override_limit)
     }
 }
 

@@ -4,11 +4,14 @@
 //! Nothing here knows a particular control: alarms and rules are numbers, whose texts the control gives
 //! through [`Describe`].
 
+mod alarms;
 mod events;
+mod r_parameters;
 
+pub use alarms::{Alarms, Arrival};
 pub use events::{Event, EventId, Events, Input, Quantity, Rule, RuleNumber, SignalBit};
+pub use r_parameters::RParameters;
 
-use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
 use crate::image::Names;
@@ -82,43 +85,6 @@ pub struct RaisedAlarm {
     pub place: Place,
     /// `%1` to `%4`.
     pub parameters: [Parameter; 4],
-}
-
-/// How many alarms can be pending at once.
-const ALARMS: usize = 64;
-
-/// The alarms that are pending, in order of number and place; bounded, because a list on a control is.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Alarms {
-    raised: ArrayVec<RaisedAlarm, ALARMS>,
-}
-
-impl Alarms {
-    /// How many alarms can be pending at once.
-    pub const CAPACITY: usize = ALARMS;
-
-    /// Takes over what is pending now, in order of number and place.
-    pub fn publish(&mut self, pending: impl Iterator<Item = RaisedAlarm>) {
-        self.raised.clear();
-        self.raised.extend(pending.take(Self::CAPACITY));
-    }
-
-    /// All that are pending.
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = &RaisedAlarm> {
-        self.raised.iter()
-    }
-
-    /// How many are pending.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        self.raised.len()
-    }
-
-    /// The pending alarm of this number, at this place if one is named.
-    #[must_use]
-    pub fn find(&self, number: AlarmNumber, place: Option<Place>) -> Option<&RaisedAlarm> {
-        self.raised.iter().find(|alarm| alarm.number == number && place.is_none_or(|place| alarm.place == place))
-    }
 }
 
 /// Everything that the control shows beside bits.
