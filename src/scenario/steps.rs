@@ -197,13 +197,18 @@ impl<'a> Reader<'a> {
             "new_conf" => self.flag(&node, verb).map(|()| command(Command::NewConf))?,
             "power_on" => self.flag(&node, verb).map(|()| command(Command::PowerOn))?,
             "cancel" => self.flag(&node, verb).map(|()| command(Command::Cancel))?,
-            "plc" => match node.text("\"stop\" or \"run\"")? {
+            "plc" => match node.text("\"stop\", \"run\" or \"cold\"")? {
                 "stop" => command(Command::PlcStop),
                 "run" => command(Command::PlcRun),
+                "cold" => command(Command::PlcColdRestart),
                 other => {
                     return Err(node.expected(
-                        "\"stop\" or \"run\"",
-                        &did_you_mean(other, ["stop", "run"], "a PLC program is chosen at the head of the file"),
+                        "\"stop\", \"run\" or \"cold\"",
+                        &did_you_mean(
+                            other,
+                            ["stop", "run", "cold"],
+                            "a PLC program is chosen at the head of the file",
+                        ),
                     ));
                 }
             },

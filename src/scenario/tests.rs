@@ -123,7 +123,7 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
         ("machine_data = { \"34090[XF]\" = [1] }", 4, "a value of a machine datum", "one value per index"),
         ("new_conf = false", 4, "expected true, found false", "new_conf = true"),
         ("power_on = 1", 4, "expected true, found the integer 1", "true or false"),
-        ("plc = \"stopp\"", 4, "\"stop\" or \"run\"", "did you mean `stop`?"),
+        ("plc = \"stopp\"", 4, "\"stop\", \"run\" or \"cold\"", "did you mean `stop`?"),
         ("handwheel = { number = 1 }", 4, "expected the key `pulses`", "number = 1, pulses = 50"),
         (
             "handwheel = { number = 4, pulses = 5, over = \"1s\" }",
