@@ -36,7 +36,7 @@ mod tests;
 
 pub use bridge::{Bridge, Command, Machinery};
 pub use directory::Directory;
-pub use session::{Connection, Session, Settings};
+pub use session::{Connection, Failure, Session, Settings};
 pub use station::{
     Areas, BlockInfo, Blocks, Cpu, CpuState, Diagnosis, Identity, NcVariables, Protection, Restart, Station, Value,
     Write,

@@ -1,8 +1,10 @@
 //! The arguments of `opennck serve`: what is served, and to whom.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use super::{Network, Speed};
+use super::{Network, Speed, WindowOptions};
+use crate::s7::server::{Capture, Faults, Instruments, Limits};
+use crate::source::Problem;
 
 /// What is served, and to whom.
 #[derive(Debug, clap::Args)]
@@ -27,4 +29,44 @@ pub(crate) struct Arguments {
     /// From which networks clients may come, for example 192.168.0.0/24; it may be given several times.
     #[arg(long, value_name = "NET")]
     pub(super) allow: Vec<Network>,
+    /// Writes what goes over the wire as a capture (pcap) that Wireshark opens; a file that exists is refused.
+    ///
+    /// The server's port is written as 102, where Wireshark shows S7 communication without being told. The file ends at 1 GiB, or
+    /// where the disk is full; serving goes on.
+    #[arg(long, value_name = "F.pcap")]
+    pub(super) pcap: Option<PathBuf>,
+    /// Faults for tests of panels, for example delay=10ms..80ms,drop=1%,error=1/200.
+    ///
+    /// delay=TIME or TIME..TIME: answers leave later; those to requests that came together wait together, and all stay in order.
+    /// drop=CHANCE: an answer is swallowed; what was asked for is done.
+    /// close=CHANCE: the connection is closed in place of an answer.
+    /// error=CHANCE: a request to read or write is refused and not done, each item with return code 0A.
+    /// code=05: another return code for error; code=8104 (four digits): an error of the whole request instead.
+    /// seed=N: other chances, 1 without it. The same clients that ask the same in the same order meet the same faults.
+    #[arg(long, value_name = "FAULTS", verbatim_doc_comment)]
+    pub(super) s7_fault: Option<Faults>,
+}
+
+impl Arguments {
+    /// What they say of the window for S7 clients.
+    pub(super) fn window(&self) -> Result<WindowOptions, Problem> {
+        Ok(WindowOptions {
+            is_read_only: self.read_only,
+            limits: Limits { networks: self.allow.clone(), ..Limits::default() },
+            instruments: Instruments {
+                faults: self.s7_fault.clone(),
+                capture: self.pcap.as_deref().map(capture).transpose()?,
+            },
+            ..WindowOptions::default()
+        })
+    }
+}
+
+fn capture(path: &Path) -> Result<Capture, Problem> {
+    Capture::create(path).map_err(|error| {
+        Problem::new(
+            format!("--pcap {}: expected a file that can be made anew: {error}", path.display()),
+            "name a file that is not there yet, in a folder that is there",
+        )
+    })
 }

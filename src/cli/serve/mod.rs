@@ -20,10 +20,10 @@ mod live;
 mod log;
 mod window;
 
-pub use crate::s7::server::{Limits, Network};
+pub use crate::s7::server::{Capture, Counter, Counters, Faults, Instruments, Limits, Network, Refused};
 pub(super) use arguments::Arguments;
 pub use live::{GIVE_UP, Live, Pace, Speed};
-pub use window::Window;
+pub use window::{Window, WindowOptions};
 
 use std::io::IsTerminal;
 use std::path::Path;
@@ -85,12 +85,14 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let _ = tracing::subscriber::set_global_default(log::Log { status: status.clone() });
     let live = Live::start(machine, arguments.speed);
     let addresses: Vec<_> = arguments.s7.iter().map(String::as_str).collect();
-    let limits = Limits { networks: arguments.allow.clone(), ..Limits::default() };
-    let window = Window::open(&live, &addresses, arguments.read_only, limits)?;
+    let window = Window::open_with(&live, &addresses, arguments.window()?)?;
     let mut head = format!("{}: axes {}, a cycle of {cycle} ms, {plc}\n", arguments.machine.display(), axes.join(", "));
     let rights = if arguments.read_only { "read only" } else { "read and write" };
     for address in window.addresses() {
         head += &format!("S7 on {address}: rack 0, slot 2, {rights}\n");
+    }
+    if let Some(faults) = &arguments.s7_fault {
+        head += &format!("faults on purpose: {faults}\n");
     }
     head += "Ctrl-C ends\n";
     Ok(Served { live, window, status, head })

@@ -15,7 +15,7 @@ use tokio::task::JoinSet;
 use super::live::{Clocked, Live, Shared};
 use crate::machine::{Command, DatumValue, Machine};
 use crate::s7::nck::{self, Datum};
-use crate::s7::server::{Limits, Server, Stations, listen};
+use crate::s7::server::{Counters, Instruments, Limits, Server, Stations, listen};
 use crate::s7::{self, Bridge, CpuState, Directory, Machinery, Settings, Station};
 use crate::sinumerik::machine_data::{Kind, Owner, Target};
 use crate::source::Problem;
@@ -30,15 +30,37 @@ pub struct Window {
     thread: Option<JoinHandle<()>>,
 }
 
+/// How a window is opened other than as usual.
+#[derive(Debug, Default)]
+pub struct WindowOptions {
+    /// Clients may change nothing.
+    pub is_read_only: bool,
+    /// How many clients, from where, and how long anybody may take.
+    pub limits: Limits,
+    /// What each client is offered.
+    pub settings: Settings,
+    /// Faults on purpose, and a capture.
+    pub instruments: Instruments,
+}
+
 impl Window {
     /// Opens a server on addresses such as `127.0.0.1:10102`, `[::1]:10102`, `localhost:10102`; port 0 is any free one.
     ///
     /// # Errors
     /// An address is none, is not of this computer, may not be used, or is in use.
     pub fn open(live: &Live, addresses: &[&str], is_read_only: bool, limits: Limits) -> Result<Self, Problem> {
+        Self::open_with(live, addresses, WindowOptions { is_read_only, limits, ..WindowOptions::default() })
+    }
+
+    /// The same with more to say.
+    ///
+    /// # Errors
+    /// As [`Window::open`].
+    pub fn open_with(live: &Live, addresses: &[&str], options: WindowOptions) -> Result<Self, Problem> {
+        let WindowOptions { is_read_only, limits, settings, instruments } = options;
         let shared = live.shared();
         let directory = live.with(|machine| Directory::of(machine.memory(), machine.names().profile));
-        let server = Server::new(Lender { shared, directory, is_read_only }, Settings::default(), limits);
+        let server = Server::new(Lender { shared, directory, is_read_only }, settings, limits).with(instruments);
         let runtime = Builder::new_current_thread().enable_all().build().map_err(|error| {
             Problem::new(
                 format!("the server cannot start: {error}"),
@@ -73,7 +95,13 @@ impl Window {
     /// How many answers were given so far.
     #[must_use]
     pub fn answers(&self) -> u64 {
-        self.server.answers()
+        self.server.counters().answers.get()
+    }
+
+    /// What the server counted so far.
+    #[must_use]
+    pub fn counters(&self) -> &Counters {
+        self.server.counters()
     }
 }
 

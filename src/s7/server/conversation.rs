@@ -2,14 +2,15 @@
 
 use std::net::SocketAddr;
 use std::pin::pin;
-use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use tokio::io::{AsyncReadExt, AsyncWriteExt};
+use tokio::io::{AsyncReadExt, AsyncWrite, AsyncWriteExt};
 use tokio::net::TcpStream;
 use tokio::sync::watch;
 use tokio::time::{Instant, MissedTickBehavior, interval, sleep, timeout};
 
+use super::faults::Faulty;
+use super::witness::Witness;
 use super::{Server, Stations};
 use crate::s7::session::{Connection, Session};
 use crate::s7::wire::pdu::Answers;
@@ -18,9 +19,6 @@ use crate::units::Time;
 
 /// Space for what a client has sent: the longest packet of a TPDU of 8192 bytes, or many short ones.
 const INPUT: usize = 8192 + tpkt::HEADER;
-/// How many refused requests of one client are logged.
-const REFUSALS: u32 = 20;
-
 /// How a conversation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum End {
@@ -34,37 +32,59 @@ pub(super) enum End {
     Slow,
     /// The server ends.
     Server,
+    /// A fault on purpose.
+    Fault,
+}
+
+impl End {
+    pub(super) const ALL: [Self; 6] = [Self::Left, Self::Closed, Self::Idle, Self::Slow, Self::Server, Self::Fault];
+
+    /// In one word, for whoever counts.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Closed => "closed",
+            Self::Idle => "idle",
+            Self::Slow => "slow",
+            Self::Server => "server",
+            Self::Fault => "fault",
+        }
+    }
 }
 
 /// One client.
 pub(super) struct Conversation<'a, S> {
     server: &'a Server<S>,
-    peer: SocketAddr,
+    witness: Witness<'a>,
+    faulty: Option<Faulty>,
     stream: TcpStream,
     session: Session,
     answers: Answers,
     /// What has come and is not a whole packet yet.
     input: Vec<u8>,
     filled: usize,
-    refusals: u32,
 }
 
 impl<'a, S: Stations> Conversation<'a, S> {
     pub(super) fn new(server: &'a Server<S>, peer: SocketAddr, stream: TcpStream) -> Self {
+        let number = server.counters.connections.next();
+        let capture = server.instruments.capture.as_ref();
+        let recording = capture.zip(stream.local_addr().ok()).map(|(capture, own)| capture.begin(peer, own, number));
         Self {
             server,
-            peer,
+            witness: Witness::new(&server.counters, &server.flood, peer, recording),
+            faulty: server.instruments.faults.as_ref().map(|faults| Faulty::new(faults, number)),
             stream,
             session: Session::new(server.settings.clone()),
             answers: Answers::default(),
             input: vec![0; INPUT],
             filled: 0,
-            refusals: 0,
         }
     }
 
     /// Says good-bye on TCP.
-    pub(super) async fn close(mut self) {
+    pub(super) async fn close(mut self, end: End) {
+        self.witness.ended(end);
         let _ = timeout(self.server.limits.writing, self.stream.shutdown()).await;
     }
 
@@ -83,6 +103,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
                 read = self.stream.read(&mut self.input[self.filled..]) => match read {
                     Ok(0) | Err(_) => return End::Left,
                     Ok(count) => {
+                        self.witness.received(&self.input[self.filled..self.filled + count]);
                         self.filled += count;
                         if let Some(end) = self.receive().await {
                             return end;
@@ -123,9 +144,14 @@ impl<'a, S: Stations> Conversation<'a, S> {
             };
             start += packet.len();
             let (session, answers) = (&mut self.session, &mut self.answers);
+            if let Some(faulty) = &mut self.faulty {
+                session.fail_next(faulty.failure());
+            }
+            let known = answers.count();
             let mut connection = Connection::Open;
             let written =
                 self.server.stations.lend(&mut |station| connection = session.receive(packet, station, answers));
+            self.witness.answered(packet, &self.answers, known, written.is_some());
             if let Some(step) = written {
                 let _ = timeout(self.server.limits.step, self.server.stations.taken_up(step)).await;
             }
@@ -149,33 +175,36 @@ impl<'a, S: Stations> Conversation<'a, S> {
         let now = Time::from_millis(i64::try_from(now).unwrap_or(i64::MAX));
         let (session, answers) = (&mut self.session, &mut self.answers);
         self.server.stations.lend(&mut |station| session.tick(now, station, answers));
+        self.witness.pushed(&self.answers);
     }
 
     async fn send(&mut self) -> Option<End> {
-        self.log_refusals();
-        self.server.answers.fetch_add(self.answers.count() as u64, Ordering::Relaxed);
-        let writing = self.stream.write_all(self.answers.bytes());
-        let end = match timeout(self.server.limits.writing, writing).await {
-            Ok(Ok(())) => None,
-            Ok(Err(_)) => Some(End::Left),
-            Err(_) => Some(End::Slow),
+        let Self { stream, answers, witness, faulty, .. } = self;
+        let limit = self.server.limits.writing;
+        witness.answering(answers);
+        let end = match faulty {
+            None => write(stream, answers.bytes(), witness, limit).await,
+            Some(faulty) => faulty.send(stream, answers, witness, limit).await,
         };
-        self.answers.clear();
+        answers.clear();
         end
     }
+}
 
-    fn log_refusals(&mut self) {
-        if self.refusals >= REFUSALS || !tracing::enabled!(tracing::Level::INFO) {
-            return;
+/// Sends bytes, within a limit of time.
+pub(super) async fn write(
+    stream: &mut (impl AsyncWrite + Unpin),
+    bytes: &[u8],
+    witness: &mut Witness<'_>,
+    limit: Duration,
+) -> Option<End> {
+    match timeout(limit, stream.write_all(bytes)).await {
+        Ok(Ok(())) => {
+            witness.sent(bytes);
+            None
         }
-        for refusal in self.answers.iter().filter_map(refusal) {
-            self.refusals += 1;
-            tracing::info!("{}: a request was refused: {refusal}", self.peer);
-            if self.refusals == REFUSALS {
-                tracing::info!("{}: further refusals are not shown", self.peer);
-                return;
-            }
-        }
+        Ok(Err(_)) => Some(End::Left),
+        Err(_) => Some(End::Slow),
     }
 }
 
@@ -189,21 +218,6 @@ fn is_too_long(bytes: &[u8]) -> bool {
     matches!(bytes, [_, _, high, low, ..] if usize::from(u16::from_be_bytes([*high, *low])) > INPUT)
 }
 
-/// What an answer refuses: the error in its header, or the first item that was not written.
-fn refusal(answer: &[u8]) -> Option<String> {
-    let pdu = answer.get(tpkt::HEADER + 3..)?;
-    match pdu {
-        [0x32, 2 | 3, _, _, _, _, _, _, _, _, class, code, ..] if (*class, *code) != (0, 0) => {
-            Some(format!("error {class:02X}{code:02X}"))
-        }
-        [0x32, 3, _, _, _, _, _, _, _, _, 0, 0, 5, _, items @ ..] => {
-            let item = items.iter().position(|code| *code != 0xFF)?;
-            Some(format!("item {} was not written, return code {:02X}", item + 1, items[item]))
-        }
-        _ => None,
-    }
-}
-
 impl std::fmt::Display for End {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
@@ -212,6 +226,7 @@ impl std::fmt::Display for End {
             Self::Idle => "was disconnected: it asked nothing for too long",
             Self::Slow => "was disconnected: it did not take its answers",
             Self::Server => "was disconnected: the server ends",
+            Self::Fault => "was disconnected: a fault on purpose",
         })
     }
 }

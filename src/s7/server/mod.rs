@@ -12,15 +12,20 @@
 //!
 //! Nothing here knows a machine; this folder is all of the room that knows a clock.
 
+mod capture;
 mod conversation;
+mod counters;
+mod faults;
 mod limits;
+mod refusals;
+mod witness;
 
 use std::future::Future;
 use std::io;
 use std::net::SocketAddr;
 use std::pin::pin;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use socket2::{SockRef, TcpKeepalive};
@@ -31,8 +36,13 @@ use tokio::time::{Instant, sleep, timeout};
 
 use super::session::Settings;
 use super::station::Station;
+pub use capture::Capture;
 use conversation::Conversation;
+pub use counters::{Counter, Counters};
+pub use faults::Faults;
 pub use limits::{Limits, Network};
+pub use refusals::Refused;
+use witness::Flood;
 
 /// Whoever has stations to lend.
 pub trait Stations: Send + Sync + 'static {
@@ -44,6 +54,15 @@ pub trait Stations: Send + Sync + 'static {
     fn taken_up(&self, step: u64) -> impl Future<Output = ()> + Send;
 }
 
+/// What a server does besides serving.
+#[derive(Debug, Default)]
+pub struct Instruments {
+    /// Faults on purpose.
+    pub faults: Option<Faults>,
+    /// Where everything that goes over the wire is written.
+    pub capture: Option<Capture>,
+}
+
 /// A server of S7 communication.
 #[derive(Debug)]
 pub struct Server<S> {
@@ -52,7 +71,9 @@ pub struct Server<S> {
     limits: Limits,
     places: Arc<Semaphore>,
     clients: AtomicUsize,
-    answers: AtomicU64,
+    counters: Counters,
+    flood: Flood,
+    instruments: Instruments,
     begin: Instant,
 }
 
@@ -62,7 +83,23 @@ impl<S: Stations> Server<S> {
     pub fn new(stations: S, settings: Settings, limits: Limits) -> Self {
         let places = Arc::new(Semaphore::new(limits.clients.min(Semaphore::MAX_PERMITS)));
         let begin = Instant::now();
-        Self { stations, settings, limits, places, clients: AtomicUsize::new(0), answers: AtomicU64::new(0), begin }
+        Self {
+            stations,
+            settings,
+            limits,
+            places,
+            clients: AtomicUsize::new(0),
+            counters: Counters::default(),
+            flood: Flood::default(),
+            instruments: Instruments::default(),
+            begin,
+        }
+    }
+
+    /// The same with instruments.
+    #[must_use]
+    pub fn with(self, instruments: Instruments) -> Self {
+        Self { instruments, ..self }
     }
 
     /// How many clients there are now.
@@ -71,10 +108,10 @@ impl<S: Stations> Server<S> {
         self.clients.load(Ordering::Relaxed)
     }
 
-    /// How many answers were given so far.
+    /// What was counted so far.
     #[must_use]
-    pub fn answers(&self) -> u64 {
-        self.answers.load(Ordering::Relaxed)
+    pub fn counters(&self) -> &Counters {
+        &self.counters
     }
 
     /// Serves everybody who comes to a listener, until the end is there. Requests on their way are still answered. One server
@@ -111,11 +148,14 @@ impl<S: Stations> Server<S> {
     fn admit(&self, stream: &TcpStream, peer: SocketAddr) -> Option<OwnedSemaphorePermit> {
         let networks = &self.limits.networks;
         if !networks.is_empty() && !networks.iter().any(|network| network.contains(peer.ip())) {
-            tracing::warn!("{peer} was sent away: it is in none of the networks that are allowed");
+            self.counters.foreign.add(1);
+            self.flood.log(|| tracing::warn!("{peer} was sent away: it is in none of the networks that are allowed"));
             return None;
         }
         let Ok(place) = Arc::clone(&self.places).try_acquire_owned() else {
-            tracing::warn!("{peer} was sent away: {} clients are there already", self.limits.clients);
+            self.counters.crowded.add(1);
+            self.flood
+                .log(|| tracing::warn!("{peer} was sent away: {} clients are there already", self.limits.clients));
             return None;
         };
         // Without these it works, too, only later.
@@ -133,11 +173,9 @@ impl<S: Stations> Server<S> {
         place: OwnedSemaphorePermit,
     ) {
         let _counted = Counted::new(&self.clients);
-        tracing::info!("{peer} has come");
         let mut conversation = Conversation::new(&self, peer, stream);
         let end = conversation.hold(ended).await;
-        conversation.close().await;
-        tracing::info!("{peer} {end}");
+        conversation.close(end).await;
         drop(place);
     }
 }

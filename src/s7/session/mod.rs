@@ -11,6 +11,7 @@ mod blocks;
 mod clock;
 mod control;
 mod cyclic;
+mod failure;
 mod parts;
 mod security;
 mod system_state;
@@ -26,6 +27,7 @@ use super::wire::user_data::{self, Head, Received, Request, group};
 use crate::units::Time;
 
 use cyclic::Subscriptions;
+pub use failure::Failure;
 use parts::Parts;
 use upload::Uploads;
 
@@ -88,6 +90,7 @@ pub struct Session {
     parts: Parts,
     uploads: Uploads,
     subscriptions: Subscriptions,
+    failure: Option<Failure>,
 }
 
 /// What every answer needs.
@@ -123,6 +126,7 @@ impl Session {
             parts: Parts::default(),
             uploads: Uploads::default(),
             subscriptions: Subscriptions::default(),
+            failure: None,
         }
     }
 
@@ -136,6 +140,11 @@ impl Session {
     #[must_use]
     pub fn has_subscriptions(&self) -> bool {
         !self.subscriptions.is_empty()
+    }
+
+    /// Refuses the next request to read or write; `None` takes that back.
+    pub fn fail_next(&mut self, failure: Option<Failure>) {
+        self.failure = failure;
     }
 
     /// Takes bytes as they came from the socket, in whatever pieces, and appends the answers to whole requests, in order.
@@ -262,6 +271,11 @@ impl Session {
         }
         if !self.is_set_up {
             return exchange.refuse(ErrorCode::WRONG_SEQUENCE);
+        }
+        if matches!(code, function::READ | function::WRITE)
+            && let Some(failure) = self.failure.take()
+        {
+            return failure.answer(code, rest, exchange);
         }
         match code {
             function::READ => self.read_variables(rest, exchange),

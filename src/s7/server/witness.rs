@@ -1,0 +1,159 @@
+//! What is noticed of a conversation besides holding it: counts, lines of the log, the capture.
+//!
+//! A client that makes many mistakes fills no log: the first [`REFUSALS`] of a connection are logged, and of all clients together
+//! [`LINES`] lines in a second, with the number of those that were left out. Everything is counted.
+
+use std::net::SocketAddr;
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+use tokio::time::Instant;
+
+use super::capture::Recording;
+use super::conversation::End;
+use super::counters::Counters;
+use super::refusals::{asked, refusals, written};
+use crate::s7::wire::pdu::Answers;
+
+/// How many refused requests of one connection are logged.
+const REFUSALS: u32 = 20;
+/// How many lines about clients are logged in a second.
+const LINES: u32 = 100;
+
+/// Who notices what one client does.
+#[derive(Debug)]
+pub(super) struct Witness<'a> {
+    counters: &'a Counters,
+    flood: &'a Flood,
+    peer: SocketAddr,
+    recording: Option<Recording<'a>>,
+    refusals: u32,
+}
+
+impl<'a> Witness<'a> {
+    pub(super) fn new(
+        counters: &'a Counters,
+        flood: &'a Flood,
+        peer: SocketAddr,
+        recording: Option<Recording<'a>>,
+    ) -> Self {
+        flood.log(|| tracing::info!("{peer} has come"));
+        Self { counters, flood, peer, recording, refusals: 0 }
+    }
+
+    /// Bytes have come.
+    pub(super) fn received(&mut self, bytes: &[u8]) {
+        self.counters.received.add(bytes.len());
+        if let Some(recording) = &mut self.recording {
+            recording.received(bytes);
+        }
+    }
+
+    /// A packet was answered: with the answers behind the first `known`, and with a change of the machine or without one.
+    pub(super) fn answered(&mut self, packet: &[u8], answers: &Answers, known: usize, wrote: bool) {
+        if wrote {
+            self.counters.writes.add(1);
+            if tracing::enabled!(tracing::Level::DEBUG)
+                && let Some(written) = written(packet)
+            {
+                self.flood.log(|| tracing::debug!("{} has written {written}", self.peer));
+            }
+        }
+        for answer in answers.iter().skip(known) {
+            refusals(answer, |item, refused| {
+                self.counters.refused(refused);
+                if self.refusals < REFUSALS && tracing::enabled!(tracing::Level::INFO) {
+                    self.refusals += 1;
+                    let (asked, meaning) = (asked(packet, item), refused.meaning());
+                    self.flood.log(|| tracing::info!("{} was refused to {asked}: {refused}, {meaning}", self.peer));
+                    if self.refusals == REFUSALS {
+                        self.flood.log(|| tracing::info!("{}: further refusals are not shown", self.peer));
+                    }
+                }
+            });
+        }
+    }
+
+    /// Something is to be sent without being asked for.
+    pub(super) fn pushed(&self, answers: &Answers) {
+        self.counters.pushes.add(answers.count());
+    }
+
+    /// Something is to be sent.
+    pub(super) fn answering(&self, answers: &Answers) {
+        self.counters.answers.add(answers.count());
+    }
+
+    /// Bytes have gone.
+    pub(super) fn sent(&mut self, bytes: &[u8]) {
+        self.counters.sent.add(bytes.len());
+        if let Some(recording) = &mut self.recording {
+            recording.sent(bytes);
+        }
+    }
+
+    /// Something was done wrong on purpose.
+    pub(super) fn fault(&self) {
+        self.counters.faults.add(1);
+    }
+
+    /// The conversation is over.
+    pub(super) fn ended(&mut self, end: End) {
+        let index = End::ALL.iter().position(|each| *each == end);
+        if let Some(count) = index.and_then(|index| self.counters.ends.get(index)) {
+            count.add(1);
+        }
+        if let (End::Left, Some(recording)) = (end, &mut self.recording) {
+            recording.left();
+        }
+        self.flood.log(|| tracing::info!("{} {end}", self.peer));
+    }
+}
+
+/// Keeps the log of all clients together short.
+#[derive(Debug)]
+pub(super) struct Flood(Mutex<Shown>);
+
+#[derive(Debug)]
+struct Shown {
+    since: Instant,
+    shown: u32,
+    left_out: u64,
+}
+
+impl Default for Flood {
+    fn default() -> Self {
+        Self(Mutex::new(Shown { since: Instant::now(), shown: 0, left_out: 0 }))
+    }
+}
+
+impl Flood {
+    /// Logs a line, unless there were too many in this second.
+    pub(super) fn log(&self, line: impl FnOnce()) {
+        let mut shown = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if shown.since.elapsed() >= Duration::from_secs(1) {
+            if shown.left_out > 0 {
+                tracing::warn!("{} more lines about clients were left out", shown.left_out);
+            }
+            *shown = Shown { since: Instant::now(), shown: 0, left_out: 0 };
+        }
+        if shown.shown < LINES {
+            shown.shown += 1;
+            line();
+        } else {
+            shown.left_out += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flood_leaves_a_short_log() {
+        let (flood, mut lines) = (Flood::default(), 0);
+        (0..1000).for_each(|_| flood.log(|| lines += 1));
+        assert!(lines < 1000 && lines >= LINES, "{lines}"); // a slow computer may see a second second
+    }
+}
