@@ -14,6 +14,8 @@ mod oracle;
 
 use std::path::Path;
 
+use oracle::Listener;
+
 /// The files of a folder of the corpus, by name.
 fn corpus(target: &str) -> Vec<(String, Vec<u8>)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(target);
@@ -53,4 +55,62 @@ fn the_corpus_is_small() {
     let files = [corpus("session"), corpus("requests")].concat();
     let bytes: usize = files.iter().map(|(_, input)| input.len()).sum();
     assert!(files.len() <= 300 && bytes <= 300_000, "{} files, {bytes} bytes: minimise it", files.len());
+}
+
+/// A read of MB0 and MB1, of which the oracle knows that they are 05 and 06.
+const READ: [u8; 43] = [
+    3, 0, 0, 43, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 7, 0, 26, 0, 0, 4, 2, 0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 0,
+    0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 8,
+];
+/// The right answer.
+const ANSWER: [u8; 32] =
+    [3, 0, 0, 32, 2, 0xF0, 0x80, 0x32, 3, 0, 0, 0, 7, 0, 2, 0, 11, 0, 0, 4, 2, 0xFF, 4, 0, 8, 5, 0, 0xFF, 4, 0, 8, 6];
+
+/// What a listener says who has heard the setup of a conversation and this request.
+fn is_right(request: &[u8], answers: &[&[u8]], has_ended: bool) -> bool {
+    let mut listener = Listener::new(vec![(0, vec![5, 6])]);
+    let connect = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
+    let confirm = [3, 0, 0, 22, 17, 0xD0, 0, 1, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
+    let setup = [3, 0, 0, 25, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 1, 0, 8, 0, 0, 0xF0, 0, 0, 1, 0, 1, 0, 0xF0];
+    let agreed = [3, 0, 0, 27, 2, 0xF0, 0x80, 0x32, 3, 0, 0, 0, 1, 0, 8, 0, 0, 0, 0, 0xF0, 0, 0, 1, 0, 1, 0, 0xF0];
+    for (said, answer) in [(&connect[..], &confirm[..]), (&setup, &agreed)] {
+        let expected = listener.hear(said);
+        listener.judge(&expected, &[answer], false);
+    }
+    let expected = listener.hear(request);
+    std::panic::catch_unwind(move || listener.judge(&expected, answers, has_ended)).is_ok()
+}
+
+#[test]
+fn the_oracle_finds_what_is_wrong() {
+    assert!(is_right(&READ, &[&ANSWER], false));
+    assert!(!is_right(&READ, &[], false), "silence");
+    assert!(!is_right(&READ, &[], true), "the end");
+    assert!(!is_right(&READ, &[&ANSWER], true), "an answer, and the end");
+    assert!(!is_right(&READ, &[&ANSWER, &ANSWER], false), "two answers");
+    // Each byte matters, but for the reserved one of the TPKT.
+    for at in (0..ANSWER.len()).filter(|at| *at != 1) {
+        for change in [1, 0x80] {
+            let mut answer = ANSWER;
+            answer[at] ^= change;
+            assert!(!is_right(&READ, &[&answer], false), "byte {at} was {:02X}: {:02X}", ANSWER[at], answer[at]);
+        }
+    }
+    for end in 0..ANSWER.len() {
+        let mut answer = ANSWER[..end].to_vec();
+        assert!(!is_right(&READ, &[&answer], false), "{end} bytes");
+        if let Some(length) = answer.get_mut(3) {
+            *length = u8::try_from(end).unwrap();
+        }
+        assert!(!is_right(&READ, &[&answer], false), "a packet of {end} bytes");
+    }
+    assert!(!is_right(&[3, 0, 0, 7, 2, 0xF0, 0x80], &[&ANSWER], false), "an answer to nothing");
+    // A refusal is an answer, too.
+    let refusal = [3, 0, 0, 19, 2, 0xF0, 0x80, 0x32, 2, 0, 0, 0, 7, 0, 0, 0, 0, 0x85, 0];
+    assert!(is_right(&READ, &[&refusal], false));
+    // 241 bytes where 240 are agreed.
+    let item = [0x12, 10, 0x10, 2, 0, 223, 0, 1, 0x84, 0, 0, 0];
+    let read = [&[3, 0, 0, 31, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 7, 0, 14, 0, 0, 4, 1], &item[..]].concat();
+    let head = [3, 0, 0, 248, 2, 0xF0, 0x80, 0x32, 3, 0, 0, 0, 7, 0, 2, 0, 227, 0, 0, 4, 1, 0xFF, 4, 6, 0xF8];
+    assert!(!is_right(&read, &[&[&head[..], &[0; 223]].concat()], false), "a PDU that is too long");
 }

@@ -297,6 +297,7 @@ impl Listener {
             };
             let (value, rest) = rest.split_at(length);
             if head[0] == 0xFF {
+                assert_eq!(head[1], item.size(), "the transport size of a value: {head:02X?}");
                 item.judge(value, &self.seen);
             }
             place += 4 + length;
@@ -418,6 +419,18 @@ impl Item {
             _ => panic!("a value of type {kind:02X}, which nobody knows"),
         };
         Some(usize::from(u16::from_be_bytes([c1, c0])) * each)
+    }
+
+    /// The transport size of its value: bit, bytes, whole number, floating point, octets.
+    fn size(&self) -> u8 {
+        match *self.0.as_slice() {
+            [0x10, 1, ..] => 3,
+            [0x10, 5 | 7, ..] => 5,
+            [0x10, 8, ..] => 7,
+            [0x10, 0x1C | 0x1D, ..] => 9,
+            [0x10, ..] => 4,
+            _ => 9,
+        }
     }
 
     fn judge(&self, value: &[u8], shadow: &Shadow) {
