@@ -14,7 +14,7 @@ struct Window {
 }
 
 impl Window {
-    /// The worked example with everything enabled, and a client that has connected and negotiated 480 bytes.
+    /// The worked example with everything enabled, and a client that has called the NCK and negotiated 480 bytes.
     fn open() -> Self {
         let mut machine = Machine::open("g1_example").expect("it is built in");
         let plc = program("everything_on", (), |(), io| {
@@ -29,7 +29,7 @@ impl Window {
         let directory = Directory::of(machine.memory(), machine.names().profile);
         let mut window = Self { machine, directory, session: Session::new(Settings::default()) };
         window.steps(500);
-        window.send(&[3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2]);
+        window.send(&[3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 4, 0, 0xC2, 2, 13, 4]);
         window.job(&[0xF0, 0, 0, 1, 0, 1, 1, 0xE0], &[]);
         window
     }

@@ -157,6 +157,12 @@ impl Machine {
         self.control.channel_overrides(&self.memory.to_nck.channels[channel])
     }
 
+    /// The speed of the motor of an axis in rev/min, behind pitch and gear.
+    #[must_use]
+    pub fn motor_speed(&self, axis: AxisNumber) -> f64 {
+        self.control.motor_speed(axis, self.variables.axes[axis].velocity)
+    }
+
     /// What axes and channels are called.
     #[must_use]
     pub fn names(&self) -> &Names {

@@ -5,14 +5,15 @@
 //! control, and loses it at the NCK's next publication (SIG-11).
 
 use super::directory::Directory;
-use super::nck::{self, MachineData};
+use super::nck::{self, Control, MachineData};
 use super::station::{
     Areas, BlockInfo, Blocks, Cpu, CpuState, Diagnosis, Identity, NcVariables, Protection, Restart, Value, Write,
 };
 use super::wire::data::Refusal;
 use super::wire::date_and_time::DateAndTime;
-use super::wire::items::NckItem;
+use super::wire::items::{DriveItem, NckItem};
 use crate::image::{Address, Area, Format, Location, Memory, Names, Width};
+use crate::units::ChannelNumber;
 use crate::variables::{Place, Variables};
 
 /// What a client asks of the machine, for the edge of its next step.
@@ -33,6 +34,15 @@ pub enum Command {
         number: u16,
         /// The index in its array, from 0.
         index: u16,
+        /// Its value.
+        value: f64,
+    },
+    /// Writes an R parameter.
+    RParameter {
+        /// Whose.
+        channel: ChannelNumber,
+        /// `R number`.
+        number: u16,
         /// Its value.
         value: f64,
     },
@@ -61,6 +71,10 @@ pub struct Machinery<'a> {
     pub is_read_only: bool,
     /// Machine data; none where there is none of them to be seen.
     pub machine_data: Option<&'a dyn MachineData>,
+    /// What the control knows beside them: overrides, R parameters, motors, alarms; none where it is not to be seen.
+    pub control: Option<&'a dyn Control>,
+    /// How many clients may be connected at once.
+    pub connections: u16,
 }
 
 impl Default for Machinery<'_> {
@@ -68,21 +82,13 @@ impl Default for Machinery<'_> {
         Self {
             state: CpuState::Run,
             clock: DateAndTime::FIRST,
-            identity: Identity {
-                order_number: "6ES7 317-2EK14-0AB0 ",
-                version: [3, 2, 6],
-                system_name: "OpenNCK",
-                module_name: "PLC 317-2 PN/DP",
-                plant: "",
-                copyright: "OpenNCK simulator",
-                serial_number: "SIMULATED",
-                module_type: "CPU 317-2 PN/DP",
-                location: "",
-            },
+            identity: Identity::SINUMERIK_840D_SL,
             protection: Protection { level: 1, password: None },
             diagnosis: &[],
             is_read_only: false,
             machine_data: None,
+            control: None,
+            connections: 32,
         }
     }
 }
@@ -135,6 +141,9 @@ impl<'a> Bridge<'a> {
             variables: self.variables,
             names: self.names,
             machine_data: self.machinery.machine_data,
+            control: self.machinery.control,
+            clock: self.machinery.clock,
+            serial_number: self.machinery.identity.serial_number,
         }
     }
 
@@ -211,7 +220,12 @@ impl Areas for Bridge<'_> {
                         self.write_element(area, byte + index * step, bytes);
                     }
                 }
-                Write::Variable { item, bytes } => self.commands.extend(nck::write(&self.nck(), &item, bytes)),
+                Write::Variable { item, bytes } => {
+                    let mut commands = std::mem::take(&mut self.commands);
+                    // It was judged before.
+                    let _ = nck::write(&self.nck(), &item, bytes, &mut commands);
+                    self.commands = commands;
+                }
             }
         }
     }
@@ -264,6 +278,10 @@ impl Cpu for Bridge<'_> {
     fn diagnosis(&self) -> &[Diagnosis] {
         self.machinery.diagnosis
     }
+
+    fn connections(&self) -> u16 {
+        self.machinery.connections
+    }
 }
 
 impl Bridge<'_> {
@@ -281,8 +299,12 @@ impl NcVariables for Bridge<'_> {
         nck::read(&self.nck(), item, into)
     }
 
+    fn read_drive(&self, item: &DriveItem, into: &mut Vec<u8>) -> Result<(), Refusal> {
+        nck::read_drive(&self.nck(), item, into)
+    }
+
     fn may_write_variable(&self, item: &NckItem, bytes: &[u8]) -> Result<(), Refusal> {
-        let command = nck::may_write(&self.nck(), item, bytes);
-        if self.machinery.is_read_only { Err(Refusal::NotAllowed) } else { command.map(|_| ()) }
+        let judged = nck::write(&self.nck(), item, bytes, &mut Vec::new());
+        if self.machinery.is_read_only { Err(Refusal::NotAllowed) } else { judged }
     }
 }

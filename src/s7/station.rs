@@ -3,7 +3,7 @@
 
 use super::wire::data::Refusal;
 use super::wire::date_and_time::DateAndTime;
-use super::wire::items::NckItem;
+use super::wire::items::{DriveItem, NckItem};
 use crate::image::Area;
 
 /// Everything that a session needs.
@@ -115,6 +115,9 @@ pub trait Cpu {
 
     /// The diagnostic buffer, newest entry first.
     fn diagnosis(&self) -> &[Diagnosis];
+
+    /// How many clients may be connected at once.
+    fn connections(&self) -> u16;
 }
 
 /// Operating state of a CPU.
@@ -158,6 +161,30 @@ pub struct Identity<'a> {
     pub location: &'a str,
 }
 
+impl Identity<'static> {
+    /// The PLC of an 840D sl: a CPU 317-2 PN/DP in the NCU.
+    pub const SINUMERIK_840D_SL: Self = Self {
+        order_number: "6ES7 317-2EK14-0AB0 ",
+        version: [3, 2, 6],
+        system_name: "OpenNCK",
+        module_name: "PLC 317-2 PN/DP",
+        plant: "",
+        copyright: "OpenNCK simulator",
+        serial_number: "SIMULATED",
+        module_type: "CPU 317-2 PN/DP",
+        location: "",
+    };
+
+    /// The PLC of an 828D: part of the control, whose operator unit (PPU) has the order number. Choice: a PPU 28x.
+    pub const SINUMERIK_828D: Self = Self {
+        order_number: "6FC5370-5AA40-0AA0  ",
+        version: [4, 0, 0],
+        module_name: "PLC 828D",
+        module_type: "PLC 828D",
+        ..Self::SINUMERIK_840D_SL
+    };
+}
+
 /// What is protected.
 ///
 /// | level | what needs the password |
@@ -176,12 +203,36 @@ pub struct Protection {
 /// An entry of the diagnostic buffer: 20 bytes of a system state list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Diagnosis {
-    /// Number of the event.
+    /// Number of the event, such as [`Diagnosis::STOP`].
     pub event: u16,
     /// Its information.
     pub information: [u8; 10],
     /// When it happened.
     pub time: DateAndTime,
+}
+
+impl Diagnosis {
+    /// Power came; what is retentive is still there.
+    pub const POWER_ON: u16 = 0x4300;
+    /// STOP became START-UP.
+    pub const START_UP: u16 = 0x4301;
+    /// START-UP became RUN.
+    pub const RUN: u16 = 0x4302;
+    /// STOP by a programming device.
+    pub const STOP: u16 = 0x4304;
+    /// STOP by a fault of the program.
+    pub const FAULT: u16 = 0x4562;
+    /// A warm restart was asked for by hand.
+    pub const WARM_RESTART: u16 = 0x1381;
+    /// A cold restart was asked for by hand.
+    pub const COLD_RESTART: u16 = 0x1385;
+
+    /// An event of the operating state, with no program behind it.
+    #[must_use]
+    pub const fn of_state(event: u16, time: DateAndTime) -> Self {
+        // Priority class FF: none.
+        Self { event, information: [0xFF, 0, 0, 0, 0, 0, 0, 0, 0, 0], time }
+    }
 }
 
 /// The variables of the NCK.
@@ -192,9 +243,15 @@ pub trait NcVariables {
     /// There is no such variable, or no such row.
     fn read_variable(&self, item: &NckItem, into: &mut Vec<u8>) -> Result<(), Refusal>;
 
+    /// Appends a parameter of a drive object.
+    ///
+    /// # Errors
+    /// There is no such object or parameter, or it is of another type.
+    fn read_drive(&self, item: &DriveItem, into: &mut Vec<u8>) -> Result<(), Refusal>;
+
     /// Whether a variable takes these bytes.
     ///
     /// # Errors
-    /// There is no such variable or row, it cannot be written, or the length does not fit.
+    /// There is no such variable or row, it cannot be written, or a value or the length does not fit.
     fn may_write_variable(&self, item: &NckItem, bytes: &[u8]) -> Result<(), Refusal>;
 }

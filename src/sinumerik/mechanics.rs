@@ -64,6 +64,12 @@ impl Mechanics {
         self.motor[0].abs()
     }
 
+    /// The way of one revolution of the motor in a parameter set, 0 to 5, in mm or degrees, with the sign of its direction.
+    #[must_use]
+    pub(super) fn motor_turn(&self, set: usize) -> f64 {
+        self.motor.get(set).copied().unwrap_or(self.motor[0])
+    }
+
     /// The way of one line of an encoder, 0 or 1, in the first parameter set, in mm or degrees, without a direction.
     #[must_use]
     pub fn encoder_line(&self, encoder: usize) -> f64 {

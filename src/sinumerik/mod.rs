@@ -42,7 +42,6 @@ mod mode_group;
 mod monitoring;
 mod opening;
 mod overload;
-mod overrides;
 mod parameter_sets;
 mod parameters;
 mod position_control;
@@ -53,6 +52,7 @@ mod resting;
 mod rules;
 mod run_up;
 mod setpoints;
+mod shown;
 mod synchronisation;
 mod transitions;
 

@@ -12,7 +12,7 @@ use super::increments::KeyModes;
 use super::machine_data::{Axis, MachineData};
 use super::mechanics::Mechanics;
 use super::monitoring::{Monitoring, monitoring};
-use super::overrides::factor;
+use super::shown::factor;
 use crate::units::{
     AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position, Time,
 };

@@ -13,13 +13,17 @@ use tokio::sync::watch;
 use tokio::task::JoinSet;
 
 use super::live::{Clocked, Live, Shared};
+use crate::image::Profile;
 use crate::machine::{Command, DatumValue, Machine};
 use crate::s7::nck::{self, Datum};
 use crate::s7::server::{Counters, Instruments, Limits, Server, Stations, listen};
-use crate::s7::{self, Bridge, CpuState, Directory, Machinery, Settings, Station};
+use crate::s7::wire::data::Refusal;
+use crate::s7::{self, Bridge, CpuState, Directory, Identity, Machinery, Settings, Station};
+use crate::sinumerik::Alarm;
 use crate::sinumerik::machine_data::{Kind, Owner, Target};
 use crate::source::Problem;
-use crate::variables::Place;
+use crate::units::{AxisNumber, ChannelNumber, Time};
+use crate::variables::{AlarmNumber, Place};
 
 /// An S7 server that shows a live machine until it is dropped.
 #[derive(Debug)]
@@ -60,7 +64,9 @@ impl Window {
         let WindowOptions { is_read_only, limits, settings, instruments } = options;
         let shared = live.shared();
         let directory = live.with(|machine| Directory::of(machine.memory(), machine.names().profile));
-        let server = Server::new(Lender { shared, directory, is_read_only }, settings, limits).with(instruments);
+        let connections = u16::try_from(limits.clients).unwrap_or(u16::MAX);
+        let lender = Lender { shared, directory, is_read_only, connections };
+        let server = Server::new(lender, settings, limits).with(instruments);
         let runtime = Builder::new_current_thread().enable_all().build().map_err(|error| {
             Problem::new(
                 format!("the server cannot start: {error}"),
@@ -162,18 +168,22 @@ struct Lender {
     shared: Arc<Shared>,
     directory: Directory,
     is_read_only: bool,
+    connections: u16,
 }
 
 impl Stations for Lender {
     fn lend(&self, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
         let mut clocked = self.shared.lend();
         let machine = &clocked.machine;
-        let data = StoredData(machine);
+        let data = Panel(machine);
         let machinery = Machinery {
             state: if machine.is_plc_stopped() { CpuState::Stop } else { CpuState::Run },
             clock: clocked.clock(),
             is_read_only: self.is_read_only,
             machine_data: Some(&data),
+            control: Some(&data),
+            connections: self.connections,
+            identity: identity(machine),
             ..Machinery::default()
         };
         let bridge = Bridge::new(machine.memory(), machine.variables(), machine.names(), &self.directory);
@@ -202,8 +212,9 @@ fn queue(clocked: &mut Clocked, command: &s7::Command) -> Result<(), Problem> {
         s7::Command::Write { location, value } => Command::Write { location, value },
         s7::Command::MachineDatum { place, number, index, value } => machine_datum(place, number, index, value)?,
         s7::Command::PlcStop => Command::PlcStop,
-        // The program keeps what it remembers in both: a machine has no other restart.
-        s7::Command::PlcStart(s7::Restart::Warm | s7::Restart::Cold) => Command::PlcRun,
+        s7::Command::RParameter { channel, number, value } => Command::RParameter { channel, number, value },
+        s7::Command::PlcStart(s7::Restart::Warm) => Command::PlcRun,
+        s7::Command::PlcStart(s7::Restart::Cold) => Command::PlcColdRestart,
         s7::Command::SetClock(time) => {
             clocked.set_clock(time);
             return Ok(());
@@ -243,10 +254,10 @@ fn target(place: Place, number: u16, index: u16) -> Result<Target, Problem> {
     Target::new(number.into(), owner, u8::try_from(index).unwrap_or(u8::MAX))
 }
 
-/// Machine data as an operator panel shows them: those that are stored.
-struct StoredData<'a>(&'a Machine);
+/// What an operator panel shows of the control: machine data as they are stored, and what acts.
+struct Panel<'a>(&'a Machine);
 
-impl nck::MachineData for StoredData<'_> {
+impl nck::MachineData for Panel<'_> {
     fn datum(&self, place: Place, number: u16, index: u16) -> Option<Datum<'_>> {
         let target = target(place, number, index).ok()?;
         let data = self.0.stored_machine_data();
@@ -258,11 +269,55 @@ impl nck::MachineData for StoredData<'_> {
             Kind::Boolean => Datum::Boolean(value == DatumValue::Boolean(true)),
             Kind::Byte => Datum::Byte(u8::try_from(value.whole()?).ok()?),
             Kind::Dword => Datum::Whole(i32::try_from(value.whole()?).ok()?),
-            // The same 32 bits.
-            Kind::Udword => Datum::Whole(u32::try_from(value.whole()?).ok()?.cast_signed()),
+            Kind::Udword => Datum::Unsigned(u32::try_from(value.whole()?).ok()?),
             Kind::Double => Datum::Number(value.number()?),
             Kind::String => return None,
         })
+    }
+
+    fn may_store(&self, place: Place, number: u16, index: u16, value: f64) -> Result<(), Refusal> {
+        let target = target(place, number, index).map_err(|_| Refusal::DoesNotExist)?;
+        if target.datum().read_only {
+            return Err(Refusal::NotAllowed);
+        }
+        let command = machine_datum(place, number, index, value).map_err(|_| Refusal::DoesNotExist)?;
+        let Command::MachineDatum { value, .. } = command else { return Ok(()) };
+        let mut data = self.0.stored_machine_data().clone();
+        data.set(&target, &value).map_err(|_| Refusal::OutOfRange)
+    }
+}
+
+impl nck::Control for Panel<'_> {
+    fn time(&self) -> Time {
+        self.0.time()
+    }
+
+    fn axis_override(&self, axis: AxisNumber) -> f64 {
+        self.0.axis_override(axis)
+    }
+
+    fn channel_overrides(&self, channel: ChannelNumber) -> [f64; 2] {
+        self.0.channel_overrides(channel)
+    }
+
+    fn motor_speed(&self, axis: AxisNumber) -> f64 {
+        self.0.motor_speed(axis)
+    }
+
+    fn r_parameter(&self, channel: ChannelNumber, number: u16) -> Option<f64> {
+        self.0.r_parameters().get(channel, number)
+    }
+
+    fn clear_info(&self, alarm: AlarmNumber) -> u8 {
+        Alarm::clear_info(alarm)
+    }
+}
+
+/// What the PLC of a control is called.
+fn identity(machine: &Machine) -> Identity<'static> {
+    match machine.names().profile {
+        Profile::Sinumerik840dSl => Identity::SINUMERIK_840D_SL,
+        Profile::Sinumerik828d => Identity::SINUMERIK_828D,
     }
 }
 

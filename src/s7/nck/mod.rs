@@ -1,19 +1,34 @@
 //! The variables of the NCK as clients of a SINUMERIK read them: by area, unit, module, column and line.
 //!
-//! [`CATALOGUE`] has the variables by name, [`MachineData`] stands for the machine data behind module `1A`. Values are
-//! little-endian, unlike everything else on this wire; texts have a fixed length and are filled with zeros. Rows are counted from
-//! one, and an item may ask for several, which follow one another.
+//! [`CATALOGUE`] has the variables by name, [`MachineData`] stands for the machine data behind module `1A`, and R parameters are
+//! module `15`. Rows are counted from one, and an item may ask for several, which follow one another; `R5` is row 6. Values are
+//! little-endian, unlike everything else on this wire, but for those of drives; texts have a fixed length and are filled with
+//! zeros.
+//!
+//! What is written is judged whole before anything is acknowledged: machine data by type, range and whether anybody may write
+//! them, R parameters by their length. What the control shows cannot be written.
 
+mod alarms;
 mod catalogue;
+mod data;
+mod drives;
+mod values;
 
 pub use catalogue::CATALOGUE;
+pub use data::{Control, Datum, MachineData};
+pub(super) use drives::read as read_drive;
+
+use std::borrow::Cow;
 
 use super::bridge::Command;
 use super::wire::data::Refusal;
+use super::wire::date_and_time::DateAndTime;
 use super::wire::items::{MeasuringSystem, NckItem};
 use crate::image::{Memory, Names};
 use crate::units::{AxisNumber, ChannelNumber};
 use crate::variables::{Place, Variables};
+
+use data::put_text;
 
 /// What the values are taken from.
 #[derive(Clone, Copy)]
@@ -26,6 +41,12 @@ pub struct View<'a> {
     pub names: &'a Names,
     /// Machine data.
     pub machine_data: Option<&'a dyn MachineData>,
+    /// What else the control knows.
+    pub control: Option<&'a dyn Control>,
+    /// The clock.
+    pub clock: DateAndTime,
+    /// The serial number of the hardware.
+    pub serial_number: &'a str,
 }
 
 impl std::fmt::Debug for View<'_> {
@@ -34,83 +55,33 @@ impl std::fmt::Debug for View<'_> {
     }
 }
 
-/// Machine data, as the control keeps them.
-pub trait MachineData {
-    /// A machine datum by number, and by index from 0 where it is an array.
-    fn datum(&self, place: Place, number: u16, index: u16) -> Option<Datum<'_>>;
-}
-
-/// The value of a machine datum; each kind has its length on the wire.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Datum<'a> {
-    /// BOOLEAN: one byte.
-    Boolean(bool),
-    /// BYTE: one byte.
-    Byte(u8),
-    /// DWORD: four bytes.
-    Whole(i32),
-    /// DOUBLE: eight bytes.
-    Number(f64),
-    /// STRING: 32 bytes.
-    Text(&'a str),
-}
-
-impl Datum<'_> {
-    fn put(self, into: &mut Vec<u8>) {
-        match self {
-            Self::Boolean(value) => into.push(value.into()),
-            Self::Byte(value) => into.push(value),
-            Self::Whole(value) => into.extend_from_slice(&value.to_le_bytes()),
-            Self::Number(value) => into.extend_from_slice(&value.to_le_bytes()),
-            Self::Text(text) => put_text(text, TEXT, into),
-        }
-    }
-
-    /// The value that bytes of the same kind stand for; texts cannot be written.
-    fn parse(self, bytes: &[u8]) -> Option<f64> {
-        match (self, bytes) {
-            (Self::Boolean(_), [value @ (0 | 1)]) | (Self::Byte(_), [value]) => Some((*value).into()),
-            (Self::Whole(_), _) => Some(i32::from_le_bytes(bytes.try_into().ok()?).into()),
-            (Self::Number(_), _) => {
-                let value = f64::from_le_bytes(bytes.try_into().ok()?);
-                value.is_finite().then_some(value)
-            }
-            (Self::Boolean(_) | Self::Byte(_) | Self::Text(_), _) => None,
-        }
-    }
-}
-
-/// Length of a text of the machine data.
-const TEXT: usize = 32;
-
-fn put_text(text: &str, length: usize, into: &mut Vec<u8>) {
-    let end = into.len() + length;
-    // The last byte stays 0, so that whoever looks for an end finds one.
-    into.extend(text.bytes().take(length.saturating_sub(1)));
-    into.resize(end, 0);
-}
-
 /// Modules by their number on the wire.
 pub(crate) mod module {
     /// System data.
     pub(crate) const Y: u8 = 0x10;
-    /// Machine data.
+    /// R parameters.
+    pub(crate) const RP: u8 = 0x15;
+    /// Machine data; of drives on the powerline.
     pub(crate) const M: u8 = 0x1A;
-    /// Alarms by their time.
+    /// Diagnosis.
+    pub(crate) const DIAGN: u8 = 0x3B;
+    /// Alarms by their time, as they come.
     pub(crate) const SALAC: u8 = 0x54;
     /// Geometry axes, more of them.
     pub(crate) const SEGA: u8 = 0x70;
     /// Machine axes, more of them.
     pub(crate) const SEMA: u8 = 0x71;
+    /// Spindles.
+    pub(crate) const SSP: u8 = 0x72;
     /// Geometry axes.
     pub(crate) const SGA: u8 = 0x73;
     /// Machine axes.
     pub(crate) const SMA: u8 = 0x74;
-    /// The last alarm.
+    /// Alarms, the last one first.
     pub(crate) const SALAL: u8 = 0x75;
-    /// The alarm of the highest priority.
+    /// Alarms, that of the highest priority first.
     pub(crate) const SALAP: u8 = 0x76;
-    /// List of alarms.
+    /// Alarms by their time.
     pub(crate) const SALA: u8 = 0x77;
     /// The program pointer.
     pub(crate) const SPARPP: u8 = 0x7A;
@@ -120,6 +91,8 @@ pub(crate) mod module {
     pub(crate) const SINF: u8 = 0x7E;
     /// States.
     pub(crate) const S: u8 = 0x7F;
+    /// Parameters of SINAMICS drives.
+    pub(crate) const DRIVE: u8 = 0x82;
 }
 
 /// Areas by their number on the wire.
@@ -133,6 +106,8 @@ pub enum NckArea {
     Channel,
     /// A.
     Axis,
+    /// V.
+    FeedDrive,
 }
 
 impl NckArea {
@@ -142,6 +117,7 @@ impl NckArea {
             Self::ModeGroup => 1,
             Self::Channel => 2,
             Self::Axis => 3,
+            Self::FeedDrive => 5,
         }
     }
 }
@@ -153,21 +129,29 @@ pub enum Kind {
     Word,
     /// A whole number of four bytes.
     Long,
+    /// A whole number of four bytes without a sign.
+    UnsignedLong,
     /// A floating point number of eight bytes.
     Double,
     /// A length in millimetres or degrees of eight bytes, which the unit of the item changes.
     Length,
+    /// A floating point number of four bytes, big-endian.
+    DriveReal,
+    /// A `DATE_AND_TIME` of eight bytes.
+    Date,
     /// A text of so many bytes.
     Text(usize),
 }
 
 /// A value before it is written down.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Shown<'a> {
     /// A number.
     Number(f64),
     /// A text.
-    Text(&'a str),
+    Text(Cow<'a, str>),
+    /// A point in time; none is all zeros.
+    Date(Option<DateAndTime>),
 }
 
 /// A row of the catalogue.
@@ -183,6 +167,8 @@ pub struct Variable {
     pub column: u16,
     /// How it is written down.
     pub kind: Kind,
+    /// Who confirms its address, as the head of the catalogue names them.
+    pub source: &'static str,
     /// Its value for a unit and a line, both from one; none where there is no such row.
     get: for<'a> fn(&View<'a>, u8, u16) -> Option<Shown<'a>>,
 }
@@ -198,7 +184,10 @@ pub fn read(view: &View<'_>, item: &NckItem, into: &mut Vec<u8>) -> Result<(), R
     for line in lines {
         let put = match variable {
             Some(variable) => put_variable(view, variable, item, line, into),
-            None => put_datum(view, item, line, into),
+            None if item.module == module::RP => r_parameter(view, item, line).map(|(_, _, value)| {
+                into.extend_from_slice(&value.to_le_bytes());
+            }),
+            None => datum(view, item, line).map(|(_, datum)| datum.put(into)),
         };
         if let Err(refusal) = put {
             into.truncate(start);
@@ -215,8 +204,13 @@ fn lines(item: &NckItem) -> Result<std::ops::Range<u16>, Refusal> {
 }
 
 fn find(item: &NckItem) -> Option<&'static Variable> {
+    // The NCK has the axes of all channels; here that is the same.
+    let area = match (item.area, item.module) {
+        (0, module::SMA | module::SEMA) => NckArea::Channel.code(),
+        (area, _) => area,
+    };
     let is_it = |variable: &&Variable| {
-        variable.area.code() == item.area && variable.module == item.module && variable.column == item.column
+        variable.area.code() == area && variable.module == item.module && variable.column == item.column
     };
     CATALOGUE.iter().find(is_it)
 }
@@ -231,7 +225,8 @@ fn put_variable(
     let unit = item.unit.max(1); // the NCK itself is 0 with some clients and 1 with others
     let shown = (variable.get)(view, unit, line).ok_or(Refusal::OutOfRange)?;
     match (variable.kind, shown) {
-        (Kind::Text(length), Shown::Text(text)) => put_text(text, length, into),
+        (Kind::Text(length), Shown::Text(text)) => put_text(&text, length, into),
+        (Kind::Date, Shown::Date(date)) => into.extend_from_slice(&date.map_or([0; 8], |date| date.bytes())),
         (Kind::Double, Shown::Number(value)) => into.extend_from_slice(&value.to_le_bytes()),
         (Kind::Length, Shown::Number(value)) => {
             let shows_inch = view.memory.from_nck.nck.inch_measuring_system_active();
@@ -240,26 +235,24 @@ fn put_variable(
                 MeasuringSystem::Metric => false,
                 MeasuringSystem::Current => shows_inch,
             };
-            let value = if is_inch && !is_rotary(view, line) { value / 25.4 } else { value };
+            let value = if is_inch && !values::is_rotary(view, line) { value / 25.4 } else { value };
             into.extend_from_slice(&value.to_le_bytes());
         }
+        (Kind::DriveReal, Shown::Number(value)) => into.extend_from_slice(&drives::real(value)),
         (Kind::Word, Shown::Number(value)) => into.extend_from_slice(&whole(value).to_le_bytes()[..2]),
-        (Kind::Long, Shown::Number(value)) => into.extend_from_slice(&whole(value).to_le_bytes()),
-        (Kind::Text(_), Shown::Number(_)) | (_, Shown::Text(_)) => return Err(Refusal::TypeInconsistent),
+        (Kind::Long, Shown::Number(value)) => into.extend_from_slice(&whole(value).to_le_bytes()[..4]),
+        (Kind::UnsignedLong, Shown::Number(value)) => into.extend_from_slice(&whole(value).to_le_bytes()[..4]),
+        // No row of the catalogue is so.
+        (Kind::Text(_) | Kind::Date, _) | (_, Shown::Text(_) | Shown::Date(_)) => {
+            return Err(Refusal::TypeInconsistent);
+        }
     }
     Ok(())
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "the catalogue gives whole numbers that fit; others are clamped")]
-fn whole(value: f64) -> i32 {
-    value as i32
-}
-
-/// Whether the axis of a row turns (MD30300): degrees have no inches.
-fn is_rotary(view: &View<'_>, line: u16) -> bool {
-    let axis = u8::try_from(line).ok().and_then(AxisNumber::new);
-    let datum = axis.zip(view.machine_data).and_then(|(axis, data)| data.datum(Place::Axis(axis), 30300, 0));
-    datum == Some(Datum::Boolean(true))
+fn whole(value: f64) -> i64 {
+    value as i64
 }
 
 /// Whose machine datum an item means.
@@ -284,31 +277,54 @@ fn datum<'a>(view: &View<'a>, item: &NckItem, line: u16) -> Result<(Place, Datum
     }
 }
 
-fn put_datum(view: &View<'_>, item: &NckItem, line: u16, into: &mut Vec<u8>) -> Result<(), Refusal> {
-    datum(view, item, line).map(|(_, datum)| datum.put(into))
+/// The R parameter of a row: its channel, its number and its value.
+fn r_parameter(view: &View<'_>, item: &NckItem, line: u16) -> Result<(ChannelNumber, u16, f64), Refusal> {
+    let (2, 1, Some(control)) = (item.area, item.column, view.control) else {
+        return Err(Refusal::DoesNotExist);
+    };
+    let channel = values::channel_number(view, item.unit.max(1)).ok_or(Refusal::OutOfRange)?;
+    let value = control.r_parameter(channel, line - 1).ok_or(Refusal::OutOfRange)?;
+    Ok((channel, line - 1, value))
 }
 
-/// What writing a variable asks of the machine.
+/// Appends what writing a variable asks of the machine, a command for each row.
 ///
 /// # Errors
-/// There is no such variable or row, it cannot be written, or the length does not fit.
-pub fn may_write(view: &View<'_>, item: &NckItem, bytes: &[u8]) -> Result<Command, Refusal> {
-    let mut lines = lines(item)?;
+/// There is no such variable or row, it cannot be written, or a value does not fit; nothing was appended then.
+pub fn write(view: &View<'_>, item: &NckItem, bytes: &[u8], into: &mut Vec<Command>) -> Result<(), Refusal> {
+    let lines = lines(item)?;
     if find(item).is_some() {
         return Err(Refusal::NotAllowed); // the control shows it; nobody sets it
     }
-    let (Some(line), None) = (lines.next(), lines.next()) else {
-        return Err(Refusal::TypeInconsistent); // one row at a time
-    };
+    let start = into.len();
+    let size = bytes.len() / lines.len();
+    let result = lines.enumerate().try_for_each(|(row, line)| {
+        let bytes = bytes.get(row * size..(row + 1) * size).ok_or(Refusal::TypeInconsistent)?;
+        into.push(write_row(view, item, line, bytes)?);
+        Ok(())
+    });
+    let is_whole = bytes.len() == size * usize::from(item.count);
+    let result = result.and(if is_whole { Ok(()) } else { Err(Refusal::TypeInconsistent) });
+    if result.is_err() {
+        into.truncate(start);
+    }
+    result
+}
+
+fn write_row(view: &View<'_>, item: &NckItem, line: u16, bytes: &[u8]) -> Result<Command, Refusal> {
+    if item.module == module::RP {
+        let (channel, number, _) = r_parameter(view, item, line)?;
+        let value = data::number(bytes).ok_or(Refusal::TypeInconsistent)?;
+        return Ok(Command::RParameter { channel, number, value });
+    }
     let (place, datum) = datum(view, item, line)?;
     if let Datum::Text(_) = datum {
         return Err(Refusal::NotAllowed);
     }
     let value = datum.parse(bytes).ok_or(Refusal::TypeInconsistent)?;
-    Ok(Command::MachineDatum { place, number: item.column, index: line - 1, value })
-}
-
-/// The command of a write that was checked.
-pub(super) fn write(view: &View<'_>, item: &NckItem, bytes: &[u8]) -> Option<Command> {
-    may_write(view, item, bytes).ok()
+    let (number, index) = (item.column, line - 1);
+    if let Some(machine_data) = view.machine_data {
+        machine_data.may_store(place, number, index, value)?;
+    }
+    Ok(Command::MachineDatum { place, number, index, value })
 }

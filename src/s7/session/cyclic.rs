@@ -131,6 +131,7 @@ impl Session {
         if count == 0 || (*factor == 0 && function == CYCLE) || known.clone().any(|item| item.is_err()) {
             return Err(ErrorCode::NOT_SUPPORTED);
         }
+        self.may_ask_for(known)?;
         if self.subscriptions.jobs.len() >= JOBS {
             return Err(ErrorCode::TOO_MANY);
         }

@@ -6,6 +6,10 @@
 //! | new | connection request | connected |
 //! | connected | setup communication | variables, jobs and user data are served, within the negotiated PDU |
 //! | any | disconnect request, or bytes of another protocol | closed |
+//!
+//! Whom a client called decides what it may ask for: variables of the NCK have the NCK's TSAP, slot 3 (powerline) or 4 (solution
+//! line), and anywhere else the whole request is refused with `8104`, as a PLC does. Everything else is served at every TSAP:
+//! clients that keep one connection for all of it are many.
 
 mod blocks;
 mod clock;
@@ -78,6 +82,8 @@ pub struct Session {
     connection: Connection,
     is_connected: bool,
     is_set_up: bool,
+    /// The slot of the module that was called: 2 PLC, 3 and 4 NCK.
+    slot: u8,
     budget: Budget,
     /// A packet that is not whole yet.
     input: Vec<u8>,
@@ -117,6 +123,7 @@ impl Session {
             connection: Connection::Open,
             is_connected: false,
             is_set_up: false,
+            slot: 0,
             budget: Budget { pdu: SHORTEST_PDU.into(), piece: usize::from(LONGEST_PDU) },
             input: Vec::new(),
             pieces: Vec::new(),
@@ -207,6 +214,8 @@ impl Session {
         }
         *self = Self::new(self.settings.clone());
         self.is_connected = true;
+        // Rack and slot are in the last byte.
+        self.slot = request.called.and_then(<[u8]>::last).map_or(0, |last| last & 0x1F);
         self.budget.piece = request.piece();
         answers.transport(|out| request.confirm(self.settings.reference, out));
     }
@@ -279,7 +288,7 @@ impl Session {
         }
         match code {
             function::READ => self.read_variables(rest, exchange),
-            function::WRITE => Self::write_variables(rest, message.data, exchange),
+            function::WRITE => self.write_variables(rest, message.data, exchange),
             function::START_UPLOAD => self.start_upload(rest, exchange),
             function::UPLOAD => self.upload(rest, exchange),
             function::END_UPLOAD => self.end_upload(rest, exchange),

@@ -8,7 +8,18 @@ use crate::s7::station::{Station, Value, Write};
 use crate::s7::wire::data::{Refusal, SUCCESS, TransportSize, Type, Values};
 use crate::s7::wire::header::{ErrorCode, function};
 use crate::s7::wire::items::{AnyItem, Item, Items};
-use crate::s7::wire::pdu::Pdu;
+use crate::s7::wire::pdu::{Budget, Pdu};
+
+/// The slots of the NCK: 3 on the powerline, 4 on the solution line.
+const NCK_SLOTS: [u8; 2] = [3, 4];
+/// An answer with values of drives is never longer, whatever was agreed.
+const DRIVE_PDU: usize = 240;
+
+/// How long an answer to these items may be.
+fn budget_of(mut items: Items<'_>, budget: Budget) -> Budget {
+    let is_of_drive = items.any(|item| matches!(item, Ok(Item::Nck(item)) if item.is_of_drive()));
+    if is_of_drive { Budget { pdu: budget.pdu.min(DRIVE_PDU), ..budget } } else { budget }
+}
 
 impl Session {
     pub(super) fn read_variables(&mut self, rest: &[u8], exchange: &mut Exchange<'_>) {
@@ -19,18 +30,31 @@ impl Session {
         if items.clone().any(|item| item.is_err()) {
             return exchange.refuse(ErrorCode::WRONG_FRAME);
         }
-        let mut pdu = Pdu::ack_data(exchange.answers, exchange.reference, exchange.budget);
+        if let Err(error) = self.may_ask_for(items) {
+            return exchange.refuse(error);
+        }
+        let budget = budget_of(items, exchange.budget);
+        let mut pdu = Pdu::ack_data(exchange.answers, exchange.reference, budget);
         pdu.put(&[function::READ, count]);
         pdu.data();
         put_values(&mut pdu, items, &mut self.scratch, exchange.station);
         pdu.finish();
     }
 
-    pub(super) fn write_variables(rest: &[u8], data: &[u8], exchange: &mut Exchange<'_>) {
+    /// Whether the module that was called has the items: variables of the NCK are asked of the NCK.
+    pub(super) fn may_ask_for(&self, mut items: Items<'_>) -> Result<(), ErrorCode> {
+        let is_of_nck = items.any(|item| matches!(item, Ok(Item::Nck(_))));
+        if is_of_nck && !NCK_SLOTS.contains(&self.slot) { Err(ErrorCode::NOT_IMPLEMENTED) } else { Ok(()) }
+    }
+
+    pub(super) fn write_variables(&self, rest: &[u8], data: &[u8], exchange: &mut Exchange<'_>) {
         let Some((&count, bytes)) = rest.split_first().filter(|(count, _)| **count > 0) else {
             return exchange.refuse(ErrorCode::WRONG_FRAME);
         };
         let items = Items::new(bytes, count.into());
+        if let Err(error) = self.may_ask_for(items) {
+            return exchange.refuse(error);
+        }
         let Some(values) = Values::new(data, count.into()) else {
             return exchange.refuse(ErrorCode::WRONG_FRAME);
         };
@@ -74,11 +98,11 @@ pub(super) fn put_values(pdu: &mut Pdu<'_>, items: Items<'_>, scratch: &mut Vec<
             Ok(Item::Any(item)) => put_area(pdu, &item, station),
             Ok(Item::Nck(item)) => {
                 scratch.clear();
-                let read = station.read_variable(&item, scratch);
-                read.map(|()| {
-                    put_head(pdu, TransportSize::OCTETS, scratch.len());
-                    pdu.put(scratch);
-                })
+                station.read_variable(&item, scratch).map(|()| put_octets(pdu, scratch))
+            }
+            Ok(Item::Drive(item)) => {
+                scratch.clear();
+                station.read_drive(&item, scratch).map(|()| put_octets(pdu, scratch))
             }
             Ok(Item::Refused(refusal)) => Err(refusal),
             Err(_) => Err(Refusal::TypeNotSupported),
@@ -93,6 +117,11 @@ pub(super) fn put_values(pdu: &mut Pdu<'_>, items: Items<'_>, scratch: &mut Vec<
 fn put_head(pdu: &mut Pdu<'_>, size: TransportSize, bytes: usize) {
     let [high, low] = size.field(bytes).to_be_bytes();
     pdu.put(&[SUCCESS, size.0, high, low]);
+}
+
+fn put_octets(pdu: &mut Pdu<'_>, bytes: &[u8]) {
+    put_head(pdu, TransportSize::OCTETS, bytes.len());
+    pdu.put(bytes);
 }
 
 fn put_area(pdu: &mut Pdu<'_>, item: &AnyItem, station: &dyn Station) -> Result<(), Refusal> {
@@ -132,6 +161,7 @@ fn accepted<'a>(item: &Item, value: &'a [u8], station: &dyn Station) -> Result<W
             station.may_write_variable(item, value)?;
             Ok(Write::Variable { item: *item, bytes: value })
         }
+        Item::Drive(_) => Err(Refusal::NotAllowed), // what is known of drives is measured
         Item::Refused(refusal) => Err(*refusal),
     }
 }

@@ -106,10 +106,12 @@ proptest! {
     fn requests_that_are_nearly_right_are_answered_within_the_pdu(
         pdus in proptest::collection::vec(nearly_right(), 1..12),
         small in any::<bool>(),
+        at_the_nck in any::<bool>(),
     ) {
         let mut client = Client::new();
         let size = if small { "C0 01 07" } else { "C0 01 0A" };
-        client.send(&bytes(&CONNECT.replace("C0 01 0A", size)));
+        let called = if at_the_nck { "C2 02 0D 04" } else { "C2 02 01 02" };
+        client.send(&bytes(&CONNECT.replace("C0 01 0A", size).replace("C2 02 01 02", called)));
         client.send(&packet(&bytes("32 01 00 00 00 01 00 08 00 00 F0 00 00 01 00 01 00 F0")));
         for (time, pdu) in (0..).zip(pdus) {
             let before = client.memory.clone();

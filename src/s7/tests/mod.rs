@@ -14,7 +14,7 @@ mod variables;
 use super::station::{CpuState, Diagnosis, Protection};
 use super::{Answers, Bridge, Command, Connection, DateAndTime, Directory, Machinery, Session, Settings};
 use crate::image::{Bytes, DataBlock, Memory, Names, Profile};
-use crate::s7::nck::MachineData;
+use crate::s7::nck::{Control, MachineData};
 use crate::units::{AxisNumber, ChannelNumber, Time};
 use crate::variables::Variables;
 
@@ -44,6 +44,7 @@ struct Client {
     names: Names,
     directory: Directory,
     machine_data: Option<Box<dyn MachineData>>,
+    control: Option<Box<dyn Control>>,
     state: CpuState,
     clock: DateAndTime,
     protection: Protection,
@@ -76,6 +77,7 @@ impl Client {
             variables: Variables::default(),
             names,
             machine_data: None,
+            control: None,
             state: CpuState::Run,
             clock: DateAndTime { year: 2026, month: 11, day: 22, hour: 3, minute: 4, second: 5, millisecond: 678 },
             protection: Protection { level: 1, password: None },
@@ -95,10 +97,27 @@ impl Client {
 
     fn get_ready(&mut self, pdu: u16) {
         self.send(&bytes(CONNECT));
+        self.set_up(pdu);
+    }
+
+    fn set_up(&mut self, pdu: u16) {
         let [high, low] = pdu.to_be_bytes();
         let setup = format!("32 01 00 00 00 01 00 08 00 00 F0 00 00 01 00 01 {high:02X} {low:02X}");
         assert!(self.ask(&setup).starts_with("32 03 00 00 00 01 00 08 00 00 00 00 F0"));
         assert_eq!(self.session.pdu_length(), usize::from(pdu));
+    }
+
+    /// Connected to the NCK of a solution line, as collectors call it.
+    fn at_the_nck(pdu: u16) -> Self {
+        Self::called("0D 04", pdu)
+    }
+
+    /// Connected to this TSAP.
+    fn called(tsap: &str, pdu: u16) -> Self {
+        let mut client = Self::new();
+        client.send(&bytes(&CONNECT.replace("C2 02 01 02", &format!("C2 02 {tsap}"))));
+        client.set_up(pdu);
+        client
     }
 
     fn on_828d(mut self) -> Self {
@@ -131,6 +150,7 @@ impl Client {
             diagnosis: &self.diagnosis,
             is_read_only: self.is_read_only,
             machine_data: self.machine_data.as_deref(),
+            control: self.control.as_deref(),
             ..Machinery::default()
         };
         let mut bridge = Bridge::new(&self.memory, &self.variables, &self.names, &self.directory).with(machinery);
@@ -199,7 +219,7 @@ impl Client {
                 Command::PlcStop => self.state = CpuState::Stop,
                 Command::PlcStart(_) => self.state = CpuState::Run,
                 Command::SetClock(time) => self.clock = time,
-                Command::MachineDatum { .. } => {}
+                Command::MachineDatum { .. } | Command::RParameter { .. } => {}
             }
         }
     }

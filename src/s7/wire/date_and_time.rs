@@ -74,12 +74,23 @@ impl DateAndTime {
         years + months + u32::from(self.day.saturating_sub(1))
     }
 
+    /// So many milliseconds earlier, from 1990 on.
+    #[must_use]
+    pub fn earlier(self, milliseconds: u64) -> Self {
+        let since = u64::from(self.days()) * 86_400_000 + self.of_day();
+        Self::FIRST.later(since.saturating_sub(milliseconds))
+    }
+
+    /// Milliseconds since midnight.
+    fn of_day(self) -> u64 {
+        let seconds = u64::from(self.hour) * 3600 + u64::from(self.minute) * 60 + u64::from(self.second);
+        seconds * 1000 + u64::from(self.millisecond)
+    }
+
     /// So many milliseconds later; 2089 is the last year.
     #[must_use]
     pub fn later(self, milliseconds: u64) -> Self {
-        let of_day = u64::from(self.hour) * 3_600_000 + u64::from(self.minute) * 60_000;
-        let of_day = of_day + u64::from(self.second) * 1000 + u64::from(self.millisecond);
-        let total = of_day.saturating_add(milliseconds);
+        let total = self.of_day().saturating_add(milliseconds);
         let mut date = Self { hour: 0, minute: 0, second: 0, millisecond: 0, ..self };
         let mut days = (total / 86_400_000).min(36_600);
         while days > 0 && date.year < 2090 {

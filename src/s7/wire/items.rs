@@ -5,7 +5,8 @@
 //! |---|---|
 //! | `10` any-type: area, byte and bit, type, count | served |
 //! | `82` `83` `84` NCK variable, in the current unit, metric, in inches | served |
-//! | `A2` parameter of a drive object, `B0` areas of data blocks, `B2` symbolic | told apart, each refused by itself |
+//! | `A2` parameter of a drive object | served |
+//! | `B0` areas of data blocks, `B2` symbolic | told apart, each refused by itself |
 
 use zerocopy::byteorder::big_endian::U16;
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
@@ -86,6 +87,32 @@ pub struct NckItem {
     pub count: u8,
 }
 
+/// Feed drives and main drives.
+const DRIVE_AREAS: [u8; 2] = [5, 6];
+
+impl NckItem {
+    /// Whether it is a value of a drive.
+    #[must_use]
+    pub fn is_of_drive(&self) -> bool {
+        DRIVE_AREAS.contains(&self.area)
+    }
+}
+
+/// An item of syntax `A2`: a parameter of a drive object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DriveItem {
+    /// What each element is, as in syntax `10`.
+    pub kind: u8,
+    /// How many elements.
+    pub count: u16,
+    /// The drive object.
+    pub object: u16,
+    /// Number of the parameter.
+    pub parameter: u16,
+    /// Its index.
+    pub index: u16,
+}
+
 /// One item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Item {
@@ -93,6 +120,8 @@ pub enum Item {
     Any(AnyItem),
     /// Syntax `82` to `84`.
     Nck(NckItem),
+    /// Syntax `A2`.
+    Drive(DriveItem),
     /// An item that cannot be served, and why.
     Refused(Refusal),
 }
@@ -158,7 +187,14 @@ fn item(specification: u8, body: &[u8]) -> Item {
             module: *module,
             count: *count,
         }),
-        // Symbols and drive objects are objects that this module does not have; the others a type it does not know.
+        [0xA2, kind, r1, r0, o1, o0, p1, p0, i1, i0] => Item::Drive(DriveItem {
+            kind: *kind,
+            count: u16::from_be_bytes([*r1, *r0]),
+            object: u16::from_be_bytes([*o1, *o0]),
+            parameter: u16::from_be_bytes([*p1, *p0]),
+            index: u16::from_be_bytes([*i1, *i0]),
+        }),
+        // Symbols are objects that this module does not have; the others a type it does not know.
         [0xA2 | 0xB2, ..] => Item::Refused(Refusal::DoesNotExist),
         _ => Item::Refused(Refusal::TypeNotSupported),
     }

@@ -1,11 +1,17 @@
-//! Overrides: the factor behind a byte of the interface.
+//! What a control shows and does not need itself.
 //!
-//! A byte is a position of the switch in Gray code, whose factors are machine data (MD12010, MD12030, MD12050), or per cent in
+//! **Overrides.** A byte is a position of the switch in Gray code, whose factors are machine data (MD12010, MD12030, MD12050), or per cent in
 //! binary, limited by MD12100; rapid traverse is never faster than 100 %. An override that is not active counts as 100 %.
 //! Only the axial one moves something here: feed and rapid traverse override of a channel act on programs, and are shown.
+//!
+//! **The speed of a motor** is the actual velocity behind pitch and gear of the active
+//! parameter set.
 
-use super::Control;
+use super::mechanics::Mechanics;
+use super::{Alarm, Cancel, Control};
 use crate::image::{AxisToNck, ChannelToNck};
+use crate::units::AxisNumber;
+use crate::variables::AlarmNumber;
 
 /// The factor of a byte; Gray code 0 counts as position 1 (O-21).
 #[must_use]
@@ -40,6 +46,30 @@ impl Control {
             if signals.feed_override_active() { percent(feed) } else { 100.0 },
             if signals.rapid_traverse_override_active() { percent(rapid) } else { 100.0 },
         ]
+    }
+
+    /// The speed of the motor of an axis in rev/min, from its velocity in mm/min or rev/min.
+    #[must_use]
+    pub fn motor_speed(&self, number: AxisNumber, velocity: f64) -> f64 {
+        let data = &self.active().axes[number];
+        let way = if data.is_rot_ax { velocity * 360.0 } else { velocity };
+        way / Mechanics::new(data).motor_turn(self.state.axes[number].parameter_set.into())
+    }
+}
+
+impl Alarm {
+    /// What cancels an alarm, as NC variables number it: 1 POWER ON, 2 RESET, 3 the cancel key, 4 the NCK by itself, 5 NC start,
+    /// 6 RESET in all channels of the mode group.
+    #[must_use]
+    pub fn clear_info(number: AlarmNumber) -> u8 {
+        match Self::find(number).map_or(Cancel::PowerOn, |alarm| alarm.cancel) {
+            Cancel::PowerOn => 1,
+            Cancel::Reset => 2,
+            Cancel::CancelKey => 3,
+            Cancel::ByItself => 4,
+            Cancel::NcStart => 5,
+            Cancel::ModeGroupReset => 6,
+        }
     }
 }
 

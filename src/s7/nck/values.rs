@@ -1,0 +1,192 @@
+//! Where the values of the catalogue come from. A control that runs no program shows no tool (T0), no program name and no
+//! program state; so does this one. A geometry axis is the machine axis of the same number.
+
+use super::{Control, Datum, Shown, View};
+use crate::image::{AxisFromNck, ChannelFromNck, ChannelToNck};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
+use crate::variables::{AxisValues, Place};
+
+pub(super) fn number(count: usize) -> Shown<'static> {
+    Shown::Number(f64::from(u32::try_from(count).unwrap_or(u32::MAX)))
+}
+
+pub(super) fn flag(value: bool) -> Shown<'static> {
+    Shown::Number(f64::from(u8::from(value)))
+}
+
+/// Whether a line is the only one.
+pub(super) fn only(line: u16) -> Option<()> {
+    (line == 1).then_some(())
+}
+
+pub(super) fn channel_exists(view: &View<'_>, unit: u8) -> Option<()> {
+    channel_number(view, unit).map(|_| ())
+}
+
+/// A channel that has a name and a mode group (MD10010); the first one exists always.
+pub(super) fn channel_number(view: &View<'_>, unit: u8) -> Option<ChannelNumber> {
+    let number = ChannelNumber::new(unit)?;
+    let group = view.machine_data.and_then(|data| data.datum(Place::Nck, 10010, u16::from(unit) - 1));
+    let has_none = matches!(group, Some(Datum::Whole(0) | Datum::Byte(0)));
+    let exists = number == ChannelNumber::FIRST || view.names.channels[number].is_some() && !has_none;
+    exists.then_some(number)
+}
+
+pub(super) fn axis_number(view: &View<'_>, line: u16) -> Option<AxisNumber> {
+    let number = AxisNumber::new(u8::try_from(line).ok()?)?;
+    view.names.axes[number].as_ref().map(|_| number)
+}
+
+pub(super) fn axis<'a>(view: &View<'a>, unit: u8, line: u16, get: fn(&AxisValues) -> f64) -> Option<Shown<'a>> {
+    channel_exists(view, unit)?;
+    Some(Shown::Number(get(&view.variables.axes[axis_number(view, line)?])))
+}
+
+/// There are at most three of them.
+pub(super) fn geometry_axis<'a>(
+    view: &View<'a>,
+    unit: u8,
+    line: u16,
+    get: fn(&AxisValues) -> f64,
+) -> Option<Shown<'a>> {
+    if line > 3 { None } else { axis(view, unit, line, get) }
+}
+
+pub(super) fn axis_name<'a>(view: &View<'a>, line: u16) -> Option<Shown<'a>> {
+    // A table of names has a row for each axis that there could be; rows of others are empty.
+    let number = AxisNumber::new(u8::try_from(line).ok()?)?;
+    Some(Shown::Text(view.names.axes[number].as_deref().unwrap_or("").into()))
+}
+
+pub(super) fn channel_name<'a>(view: &View<'a>, unit: u8) -> Option<Shown<'a>> {
+    let number = channel_number(view, unit)?;
+    Some(Shown::Text(view.names.channels[number].as_deref().unwrap_or("").into()))
+}
+
+pub(super) fn count_axes<'a>(view: &View<'a>, unit: u8) -> Option<Shown<'a>> {
+    channel_exists(view, unit)?;
+    Some(number(view.names.axes.iter().filter(|(_, name)| name.is_some()).count()))
+}
+
+pub(super) fn channel<'a>(view: &View<'a>, unit: u8, line: u16, get: fn(&ChannelFromNck) -> f64) -> Option<Shown<'a>> {
+    only(line)?;
+    Some(Shown::Number(get(&view.memory.from_nck.channels[channel_number(view, unit)?])))
+}
+
+/// A function that the PLC asks for.
+pub(super) fn asked<'a>(view: &View<'a>, unit: u8, line: u16, get: fn(&ChannelToNck) -> bool) -> Option<Shown<'a>> {
+    only(line)?;
+    Some(flag(get(&view.memory.to_nck.channels[channel_number(view, unit)?])))
+}
+
+pub(super) fn zero<'a>(view: &View<'a>, unit: u8, line: u16) -> Option<Shown<'a>> {
+    channel(view, unit, line, |_| 0.0)
+}
+
+pub(super) fn empty<'a>(view: &View<'a>, unit: u8, line: u16) -> Option<Shown<'a>> {
+    zero(view, unit, line).map(|_| Shown::Text("".into()))
+}
+
+/// 0 JOG, 1 MDA, 2 AUTOMATIC.
+pub(super) fn mode<'a>(view: &View<'a>, unit: u8) -> Option<Shown<'a>> {
+    let group = &view.memory.from_nck.mode_groups[ModeGroupNumber::new(unit)?];
+    let mode = match (group.active_mode_automatic(), group.active_mode_mdi()) {
+        (true, _) => 2.0,
+        (false, true) => 1.0,
+        (false, false) => 0.0,
+    };
+    Some(Shown::Number(mode))
+}
+
+/// 0 none, 1 REPOS, 2 TEACH IN, 3 REF, of the first mode group.
+pub(super) fn machine_function<'a>(view: &View<'a>) -> Option<Shown<'a>> {
+    let group = &view.memory.from_nck.mode_groups[ModeGroupNumber::FIRST];
+    let functions = [
+        (group.active_machine_function_ref(), 3.0),
+        (group.active_machine_function_teach_in(), 2.0),
+        (group.active_machine_function_repos(), 1.0),
+    ];
+    let active = functions.into_iter().find(|(is_active, _)| *is_active);
+    Some(Shown::Number(active.map_or(0.0, |(_, function)| function)))
+}
+
+/// 0 reset, 1 active, 2 interrupted.
+pub(super) fn channel_status(from: &ChannelFromNck) -> f64 {
+    match (from.channel_state_active(), from.channel_state_interrupted()) {
+        (true, _) => 1.0,
+        (false, true) => 2.0,
+        (false, false) => 0.0,
+    }
+}
+
+/// 1 interrupted, 2 stopped, 3 running, 4 waiting, 5 aborted.
+pub(super) fn program_status(from: &ChannelFromNck) -> f64 {
+    let states = [
+        (from.program_state_running(), 3.0),
+        (from.program_state_wait(), 4.0),
+        (from.program_state_stopped(), 2.0),
+        (from.program_state_interrupted(), 1.0),
+    ];
+    let state = states.into_iter().find(|(is_state, _)| *is_state);
+    state.map_or(5.0, |(_, number)| number)
+}
+
+/// What a signal of the axis says, as a number.
+pub(super) fn axis_signal<'a>(view: &View<'a>, unit: u8, line: u16, get: fn(&AxisFromNck) -> u8) -> Option<Shown<'a>> {
+    channel_exists(view, unit)?;
+    Some(Shown::Number(get(&view.memory.from_nck.axes[axis_number(view, line)?]).into()))
+}
+
+/// The active measuring system, 0 for none.
+pub(super) fn measuring_system(from: &AxisFromNck) -> u8 {
+    match (from.position_measuring_system_1_activated(), from.position_measuring_system_2_activated()) {
+        (true, _) => 1,
+        (false, true) => 2,
+        (false, false) => 0,
+    }
+}
+
+/// Velocity in mm/min or degrees per minute.
+pub(super) fn feedrate<'a>(view: &View<'a>, unit: u8, line: u16) -> Option<Shown<'a>> {
+    channel_exists(view, unit)?;
+    let velocity = view.variables.axes[axis_number(view, line)?].velocity;
+    Some(Shown::Number(if is_rotary(view, line) { velocity * 360.0 } else { velocity }))
+}
+
+/// What the control knows of an axis.
+pub(super) fn of_axis<'a>(
+    view: &View<'a>,
+    unit: u8,
+    line: u16,
+    get: fn(&dyn Control, AxisNumber) -> f64,
+) -> Option<Shown<'a>> {
+    channel_exists(view, unit)?;
+    Some(Shown::Number(get(view.control?, axis_number(view, line)?)))
+}
+
+/// What the control knows of a channel.
+pub(super) fn of_channel<'a>(
+    view: &View<'a>,
+    unit: u8,
+    line: u16,
+    get: fn(&dyn Control, ChannelNumber) -> f64,
+) -> Option<Shown<'a>> {
+    only(line)?;
+    Some(Shown::Number(get(view.control?, channel_number(view, unit)?)))
+}
+
+/// Seconds since 1970, of the clock of the CPU.
+pub(super) fn seconds(view: &View<'_>) -> Shown<'static> {
+    /// Days from 1970 to 1990.
+    const EARLIER: u32 = 7305;
+    let clock = view.clock;
+    let of_day = u32::from(clock.hour) * 3600 + u32::from(clock.minute) * 60 + u32::from(clock.second);
+    Shown::Number(f64::from(EARLIER + clock.days()) * 86_400.0 + f64::from(of_day))
+}
+
+/// Whether the axis of a row turns (MD30300): degrees have no inches.
+pub(super) fn is_rotary(view: &View<'_>, line: u16) -> bool {
+    let axis = u8::try_from(line).ok().and_then(AxisNumber::new);
+    let datum = axis.zip(view.machine_data).and_then(|(axis, data)| data.datum(Place::Axis(axis), 30300, 0));
+    datum == Some(Datum::Boolean(true))
+}
