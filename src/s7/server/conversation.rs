@@ -1,24 +1,48 @@
 //! One client of a server: its socket, its session, and when it is left.
+//!
+//! What a client costs while it says nothing is its session: the room for requests and answers is one for all clients of a thread,
+//! and lent to whoever is being answered ([`Space`]). A client keeps bytes of its own only while a packet of it is not whole yet.
 
+use std::cell::Cell;
+use std::future::{Future, poll_fn};
+use std::io;
 use std::net::SocketAddr;
-use std::pin::pin;
+use std::pin::{Pin, pin};
+use std::task::{Context, Poll, ready};
 use std::time::Duration;
 
-use tokio::io::{AsyncReadExt, AsyncWrite, AsyncWriteExt};
+use tokio::io::{AsyncRead, AsyncWrite, AsyncWriteExt, ReadBuf};
 use tokio::net::TcpStream;
 use tokio::sync::watch;
-use tokio::time::{Instant, MissedTickBehavior, interval, sleep, timeout};
+use tokio::task::yield_now;
+use tokio::time::{Instant, Interval, MissedTickBehavior, interval, sleep, timeout};
 
 use super::faults::Faulty;
 use super::witness::Witness;
 use super::{Server, Stations};
 use crate::s7::session::{Connection, Session};
+use crate::s7::wire::header::{PROTOCOL, function, kind};
 use crate::s7::wire::pdu::Answers;
 use crate::s7::wire::tpkt::{self, Packet};
 use crate::units::Time;
 
 /// Space for what a client has sent: the longest packet of a TPDU of 8192 bytes, or many short ones.
 const INPUT: usize = 8192 + tpkt::HEADER;
+/// Bytes of answers after which they are sent, and others have their turn.
+const TURN: usize = 32 * 1024;
+/// Into how many parts the time is divided after which a client is idle: the clock is asked so often, not at each request.
+const PARTS: u32 = 8;
+/// How often subscriptions are looked at.
+const PUSHES: Duration = Duration::from_millis(10);
+
+thread_local! {
+    /// The space of this thread, while nobody has it.
+    static SPACE: Cell<Space> = const { Cell::new((Vec::new(), None)) };
+}
+
+/// Room for what comes and for what is answered. Two clients have one each where one of them waits in the middle of its turn.
+type Space = (Vec<u8>, Option<Answers>);
+
 /// How a conversation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum End {
@@ -60,7 +84,7 @@ pub(super) struct Conversation<'a, S> {
     stream: TcpStream,
     session: Session,
     answers: Answers,
-    /// What has come and is not a whole packet yet.
+    /// What has come and is not a whole packet yet: as many bytes as there are, or the space of the thread, filled so far.
     input: Vec<u8>,
     filled: usize,
 }
@@ -77,7 +101,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
             stream,
             session: Session::new(server.settings.clone()),
             answers: Answers::default(),
-            input: vec![0; INPUT],
+            input: Vec::new(),
             filled: 0,
         }
     }
@@ -88,61 +112,116 @@ impl<'a, S: Stations> Conversation<'a, S> {
         let _ = timeout(self.server.limits.writing, self.stream.shutdown()).await;
     }
 
-    pub(super) async fn hold(&mut self, mut ended: watch::Receiver<bool>) -> End {
+    pub(super) async fn hold(&mut self, ended: watch::Receiver<bool>) -> End {
         let limits = &self.server.limits;
-        let mut allowed = limits.greeting;
+        let (mut allowed, mut is_quiet) = (limits.greeting, true);
         let mut last = Instant::now();
-        let mut idle = pin!(sleep(allowed));
-        let mut pushes = interval(Duration::from_millis(10));
-        pushes.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        let mut idle = pin!(sleep(allowed / PARTS));
+        let mut pushes = None;
+        let mut end = pin!(until(ended));
         loop {
+            let mut is_full = false;
             tokio::select! {
                 biased;
-                () = until(&mut ended) => return End::Server,
-                _ = pushes.tick(), if self.session.has_subscriptions() => self.push(),
-                read = self.stream.read(&mut self.input[self.filled..]) => match read {
+                read = poll_fn(|cx| self.poll_read(cx)) => match read {
                     Ok(0) | Err(_) => return End::Left,
                     Ok(count) => {
                         self.witness.received(&self.input[self.filled..self.filled + count]);
                         self.filled += count;
+                        is_full = self.filled == self.input.len();
                         if let Some(end) = self.receive().await {
                             return end;
                         }
                     }
                 },
+                () = &mut end => return End::Server,
+                () = due(&mut pushes), if self.session.has_subscriptions() => self.push(),
                 () = &mut idle => {
-                    let waits = self.session.has_subscriptions();
-                    if last.elapsed() >= allowed && !waits {
+                    let now = Instant::now();
+                    if !is_quiet || self.session.has_subscriptions() {
+                        (is_quiet, last) = (true, now);
+                    } else if now - last >= allowed {
                         return End::Idle;
                     }
-                    idle.as_mut().reset(if waits { Instant::now() } else { last } + allowed);
+                    idle.as_mut().reset(now + allowed / PARTS);
+                }
+            }
+            if is_full {
+                // It may go on like that for ever: others first, and what waits here, too.
+                yield_now().await;
+                if poll_fn(|cx| Poll::Ready(end.as_mut().poll(cx).is_ready())).await {
+                    return self.send().await.unwrap_or(End::Server);
+                }
+                if self.session.has_subscriptions() {
+                    self.push();
                 }
             }
             if !self.answers.is_empty() {
-                last = Instant::now();
+                is_quiet = false;
                 if allowed != limits.idle {
                     allowed = limits.idle;
-                    idle.as_mut().reset(last + allowed);
+                    idle.as_mut().reset(Instant::now() + allowed / PARTS);
                 }
                 if let Some(end) = self.send().await {
                     return end;
                 }
             }
+            self.give_space_back();
         }
     }
 
-    /// Gives the session what has come, packet by packet: each sees its own step.
+    /// Reads what has come, into the space of the thread.
+    fn poll_read(&mut self, cx: &mut Context<'_>) -> Poll<io::Result<usize>> {
+        ready!(self.stream.poll_read_ready(cx))?;
+        self.take_space();
+        let mut space = ReadBuf::new(&mut self.input[self.filled..]);
+        let read = Pin::new(&mut self.stream).poll_read(cx, &mut space);
+        let count = space.filled().len();
+        if read.is_pending() {
+            self.give_space_back();
+        }
+        read.map_ok(|()| count)
+    }
+
+    fn take_space(&mut self) {
+        if self.input.len() == INPUT {
+            return;
+        }
+        let (mut input, answers) = SPACE.take();
+        input.resize(INPUT, 0);
+        input[..self.filled].copy_from_slice(&self.input[..self.filled]);
+        self.input = input;
+        self.answers = answers.unwrap_or_default();
+    }
+
+    /// A turn is over: all its answers were sent.
+    fn give_space_back(&mut self) {
+        if self.input.len() == INPUT {
+            let rest = self.input[..self.filled].to_vec();
+            SPACE.set((std::mem::replace(&mut self.input, rest), Some(std::mem::take(&mut self.answers))));
+        }
+    }
+
+    /// Gives the session what has come, packet by packet: each sees its own step. What is written by packets that came together is
+    /// taken up together; whatever else is asked behind them finds it.
     async fn receive(&mut self) -> Option<End> {
         let mut start = 0;
+        let mut owed = None;
         while start < self.filled {
             let rest = &self.input[start..self.filled];
-            let packet = match tpkt::split(rest) {
-                Packet::Whole { length, .. } => &rest[..length],
-                Packet::Incomplete if is_too_long(rest) => return Some(End::Closed),
-                Packet::Incomplete => break,
-                Packet::Wrong => return self.end_session().await,
+            let length = match tpkt::split(rest) {
+                Packet::Whole { length, .. } => length,
+                Packet::Incomplete if !is_too_long(rest) => break,
+                Packet::Incomplete | Packet::Wrong => {
+                    self.settle(&mut owed).await;
+                    return self.end_session().await;
+                }
             };
-            start += packet.len();
+            if owed.is_some() && !is_write(&rest[..length]) {
+                self.settle(&mut owed).await;
+            }
+            let packet = &self.input[start..start + length];
+            start += length;
             let (session, answers) = (&mut self.session, &mut self.answers);
             if let Some(faulty) = &mut self.faulty {
                 session.fail_next(faulty.failure());
@@ -152,16 +231,30 @@ impl<'a, S: Stations> Conversation<'a, S> {
             let written =
                 self.server.stations.lend(&mut |station| connection = session.receive(packet, station, answers));
             self.witness.answered(packet, &self.answers, known, written.is_some());
-            if let Some(step) = written {
-                let _ = timeout(self.server.limits.step, self.server.stations.taken_up(step)).await;
-            }
+            owed = written.or(owed);
             if connection == Connection::Closed {
+                self.settle(&mut owed).await;
                 return self.end_session().await;
             }
+            if self.answers.bytes().len() >= TURN {
+                self.settle(&mut owed).await;
+                if let Some(end) = self.send().await {
+                    return Some(end);
+                }
+                yield_now().await;
+            }
         }
+        self.settle(&mut owed).await;
         self.input.copy_within(start..self.filled, 0);
         self.filled -= start;
         None
+    }
+
+    /// Waits for the step that takes up what was written.
+    async fn settle(&self, owed: &mut Option<u64>) {
+        if let Some(step) = owed.take() {
+            let _ = timeout(self.server.limits.step, self.server.stations.taken_up(step)).await;
+        }
     }
 
     /// The end of the session; what it answered is still sent.
@@ -173,6 +266,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
     fn push(&mut self) {
         let now = self.server.begin.elapsed().as_millis();
         let now = Time::from_millis(i64::try_from(now).unwrap_or(i64::MAX));
+        self.take_space();
         let (session, answers) = (&mut self.session, &mut self.answers);
         self.server.stations.lend(&mut |station| session.tick(now, station, answers));
         self.witness.pushed(&self.answers);
@@ -198,7 +292,14 @@ pub(super) async fn write(
     witness: &mut Witness<'_>,
     limit: Duration,
 ) -> Option<End> {
-    match timeout(limit, stream.write_all(bytes)).await {
+    // Nearly always the system takes all at once, and nobody need look at the clock.
+    let taken = poll_fn(|cx| match Pin::new(&mut *stream).poll_write(cx, bytes) {
+        Poll::Ready(Ok(taken)) => Poll::Ready(taken),
+        Poll::Ready(Err(_)) | Poll::Pending => Poll::Ready(0), // it is told again below
+    });
+    let left = &bytes[taken.await..];
+    let written = if left.is_empty() { Ok(Ok(())) } else { timeout(limit, stream.write_all(left)).await };
+    match written {
         Ok(Ok(())) => {
             witness.sent(bytes);
             None
@@ -209,8 +310,24 @@ pub(super) async fn write(
 }
 
 /// Waits for the end of the server.
-async fn until(ended: &mut watch::Receiver<bool>) {
+async fn until(mut ended: watch::Receiver<bool>) {
     let _ = ended.wait_for(|ended| *ended).await;
+}
+
+/// Waits until it is time to look at the subscriptions; who has none has no clock for them.
+async fn due(pushes: &mut Option<Interval>) {
+    let pushes = pushes.get_or_insert_with(|| {
+        let mut pushes = interval(PUSHES);
+        pushes.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        pushes
+    });
+    pushes.tick().await;
+}
+
+/// Whether a packet holds a whole job that writes variables and nothing else: what it is answered does not tell of the memory.
+fn is_write(packet: &[u8]) -> bool {
+    let pdu = packet.get(tpkt::HEADER + 3..).unwrap_or_default();
+    matches!(pdu, [PROTOCOL, kind::JOB, _, _, _, _, _, _, _, _, function::WRITE, ..])
 }
 
 /// Whether a packet that has begun would not fit.

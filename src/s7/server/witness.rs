@@ -59,7 +59,7 @@ impl<'a> Witness<'a> {
                 self.flood.log(|| tracing::debug!("{} has written {written}", self.peer));
             }
         }
-        for answer in answers.iter().skip(known) {
+        for answer in answers.since(known) {
             refusals(answer, |item, refused| {
                 self.counters.refused(refused);
                 if self.refusals < REFUSALS && tracing::enabled!(tracing::Level::INFO) {

@@ -235,10 +235,9 @@ impl Session {
         }
         self.pieces.extend_from_slice(piece);
         if last {
-            let mut whole = std::mem::take(&mut self.pieces);
+            // Pieces are rare, and a client that sent some once keeps no space for more.
+            let whole = std::mem::take(&mut self.pieces);
             self.pdu(&whole, station, answers);
-            whole.clear();
-            self.pieces = whole;
         }
     }
 

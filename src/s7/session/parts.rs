@@ -32,7 +32,7 @@ impl Session {
     }
 
     fn send_part(&mut self, request: &Request<'_>, exchange: &mut Exchange<'_>, sequence: u8) {
-        let Parts { payload, sent, of } = &mut self.parts;
+        let Parts { payload, sent, .. } = &mut self.parts;
         let left = &payload[*sent..];
         let part = &left[..left.len().min(payload_room(exchange.budget))];
         let more = part.len() < left.len();
@@ -42,9 +42,7 @@ impl Session {
         head.send(exchange.answers, exchange.reference, exchange.budget, part);
         *sent += part.len();
         if !more {
-            *of = None;
-            payload.clear();
-            *sent = 0;
+            self.parts = Parts::default();
         }
     }
 }

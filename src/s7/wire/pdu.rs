@@ -25,8 +25,15 @@ impl Answers {
 
     /// One answer after another.
     pub fn iter(&self) -> impl Iterator<Item = &[u8]> {
-        let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        starts.zip(&self.ends).map(|(start, end)| &self.bytes[start..*end])
+        self.since(0)
+    }
+
+    /// Those behind the first `known`.
+    pub fn since(&self, known: usize) -> impl Iterator<Item = &[u8]> {
+        let known = known.min(self.ends.len());
+        let start = known.checked_sub(1).map_or(0, |last| self.ends[last]);
+        let starts = std::iter::once(start).chain(self.ends[known..].iter().copied());
+        starts.zip(&self.ends[known..]).map(|(start, end)| &self.bytes[start..*end])
     }
 
     /// How many there are.
