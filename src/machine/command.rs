@@ -94,14 +94,24 @@ impl Machine {
     /// Queues a command for the edge of the next step.
     ///
     /// # Errors
-    /// A machine datum, R parameter or handwheel that does not exist, or a value that does not fit it; nothing is queued then.
+    /// As [`Machine::check`]; nothing is queued then.
     pub fn queue(&mut self, command: Command) -> Result<(), Problem> {
-        if let Command::MachineDatum { target, value } = &command {
+        self.check(&command)?;
+        self.queue.push(command);
+        Ok(())
+    }
+
+    /// Whether a command could be queued now.
+    ///
+    /// # Errors
+    /// A machine datum, R parameter or handwheel that does not exist, or a value that does not fit it.
+    pub fn check(&self, command: &Command) -> Result<(), Problem> {
+        if let Command::MachineDatum { target, value } = command {
             let stored = self.control.stored();
             let target = stored.parse_target(target)?;
             MachineData::clone(stored).set(&target, value)?;
         }
-        if let Command::Handwheel { number, .. } = &command
+        if let Command::Handwheel { number, .. } = command
             && !(1..=3).contains(number)
         {
             return Err(Problem::new(
@@ -109,7 +119,7 @@ impl Machine {
                 "there are handwheels 1, 2 and 3",
             ));
         }
-        if let Command::RParameter { number, value, .. } = &command
+        if let Command::RParameter { number, value, .. } = command
             && (*number >= RParameters::COUNT || !value.is_finite())
         {
             return Err(Problem::new(
@@ -117,8 +127,13 @@ impl Machine {
                 "a channel has 100 R parameters",
             ));
         }
-        self.queue.push(command);
         Ok(())
+    }
+
+    /// What waits for the edge of the next step, in the order in which it will be done.
+    #[must_use]
+    pub fn queued(&self) -> &[Command] {
+        &self.queue
     }
 
     /// Does what was queued.

@@ -3,7 +3,8 @@
 //! A scenario is read ([`Scenario::read`]), prepared for a profile ([`Scenario::prepare`]: here the machine is opened,
 //! every name looked up and every value checked), and run ([`Prepared::run`]). What can be wrong with a
 //! file is a [`Problem`](crate::source::Problem) with its line; what the machine did other than expected is a
-//! [`Failure`] that shows every signal of the expression.
+//! [`Failure`] that shows every signal of the expression. The other way round, [`Transcript`] writes down what is done to a machine as
+//! a scenario.
 
 mod duration;
 mod expression;
@@ -14,6 +15,7 @@ mod passing;
 mod run;
 mod session;
 mod steps;
+mod transcript;
 mod values;
 
 pub use duration::Duration;
@@ -22,6 +24,7 @@ pub use failure::{Failure, Missed};
 pub use file::{Compare, Named, Scenario, profile_name, profile_named};
 pub use run::{Finished, Prepared};
 pub use session::Session;
+pub use transcript::{Heading, Remark, Transcript};
 pub use values::Setting;
 
 #[cfg(test)]

@@ -40,8 +40,9 @@ pub(super) enum Action {
 }
 
 /// The verbs of a step.
-const VERBS: [&str; 18] = [
+const VERBS: [&str; 19] = [
     "set",
+    "write",
     "force",
     "release",
     "pulse",
@@ -130,10 +131,9 @@ impl<'a> Reader<'a> {
         Ok(Step { place, note, action })
     }
 
-    /// Tries a command on a copy of the machine, so that what it refuses is refused before anything runs.
+    /// What the machine refuses is refused before anything runs.
     fn try_out(&self, command: &Command, place: &Place) -> Result<(), Problem> {
-        let refused = self.machine.fork()?.queue(command.clone());
-        refused.map_err(|problem| problem.at(place))
+        self.machine.check(command).map_err(|problem| problem.at(place))
     }
 
     fn refuse_foreign_modifiers(&self, verb: &str, table: &mut Table) -> Result<(), Problem> {
@@ -153,8 +153,13 @@ impl<'a> Reader<'a> {
         let place = node.place.clone();
         let command = |command: Command| Action::Queue(vec![command]);
         let action = match verb {
-            "set" => Action::Queue(self.writes(node, |location, value| Command::Write { location, value })?),
-            "force" => Action::Queue(self.writes(node, |location, value| Command::Force { location, value })?),
+            "set" => Action::Queue(self.writes(node, writable, |location, value| Command::Write { location, value })?),
+            "write" => {
+                Action::Queue(self.writes(node, place_named, |location, value| Command::Write { location, value })?)
+            }
+            "force" => {
+                Action::Queue(self.writes(node, writable, |location, value| Command::Force { location, value })?)
+            }
             "release" => {
                 let places = self.locations(node)?;
                 Action::Queue(places.into_iter().map(|(_, location)| Command::Release { location }).collect())
@@ -247,11 +252,16 @@ impl<'a> Reader<'a> {
             .collect()
     }
 
-    fn writes(&self, node: Node, command: impl Fn(Location, u64) -> Command) -> Result<Vec<Command>, Problem> {
+    fn writes(
+        &self,
+        node: Node,
+        find: impl Fn(&Machine, &str) -> Result<Location, Problem>,
+        command: impl Fn(Location, u64) -> Command,
+    ) -> Result<Vec<Command>, Problem> {
         let mut table = node.into_table("signals with their values")?;
         let mut commands = Vec::new();
         for (name, place, node) in table.take_rest() {
-            let location = writable(self.machine, &name).map_err(|problem| problem.at(&place))?;
+            let location = find(self.machine, &name).map_err(|problem| problem.at(&place))?;
             let bits = raw_value(&node, location, self.machine.override_coding())?;
             commands.push(command(location, bits));
         }
@@ -306,8 +316,7 @@ impl<'a> Reader<'a> {
         let mut table = node.into_table("addresses with their bits")?;
         let mut expected = Vec::new();
         for (name, place, node) in table.take_rest() {
-            let names = self.machine.names();
-            let location = names.resolve(self.machine.memory(), &name).map_err(|problem| problem.at(&place))?;
+            let location = place_named(self.machine, &name).map_err(|problem| problem.at(&place))?;
             let bits = raw_value(&node, location, self.machine.override_coding())?;
             expected.push((node.place, location, bits));
         }
@@ -375,6 +384,11 @@ pub(super) fn check_captured_name(name: &str) -> Result<(), Problem> {
             "use letters, digits and underscores, and not `time`",
         ))
     }
+}
+
+/// The place of a signal, whoever writes it: a client of the control can write any, and the NCK takes its own back.
+fn place_named(machine: &Machine, name: &str) -> Result<Location, Problem> {
+    machine.names().resolve(machine.memory(), name)
 }
 
 /// The place of a signal that something other than the NCK writes.

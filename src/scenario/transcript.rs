@@ -1,0 +1,479 @@
+//! What is done to a machine, written down as a scenario that does the same again: the reverse of `steps.rs`.
+//!
+//! Whoever steps the machine calls [`Transcript::edge`] before each step. What is queued then becomes steps in the order in
+//! which it was queued, and the cycles between become `run`; run from power on with the same PLC program and image, the scenario has
+//! the same trace, byte for byte. Writes that follow one another stand in one table, unless a place stands in it already. A bit of the
+//! NCK is written with `write`, everything else with `set`.
+
+use std::fmt::Write;
+
+use crate::image::{Address, Format, Location, Profile, Writer};
+use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine, Switch};
+use crate::units::{AxisNumber, Position};
+
+use super::file::profile_name;
+
+/// The bound on simulated time: a transcript does not know how long it will become.
+const LIMIT: &str = "8760h";
+
+/// What stands above the steps.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Heading<'a> {
+    /// What it shows.
+    pub title: &'a str,
+    /// The machine, relative to the file.
+    pub machine: &'a str,
+    /// Under which numbers the interface blocks are known.
+    pub profile: Profile,
+    /// The PLC program.
+    pub plc: Option<&'a str>,
+    /// The PLC image, relative to the file.
+    pub plc_image: Option<&'a str>,
+}
+
+/// Words about the commands from one on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Remark {
+    /// How many commands stand before it.
+    pub before: usize,
+    /// The words, which the scenario has as a comment.
+    pub text: String,
+}
+
+/// A scenario that grows while a machine runs.
+#[derive(Clone, Debug)]
+pub struct Transcript {
+    text: String,
+    /// The cycle up to which time is written.
+    written: u64,
+    /// Notes for the next step.
+    notes: Vec<String>,
+    /// The table of the step that is being written.
+    open: Option<Open>,
+}
+
+/// A step with a table that may take more entries.
+#[derive(Clone, Debug)]
+struct Open {
+    verb: &'static str,
+    entries: Vec<(String, String)>,
+}
+
+impl Transcript {
+    /// Begins before the first step of a machine.
+    #[must_use]
+    pub fn begin(heading: &Heading<'_>) -> Self {
+        let mut text = format!("title = {}\nmachine = {}\n", quoted(heading.title), quoted(heading.machine));
+        if heading.profile != Profile::default() {
+            text += &format!("profile = {}\n", quoted(profile_name(heading.profile)));
+        }
+        for (key, value) in [("plc", heading.plc), ("plc_image", heading.plc_image)] {
+            if let Some(value) = value {
+                text += &format!("{key} = {}\n", quoted(value));
+            }
+        }
+        text += &format!("limit = {}\n", quoted(LIMIT));
+        Self { text, written: 0, notes: Vec::new(), open: None }
+    }
+
+    /// Notes a text, as the machine's trace does at the end of its next step.
+    pub fn note(&mut self, text: &str) {
+        self.notes.push(text.to_owned());
+    }
+
+    /// Writes down what a machine will do at the edge of its next step; `remarks` in order.
+    pub fn edge(&mut self, machine: &Machine, remarks: &[Remark]) {
+        let commands = machine.queued();
+        if commands.is_empty() && self.notes.is_empty() {
+            return;
+        }
+        self.time(machine.cycle());
+        let mut remarks = remarks.iter().peekable();
+        for (index, command) in commands.iter().enumerate() {
+            // Somebody may have asked for nothing: the last word counts.
+            let said = std::iter::from_fn(|| remarks.next_if(|remark| remark.before <= index)).last();
+            if let Some(remark) = said {
+                self.close();
+                let time = machine.cycle_time().times(machine.cycle() + 1);
+                let _ = write!(self.text, "\n# {time} s: {}", remark.text);
+            }
+            self.command(command, machine);
+        }
+        self.close();
+        while !self.notes.is_empty() {
+            self.step("set", "{}");
+        }
+    }
+
+    /// What was written since the last call.
+    #[must_use]
+    pub fn take_text(&mut self) -> String {
+        std::mem::take(&mut self.text)
+    }
+
+    /// The step that lets time pass from what was written last to the end of a cycle: a scenario that ends there ends with it.
+    #[must_use]
+    pub fn rest(&self, cycle: u64) -> String {
+        run(cycle.saturating_sub(self.written).max(1))
+    }
+
+    /// Lets time pass up to the end of a cycle.
+    fn time(&mut self, cycle: u64) {
+        if cycle > self.written {
+            self.text += &run(cycle - self.written);
+            self.written = cycle;
+        }
+    }
+
+    fn command(&mut self, command: &Command, machine: &Machine) {
+        match command {
+            Command::Write { location, value } => {
+                let is_of_the_nck = machine.names().writer(*location) == Some(Writer::Nck);
+                let (key, value) = entry(*location, *value, machine);
+                self.put(if is_of_the_nck { "write" } else { "set" }, key, value);
+            }
+            Command::Force { location, value } => {
+                let (key, value) = entry(*location, *value, machine);
+                self.put("force", key, value);
+            }
+            Command::Release { location } => self.step("release", &format!("[{}]", place(*location, machine))),
+            Command::MachineDatum { target, value } => {
+                let value = match value {
+                    DatumValue::Boolean(value) => value.to_string(),
+                    DatumValue::Integer(number) => number.to_string(),
+                    DatumValue::Real(number) => format!("{number:?}"),
+                    DatumValue::Text(text) => quoted(text),
+                };
+                self.put("machine_data", quoted(target), value);
+            }
+            Command::NewConf => self.step("new_conf", "true"),
+            Command::PowerOn => self.step("power_on", "true"),
+            Command::PlcStop => self.step("plc", "\"stop\""),
+            Command::PlcRun => self.step("plc", "\"run\""),
+            Command::Cancel => self.step("cancel", "true"),
+            Command::Handwheel { number, pulses, cycles } => {
+                let turn = format!("{{ number = {number}, pulses = {pulses}, over = \"{cycles}cycles\" }}");
+                self.step("handwheel", &turn);
+            }
+            Command::Fault(fault) => self.step("fault", &broken(*fault, machine)),
+            Command::ClearFault(fault) => self.step("clear_fault", &broken(*fault, machine)),
+        }
+    }
+
+    /// A step with one value.
+    fn step(&mut self, verb: &str, value: &str) {
+        self.close();
+        self.text += "\n[[step]]\n";
+        if !self.notes.is_empty() {
+            let note = self.notes.remove(0);
+            self.text += &format!("note = {}\n", quoted(&note));
+        }
+        self.text += &format!("{verb} = {value}\n");
+    }
+
+    /// An entry in the table of a step: the one before it where it has the same verb and no such entry.
+    fn put(&mut self, verb: &'static str, key: String, value: String) {
+        let goes_on = |open: &Open| open.verb == verb && open.entries.iter().all(|(other, _)| *other != key);
+        if !self.open.as_ref().is_some_and(goes_on) {
+            self.close();
+            self.open = Some(Open { verb, entries: Vec::new() });
+        }
+        if let Some(open) = &mut self.open {
+            open.entries.push((key, value));
+        }
+    }
+
+    /// Writes the table of the step that takes no more entries.
+    fn close(&mut self) {
+        let Some(Open { verb, entries }) = self.open.take() else {
+            return;
+        };
+        let entries: Vec<_> = entries.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+        self.step(verb, &format!("{{ {} }}", entries.join(", ")));
+    }
+}
+
+fn run(cycles: u64) -> String {
+    format!("\n[[step]]\nrun = \"{cycles}cycles\"\n")
+}
+
+/// A place and its value as `set` has them: by symbol where there is one, as a plain number where nothing else says the same bits.
+fn entry(location: Location, raw: u64, machine: &Machine) -> (String, String) {
+    let plain = Address { format: Some(Format::Unsigned), ..machine.names().address(location) };
+    let usual = [place_text(location, machine), plain.to_string()];
+    let said = usual.iter().find_map(|name| {
+        let found = machine.names().resolve(machine.memory(), name).ok()?;
+        let number =
+            (Location { format: location.format, ..found } == location).then(|| number(raw & location.mask(), found));
+        Some((quoted(name), number??))
+    });
+    said.unwrap_or_else(|| (quoted(&plain.to_string()), (raw & location.mask()).to_string()))
+}
+
+/// A number as the format of its place has it; nothing for what is none.
+#[expect(clippy::cast_possible_truncation, reason = "a REAL has 32 bits; what does not come back is refused")]
+fn number(raw: u64, location: Location) -> Option<String> {
+    match location.format {
+        Format::Unsigned => Some(raw.to_string()),
+        Format::Signed => {
+            let unused = 64 - u32::from(location.width);
+            Some(((raw << unused).cast_signed() >> unused).to_string())
+        }
+        Format::Real => {
+            let real = f32::from_bits(raw as u32);
+            let text = format!("{real:?}");
+            let comes_back = text.parse::<f64>().is_ok_and(|number| (number as f32).to_bits() == real.to_bits());
+            (real.is_finite() && comes_back).then_some(text)
+        }
+    }
+}
+
+/// The symbol of a place, or its address.
+fn place_text(location: Location, machine: &Machine) -> String {
+    let names = machine.names();
+    names.symbol(location).unwrap_or_else(|| names.address(location).to_string())
+}
+
+fn place(location: Location, machine: &Machine) -> String {
+    quoted(&place_text(location, machine))
+}
+
+fn broken(Fault { axis, kind }: Fault, machine: &Machine) -> String {
+    let (kind, more) = match kind {
+        FaultKind::Block => ("block", String::new()),
+        FaultKind::Push { by } => ("push", format!(", by = {:?}", by.user())),
+        FaultKind::EncoderSlip { by } => ("encoder_slip", format!(", by = {:?}", by.user())),
+        FaultKind::ZeroMarkMissing => ("zero_mark_missing", String::new()),
+        FaultKind::DriveFault => ("drive_fault", String::new()),
+        FaultKind::EncoderFault { encoder } => {
+            ("encoder_fault", encoder.map_or_else(String::new, |encoder| format!(", encoder = {}", encoder + 1)))
+        }
+        FaultKind::Friction { by } => ("friction", format!(", by = {by:?}")),
+        FaultKind::Drift { by } => ("drift", format!(", by = {:?}", per_second(by))),
+        FaultKind::SwitchStuck { which, at } => {
+            let which = match which {
+                Switch::Cam => "cam",
+                Switch::LimitPlus => "limit_plus",
+                Switch::LimitMinus => "limit_minus",
+            };
+            ("switch_stuck", format!(", which = \"{which}\", at = {}", u8::from(at)))
+        }
+    };
+    format!("{{ axis = {}, kind = \"{kind}\"{more} }}", axis_name(axis, machine))
+}
+
+/// Increments per second in the units of users, such that they come back as the same increments.
+fn per_second(increments: f64) -> f64 {
+    let near = increments / Position::PER_USER_UNIT;
+    let same = |user: &f64| (user * Position::PER_USER_UNIT).to_bits() == increments.to_bits();
+    [near, near.next_up(), near.next_down()].into_iter().find(same).unwrap_or(near)
+}
+
+fn axis_name(axis: AxisNumber, machine: &Machine) -> String {
+    quoted(machine.names().axes[axis].as_deref().unwrap_or_default())
+}
+
+/// A text as TOML has it.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for letter in text.chars() {
+        match letter {
+            '"' | '\\' => quoted.extend(['\\', letter]),
+            '\n' => quoted += "\\n",
+            _ if letter.is_control() => {
+                let _ = write!(quoted, "\\u{:04X}", u32::from(letter));
+            }
+            _ => quoted.push(letter),
+        }
+    }
+    quoted.push('"');
+    quoted
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::image::{Part, raw_value};
+    use crate::plc::Programs;
+    use crate::scenario::Scenario;
+    use crate::trace::{Trace, Watch};
+
+    const HEADING: Heading<'_> = Heading {
+        title: "All \"commands\"",
+        machine: "g1_example",
+        profile: Profile::Sinumerik840dSl,
+        plc: None,
+        plc_image: None,
+    };
+
+    /// Does all of it to a machine, writes it down, and runs that.
+    #[track_caller]
+    fn runs_again(heading: &Heading<'_>, edges: &[(u64, Vec<Command>)], end: u64) -> String {
+        let options = crate::machine::OpenOptions { profile: heading.profile, ..Default::default() };
+        let mut machine = Machine::open_with("g1_example", options).unwrap();
+        let mut transcript = Transcript::begin(heading);
+        let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), 0);
+        while machine.cycle() < end {
+            let cycle = machine.cycle();
+            for (_, commands) in edges.iter().filter(|(at, _)| *at == cycle) {
+                for command in commands {
+                    machine.queue(command.clone()).unwrap();
+                }
+            }
+            transcript.edge(&machine, &[]);
+            machine.step();
+            trace.extend(machine.recorder());
+            machine.drain();
+        }
+        let text = transcript.take_text() + &transcript.rest(end);
+        let scenario =
+            Scenario::parse(&text, Path::new("again.toml")).unwrap_or_else(|problem| panic!("{problem}\n{text}"));
+        assert_eq!(scenario.title, heading.title);
+        let finished = scenario.prepare(scenario.profiles[0], &Programs::ready()).unwrap().run();
+        assert!(finished.failure.is_none(), "{:?}\n{text}", finished.failure);
+        assert_eq!(finished.session().machine().cycle(), end);
+        assert!(finished.json_lines() == trace.json_lines(&machine, &Watch::default()), "{text}");
+        text
+    }
+
+    #[test]
+    fn every_command_comes_back() {
+        let machine = Machine::open("g1_example").unwrap();
+        let place = |name: &str| machine.names().resolve(machine.memory(), name).unwrap();
+        let write = |name: &str, value| Command::Write { location: place(name), value };
+        let axis = machine.axis("XF").unwrap();
+        let fault = |kind| Command::Fault(Fault { axis, kind });
+        let by = Position::from_user(0.1234);
+        let slip = FaultKind::EncoderSlip { by };
+        let stuck = |which, at| fault(FaultKind::SwitchStuck { which, at });
+        let datum = |target: &str, value| Command::MachineDatum { target: target.to_owned(), value };
+        let edges = [
+            (
+                0,
+                vec![
+                    write("X.controller_enable", 1),
+                    write("DB31.DBX2.1", 0),
+                    write("MB7", 0xAB),
+                    write("DB31.DBB60", 3),
+                ],
+            ),
+            (0, vec![Command::Force { location: place("X.pulse_enable"), value: 1 }]),
+            (50, vec![Command::Release { location: place("X.pulse_enable") }, Command::PlcStop]),
+            (
+                60,
+                vec![
+                    Command::PlcRun,
+                    datum("34090[XF]", DatumValue::Real(-1e-5)),
+                    datum("30300[Y]", DatumValue::Boolean(false)),
+                ],
+            ),
+            (
+                61,
+                vec![
+                    datum("10000[3]", DatumValue::Text("B2\\".to_owned())),
+                    datum("34080[AX1]", DatumValue::Integer(7)),
+                ],
+            ),
+            (70, vec![Command::NewConf, Command::Cancel, Command::Handwheel { number: 1, pulses: -20, cycles: 7 }]),
+            (
+                80,
+                vec![
+                    fault(FaultKind::Block),
+                    fault(FaultKind::Push { by }),
+                    fault(slip),
+                    fault(FaultKind::ZeroMarkMissing),
+                ],
+            ),
+            (90, vec![fault(FaultKind::DriveFault), fault(FaultKind::EncoderFault { encoder: None })]),
+            (95, vec![fault(FaultKind::EncoderFault { encoder: Some(1) }), fault(FaultKind::Friction { by: 0.1 })]),
+            (
+                99,
+                vec![
+                    fault(FaultKind::Drift { by: 0.1 + 0.2 }),
+                    stuck(Switch::Cam, true),
+                    stuck(Switch::LimitPlus, false),
+                ],
+            ),
+            (
+                100,
+                vec![
+                    Command::ClearFault(Fault { axis, kind: slip }),
+                    stuck(Switch::LimitMinus, true),
+                    Command::PowerOn,
+                ],
+            ),
+            (100, vec![write("M0.0", 1)]),
+        ];
+        let text = runs_again(&HEADING, &edges, 150);
+        assert!(text.contains("set = { \"X.controller_enable\" = 1 }\n\n[[step]]\nset = { \"X.controller_enable\" = 0, \"MB7\" = 171 }"), "{text}");
+        assert!(text.contains("write = { \"DB31.DBB60\" = 3 }"), "{text}");
+    }
+
+    /// Every byte of every part, with all widths, under both profiles.
+    #[test]
+    fn every_place_comes_back() {
+        for profile in [Profile::Sinumerik840dSl, Profile::Sinumerik828d] {
+            let heading = Heading { profile, ..HEADING };
+            let options = crate::machine::OpenOptions { profile, ..Default::default() };
+            let machine = Machine::open_with("g1_example", options).unwrap();
+            let memory = machine.memory();
+            let parts =
+                [Part::ToNck, Part::FromNck, Part::Hmi, Part::Inputs, Part::Outputs, Part::Flags, Part::Block(19)];
+            let mut commands = Vec::new();
+            for part in parts {
+                for offset in 0..u32::try_from(memory.part(part).len()).unwrap() {
+                    let bit = u8::try_from(offset % 8).unwrap();
+                    for (bit, width) in [(bit, 1), (0, 8), (0, 16), (0, 32)] {
+                        let location = Location { part, offset, bit, width, format: Format::Unsigned };
+                        let found = memory.locate(&machine.names().address(location), profile);
+                        // What the profile does not show, or what spans two parts, nobody can write.
+                        if found.is_ok_and(|found| Location { format: location.format, ..found } == location) {
+                            commands.push(Command::Write {
+                                location,
+                                value: u64::from(offset) * 0x9E37_79B9 & location.mask(),
+                            });
+                        }
+                    }
+                }
+            }
+            assert!(commands.len() > 4000, "{}", commands.len());
+            runs_again(&heading, &[(0, commands)], 20);
+        }
+    }
+
+    #[test]
+    fn a_real_stands_as_a_number_and_what_is_none_as_its_bits() {
+        let machine = Machine::open("g1_example").unwrap();
+        let location = machine.names().resolve(machine.memory(), "DB19.DBD0:REAL").unwrap();
+        for (bits, text) in [
+            (0x3F80_0000, "1.0"),
+            (0xC144_0000, "-12.25"),
+            (0x8000_0000, "-0.0"),
+            (0x0000_0001, "1e-45"),
+            (0x7F7F_FFFF, "3.4028235e38"),
+        ] {
+            assert_eq!(number(bits, location).as_deref(), Some(text));
+            let node = crate::source::Table::parse(&format!("a = {text}"), "t").unwrap().take("a").unwrap();
+            assert_eq!(raw_value(&node, location, machine.override_coding()).unwrap(), bits);
+        }
+        for no_number in [0x7FC0_0000, 0x7F80_0000, 0xFFFF_FFFF] {
+            assert_eq!(number(no_number, location), None);
+        }
+    }
+
+    #[test]
+    fn notes_stand_at_their_cycle_with_or_without_commands() {
+        let mut machine = Machine::open("g1_example").unwrap();
+        let mut transcript = Transcript::begin(&HEADING);
+        for _ in 0..3 {
+            machine.step();
+        }
+        transcript.note("one");
+        transcript.note("two");
+        transcript.edge(&machine, &[]);
+        let steps = "\n[[step]]\nrun = \"3cycles\"\n\n[[step]]\nnote = \"one\"\nset = {}\n\n[[step]]\nnote = \"two\"\nset = {}\n";
+        assert!(transcript.take_text().ends_with(steps));
+    }
+}
