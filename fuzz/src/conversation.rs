@@ -152,7 +152,7 @@ impl<'a> Telling<'a> {
                 Command::PlcStop => self.state = CpuState::Stop,
                 Command::PlcStart(_) => self.state = CpuState::Run,
                 Command::SetClock(time) => self.clock = time,
-                Command::MachineDatum { .. } => {}
+                Command::MachineDatum { .. } | Command::RParameter { .. } => {}
             }
         }
         self.now += i64::from(hundredths) * 10;

@@ -8,7 +8,7 @@ use super::file::{duration, not_available, texts};
 use crate::image::{Location, Writer, raw_value};
 use crate::machine::{Command, DatumValue, Machine};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
-use crate::units::{AxisNumber, Time};
+use crate::units::{AxisNumber, ChannelNumber, Time};
 
 /// A step, ready to run.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ pub(super) enum Action {
 }
 
 /// The verbs of a step.
-const VERBS: [&str; 19] = [
+const VERBS: [&str; 20] = [
     "set",
     "write",
     "force",
@@ -52,6 +52,7 @@ const VERBS: [&str; 19] = [
     "expect",
     "capture",
     "machine_data",
+    "r_parameters",
     "new_conf",
     "power_on",
     "plc",
@@ -199,6 +200,7 @@ impl<'a> Reader<'a> {
             }
             "capture" => Action::Capture(self.captures(node)?),
             "machine_data" => Action::Queue(self.machine_data(node)?),
+            "r_parameters" => Action::Queue(self.r_parameters(node)?),
             "new_conf" => self.flag(&node, verb).map(|()| command(Command::NewConf))?,
             "power_on" => self.flag(&node, verb).map(|()| command(Command::PowerOn))?,
             "cancel" => self.flag(&node, verb).map(|()| command(Command::Cancel))?,
@@ -312,6 +314,24 @@ impl<'a> Reader<'a> {
         Ok(commands)
     }
 
+    /// `R5` of the first channel, `R5[CHAN2]` of another.
+    fn r_parameters(&self, node: Node) -> Result<Vec<Command>, Problem> {
+        let mut table = node.into_table("R parameters with their values")?;
+        let mut commands = Vec::new();
+        for (name, place, node) in table.take_rest() {
+            let Some((channel, number)) = r_parameter(&name) else {
+                return Err(place.problem(
+                    format!("expected an R parameter, found {name:?}"),
+                    "write \"R5\", or \"R5[CHAN2]\" for another channel than the first",
+                ));
+            };
+            let command = Command::RParameter { channel, number, value: node.number("a number")? };
+            self.try_out(&command, &place)?;
+            commands.push(command);
+        }
+        Ok(commands)
+    }
+
     fn image(&self, node: Node) -> Result<Vec<(Place, Location, u64)>, Problem> {
         let mut table = node.into_table("addresses with their bits")?;
         let mut expected = Vec::new();
@@ -322,6 +342,15 @@ impl<'a> Reader<'a> {
         }
         Ok(expected)
     }
+}
+
+fn r_parameter(name: &str) -> Option<(ChannelNumber, u16)> {
+    let rest = name.strip_prefix('R')?;
+    let (number, channel) = match rest.split_once("[CHAN") {
+        Some((number, channel)) => (number, channel.strip_suffix(']')?.parse().ok()?),
+        None => (rest, 1),
+    };
+    Some((ChannelNumber::new(channel)?, number.parse().ok()?))
 }
 
 fn verbs_in_words() -> String {

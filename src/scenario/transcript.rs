@@ -146,10 +146,18 @@ impl Transcript {
                 };
                 self.put("machine_data", quoted(target), value);
             }
+            Command::RParameter { channel, number, value } => {
+                let key = match channel.number() {
+                    1 => format!("R{number}"),
+                    channel => format!("R{number}[CHAN{channel}]"),
+                };
+                self.put("r_parameters", quoted(&key), format!("{value:?}"));
+            }
             Command::NewConf => self.step("new_conf", "true"),
             Command::PowerOn => self.step("power_on", "true"),
             Command::PlcStop => self.step("plc", "\"stop\""),
             Command::PlcRun => self.step("plc", "\"run\""),
+            Command::PlcColdRestart => self.step("plc", "\"cold\""),
             Command::Cancel => self.step("cancel", "true"),
             Command::Handwheel { number, pulses, cycles } => {
                 let turn = format!("{{ number = {number}, pulses = {pulses}, over = \"{cycles}cycles\" }}");
@@ -299,6 +307,7 @@ mod tests {
     use crate::plc::Programs;
     use crate::scenario::Scenario;
     use crate::trace::{Trace, Watch};
+    use crate::units::ChannelNumber;
 
     const HEADING: Heading<'_> = Heading {
         title: "All \"commands\"",
@@ -349,6 +358,11 @@ mod tests {
         let slip = FaultKind::EncoderSlip { by };
         let stuck = |which, at| fault(FaultKind::SwitchStuck { which, at });
         let datum = |target: &str, value| Command::MachineDatum { target: target.to_owned(), value };
+        let r_parameter = |channel, number, value| Command::RParameter {
+            channel: ChannelNumber::new(channel).unwrap(),
+            number,
+            value,
+        };
         let edges = [
             (
                 0,
@@ -376,6 +390,7 @@ mod tests {
                     datum("34080[AX1]", DatumValue::Integer(7)),
                 ],
             ),
+            (65, vec![r_parameter(1, 0, 0.1), r_parameter(2, 99, -1e300), Command::PlcColdRestart]),
             (70, vec![Command::NewConf, Command::Cancel, Command::Handwheel { number: 1, pulses: -20, cycles: 7 }]),
             (
                 80,
@@ -409,6 +424,7 @@ mod tests {
         let text = runs_again(&HEADING, &edges, 150);
         assert!(text.contains("set = { \"X.controller_enable\" = 1 }\n\n[[step]]\nset = { \"X.controller_enable\" = 0, \"MB7\" = 171 }"), "{text}");
         assert!(text.contains("write = { \"DB31.DBB60\" = 3 }"), "{text}");
+        assert!(text.contains("r_parameters = { \"R0\" = 0.1, \"R99[CHAN2]\" = -1e300 }"), "{text}");
     }
 
     /// Every byte of every part, with all widths, under both profiles.

@@ -29,6 +29,15 @@ pub(crate) struct Arguments {
     /// From which networks clients may come, for example 192.168.0.0/24; it may be given several times.
     #[arg(long, value_name = "NET")]
     pub(super) allow: Vec<Network>,
+    /// Writes down what clients do as a scenario: `opennck run F.toml` does the same again, to the byte.
+    ///
+    /// Each write stands there with its cycle, in order. The file is a whole scenario at any moment; an end without warning loses
+    /// a second at most. A file that exists is refused.
+    #[arg(long, value_name = "F.toml")]
+    pub(super) record: Option<PathBuf>,
+    /// Writes the trace as JSON lines when it ends; it is kept in memory until then.
+    #[arg(long, value_name = "F.jsonl")]
+    pub(super) trace: Option<PathBuf>,
     /// Writes what goes over the wire as a capture (pcap) that Wireshark opens; a file that exists is refused.
     ///
     /// The server's port is written as 102, where Wireshark shows S7 communication without being told. The file ends at 1 GiB, or

@@ -12,8 +12,10 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use tokio::sync::watch;
 
+use super::record::Recording;
 use crate::machine::Machine;
 use crate::s7::DateAndTime;
+use crate::trace::Trace;
 use crate::units::Time;
 use crate::variables::{Describe, RaisedAlarm};
 
@@ -83,12 +85,32 @@ pub(super) struct Shared {
     lost: AtomicU64,
 }
 
-/// A machine with the clock of its CPU.
+/// A machine with the clock of its CPU, and what is kept of what happens to it.
 #[derive(Debug)]
 pub(super) struct Clocked {
     pub(super) machine: Machine,
     set: DateAndTime,
     set_at: Time,
+    pub(super) recording: Option<Recording>,
+    trace: Option<Trace>,
+}
+
+/// What is kept of a live machine.
+#[derive(Debug, Default)]
+pub struct Keeping {
+    /// Writes down what is done to it.
+    pub recording: Option<Recording>,
+    /// Keeps its trace, in memory.
+    pub trace: bool,
+}
+
+/// What was kept of a machine that has ended.
+#[derive(Debug)]
+pub struct Ended {
+    /// The machine.
+    pub machine: Machine,
+    /// Its trace, if it was kept.
+    pub trace: Option<Trace>,
 }
 
 impl Clocked {
@@ -107,7 +129,14 @@ impl Live {
     /// Starts a machine. The clock of its CPU begins with the computer's, in UTC.
     #[must_use]
     pub fn start(machine: Machine, speed: Speed) -> Self {
-        let clocked = Clocked { set: today(), set_at: machine.time(), machine };
+        Self::start_with(machine, speed, Keeping::default())
+    }
+
+    /// Starts a machine of which something is kept.
+    #[must_use]
+    pub fn start_with(machine: Machine, speed: Speed, Keeping { recording, trace }: Keeping) -> Self {
+        let trace = trace.then(|| Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle()));
+        let clocked = Clocked { set: today(), set_at: machine.time(), machine, recording, trace };
         let shared = Arc::new(Shared {
             cycle: watch::Sender::new(clocked.machine.cycle()),
             clocked: Mutex::new(clocked),
@@ -141,6 +170,26 @@ impl Live {
         self.thread.as_ref().is_some_and(|thread| !thread.is_finished())
     }
 
+    /// Ends it; gives what was kept. Nothing where somebody else still looks at it: windows close before.
+    #[must_use]
+    pub fn end(mut self) -> Option<Ended> {
+        self.stop();
+        let shared = Arc::clone(&self.shared);
+        drop(self);
+        let clocked = Arc::into_inner(shared)?.clocked.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let Clocked { machine, trace, .. } = clocked;
+        Some(Ended { machine, trace })
+    }
+
+    fn stop(&mut self) {
+        drop(self.end.take());
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+        // Its file is whole before anybody looks at it.
+        drop(self.shared.lend().recording.take());
+    }
+
     pub(super) fn shared(&self) -> Arc<Shared> {
         Arc::clone(&self.shared)
     }
@@ -148,10 +197,7 @@ impl Live {
 
 impl Drop for Live {
     fn drop(&mut self) {
-        drop(self.end.take());
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
-        }
+        self.stop();
     }
 }
 
@@ -206,8 +252,15 @@ impl Shared {
             std::thread::yield_now();
         }
         let mut clocked = self.clocked.lock().unwrap_or_else(PoisonError::into_inner);
-        let machine = &mut clocked.machine;
+        let Clocked { machine, recording, trace, .. } = &mut *clocked;
+        if let Some(recording) = recording {
+            recording.edge(machine);
+        }
         machine.step();
+        if let Some(trace) = trace {
+            trace.extend(machine.recorder());
+            trace.note_values(machine.cycle(), machine.variables());
+        }
         machine.drain();
         let changed = changed_alarms(machine, alarms);
         let (cycle, period) = (machine.cycle(), machine.cycle_time().nanos());

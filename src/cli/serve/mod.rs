@@ -18,15 +18,18 @@
 mod arguments;
 mod live;
 mod log;
+mod record;
 mod window;
 
 pub use crate::s7::server::{Capture, Counter, Counters, Faults, Instruments, Limits, Network, Refused};
 pub(super) use arguments::Arguments;
-pub use live::{GIVE_UP, Live, Pace, Speed};
+pub use live::{Ended, GIVE_UP, Keeping, Live, Pace, Speed};
+pub use record::Recording;
 pub use window::{Window, WindowOptions};
 
-use std::io::IsTerminal;
-use std::path::Path;
+use std::fs::File;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -36,7 +39,8 @@ use super::output::Output;
 use crate::image::Preset;
 use crate::machine::{Machine, OpenOptions};
 use crate::plc::Programs;
-use crate::source::Problem;
+use crate::source::{Problem, unreadable};
+use crate::trace::Watch;
 use crate::variables::Describe;
 
 /// How often the status line is drawn.
@@ -45,7 +49,12 @@ const DRAW: Duration = Duration::from_millis(200);
 const RATES: Duration = Duration::from_secs(1);
 
 pub(super) fn serve(arguments: &Arguments, programs: &Programs, output: &mut Output) -> u8 {
-    match open(arguments, programs, output).and_then(|served| attend(arguments, &served, output)) {
+    let attended = open(arguments, programs, output).and_then(|served| {
+        let attended = attend(arguments, &served, output);
+        let closed = served.close();
+        attended.and(closed)
+    });
+    match attended {
         Ok(()) => 0,
         Err(problem) => {
             output.error(problem);
@@ -62,11 +71,29 @@ struct Served {
     status: ProgressBar,
     /// What to say of it.
     head: String,
+    /// Where the trace is written when it ends.
+    trace: Option<(PathBuf, File)>,
+}
+
+impl Served {
+    /// Ends it: no client writes any more, then the last step, then what was kept.
+    fn close(self) -> Result<(), Problem> {
+        let Self { window, live, trace, .. } = self;
+        drop(window);
+        let Some((path, mut file)) = trace else {
+            return Ok(());
+        };
+        let ended = live.end();
+        let text = ended.and_then(|Ended { machine, trace }| Some(trace?.json_lines(&machine, &Watch::default())));
+        file.write_all(text.unwrap_or_default().as_bytes())
+            .map_err(|error| Problem::new(format!("{} cannot be written: {error}", path.display()), "check the disk"))
+    }
 }
 
 /// Opens all doors, or says which one stays closed.
 fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Result<Served, Problem> {
-    let preset = arguments.plc_image.as_deref().map(preset).transpose()?;
+    let image = arguments.plc_image.as_deref().map(preset).transpose()?;
+    let preset = image.as_deref().map(Preset::read).transpose()?;
     let mut machine = Machine::open_with(&arguments.machine, OpenOptions { preset, ..OpenOptions::default() })?;
     let plc = match &arguments.plc {
         Some(name) => {
@@ -83,9 +110,28 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let status = status_line();
     // A program that has a log of its own keeps it.
     let _ = tracing::subscriber::set_global_default(log::Log { status: status.clone() });
-    let live = Live::start(machine, arguments.speed);
+    let recording = arguments
+        .record
+        .as_deref()
+        .map(|path| record::of(path, &arguments.machine, arguments.plc.as_deref(), image.as_deref(), &machine));
+    let recording = recording.transpose()?;
+    let trace = arguments.trace.as_ref().map(|path| {
+        let file = File::create(path).map_err(|error| unreadable(path, &error))?;
+        Ok((path.clone(), file))
+    });
+    let trace = trace.transpose()?;
+    let live = Live::start_with(machine, arguments.speed, Keeping { recording, trace: trace.is_some() });
     let addresses: Vec<_> = arguments.s7.iter().map(String::as_str).collect();
-    let window = Window::open_with(&live, &addresses, arguments.window()?)?;
+    let opened = arguments.window().and_then(|options| Window::open_with(&live, &addresses, options));
+    let window = match opened {
+        Ok(window) => window,
+        Err(problem) => {
+            // Nobody could come: a file that has only just begun would be in the way of the next try.
+            drop(live);
+            let _ = arguments.record.as_ref().map(std::fs::remove_file);
+            return Err(problem);
+        }
+    };
     let mut head = format!("{}: axes {}, a cycle of {cycle} ms, {plc}\n", arguments.machine.display(), axes.join(", "));
     let rights = if arguments.read_only { "read only" } else { "read and write" };
     for address in window.addresses() {
@@ -95,7 +141,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
         head += &format!("faults on purpose: {faults}\n");
     }
     head += "Ctrl-C ends\n";
-    Ok(Served { live, window, status, head })
+    Ok(Served { live, window, status, head, trace })
 }
 
 fn status_line() -> ProgressBar {
@@ -110,7 +156,7 @@ fn status_line() -> ProgressBar {
 
 /// Waits for Ctrl-C or SIGTERM.
 fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result<(), Problem> {
-    let Served { live, window, status: bar, head } = served;
+    let Served { live, window, status: bar, head, .. } = served;
     let mut status = Status::new(live, window);
     let no_signals = |error: std::io::Error| {
         Problem::new(
@@ -208,18 +254,17 @@ impl<'a> Status<'a> {
 }
 
 /// A PLC image: a file, or a name that is looked for in `plc_images` here or above.
-fn preset(name: &str) -> Result<Preset, Problem> {
+fn preset(name: &str) -> Result<PathBuf, Problem> {
     if name.ends_with(".toml") {
-        return Preset::read(Path::new(name));
+        return Ok(PathBuf::from(name));
     }
     let file = Path::new("plc_images").join(format!("{name}.toml"));
     let here = std::env::current_dir().unwrap_or_default();
     let found = here.ancestors().map(|directory| directory.join(&file)).find(|file| file.is_file());
-    let file = found.ok_or_else(|| {
+    found.ok_or_else(|| {
         Problem::new(
             format!("expected a PLC image, found no plc_images/{name}.toml here or above"),
             "name a file that ends in .toml, or start where plc_images is",
         )
-    })?;
-    Preset::read(&file)
+    })
 }

@@ -173,6 +173,20 @@ struct Lender {
 
 impl Stations for Lender {
     fn lend(&self, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
+        self.lend_out(None, work)
+    }
+
+    fn lend_to(&self, client: SocketAddr, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
+        self.lend_out(Some(client), work)
+    }
+
+    async fn taken_up(&self, step: u64) {
+        let _ = self.shared.cycle.subscribe().wait_for(|cycle| *cycle >= step).await;
+    }
+}
+
+impl Lender {
+    fn lend_out(&self, client: Option<SocketAddr>, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
         let mut clocked = self.shared.lend();
         let machine = &clocked.machine;
         let data = Panel(machine);
@@ -193,16 +207,16 @@ impl Stations for Lender {
         if commands.is_empty() {
             return None;
         }
+        let Clocked { machine, recording, .. } = &mut *clocked;
+        if let Some(recording) = recording {
+            recording.remark(machine, client);
+        }
         for command in commands {
             if let Err(problem) = queue(&mut clocked, &command) {
                 tracing::info!("a client wrote what the machine does not take: {problem}");
             }
         }
         Some(clocked.machine.cycle() + 1)
-    }
-
-    async fn taken_up(&self, step: u64) {
-        let _ = self.shared.cycle.subscribe().wait_for(|cycle| *cycle >= step).await;
     }
 }
 

@@ -21,6 +21,7 @@ use super::faults::Faulty;
 use super::witness::Witness;
 use super::{Server, Stations};
 use crate::s7::session::{Connection, Session};
+use crate::s7::station::Station;
 use crate::s7::wire::header::{PROTOCOL, function, kind};
 use crate::s7::wire::pdu::Answers;
 use crate::s7::wire::tpkt::{self, Packet};
@@ -228,8 +229,8 @@ impl<'a, S: Stations> Conversation<'a, S> {
             }
             let known = answers.count();
             let mut connection = Connection::Open;
-            let written =
-                self.server.stations.lend(&mut |station| connection = session.receive(packet, station, answers));
+            let mut work = |station: &mut dyn Station| connection = session.receive(packet, station, answers);
+            let written = self.server.stations.lend_to(self.witness.peer(), &mut work);
             self.witness.answered(packet, &self.answers, known, written.is_some());
             owed = written.or(owed);
             if connection == Connection::Closed {

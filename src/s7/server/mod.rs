@@ -50,6 +50,11 @@ pub trait Stations: Send + Sync + 'static {
     /// nothing where nothing was written.
     fn lend(&self, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64>;
 
+    /// The same to somebody who is known, for who keeps a record of it.
+    fn lend_to(&self, _client: SocketAddr, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
+        self.lend(work)
+    }
+
     /// Waits until that step is over.
     fn taken_up(&self, step: u64) -> impl Future<Output = ()> + Send;
 }

@@ -181,6 +181,7 @@ fn named(item: &Item) -> String {
         Item::Nck(NckItem { area, unit, column, line, module, .. }) => {
             format!("NC variable of area {area}, unit {unit}, module {module:02X}, column {column}, line {line}")
         }
+        Item::Drive(drive) => format!("parameter {} of drive object {}", drive.parameter, drive.object),
         Item::Refused(_) => "an item of another kind".to_owned(),
     }
 }

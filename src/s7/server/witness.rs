@@ -41,6 +41,11 @@ impl<'a> Witness<'a> {
         Self { counters, flood, peer, recording, refusals: 0 }
     }
 
+    /// Whose conversation it is.
+    pub(super) const fn peer(&self) -> SocketAddr {
+        self.peer
+    }
+
     /// Bytes have come.
     pub(super) fn received(&mut self, bytes: &[u8]) {
         self.counters.received.add(bytes.len());
