@@ -23,7 +23,7 @@ const ROOMS: &[(&str, &[&str])] = &[
 ];
 
 /// Where clocks, threads, sockets and random numbers may be.
-const OUTSIDE: &[&str] = &["src/cli/", "src/s7/server/"];
+const OUTSIDE: &[&str] = &["src/cli/", "src/s7/server/", "src/s7/client/"];
 
 /// A text, why it is refused, and what stands in its place. (`\x21` and the like keep this file from finding itself.)
 const REFUSED_IN_RUST: &[(&str, &str)] = &[

@@ -20,6 +20,8 @@ mod machine_data;
 mod output;
 mod run;
 #[cfg(feature = "s7")]
+mod s7;
+#[cfg(feature = "s7")]
 pub mod serve;
 mod signals;
 mod test;
@@ -94,6 +96,12 @@ enum Command {
     /// with 0.
     #[cfg(feature = "s7")]
     Serve(serve::Arguments),
+    /// Reads, writes and watches a PLC or an NCK by S7 communication: this simulator, a control, or any other.
+    #[cfg(feature = "s7")]
+    S7 {
+        #[command(subcommand)]
+        command: s7::Command,
+    },
     /// Lists the signal catalogue: address, symbol, writer, name.
     ///
     /// Addresses and symbols are those of the first axis (AX1), channel (CHAN1) and mode group; a machine has its own
@@ -189,6 +197,8 @@ pub fn main(programs: Programs) -> ExitCode {
         }
         #[cfg(feature = "s7")]
         Some(Command::Serve(arguments)) => serve::serve(&arguments, &programs, &mut output),
+        #[cfg(feature = "s7")]
+        Some(Command::S7 { command }) => s7::run(&command, &mut output),
         Some(Command::Signals { filter, profile, format }) => {
             signals::signals(filter.as_deref(), &profile, format, &mut output)
         }

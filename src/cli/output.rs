@@ -19,6 +19,12 @@ impl Output {
         }
     }
 
+    /// Whether the reader of standard output has gone.
+    #[cfg(feature = "s7")]
+    pub(super) fn is_closed(&self) -> bool {
+        self.closed
+    }
+
     /// Prints a line.
     pub(super) fn line(&mut self, text: impl Display) {
         self.print(&format!("{text}\n"));

@@ -26,6 +26,7 @@ pub mod nck;
 pub mod wire;
 
 mod bridge;
+pub mod client;
 mod directory;
 pub mod server;
 mod session;

@@ -16,6 +16,7 @@ pub const DATA_MORE: [u8; 3] = [2, 0xF0, 0x00];
 /// Disconnect confirm is answered to a disconnect request.
 const DISCONNECT_CONFIRM: u8 = 0xC0;
 const CONNECTION_CONFIRM: u8 = 0xD0;
+const CONNECTION_REQUEST: u8 = 0xE0;
 
 /// Sizes of a TPDU as powers of two: 128 to 8192 bytes.
 const SIZES: std::ops::RangeInclusive<u8> = 7..=13;
@@ -119,7 +120,13 @@ impl ConnectionRequest<'_> {
         let mut header = arrayvec::ArrayVec::<u8, 255>::new();
         // The indicator is at most that of the request, whose parameters these are.
         header.extend([0, CONNECTION_CONFIRM, a, b, high, low, 0]);
-        let size = self.agreed_size().map(|size| [size]);
+        self.put_parameters(self.agreed_size(), &mut header);
+        super::tpkt::put(out, [&header, &[]]);
+    }
+
+    /// Appends the parameters and sets the length indicator.
+    fn put_parameters(&self, size: Option<u8>, header: &mut arrayvec::ArrayVec<u8, 255>) {
+        let size = size.map(|size| [size]);
         let size = size.as_ref().map(<[u8; 1]>::as_slice);
         for (code, value) in [(SIZE, size), (CALLING_TSAP, self.calling), (CALLED_TSAP, self.called)] {
             let Some(value) = value else { continue };
@@ -130,6 +137,49 @@ impl ConnectionRequest<'_> {
             }
         }
         header[0] = u8::try_from(header.len() - 1).unwrap_or(0);
+    }
+}
+
+/// What a server agrees to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ConnectionConfirm {
+    /// The client's reference, as it came.
+    pub destination: [u8; 2],
+    /// The server's reference.
+    pub source: [u8; 2],
+    /// Binary logarithm of the largest TPDU in bytes; none is no limit.
+    pub size: Option<u8>,
+}
+
+impl ConnectionConfirm {
+    /// Reads the content of a TPKT; nothing if it is something else.
+    #[must_use]
+    pub fn parse(content: &[u8]) -> Option<Self> {
+        let (&indicator, rest) = content.split_first()?;
+        match rest.get(..usize::from(indicator))? {
+            [code, a, b, c, d, _class, parameters @ ..] if code & 0xF0 == CONNECTION_CONFIRM => {
+                let size = connection_request([*c, *d], parameters)?.size;
+                Some(Self { destination: [*a, *b], source: [*c, *d], size })
+            }
+            _ => None,
+        }
+    }
+
+    /// How many bytes of an S7 PDU fit into one DT to the server, which may agree to less than what was asked for and not to more.
+    #[must_use]
+    pub fn piece(&self, asked: u8) -> usize {
+        let size = self.size.unwrap_or(asked).min(asked);
+        (1 << size.clamp(*SIZES.start(), *SIZES.end())) - DATA_LAST.len()
+    }
+}
+
+impl ConnectionRequest<'_> {
+    /// Appends the packet of the request, class 0, its parameters in the order `C0 C1 C2`.
+    pub fn put(&self, out: &mut Vec<u8>) {
+        let [a, b] = self.source;
+        let mut header = arrayvec::ArrayVec::<u8, 255>::new();
+        header.extend([0, CONNECTION_REQUEST, 0, 0, a, b, 0]);
+        self.put_parameters(self.size, &mut header);
         super::tpkt::put(out, [&header, &[]]);
     }
 }

@@ -113,6 +113,8 @@ pub struct Message<'a> {
     pub kind: u8,
     /// The client's number for its request.
     pub reference: u16,
+    /// What an acknowledgement says of the whole request; of other kinds no error.
+    pub error: ErrorCode,
     /// What is to be done.
     pub parameter: &'a [u8],
     /// With what.
@@ -147,12 +149,15 @@ impl<'a> Message<'a> {
         }
         let (kind, reference) = (header.kind, header.reference.get());
         let unreadable = Unreadable::Lengths { reference, kind };
-        let rest = match kind {
-            kind::ACK | kind::ACK_DATA => rest.get(2..).ok_or(unreadable)?,
-            _ => rest,
+        let (error, rest) = match (kind, rest) {
+            (kind::ACK | kind::ACK_DATA, [class, code, rest @ ..]) => {
+                (ErrorCode(u16::from_be_bytes([*class, *code])), rest)
+            }
+            (kind::ACK | kind::ACK_DATA, _) => return Err(unreadable),
+            _ => (ErrorCode::NONE, rest),
         };
         let (parameter, rest) = rest.split_at_checked(header.parameter_length.get().into()).ok_or(unreadable)?;
         let data = rest.get(..usize::from(header.data_length.get())).ok_or(unreadable)?;
-        Ok(Self { kind, reference, parameter, data })
+        Ok(Self { kind, reference, error, parameter, data })
     }
 }

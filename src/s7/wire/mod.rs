@@ -9,6 +9,7 @@
 //! | items: what is meant | `items` | | `12`, length, syntax identifier |
 //! | data: its value | `data` | | return code, transport size, length |
 //! | user data: everything that is no variable | `user_data` | | `00 01 12` |
+//! | the client's direction: what it asks, what it is answered | `requests`, `replies` | | |
 //!
 //! Every function here is total: any bytes give a value or a refusal, none gives a panic, and nothing is allocated for a
 //! length field that the bytes received do not cover. Numbers are big-endian on the wire unless a line says otherwise.
@@ -19,5 +20,7 @@ pub mod date_and_time;
 pub mod header;
 pub mod items;
 pub mod pdu;
+pub mod replies;
+pub mod requests;
 pub mod tpkt;
 pub mod user_data;

@@ -102,6 +102,11 @@ impl<'a> Pdu<'a> {
         Self::begin(answers, kind::USER_DATA, reference, budget)
     }
 
+    /// Begins a request, as a client does.
+    pub fn job(answers: &'a mut Answers, reference: u16, budget: Budget) -> Self {
+        Self::begin(answers, kind::JOB, reference, budget)
+    }
+
     fn begin(answers: &'a mut Answers, kind: u8, reference: u16, budget: Budget) -> Self {
         let start = answers.bytes.len();
         let error = ErrorCode::NONE;

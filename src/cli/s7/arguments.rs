@@ -1,0 +1,180 @@
+//! Whom to call, and what names mean.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::ValueEnum;
+
+use crate::s7::client::{Client, ConnectionKind, Options, Tsaps, password};
+use crate::source::Problem;
+
+/// The port of S7 communication.
+const PORT: u16 = 102;
+
+/// Whom to call, and how.
+#[derive(Debug, clap::Args)]
+pub(in crate::cli) struct Host {
+    /// Address and port of the module; the port is 102 unless said (`opennck serve` has 10102).
+    #[arg(value_name = "HOST[:PORT]")]
+    host: String,
+    /// Rack of the PLC.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=7))]
+    rack: u8,
+    /// Slot of the PLC.
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u8).range(0..=31))]
+    slot: u8,
+    /// As what to register with the PLC.
+    #[arg(long, value_enum, default_value = "pg")]
+    connection: Kind,
+    /// Calling and called TSAP of the PLC in hexadecimal, instead of rack, slot and kind of connection: 0100:0102.
+    #[arg(long, value_name = "CALLING:CALLED", value_parser = tsaps)]
+    tsap: Option<Tsaps>,
+    /// Calling and called TSAP of the NCK.
+    #[arg(long, value_name = "CALLING:CALLED", value_parser = tsaps, default_value = "0400:0D04")]
+    nck_tsap: Tsaps,
+    /// The longest PDU to ask for, in bytes.
+    #[arg(long, value_name = "BYTES", default_value_t = 960, value_parser = clap::value_parser!(u16).range(64..=4096))]
+    pdu: u16,
+    /// The most items in one request; for servers that do not take as many as fit.
+    #[arg(long, value_name = "N", default_value_t = 255, value_parser = clap::value_parser!(u8).range(1..))]
+    items: u8,
+    /// How long an answer may take.
+    #[arg(long, value_name = "TIME", default_value = "5s", value_parser = duration)]
+    timeout: Duration,
+    /// The password of the PLC, up to eight characters.
+    #[arg(long, value_name = "TEXT")]
+    password: Option<String>,
+}
+
+/// What axes and channels are called, and which block numbers the interface has.
+#[derive(Debug, clap::Args)]
+pub(in crate::cli) struct Names {
+    /// A directory, an archive file, or the name of a built-in machine whose names are meant; without it the NCK is asked.
+    #[arg(long)]
+    pub(super) machine: Option<PathBuf>,
+    /// Which signals lie where: 840d_sl, 828d, or none for a PLC of something else.
+    #[arg(long, default_value = "840d_sl")]
+    pub(super) profile: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Kind {
+    /// Programming device.
+    Pg,
+    /// Operator panel.
+    Op,
+    /// S7 basic communication.
+    Basic,
+}
+
+impl Host {
+    /// Address and port.
+    pub(super) fn address(&self) -> String {
+        with_port(&self.host)
+    }
+
+    pub(super) async fn plc(&self) -> Result<Client, Problem> {
+        let kind = match self.connection {
+            Kind::Pg => ConnectionKind::ProgrammingDevice,
+            Kind::Op => ConnectionKind::OperatorPanel,
+            Kind::Basic => ConnectionKind::Basic,
+        };
+        let tsaps = self.tsap.unwrap_or_else(|| Tsaps::of(kind, self.rack, self.slot));
+        let given = self.password.as_deref().map(|text| {
+            password(text).ok_or_else(|| {
+                Problem::new("expected a password of up to eight characters, found a longer one", "shorten it")
+            })
+        });
+        self.connect(Options { tsaps, password: given.transpose()?, ..self.options() }).await
+    }
+
+    pub(super) async fn nck(&self) -> Result<Client, Problem> {
+        self.connect(Options { tsaps: self.nck_tsap, ..self.options() }).await
+    }
+
+    fn options(&self) -> Options {
+        let Self { pdu, items, timeout, .. } = *self;
+        Options { pdu, items, timeout, ..Options::default() }
+    }
+
+    async fn connect(&self, options: Options) -> Result<Client, Problem> {
+        Client::connect(&self.address(), options).await.map_err(|error| super::problem(&error))
+    }
+}
+
+/// `::1` and `[::1]` are addresses without a port.
+fn with_port(host: &str) -> String {
+    if host.parse::<std::net::Ipv6Addr>().is_ok() {
+        return format!("[{host}]:{PORT}");
+    }
+    match host.rsplit_once(':') {
+        Some((_, port)) if port.parse::<u16>().is_ok() => host.to_owned(),
+        _ => format!("{host}:{PORT}"),
+    }
+}
+
+fn tsaps(text: &str) -> Result<Tsaps, String> {
+    let tsap = |text: &str| (text.len() == 4).then(|| u16::from_str_radix(text, 16).ok()).flatten();
+    let both = text.split_once(':').and_then(|(calling, called)| Some((tsap(calling)?, tsap(called)?)));
+    let (calling, called) =
+        both.ok_or_else(|| format!("expected two TSAPs of four hexadecimal digits such as 0100:0102, found {text}"))?;
+    Ok(Tsaps { calling: calling.to_be_bytes(), called: called.to_be_bytes() })
+}
+
+/// `100ms`, `1.5s`, `2min`.
+pub(super) fn duration(text: &str) -> Result<Duration, String> {
+    let wrong = || format!("expected a time such as 100ms, 1.5s or 2min, found {text}");
+    let digits = text.find(|c: char| !c.is_ascii_digit() && c != '.').ok_or_else(wrong)?;
+    let (number, unit) = text.split_at(digits);
+    let unit = match unit {
+        "ms" => 0.001,
+        "s" => 1.0,
+        "min" => 60.0,
+        "h" => 3600.0,
+        _ => return Err(wrong()),
+    };
+    let seconds = number.parse::<f64>().map_err(|_| wrong())? * unit;
+    match Duration::try_from_secs_f64(seconds) {
+        Ok(duration) if !duration.is_zero() && seconds <= 86_400.0 => Ok(duration),
+        _ => Err(wrong()),
+    }
+}
+
+pub(super) fn hexadecimal(text: &str) -> Result<u16, String> {
+    let digits = text.strip_prefix("16#").or_else(|| text.strip_prefix("0x")).unwrap_or(text);
+    u16::from_str_radix(digits, 16).map_err(|_| format!("expected up to four hexadecimal digits, found {text}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_port_is_added_where_there_is_none() {
+        for (host, address) in [
+            ("192.168.214.1", "192.168.214.1:102"),
+            ("192.168.214.1:10102", "192.168.214.1:10102"),
+            ("nck.local", "nck.local:102"),
+            ("::1", "[::1]:102"),
+            ("[::1]", "[::1]:102"),
+            ("[::1]:10102", "[::1]:10102"),
+        ] {
+            assert_eq!(with_port(host), address);
+        }
+    }
+
+    #[test]
+    fn times_have_a_unit() {
+        assert_eq!(duration("100ms"), Ok(Duration::from_millis(100)));
+        assert_eq!(duration("1.5s"), Ok(Duration::from_millis(1500)));
+        for wrong in ["", "5", "0s", "-1s", "1 s", "s", "1e9h", "2days"] {
+            assert!(duration(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn tsaps_are_hexadecimal() {
+        assert_eq!(tsaps("0400:0D04"), Ok(Tsaps { calling: [4, 0], called: [0x0D, 4] }));
+        assert!(tsaps("0400").is_err() && tsaps("400:D04").is_err());
+    }
+}

@@ -1,0 +1,146 @@
+//! `opennck s7 info`: what a module tells of itself. What it does not tell is left out.
+
+use super::arguments::Host;
+use super::problem;
+use crate::cli::Format;
+use crate::cli::list::List;
+use crate::cli::output::Output;
+use crate::s7::CpuState;
+use crate::s7::client::{BlockKind, Client, Error, Value, Variable};
+use crate::source::Problem;
+
+/// Of how many data blocks the length is asked.
+const BLOCKS: usize = 200;
+/// How many alarms are shown.
+const ALARMS: u16 = 16;
+
+struct Rows(Vec<Vec<String>>);
+
+impl Rows {
+    /// Only what there is.
+    fn add(&mut self, what: &str, value: impl Into<String>) {
+        let value = value.into();
+        if !value.is_empty() {
+            self.0.push(vec![what.to_owned(), value]);
+        }
+    }
+}
+
+pub(super) async fn info(host: &Host, format: Format, output: &mut Output) -> Result<u8, Problem> {
+    let mut rows = Rows(Vec::new());
+    let plc = host.plc().await?;
+    rows.add("host", host.address());
+    of_the_plc(&plc, &mut rows).await.map_err(|error| problem(&error))?;
+    drop(plc);
+    // A PLC without an NCK beside it is all right, too.
+    match host.nck().await {
+        Ok(nck) => of_the_nck(&nck, &mut rows).await.map_err(|error| problem(&error))?,
+        Err(problem) => rows.add("NCK", format!("none: {}", problem.what)),
+    }
+    Ok(List { heads: &["what", "value"], rows: rows.0 }.print(format, output))
+}
+
+/// What the module does not have is no error; that nobody answers is one.
+fn told<T>(result: Result<T, Error>) -> Result<Option<T>, Error> {
+    match result {
+        Ok(told) => Ok(Some(told)),
+        Err(error) if error.is_of_the_connection() => Err(error),
+        Err(_) => Ok(None),
+    }
+}
+
+async fn of_the_plc(plc: &Client, rows: &mut Rows) -> Result<(), Error> {
+    if let Some(negotiated) = plc.negotiated() {
+        rows.add("PDU", format!("{} bytes, {} requests at once", negotiated.pdu, negotiated.jobs));
+    }
+    let identification = plc.identification().await?;
+    rows.add("module", identification.module_name);
+    rows.add("type", identification.module_type);
+    rows.add("order number", identification.order_number);
+    rows.add("firmware", identification.version);
+    rows.add("system", identification.system_name);
+    rows.add("plant", identification.plant);
+    rows.add("serial number", identification.serial_number);
+    rows.add("copyright", identification.copyright);
+    if let Some(state) = told(plc.cpu_state().await)? {
+        rows.add(
+            "state",
+            match state {
+                Some(CpuState::Run) => "RUN",
+                Some(CpuState::Stop) => "STOP",
+                None => "another than RUN and STOP",
+            },
+        );
+    }
+    if let Some(Some(level)) = told(plc.protection().await)? {
+        rows.add("protection level", level.to_string());
+    }
+    if let Some(time) = told(plc.clock().await)? {
+        let date = format!("{:04}-{:02}-{:02}", time.year, time.month, time.day);
+        let of_day = format!("{:02}:{:02}:{:02}.{:03}", time.hour, time.minute, time.second, time.millisecond);
+        rows.add("clock", format!("{date} {of_day}"));
+    }
+    of_blocks(plc, rows).await
+}
+
+async fn of_blocks(plc: &Client, rows: &mut Rows) -> Result<(), Error> {
+    if let Some(counts) = told(plc.block_counts().await)? {
+        let counts: Vec<_> = counts.iter().map(|count| format!("{} {}", count.count, count.kind.name())).collect();
+        rows.add("blocks", counts.join(", "));
+    }
+    let Some(blocks) = told(plc.blocks(BlockKind::Db).await)? else { return Ok(()) };
+    for block in blocks.iter().take(BLOCKS) {
+        if let Some(block) = told(plc.describe_block(BlockKind::Db, block.number).await)? {
+            rows.add(&format!("DB{}", block.number), format!("{} bytes", block.length));
+        }
+    }
+    if blocks.len() > BLOCKS {
+        rows.add("further data blocks", (blocks.len() - BLOCKS).to_string());
+    }
+    Ok(())
+}
+
+async fn of_the_nck(nck: &Client, rows: &mut Rows) -> Result<(), Error> {
+    let names = (1..=31).map(|row| format!("N/$MN_AXCONF_MACHAX_NAME_TAB[{row}]"));
+    let names = read(nck, names).await?;
+    let mut axes = Vec::new();
+    for (number, name) in (1_u8..).zip(names) {
+        match name {
+            Some(Value::Text(name)) if !name.is_empty() => axes.push((number, name)),
+            _ => {}
+        }
+    }
+    if axes.is_empty() {
+        rows.add("NCK", "tells no names of axes");
+        return Ok(());
+    }
+    let positions = axes.iter().map(|(number, _)| format!("C/MachineAxis/actToolBasePos[{number}]"));
+    let positions = read(nck, positions).await?;
+    for ((number, name), position) in axes.iter().zip(positions) {
+        let position = position.map(|position| format!(" at {position}")).unwrap_or_default();
+        rows.add(&format!("axis {number}"), format!("{name}{position}"));
+    }
+    let state = ["B/State/opMode", "C/State/chanStatus", "N/State/numAlarms"];
+    let state = read(nck, state.into_iter().map(ToOwned::to_owned)).await?;
+    let word = |at: usize| match state.get(at) {
+        Some(Some(Value::Word(value))) => Some(*value),
+        _ => None,
+    };
+    let of = |number: Option<u16>, names: &[&str]| {
+        number.and_then(|number| names.get(usize::from(number)).map(ToString::to_string))
+    };
+    rows.add("mode", of(word(0), &["JOG", "MDA", "AUTOMATIC"]).unwrap_or_default());
+    rows.add("channel", of(word(1), &["reset", "active", "interrupted"]).unwrap_or_default());
+    let alarms = word(2).unwrap_or(0);
+    let numbers = (1..=alarms.min(ALARMS)).map(|row| format!("N/AlarmList/textIndex[{row}]"));
+    let numbers = read(nck, numbers).await?;
+    let numbers: Vec<String> = numbers.into_iter().flatten().map(|number| number.to_string()).collect();
+    rows.add("alarms", if alarms == 0 { "none".to_owned() } else { format!("{alarms}: {}", numbers.join(" ")) });
+    Ok(())
+}
+
+/// NC variables by name; none where the NCK does not have one.
+async fn read(nck: &Client, names: impl Iterator<Item = String>) -> Result<Vec<Option<Value>>, Error> {
+    let variables = names.map(|name| format!("nck:{name}").parse::<Variable>()).collect::<Result<Vec<_>, _>>()?;
+    nck.read_all(&variables).await.into_iter().map(told).collect()
+}

@@ -1,0 +1,240 @@
+//! What addresses and symbols of the command line mean.
+//!
+//! An address of the interface has the type that the catalogue of its profile says; any other is a plain address. Symbols need
+//! names: those of a machine, those that the NCK tells, or AX1, AX2…, CHAN1… as `opennck signals` lists them.
+
+use super::arguments::{Host, Names as Arguments};
+use super::problem;
+use crate::image::{Address, Location, Memory, Names, OverrideCoding, Part, Width};
+use crate::machine::Machine;
+use crate::s7::client::{Error, Memory as Place, Value, Variable};
+use crate::scenario::profile_named;
+use crate::source::{Node, Problem, Table};
+use crate::units::{AxisNumber, ChannelNumber};
+
+/// Something that was named on the command line.
+#[derive(Clone, Debug)]
+pub(super) struct Target {
+    pub(super) variable: Variable,
+    /// Empty where there is none.
+    pub(super) symbol: String,
+    /// Its place in the interface, if it lies there.
+    location: Option<Location>,
+}
+
+impl Target {
+    /// Its address, as the list shows it.
+    pub(super) fn address(&self) -> String {
+        self.variable.to_string()
+    }
+
+    pub(super) fn is_of_the_nck(&self) -> bool {
+        matches!(self.variable, Variable::Nc(_))
+    }
+}
+
+/// What names mean.
+pub(super) struct Dictionary {
+    names: Names,
+    /// None where the host is something else than a control.
+    memory: Option<Memory>,
+    coding: OverrideCoding,
+    /// Whether the names are those of a machine.
+    is_known: bool,
+}
+
+impl Dictionary {
+    pub(super) fn open(arguments: &Arguments) -> Result<Self, Problem> {
+        if arguments.profile == "none" {
+            let (names, coding) = (Names::default(), OverrideCoding::default());
+            return Ok(Self { names, memory: None, coding, is_known: true });
+        }
+        let profile = profile_named(&arguments.profile)?;
+        let memory = Some(Memory::new());
+        if let Some(machine) = &arguments.machine {
+            let machine = Machine::open(machine)?;
+            let names = Names { profile, ..machine.names().clone() };
+            return Ok(Self { names, memory, coding: machine.override_coding(), is_known: true });
+        }
+        let mut names = Names { profile, ..Names::default() };
+        for axis in AxisNumber::all() {
+            names.axes[axis] = Some(format!("AX{}", axis.number()));
+        }
+        for channel in ChannelNumber::all() {
+            names.channels[channel] = Some(format!("CHAN{}", channel.number()));
+        }
+        Ok(Self { names, memory, coding: OverrideCoding::default(), is_known: false })
+    }
+
+    /// Everything that was named. Where a symbol has a name that is not known the NCK is asked for its names.
+    pub(super) async fn targets(&mut self, host: &Host, texts: &[String]) -> Result<Vec<Target>, Problem> {
+        let all = |dictionary: &Self| texts.iter().map(|text| dictionary.target(text)).collect::<Result<Vec<_>, _>>();
+        match all(self) {
+            Err(first) if !self.is_known && texts.iter().any(|text| is_symbol(text)) => {
+                let Some(names) = self.names_of_the_nck(host).await else {
+                    let cure = format!("{}\n  the NCK does not tell its names: give --machine", first.cure);
+                    return Err(Problem { cure, ..first });
+                };
+                self.names = names;
+                self.is_known = true;
+                all(self)
+            }
+            targets => targets,
+        }
+    }
+
+    fn target(&self, text: &str) -> Result<Target, Problem> {
+        let place = self.memory.as_ref().filter(|_| !text.contains('/') && !text.starts_with("nck:"));
+        let resolved = place.map(|memory| self.names.resolve(memory, text));
+        match resolved {
+            Some(Ok(location)) => self.of_location(text, location),
+            // A block or a byte that a control does not have may be one of this host.
+            other => match (text.parse::<Variable>(), other) {
+                (Ok(variable), _) => Ok(Target { variable, symbol: String::new(), location: None }),
+                (Err(_), Some(Err(problem))) if is_symbol(text) => Err(problem),
+                (Err(error), _) => Err(problem(&error)),
+            },
+        }
+    }
+
+    fn of_location(&self, text: &str, location: Location) -> Result<Target, Problem> {
+        let address = self.names.address(location);
+        if let Some(memory) = &self.memory {
+            memory.locate(&address, self.names.profile).map_err(|problem| {
+                Problem::new(format!("expected what this profile shows, found {text}: {}", problem.what), problem.cure)
+            })?;
+        }
+        let address = Address { format: Some(location.format), ..address };
+        let symbol = self.names.symbol(location).unwrap_or_default();
+        Ok(Target { variable: Place::of(&address).into(), symbol, location: Some(location) })
+    }
+
+    /// Names of axes (MD10000) and channels (MD20000) as the control has them.
+    async fn names_of_the_nck(&self, host: &Host) -> Option<Names> {
+        let nck = host.nck().await.ok()?;
+        let mut names = Names { profile: self.names.profile, ..Names::default() };
+        let axes = AxisNumber::all().map(|axis| format!("nck:N/$MN_AXCONF_MACHAX_NAME_TAB[{}]", axis.number()));
+        let channels = ChannelNumber::all().map(|channel| format!("nck:C{}/$MC_CHAN_NAME", channel.number()));
+        let variables: Vec<Variable> = axes.chain(channels).filter_map(|name| name.parse().ok()).collect();
+        let values = nck.read_all(&variables).await;
+        let mut told = values.into_iter().map(|value| match value {
+            Ok(Value::Text(name)) if !name.is_empty() => Some(name),
+            _ => None,
+        });
+        for axis in AxisNumber::all() {
+            names.axes[axis] = told.next().flatten();
+        }
+        for channel in ChannelNumber::all() {
+            names.channels[channel] = told.next().flatten();
+        }
+        let is_told = names.axes.iter().any(|(_, name)| name.is_some());
+        is_told.then_some(names)
+    }
+
+    /// The value of a text, as scenarios have them.
+    pub(super) fn value(&self, target: &Target, text: &str) -> Result<Value, Problem> {
+        let texts: Vec<&str> = match count(&target.variable) {
+            1 => vec![text],
+            _ => text.split(',').map(str::trim).collect(),
+        };
+        let each = texts.iter().map(|text| self.one_value(target, text)).collect::<Result<Vec<_>, _>>()?;
+        let value = if let ([_], 1) = (each.as_slice(), count(&target.variable)) {
+            each.into_iter().next().unwrap_or(Value::List(Vec::new()))
+        } else {
+            Value::List(each)
+        };
+        value.encode(&target.variable).map_err(|error| problem(&error))?;
+        Ok(value)
+    }
+
+    fn one_value(&self, target: &Target, text: &str) -> Result<Value, Problem> {
+        let node = node(text)?;
+        match &target.variable {
+            Variable::Memory(place) => {
+                let location = target.location.unwrap_or_else(|| anywhere(place));
+                let bits = crate::image::raw_value(&node, location, self.coding).map_err(|problem| {
+                    Problem::new(format!("{}={text}: {}", target.address(), problem.what), problem.cure)
+                })?;
+                Ok(of_bits(place, bits))
+            }
+            Variable::Nc(_) => Ok(match node.value {
+                crate::source::Value::Integer(number) => match i32::try_from(number) {
+                    Ok(number) => Value::DoubleInt(number),
+                    Err(_) => Value::Double(number as f64),
+                },
+                crate::source::Value::Float(number) => Value::Double(number),
+                crate::source::Value::Boolean(value) => Value::Bit(value),
+                _ => Value::Text(text.trim_matches('"').to_owned()),
+            }),
+        }
+    }
+}
+
+/// How many elements there are.
+fn count(variable: &Variable) -> u32 {
+    match variable {
+        Variable::Memory(place) => place.count,
+        Variable::Nc(variable) => variable.item.count.into(),
+    }
+}
+
+/// Whether it has the form of a symbol: a name in lower case behind a dot.
+fn is_symbol(text: &str) -> bool {
+    text.split_once('.').is_some_and(|(_, signal)| signal.starts_with(|c: char| c.is_ascii_lowercase()))
+}
+
+/// A value as it stands in a scenario, where text has quotes and numbers have none.
+fn node(text: &str) -> Result<Node, Problem> {
+    let parse = |line: String| Table::parse(&line, "the command line").ok()?.take("value");
+    let quoted = || parse(format!("value = {}", serde_json::Value::from(text)));
+    parse(format!("value = {text}"))
+        .or_else(quoted)
+        .ok_or_else(|| Problem::new(format!("expected a value, found `{text}`"), "write a number, true or false"))
+}
+
+/// A place of this width: which one does not matter for its value.
+fn anywhere(place: &Place) -> Location {
+    let (bit, width) = match place.width {
+        Width::Bit(bit) => (bit, 1),
+        Width::Bits { first, last } => (first, last - first + 1),
+        Width::Byte => (0, 8),
+        Width::Word => (0, 16),
+        Width::Double => (0, 32),
+    };
+    Location { part: Part::Flags, offset: 0, bit, width, format: place.format }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "raw values fit the width of their place")]
+fn of_bits(place: &Place, bits: u64) -> Value {
+    use crate::image::Format;
+    match (place.width, place.format) {
+        (Width::Bit(_), _) => Value::Bit(bits == 1),
+        (Width::Bits { .. } | Width::Byte, _) => Value::Byte(bits as u8),
+        (Width::Word, Format::Signed) => Value::Int((bits as u16).cast_signed()),
+        (Width::Word, Format::Unsigned | Format::Real) => Value::Word(bits as u16),
+        (Width::Double, Format::Signed) => Value::DoubleInt((bits as u32).cast_signed()),
+        (Width::Double, Format::Real) => Value::Real(f32::from_bits(bits as u32)),
+        (Width::Double, Format::Unsigned) => Value::DoubleWord(bits as u32),
+    }
+}
+
+/// The cells of a value: as text, and in hexadecimal.
+pub(super) fn cells(variable: &Variable, value: &Result<Value, Error>) -> [String; 2] {
+    let value = match value {
+        Ok(value) => value,
+        Err(error @ Error::Refused { code, .. }) => {
+            let text = error.to_string();
+            let words = text.rsplit_once(": ").map_or(text.as_str(), |(_, words)| words);
+            return [format!("refused: {words}"), format!("{code:02X}")];
+        }
+        Err(error) => return [format!("refused: {error}"), String::new()],
+    };
+    let hex = match (variable, value) {
+        // They are in hexadecimal already, or no bytes of their own.
+        (_, Value::Bytes(_) | Value::Text(_)) => Vec::new(),
+        (Variable::Memory(Place { width: Width::Bits { .. }, .. }), Value::Byte(bits)) => vec![*bits],
+        _ => value.encode(variable).unwrap_or_default(),
+    };
+    let hex: Vec<String> = hex.iter().map(|byte| format!("{byte:02X}")).collect();
+    [value.to_string(), hex.join(" ")]
+}

@@ -1,0 +1,49 @@
+//! `opennck s7 write`.
+
+use super::arguments::{Host, Names};
+use super::targets::{Dictionary, Target};
+use super::{problem, read, sources};
+use crate::cli::Format;
+use crate::cli::output::Output;
+use crate::s7::client::{Error, Value, Variable};
+use crate::source::Problem;
+
+pub(super) async fn write(
+    host: &Host,
+    writes: &[String],
+    names: &Names,
+    format: Format,
+    output: &mut Output,
+) -> Result<u8, Problem> {
+    let split = writes.iter().map(|text| {
+        text.split_once('=').map(|(address, value)| (address.to_owned(), value)).ok_or_else(|| {
+            Problem::new(format!("expected ADDRESS=VALUE, found `{text}`"), "write it as DB31.DBX29.4=1")
+        })
+    });
+    let (addresses, texts): (Vec<String>, Vec<&str>) = split.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
+    let mut dictionary = Dictionary::open(names)?;
+    let targets = dictionary.targets(host, &addresses).await?;
+    let values = targets.iter().zip(&texts).map(|(target, text)| dictionary.value(target, text));
+    let values = values.collect::<Result<Vec<Value>, _>>()?;
+    let results = send(host, &targets, &values).await?;
+    let lost = results.iter().find_map(|result| result.as_ref().err().filter(|error| error.is_of_the_connection()));
+    if let Some(error) = lost {
+        return Err(problem(error));
+    }
+    let shown: Vec<_> = values.into_iter().zip(results).map(|(value, result)| result.map(|()| value)).collect();
+    Ok(read::show(&targets, &shown, format, output))
+}
+
+async fn send(host: &Host, targets: &[Target], values: &[Value]) -> Result<Vec<Result<(), Error>>, Problem> {
+    // Whoever cannot be reached is found out before anything is written.
+    let sources = sources::open(host, targets).await?;
+    let mut results = vec![Ok(()); targets.len()];
+    for source in sources {
+        let of = |at: &usize| (targets[*at].variable.clone(), values[*at].clone());
+        let writes: Vec<(Variable, Value)> = source.targets.iter().map(of).collect();
+        for (at, result) in source.targets.iter().zip(source.client.write_all(&writes).await) {
+            results[*at] = result;
+        }
+    }
+    Ok(results)
+}

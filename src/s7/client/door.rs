@@ -1,0 +1,184 @@
+//! Opening a connection: TCP, connection request, setup communication, password.
+
+use std::time::Duration;
+
+use socket2::{SockRef, TcpKeepalive};
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
+use tokio::net::TcpStream;
+use tokio::time::Instant;
+
+use super::conversation::{Conversation, Event};
+use super::error::Error;
+use super::link::{Negotiated, by};
+use super::options::{Options, TPDU};
+use crate::s7::wire::cotp::{ConnectionConfirm, ConnectionRequest};
+use crate::s7::wire::header::{ErrorCode, Message, kind};
+use crate::s7::wire::pdu::{Answers, Budget, Pdu};
+use crate::s7::wire::replies::{Setup, UserData};
+use crate::s7::wire::requests;
+use crate::s7::wire::user_data::group;
+
+/// The references of setup and password; requests have those that follow.
+pub(super) const REFERENCES: u16 = 2;
+
+/// The shortest PDU with which one can work.
+const SHORTEST: u16 = 64;
+/// The longest PDU that is built.
+const LONGEST: u16 = 4096;
+
+/// An open connection.
+#[derive(Debug)]
+pub(super) struct Door {
+    pub(super) stream: TcpStream,
+    pub(super) conversation: Conversation,
+    pub(super) negotiated: Negotiated,
+    /// Bytes of a PDU in one packet.
+    pub(super) piece: usize,
+}
+
+/// What came during the opening.
+enum Came {
+    Confirm(ConnectionConfirm),
+    Pdu(Vec<u8>),
+}
+
+pub(super) async fn open(address: &str, options: &Options) -> Result<Door, Error> {
+    let deadline = Instant::now() + options.timeout;
+    let unreachable = |cause: String| Error::Unreachable { host: address.to_owned(), cause };
+    let none = || unreachable(format!("no answer within {} s", options.timeout.as_secs_f64()));
+    let stream = by(deadline, TcpStream::connect(address)).await.ok_or_else(none)?;
+    let stream = stream.map_err(|error| unreachable(error.to_string()))?;
+    // Without these it works, too, only later.
+    let _ = stream.set_nodelay(true);
+    let keep_alive = TcpKeepalive::new().with_time(Duration::from_secs(30));
+    let _ = SockRef::from(&stream).set_tcp_keepalive(&keep_alive);
+    let conversation = Conversation::default();
+    let mut opening = Opening { stream, conversation, address, options, deadline };
+    let confirm = opening.connect().await?;
+    let piece = confirm.piece(TPDU);
+    let setup = opening.set_up(piece).await?;
+    let negotiated = Negotiated { pdu: setup.pdu.into(), jobs: setup.jobs.into() };
+    if let Some(password) = options.password {
+        opening.give(password, piece).await?;
+    }
+    let Opening { stream, conversation, .. } = opening;
+    Ok(Door { stream, conversation, negotiated, piece })
+}
+
+struct Opening<'a> {
+    stream: TcpStream,
+    conversation: Conversation,
+    address: &'a str,
+    options: &'a Options,
+    deadline: Instant,
+}
+
+impl Opening<'_> {
+    fn refused(&self, cause: impl Into<String>) -> Error {
+        let (host, called) = (self.address.to_owned(), self.options.tsaps.called);
+        Error::NotAccepted { host, called, cause: cause.into() }
+    }
+
+    async fn connect(&mut self) -> Result<ConnectionConfirm, Error> {
+        let tsaps = &self.options.tsaps;
+        let (calling, called) = (Some(&tsaps.calling[..]), Some(&tsaps.called[..]));
+        let mut out = Vec::new();
+        ConnectionRequest { source: [0, 1], size: Some(TPDU), calling, called }.put(&mut out);
+        match self.exchange(&out).await? {
+            Came::Confirm(confirm) => Ok(confirm),
+            Came::Pdu(_) => Err(self.refused("it answers a connection request with data")),
+        }
+    }
+
+    async fn set_up(&mut self, piece: usize) -> Result<Setup, Error> {
+        let (jobs, asked) = (self.options.jobs.max(1), self.options.pdu.clamp(SHORTEST, LONGEST));
+        let pdu = self.ask(kind::JOB, 1, &requests::setup(jobs, asked), &[], piece).await?;
+        let message = self.message(&pdu, 1)?;
+        if message.error != ErrorCode::NONE {
+            return Err(self.refused(format!("it refuses to set up communication: error {:04X}", message.error.0)));
+        }
+        match Setup::parse(message.parameter) {
+            Some(setup) if setup.pdu >= SHORTEST => {
+                // Some grant more than was asked for; nobody is obliged to take it.
+                Ok(Setup { jobs: setup.jobs.clamp(1, jobs), pdu: setup.pdu.min(asked) })
+            }
+            _ => Err(self.refused("it does not answer the setup of communication properly")),
+        }
+    }
+
+    async fn give(&mut self, password: [u8; 8], piece: usize) -> Result<(), Error> {
+        let parameter = requests::user_data(group::SECURITY, 1);
+        let data = requests::payload(&requests::folded(password));
+        let pdu = self.ask(kind::USER_DATA, 2, &parameter, &data, piece).await?;
+        let message = self.message(&pdu, 2)?;
+        match UserData::parse(message.parameter, message.data) {
+            // Where there is no password none is needed.
+            Some(UserData { error: ErrorCode::NONE | ErrorCode::NO_PASSWORD, .. }) => Ok(()),
+            Some(UserData { error, .. }) => Err(Error::Rejected { what: "password".to_owned(), error }),
+            None => Err(self.refused("it does not answer the password properly")),
+        }
+    }
+
+    fn message<'a>(&self, pdu: &'a [u8], reference: u16) -> Result<Message<'a>, Error> {
+        match Message::parse(pdu) {
+            Ok(message) if message.reference == reference => Ok(message),
+            _ => Err(self.refused("what it answers is no S7 communication")),
+        }
+    }
+
+    async fn ask(
+        &mut self,
+        kind: u8,
+        reference: u16,
+        parameter: &[u8],
+        data: &[u8],
+        piece: usize,
+    ) -> Result<Vec<u8>, Error> {
+        let mut out = Answers::default();
+        let budget = Budget { pdu: usize::from(SHORTEST), piece };
+        let mut pdu = match kind {
+            kind::USER_DATA => Pdu::user_data(&mut out, reference, budget),
+            _ => Pdu::job(&mut out, reference, budget),
+        };
+        pdu.put(parameter);
+        pdu.data();
+        pdu.put(data);
+        pdu.finish();
+        match self.exchange(out.bytes()).await? {
+            Came::Pdu(pdu) => Ok(pdu),
+            Came::Confirm(_) => Err(self.refused("it confirms the connection twice")),
+        }
+    }
+
+    /// Sends, and waits for what comes.
+    async fn exchange(&mut self, bytes: &[u8]) -> Result<Came, Error> {
+        let late = || format!("no answer within {} s", self.options.timeout.as_secs_f64());
+        match by(self.deadline, self.stream.write_all(bytes)).await {
+            Some(Ok(())) => {}
+            Some(Err(error)) => return Err(self.refused(error.to_string())),
+            None => return Err(self.refused(late())),
+        }
+        let mut input = [0; 2048];
+        let mut came = None;
+        loop {
+            let count = match by(self.deadline, self.stream.read(&mut input)).await {
+                Some(Ok(0)) => return Err(self.refused("it closes the connection")),
+                Some(Ok(count)) => count,
+                Some(Err(error)) => return Err(self.refused(error.to_string())),
+                None => return Err(self.refused(late())),
+            };
+            let received = self.conversation.receive(&input[..count], |event| {
+                came.get_or_insert_with(|| match event {
+                    Event::Confirmed(confirm) => Came::Confirm(confirm),
+                    Event::Pdu(pdu) => Came::Pdu(pdu.to_vec()),
+                });
+            });
+            if let Err(broken) = received {
+                return Err(self.refused(broken.words()));
+            }
+            if let Some(came) = came {
+                return Ok(came);
+            }
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! What can go wrong: each error says what was asked, what came, and what to do.
+
+use std::fmt;
+use std::time::Duration;
+
+use crate::s7::wire::header::ErrorCode;
+
+/// Why a client has no answer, or not the one that was hoped for.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    /// An address or a value that is none; nothing was sent.
+    Input {
+        /// What was expected and what came.
+        what: String,
+        /// What to do.
+        cure: String,
+    },
+    /// Nobody answers there.
+    Unreachable {
+        /// Who was called.
+        host: String,
+        /// What the system says.
+        cause: String,
+    },
+    /// Somebody answers, and does not take the connection or speaks something else.
+    NotAccepted {
+        /// Who was called.
+        host: String,
+        /// With which TSAP.
+        called: [u8; 2],
+        /// What came instead.
+        cause: String,
+    },
+    /// One item was refused; others of the same request are not affected.
+    Refused {
+        /// Which.
+        what: String,
+        /// Return code of the item.
+        code: u8,
+    },
+    /// A whole request was refused.
+    Rejected {
+        /// What was asked.
+        what: String,
+        /// Class and code.
+        error: ErrorCode,
+    },
+    /// No answer came in time.
+    TimedOut {
+        /// What was asked.
+        what: String,
+        /// How long was waited.
+        after: Duration,
+        /// Whether it was sent; a write that was sent may have been done.
+        sent: bool,
+    },
+    /// The connection was lost, and what was asked was not asked again.
+    Lost {
+        /// What was asked.
+        what: String,
+        /// Whether it was sent; a write that was sent may have been done.
+        sent: bool,
+        /// Why.
+        cause: String,
+    },
+    /// An answer came that does not fit the question.
+    Unexpected {
+        /// What was asked.
+        what: String,
+        /// What came.
+        found: String,
+    },
+}
+
+impl Error {
+    /// Whether the connection is to blame and not what was asked.
+    #[must_use]
+    pub fn is_of_the_connection(&self) -> bool {
+        match self {
+            Self::Unreachable { .. } | Self::NotAccepted { .. } | Self::TimedOut { .. } | Self::Lost { .. } => true,
+            Self::Input { .. } | Self::Refused { .. } | Self::Rejected { .. } | Self::Unexpected { .. } => false,
+        }
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn cure(&self) -> String {
+        match self {
+            Self::Input { cure, .. } => cure.clone(),
+            Self::Unreachable { .. } => {
+                "check address and port (102 on a module, 10102 of `opennck serve`) and whether it runs".to_owned()
+            }
+            Self::NotAccepted { called: [kind, place], .. } => format!(
+                "it was called as {kind:02X}{place:02X} (rack {}, slot {}): try another rack, slot or kind of connection",
+                place >> 5,
+                place & 0x1F
+            ),
+            Self::Refused { code, .. } => cure_of_code(*code).to_owned(),
+            Self::Rejected { error, .. } => cure_of_error(*error).to_owned(),
+            Self::TimedOut { sent: true, .. } => {
+                "it may have been done: read before you repeat it, or allow more time".to_owned()
+            }
+            Self::TimedOut { sent: false, .. } => "it was not sent: check the connection, then repeat it".to_owned(),
+            Self::Lost { sent: true, .. } => "it was sent and may have been done: read before you repeat it".to_owned(),
+            Self::Lost { sent: false, .. } => {
+                "it was not sent: repeat it when the connection is there again".to_owned()
+            }
+            Self::Unexpected { .. } => "the server does not keep to the protocol: report it to its maker".to_owned(),
+        }
+    }
+
+    /// The same error, of something else that was asked.
+    #[must_use]
+    pub(super) fn of(self, what: &str) -> Self {
+        let what = what.to_owned();
+        match self {
+            Self::Refused { code, .. } => Self::Refused { what, code },
+            Self::Rejected { error, .. } => Self::Rejected { what, error },
+            Self::TimedOut { after, sent, .. } => Self::TimedOut { what, after, sent },
+            Self::Lost { sent, cause, .. } => Self::Lost { what, sent, cause },
+            Self::Unexpected { found, .. } => Self::Unexpected { what, found },
+            other @ (Self::Input { .. } | Self::Unreachable { .. } | Self::NotAccepted { .. }) => other,
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input { what, .. } => f.write_str(what),
+            Self::Unreachable { host, cause } => write!(f, "{host} cannot be reached: {cause}"),
+            Self::NotAccepted { host, cause, .. } => write!(f, "{host} does not take the connection: {cause}"),
+            Self::Refused { what, code } => write!(f, "{what}: {} (return code {code:02X})", words_of_code(*code)),
+            Self::Rejected { what, error } => write!(f, "{what}: {} (error {:04X})", words_of_error(*error), error.0),
+            Self::TimedOut { what, after, sent } => {
+                let sent = if *sent { "" } else { "; it was not sent" };
+                write!(f, "{what}: no answer within {} s{sent}", after.as_secs_f64())
+            }
+            Self::Lost { what, sent, cause } => {
+                let sent = if *sent { "it was sent" } else { "it was not sent" };
+                write!(f, "{what}: the connection was lost ({cause}); {sent}")
+            }
+            Self::Unexpected { what, found } => write!(f, "{what}: an answer that does not fit: {found}"),
+        }
+    }
+}
+
+/// Return codes of items.
+fn words_of_code(code: u8) -> &'static str {
+    match code {
+        0x00 => "nothing came",
+        0x01 => "the hardware has a fault",
+        0x03 => "access is not allowed",
+        0x05 => "the address is out of range",
+        0x06 => "the data type is not supported",
+        0x07 => "data type or length do not match",
+        0x0A => "the object does not exist",
+        _ => "refused",
+    }
+}
+
+fn cure_of_code(code: u8) -> &'static str {
+    match code {
+        0x03 => "the server allows reading only, or the value cannot be set",
+        0x05 => "`opennck s7 info` lists the blocks and how long they are",
+        0x06 | 0x07 => "read it as bytes (DBB)",
+        0x0A => "`opennck s7 info` lists the blocks; NC variables need the NCK's TSAP",
+        _ => "see the manual of the module",
+    }
+}
+
+/// Errors of whole requests.
+fn words_of_error(error: ErrorCode) -> &'static str {
+    match error {
+        ErrorCode::NOT_IMPLEMENTED => "the module does not have this service",
+        ErrorCode::NO_FURTHER_UPLOAD => "too many uploads at the same time",
+        ErrorCode::WRONG_SEQUENCE => "not in this order",
+        ErrorCode::CANNOT_BE_PERFORMED => "it cannot be done now",
+        ErrorCode::WRONG_FRAME => "the lengths do not fit, or the answer would be longer than a PDU",
+        ErrorCode::BLOCK_NAME => "no name of a block",
+        ErrorCode::FUNCTION_PARAMETERS => "wrong parameters",
+        ErrorCode::BLOCK_NOT_FOUND => "there is no such block",
+        ErrorCode::NO_BLOCK => "there is no block of this type",
+        ErrorCode::PROTECTED => "not permitted at this protection level",
+        ErrorCode::WRONG_LIST => "there is no such list",
+        ErrorCode::WRONG_INDEX => "the list has no such index",
+        ErrorCode::TOO_MANY => "too many subscriptions",
+        ErrorCode::NOT_SUPPORTED => "the module does not support it",
+        ErrorCode::WRONG_PASSWORD => "wrong password",
+        ErrorCode::NO_PASSWORD => "there is no password to give",
+        ErrorCode::WRONG_TIME => "no valid date and time",
+        ErrorCode(_) => "refused",
+    }
+}
+
+fn cure_of_error(error: ErrorCode) -> &'static str {
+    match error {
+        ErrorCode::NOT_IMPLEMENTED => "NC variables are with the NCK, not with the PLC: use its TSAP",
+        ErrorCode::PROTECTED => "give the password",
+        ErrorCode::WRONG_LIST | ErrorCode::WRONG_INDEX => "list 0000 tells which lists there are",
+        _ => "see the manual of the module",
+    }
+}

@@ -1,0 +1,449 @@
+//! One connection to a module, kept alive: a task that owns the socket, gives references, sends as many requests at once as was
+//! agreed, and connects again.
+//!
+//! | what happens | what becomes of a request |
+//! |---|---|
+//! | an answer with its reference and function | it is the answer |
+//! | an answer with another reference, or one that timed out long ago | dropped; nobody else gets it |
+//! | no answer in time | it failed; its place is free again |
+//! | the connection is lost, it only reads | it is asked again on the next connection |
+//! | the connection is lost, it changes something and was sent | it failed, and says that it was sent; never sent again |
+//! | the connection is lost, it was not sent yet | it waits for the next connection |
+//! | it waited too long for a connection | it failed, and says that it was not sent |
+//!
+//! Several requests without an answer and nothing else heard are a lost connection, too.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::pin::pin;
+use std::sync::Arc;
+use std::time::Duration;
+
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
+use tokio::sync::{mpsc, oneshot, watch};
+use tokio::time::{Instant, sleep, sleep_until, timeout, timeout_at};
+
+use super::conversation::Event;
+use super::door::{Door, open};
+use super::error::Error;
+use super::listeners::Subscribed;
+use super::options::Options;
+use crate::s7::wire::header::{ErrorCode, Message, Unreadable, kind};
+use crate::s7::wire::pdu::{Answers, Budget, Pdu};
+use crate::s7::wire::replies::UserData;
+
+/// How many requests wait here; more wait with those who ask.
+const QUEUE: usize = 64;
+/// After so many requests in a row without an answer nobody is there any more.
+const SILENCES: u32 = 2;
+
+/// What was agreed with a module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Negotiated {
+    /// Bytes of a PDU.
+    pub pdu: usize,
+    /// Requests on their way at once.
+    pub jobs: usize,
+}
+
+/// How the connection is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum State {
+    /// It is open.
+    Connected(Negotiated),
+    /// It was lost and is being opened again.
+    Lost {
+        /// Why.
+        cause: String,
+        /// How many attempts have failed.
+        attempts: u32,
+    },
+    /// It was lost, and stays so.
+    Ended {
+        /// Why.
+        cause: String,
+    },
+}
+
+/// What a task is asked to do.
+#[derive(Debug)]
+pub(super) enum Command {
+    Ask(Job),
+    Subscribe(Subscribed),
+}
+
+/// A request.
+#[derive(Debug)]
+pub(super) struct Job {
+    /// What it is, for errors.
+    pub(super) what: &'static str,
+    /// A job, or user data.
+    pub(super) kind: u8,
+    pub(super) parameter: Vec<u8>,
+    pub(super) data: Vec<u8>,
+    /// The PDU that it needs; it is given back where another connection has a shorter one.
+    pub(super) pdu: usize,
+    /// Whether it may be asked again on another connection.
+    pub(super) repeat: bool,
+    pub(super) asked: Instant,
+    pub(super) reply: ReplyTo,
+}
+
+/// Who waits for an answer.
+#[derive(Debug)]
+pub(super) enum ReplyTo {
+    Caller(oneshot::Sender<Result<Reply, Failure>>),
+    /// The subscription with this identifier.
+    Subscription(u64),
+    /// Nobody.
+    Nobody,
+}
+
+/// An answer.
+#[derive(Debug)]
+pub(super) struct Reply {
+    pub(super) error: ErrorCode,
+    pub(super) parameter: Vec<u8>,
+    pub(super) data: Vec<u8>,
+}
+
+/// Why there is none.
+#[derive(Debug)]
+pub(super) enum Failure {
+    Error(Error),
+    /// It was not sent: the connection has a shorter PDU now.
+    Renegotiated,
+}
+
+#[derive(Debug)]
+struct InFlight {
+    job: Job,
+    sent: Instant,
+}
+
+/// The task.
+#[derive(Debug)]
+pub(super) struct Link {
+    address: Arc<str>,
+    options: Arc<Options>,
+    commands: mpsc::Receiver<Command>,
+    state: watch::Sender<State>,
+    pub(super) queue: VecDeque<Job>,
+    in_flight: BTreeMap<u16, InFlight>,
+    pub(super) subscriptions: Vec<Subscribed>,
+    reference: u16,
+    identifier: u64,
+    /// When something came last.
+    heard: Instant,
+    silences: u32,
+}
+
+/// Why the task leaves a connection.
+enum End {
+    /// Nobody asks any more.
+    Left,
+    Lost(String),
+}
+
+impl Link {
+    pub(super) fn new(
+        address: Arc<str>,
+        options: Arc<Options>,
+        commands: mpsc::Receiver<Command>,
+        state: watch::Sender<State>,
+    ) -> Self {
+        let (queue, in_flight, subscriptions) = (VecDeque::new(), BTreeMap::new(), Vec::new());
+        let heard = Instant::now();
+        // The handshake has the numbers before.
+        let reference = super::door::REFERENCES;
+        Self {
+            address,
+            options,
+            commands,
+            state,
+            queue,
+            in_flight,
+            subscriptions,
+            reference,
+            identifier: 0,
+            heard,
+            silences: 0,
+        }
+    }
+
+    /// Works until nobody asks any more, or the connection is lost for good.
+    pub(super) async fn run(mut self, mut door: Door) {
+        loop {
+            self.state.send_replace(State::Connected(door.negotiated));
+            self.heard = Instant::now();
+            self.silences = 0;
+            let cause = match self.attend(&mut door).await {
+                End::Left => {
+                    let _ = timeout(self.options.timeout, door.stream.shutdown()).await;
+                    return;
+                }
+                End::Lost(cause) => cause,
+            };
+            drop(door);
+            self.take_back(&cause);
+            match self.reconnect(&cause).await {
+                Some(again) => door = again,
+                None => return,
+            }
+            for at in 0..self.subscriptions.len() {
+                self.renew(at);
+            }
+        }
+    }
+
+    async fn attend(&mut self, door: &mut Door) -> End {
+        let mut input = vec![0; 16 * 1024];
+        let mut out = Answers::default();
+        loop {
+            out.clear();
+            self.emit(door, &mut out);
+            if !out.is_empty() {
+                match timeout(self.options.timeout, door.stream.write_all(out.bytes())).await {
+                    Ok(Ok(())) => {}
+                    Ok(Err(error)) => return End::Lost(error.to_string()),
+                    Err(_) => return End::Lost("the server takes no requests".to_owned()),
+                }
+            }
+            let deadline = self.deadline();
+            tokio::select! {
+                biased;
+                read = door.stream.read(&mut input) => match read {
+                    Ok(0) => return End::Lost("the server closed it".to_owned()),
+                    Err(error) => return End::Lost(error.to_string()),
+                    Ok(count) => {
+                        self.heard = Instant::now();
+                        self.silences = 0;
+                        let received = door.conversation.receive(&input[..count], |event| {
+                            if let Event::Pdu(pdu) = event {
+                                self.pdu(pdu);
+                            }
+                        });
+                        if let Err(broken) = received {
+                            return End::Lost(broken.words().to_owned());
+                        }
+                    }
+                },
+                command = self.commands.recv(), if self.queue.len() < QUEUE => match command {
+                    Some(command) => self.accept(command),
+                    None => return End::Left,
+                },
+                () = sleep_until(deadline) => {
+                    self.expire();
+                    if self.silences >= SILENCES {
+                        return End::Lost("no answers came any more".to_owned());
+                    }
+                }
+            }
+        }
+    }
+
+    fn accept(&mut self, command: Command) {
+        match command {
+            Command::Ask(job) => self.queue.push_back(job),
+            Command::Subscribe(mut subscribed) => {
+                self.identifier += 1;
+                subscribed.identifier = self.identifier;
+                self.subscriptions.push(subscribed);
+                self.renew(self.subscriptions.len() - 1);
+            }
+        }
+    }
+
+    /// Sends what may be sent.
+    fn emit(&mut self, door: &Door, out: &mut Answers) {
+        let Negotiated { pdu, jobs } = door.negotiated;
+        let budget = Budget { pdu, piece: door.piece };
+        while self.in_flight.len() < jobs {
+            let Some(job) = self.queue.pop_front() else { return };
+            if matches!(&job.reply, ReplyTo::Caller(reply) if reply.is_closed()) {
+                continue; // nobody waits for it any more
+            }
+            if job.pdu > pdu {
+                self.answer(job, Err(Failure::Renegotiated));
+                continue;
+            }
+            let reference = self.free_reference();
+            let mut request = match job.kind {
+                kind::USER_DATA => Pdu::user_data(out, reference, budget),
+                _ => Pdu::job(out, reference, budget),
+            };
+            request.put(&job.parameter);
+            request.data();
+            request.put(&job.data);
+            if request.is_full() {
+                request.discard();
+                let (what, error) = (job.what.to_owned(), ErrorCode::WRONG_FRAME);
+                self.answer(job, Err(Failure::Error(Error::Rejected { what, error })));
+                continue;
+            }
+            request.finish();
+            self.in_flight.insert(reference, InFlight { job, sent: Instant::now() });
+        }
+    }
+
+    /// A reference that no request on its way has, and not 0.
+    fn free_reference(&mut self) -> u16 {
+        loop {
+            self.reference = self.reference.checked_add(1).unwrap_or(1);
+            if !self.in_flight.contains_key(&self.reference) {
+                return self.reference; // there are more references than jobs
+            }
+        }
+    }
+
+    /// Takes a PDU from the server. What answers nothing that was asked is dropped.
+    fn pdu(&mut self, pdu: &[u8]) {
+        let message = match Message::parse(pdu) {
+            Ok(message) => message,
+            Err(Unreadable::Lengths { reference, .. }) => {
+                if let Some(InFlight { job, .. }) = self.in_flight.remove(&reference) {
+                    let found = "its lengths are wrong".to_owned();
+                    let error = Error::Unexpected { what: job.what.to_owned(), found };
+                    self.answer(job, Err(Failure::Error(error)));
+                }
+                return;
+            }
+            Err(Unreadable::Foreign) => return,
+        };
+        if message.kind == kind::USER_DATA
+            && let Some(push) = UserData::parse(message.parameter, message.data).filter(|data| data.is_push)
+        {
+            self.push(&push);
+            return;
+        }
+        let Some(waiting) = self.in_flight.get(&message.reference) else {
+            return;
+        };
+        if answers(&waiting.job, &message)
+            && let Some(InFlight { job, .. }) = self.in_flight.remove(&message.reference)
+        {
+            let (parameter, data) = (message.parameter.to_vec(), message.data.to_vec());
+            self.answer(job, Ok(Reply { error: message.error, parameter, data }));
+        }
+    }
+
+    fn answer(&mut self, job: Job, reply: Result<Reply, Failure>) {
+        match job.reply {
+            ReplyTo::Caller(caller) => {
+                let _ = caller.send(reply); // who has gone does not mind
+            }
+            ReplyTo::Subscription(identifier) => self.subscription_answered(identifier, reply),
+            ReplyTo::Nobody => {}
+        }
+    }
+
+    /// When something is over next.
+    fn deadline(&self) -> Instant {
+        let sent = self.in_flight.values().map(|waiting| waiting.sent + self.options.timeout);
+        let asked = self.queue.iter().map(|job| job.asked + self.options.patience);
+        sent.chain(asked).min().unwrap_or_else(|| Instant::now() + Duration::from_hours(1))
+    }
+
+    /// Ends what waited too long.
+    fn expire(&mut self) {
+        let now = Instant::now();
+        let (timeout, patience, heard) = (self.options.timeout, self.options.patience, self.heard);
+        let late = self.in_flight.extract_if(.., |_, waiting| waiting.sent + timeout <= now).collect::<Vec<_>>();
+        for (_, InFlight { job, sent }) in late {
+            self.silences += u32::from(sent >= heard);
+            let error = Error::TimedOut { what: job.what.to_owned(), after: timeout, sent: true };
+            self.answer(job, Err(Failure::Error(error)));
+        }
+        let (late, queue) = std::mem::take(&mut self.queue).into_iter().partition(|job| job.asked + patience <= now);
+        self.queue = queue;
+        for job in Vec::from(late) {
+            let error = Error::TimedOut { what: job.what.to_owned(), after: patience, sent: false };
+            self.answer(job, Err(Failure::Error(error)));
+        }
+    }
+
+    /// What becomes of requests on their way when the connection is lost.
+    fn take_back(&mut self, cause: &str) {
+        let may_repeat = self.options.reconnect.is_some();
+        let sent = std::mem::take(&mut self.in_flight);
+        for (_, InFlight { job, .. }) in sent.into_iter().rev() {
+            if job.repeat && may_repeat {
+                self.queue.push_front(job);
+            } else {
+                let error = Error::Lost { what: job.what.to_owned(), sent: true, cause: cause.to_owned() };
+                self.answer(job, Err(Failure::Error(error)));
+            }
+        }
+        // Subscriptions are asked for anew on the next connection.
+        self.queue.retain(|job| !matches!(job.reply, ReplyTo::Subscription(_) | ReplyTo::Nobody));
+    }
+
+    /// Opens the connection again; none when nobody asks any more or it is not wanted.
+    async fn reconnect(&mut self, cause: &str) -> Option<Door> {
+        let Some(backoff) = self.options.reconnect else {
+            self.state.send_replace(State::Ended { cause: cause.to_owned() });
+            self.commands.close();
+            while let Some(command) = self.commands.recv().await {
+                self.accept(command);
+            }
+            for job in std::mem::take(&mut self.queue) {
+                let error = Error::Lost { what: job.what.to_owned(), sent: false, cause: cause.to_owned() };
+                self.answer(job, Err(Failure::Error(error)));
+            }
+            return None;
+        };
+        let (address, options) = (Arc::clone(&self.address), Arc::clone(&self.options));
+        let (address, options) = (&*address, &*options);
+        let (mut attempts, mut wait, mut cause) = (0, Duration::ZERO, cause.to_owned());
+        loop {
+            self.state.send_replace(State::Lost { cause: cause.clone(), attempts });
+            let mut attempt = pin!(async move {
+                sleep(wait).await;
+                open(address, options).await
+            });
+            let opened = loop {
+                let deadline = self.deadline();
+                tokio::select! {
+                    opened = &mut attempt => break opened,
+                    command = self.commands.recv(), if self.queue.len() < QUEUE => match command {
+                        Some(command) => self.accept_later(command),
+                        None => return None,
+                    },
+                    () = sleep_until(deadline) => self.expire(),
+                }
+            };
+            match opened {
+                Ok(door) => return Some(door),
+                Err(error) => cause = error.to_string(),
+            }
+            attempts += 1;
+            wait = if attempts == 1 { backoff.first } else { (wait * 2).min(backoff.most) };
+        }
+    }
+
+    /// A subscription that comes while there is no connection is asked for with the others.
+    fn accept_later(&mut self, command: Command) {
+        self.accept(command);
+        self.queue.retain(|job| !matches!(job.reply, ReplyTo::Subscription(_)));
+    }
+}
+
+/// Whether a message answers a request: of its kind, and of its function.
+fn answers(job: &Job, message: &Message<'_>) -> bool {
+    match (job.kind, message.kind) {
+        // A refusal may be of any request.
+        (_, kind::ACK) => true,
+        (kind::USER_DATA, kind::USER_DATA) => {
+            let at = |parameter: &[u8]| parameter.get(5..7).map(|at| (at[0] & 0xF, at[1]));
+            at(&job.parameter) == at(message.parameter)
+        }
+        (kind::JOB, kind::ACK_DATA) => {
+            message.error != ErrorCode::NONE || job.parameter.first() == message.parameter.first()
+        }
+        _ => false,
+    }
+}
+
+/// The same deadline for everything that is awaited.
+pub(super) async fn by<T>(deadline: Instant, work: impl Future<Output = T>) -> Option<T> {
+    timeout_at(deadline, work).await.ok()
+}

@@ -1,0 +1,116 @@
+//! Subscriptions at the link: asked for on each connection anew, forwarded to whoever listens, ended when he has gone.
+
+use tokio::sync::{mpsc, oneshot};
+use tokio::time::Instant;
+
+use super::error::Error;
+use super::link::{Failure, Job, Link, Reply, ReplyTo};
+use crate::s7::wire::header::{ErrorCode, kind};
+use crate::s7::wire::replies::UserData;
+use crate::s7::wire::requests;
+use crate::s7::wire::user_data::group;
+
+/// A subscription, as long as somebody listens.
+#[derive(Debug)]
+pub(super) struct Subscribed {
+    /// In cycles or on change.
+    pub(super) function: u8,
+    pub(super) payload: Vec<u8>,
+    pub(super) pdu: usize,
+    /// Which of several that belong together.
+    pub(super) group: usize,
+    pub(super) to: mpsc::Sender<(usize, Result<Vec<u8>, Error>)>,
+    /// Told once.
+    pub(super) ready: Option<oneshot::Sender<Result<(), Error>>>,
+    /// Number at the module, while there is a connection.
+    pub(super) number: Option<u8>,
+    pub(super) identifier: u64,
+}
+
+impl Link {
+    /// Asks for a subscription, the first time or on another connection.
+    pub(super) fn renew(&mut self, at: usize) {
+        let subscribed = &mut self.subscriptions[at];
+        subscribed.number = None;
+        let job = Job {
+            what: "subscription",
+            kind: kind::USER_DATA,
+            parameter: requests::user_data(group::CYCLIC, subscribed.function).to_vec(),
+            data: requests::payload(&subscribed.payload),
+            pdu: subscribed.pdu,
+            repeat: false, // it is asked for again with the others
+            asked: Instant::now(),
+            reply: ReplyTo::Subscription(subscribed.identifier),
+        };
+        self.queue.push_back(job);
+    }
+
+    /// Forwards what the module sends by itself.
+    pub(super) fn push(&mut self, push: &UserData<'_>) {
+        let is_it = |subscribed: &Subscribed| {
+            push.group == group::CYCLIC
+                && subscribed.function == push.function
+                && subscribed.number == Some(push.sequence)
+        };
+        if let Some(at) = self.subscriptions.iter().position(is_it) {
+            self.forward(at, Ok(push.payload.to_vec()));
+        }
+    }
+
+    /// Gives values to whoever listens. Who does not take them misses some; who has gone is unsubscribed.
+    fn forward(&mut self, at: usize, values: Result<Vec<u8>, Error>) {
+        let subscribed = &self.subscriptions[at];
+        if let Err(mpsc::error::TrySendError::Closed(_)) = subscribed.to.try_send((subscribed.group, values)) {
+            let subscribed = self.subscriptions.swap_remove(at);
+            if let Some(number) = subscribed.number {
+                self.queue.push_back(Job {
+                    what: "end of a subscription",
+                    kind: kind::USER_DATA,
+                    parameter: requests::user_data(group::CYCLIC, 4).to_vec(),
+                    data: requests::payload(&[subscribed.function, number]),
+                    pdu: 0,
+                    repeat: false,
+                    asked: Instant::now(),
+                    reply: ReplyTo::Nobody,
+                });
+            }
+        }
+    }
+
+    pub(super) fn subscription_answered(&mut self, identifier: u64, reply: Result<Reply, Failure>) {
+        let Some(at) = self.subscriptions.iter().position(|subscribed| subscribed.identifier == identifier) else {
+            return;
+        };
+        let what = || "subscription".to_owned();
+        let result = match reply {
+            Err(Failure::Error(error)) => Err(error),
+            Err(Failure::Renegotiated) => Err(Error::Rejected { what: what(), error: ErrorCode::WRONG_FRAME }),
+            Ok(reply) => match UserData::parse(&reply.parameter, &reply.data) {
+                _ if reply.error != ErrorCode::NONE => Err(Error::Rejected { what: what(), error: reply.error }),
+                None => Err(Error::Unexpected { what: what(), found: "no user data".to_owned() }),
+                Some(data) if data.error != ErrorCode::NONE => Err(Error::Rejected { what: what(), error: data.error }),
+                Some(data) => Ok((data.sequence, data.payload.to_vec())),
+            },
+        };
+        let subscribed = &mut self.subscriptions[at];
+        let ready = subscribed.ready.take();
+        match result {
+            Ok((number, values)) => {
+                subscribed.number = Some(number);
+                if let Some(ready) = ready {
+                    let _ = ready.send(Ok(()));
+                }
+                self.forward(at, Ok(values));
+            }
+            // A connection that was lost meanwhile brings it again.
+            Err(error) if ready.is_none() && error.is_of_the_connection() => {}
+            Err(error) => {
+                match ready {
+                    Some(ready) => drop(ready.send(Err(error))),
+                    None => drop(subscribed.to.try_send((subscribed.group, Err(error)))),
+                }
+                self.subscriptions.swap_remove(at);
+            }
+        }
+    }
+}

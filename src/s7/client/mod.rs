@@ -1,0 +1,200 @@
+//! A client of S7 communication, over the same formats as the server: for test tools, collectors, and the program's own commands.
+//!
+//! ```no_run
+//! use opennck::s7::client::{Client, Options, Value, Variable};
+//!
+//! # async fn example() -> Result<(), opennck::s7::client::Error> {
+//! let plc = Client::connect("127.0.0.1:10102", Options::default()).await?;
+//! let ready: Variable = "DB31.DBX101.4".parse()?;
+//! if plc.read(&ready).await? == Value::Bit(true) {
+//!     plc.write(&"DB31.DBX29.4".parse()?, &Value::Bit(true)).await?;
+//! }
+//! // Any number of items: as few requests as the negotiated PDU permits, and each item has its own result.
+//! let many = ["DB31.DBD78:REAL".parse()?, "MB0..500".parse()?, "DB99.DBW0".parse()?];
+//! for (variable, value) in many.iter().zip(plc.read_all(&many).await) {
+//!     println!("{variable}: {value:?}");
+//! }
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! A client is a handle: clones share one connection, and requests of all of them are on their way at once, as many as the module
+//! takes. The connection is opened again when it is lost; what only reads is then asked again, what changes something never is:
+//! its error says whether it was sent. [`Client::changes`] tells of the connection.
+//!
+//! What comes from the other side is trusted nowhere: lengths are checked, memory is bounded, and an answer goes only to the
+//! question whose reference and function it has.
+//!
+//! | file | what |
+//! |---|---|
+//! | `variable`, `nc`, `value` | what is meant, and its bytes |
+//! | `plan` | which items go into which request |
+//! | `conversation` | the transport without a socket |
+//! | `door`, `link`, `listeners` | opening, and the task that owns the socket |
+//! | `variables`, `subscription`, `system`, `blocks` | what a client can ask |
+
+mod blocks;
+mod conversation;
+mod door;
+mod error;
+mod link;
+mod listeners;
+mod nc;
+mod options;
+mod plan;
+mod subscription;
+mod system;
+mod value;
+mod variable;
+mod variables;
+
+#[cfg(test)]
+mod tests;
+
+pub use blocks::{BlockCount, BlockDescription, BlockEntry, BlockKind};
+pub use error::Error;
+pub use link::{Negotiated, State};
+pub use nc::{NcKind, NcVariable};
+pub use options::{Backoff, ConnectionKind, Options, Tsaps, password};
+pub use subscription::{Mode, Subscription, Update};
+pub use system::{Identification, SystemStateList};
+pub use value::Value;
+pub use variable::{Memory, Variable};
+
+use std::sync::Arc;
+
+use tokio::sync::{Mutex, mpsc, oneshot, watch};
+use tokio::time::Instant;
+
+use crate::s7::wire::header::kind;
+use link::{Command, Failure, Job, Link, Reply, ReplyTo};
+
+/// How many requests wait for the task; who has more waits itself.
+const COMMANDS: usize = 32;
+
+/// A connection to a module. It is closed when the last clone and the last subscription are dropped.
+#[derive(Clone, Debug)]
+pub struct Client {
+    commands: mpsc::Sender<Command>,
+    state: watch::Receiver<State>,
+    options: Arc<Options>,
+    /// A module keeps one long answer at a time.
+    long: Arc<Mutex<()>>,
+}
+
+/// What is asked; the rest is the same for all.
+struct Question<'a> {
+    what: &'static str,
+    kind: u8,
+    parameter: &'a [u8],
+    data: &'a [u8],
+    pdu: usize,
+    repeat: bool,
+}
+
+impl Client {
+    /// Connects to an address with port: `192.168.214.1:102`, `[::1]:10102`, `localhost:10102`.
+    ///
+    /// It has to be called inside a runtime of tokio, whatever its kind.
+    ///
+    /// # Errors
+    /// Nobody is there, or does not take the connection, or the password.
+    pub async fn connect(address: &str, options: Options) -> Result<Self, Error> {
+        let door = door::open(address, &options).await?;
+        let (commands, receiver) = mpsc::channel(COMMANDS);
+        let (sender, state) = watch::channel(State::Connected(door.negotiated));
+        let options = Arc::new(options);
+        let link = Link::new(address.into(), Arc::clone(&options), receiver, sender);
+        tokio::spawn(link.run(door));
+        Ok(Self { commands, state, options, long: Arc::default() })
+    }
+
+    /// How the connection is now.
+    #[must_use]
+    pub fn state(&self) -> State {
+        self.state.borrow().clone()
+    }
+
+    /// Tells every change of the connection.
+    #[must_use]
+    pub fn changes(&self) -> watch::Receiver<State> {
+        self.state.clone()
+    }
+
+    /// What was agreed with the module on this connection, or on the last one.
+    #[must_use]
+    pub fn negotiated(&self) -> Option<Negotiated> {
+        match &*self.state.borrow() {
+            State::Connected(negotiated) => Some(*negotiated),
+            State::Lost { .. } | State::Ended { .. } => None,
+        }
+    }
+
+    /// Waits for a connection, at most as long as a request does.
+    async fn connected(&self, what: &str) -> Result<Negotiated, Error> {
+        let mut state = self.state.clone();
+        let lost = |cause: &str| Error::Lost { what: what.to_owned(), sent: false, cause: cause.to_owned() };
+        let deadline = Instant::now() + self.options.patience;
+        loop {
+            let last = match &*state.borrow_and_update() {
+                State::Connected(negotiated) => return Ok(*negotiated),
+                State::Lost { cause, .. } => lost(cause),
+                State::Ended { cause } => return Err(lost(cause)),
+            };
+            match link::by(deadline, state.changed()).await {
+                Some(Ok(())) => {}
+                Some(Err(_)) | None => return Err(last),
+            }
+        }
+    }
+
+    /// Hands a request to the task; the answer comes later.
+    async fn send(&self, question: Question<'_>) -> oneshot::Receiver<Result<Reply, Failure>> {
+        let (reply, answer) = oneshot::channel();
+        let Question { what, kind, parameter, data, pdu, repeat } = question;
+        let (parameter, data) = (parameter.to_vec(), data.to_vec());
+        let (asked, reply) = (Instant::now(), ReplyTo::Caller(reply));
+        let job = Job { what, kind, parameter, data, pdu, repeat, asked, reply };
+        // If the task has ended the answer tells that, too.
+        let _ = self.commands.send(Command::Ask(job)).await;
+        answer
+    }
+
+    /// Asks and waits; errors of the whole request are errors.
+    async fn ask(&self, question: Question<'_>) -> Result<Reply, Error> {
+        let what = question.what;
+        let reply = match self.send(question).await.await {
+            Ok(Ok(reply)) => reply,
+            Ok(Err(Failure::Error(error))) => return Err(error),
+            Ok(Err(Failure::Renegotiated)) | Err(_) => return Err(self.gone(what)),
+        };
+        match reply.error {
+            crate::s7::wire::header::ErrorCode::NONE => Ok(reply),
+            error => Err(Error::Rejected { what: what.to_owned(), error }),
+        }
+    }
+
+    /// The error of a request that the task did not take any more.
+    fn gone(&self, what: &str) -> Error {
+        let cause = match &*self.state.borrow() {
+            State::Ended { cause } | State::Lost { cause, .. } => cause.clone(),
+            State::Connected(_) => "the client ends".to_owned(),
+        };
+        Error::Lost { what: what.to_owned(), sent: false, cause }
+    }
+}
+
+impl<'a> Question<'a> {
+    fn job(what: &'static str, parameter: &'a [u8]) -> Self {
+        Self { what, kind: kind::JOB, parameter, data: &[], pdu: 0, repeat: false }
+    }
+
+    fn user_data(what: &'static str, parameter: &'a [u8], data: &'a [u8]) -> Self {
+        Self { what, kind: kind::USER_DATA, parameter, data, pdu: 0, repeat: false }
+    }
+
+    /// It changes nothing and may be asked again.
+    fn repeated(self) -> Self {
+        Self { repeat: true, ..self }
+    }
+}

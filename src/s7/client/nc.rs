@@ -1,0 +1,263 @@
+//! NC variables by name, as the catalogue of the server has them, or by number where it has none.
+//!
+//! | text | means |
+//! |---|---|
+//! | `C/MachineAxis/actToolBasePos[2]` | a name of the catalogue, row 2; row 1 where nothing is said |
+//! | `C/SMA/actToolBasePos[1..3]` | the same by its module, three rows |
+//! | `C2/State/chanStatus` | of channel 2; unit 1 where nothing is said |
+//! | `A1/M/32000:DOUBLE` | column 32000 of module M of axis 1, and its type |
+//! | `C/RP/1[5]` | without a type the bytes as they come |
+//!
+//! Types: `BYTE`, `WORD`, `LONG`, `REAL`, `DOUBLE`, `TEXT32` and other lengths. Drives (areas V and H) are big-endian, all others
+//! little-endian.
+
+use std::fmt;
+use std::str::FromStr;
+
+use super::Error;
+use crate::s7::nck::{CATALOGUE, Kind, NckArea, Variable as Row};
+use crate::s7::wire::items::{MeasuringSystem, NckItem};
+
+/// Rows of a variable of the NCK.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NcVariable {
+    /// Which, as it goes on the wire.
+    pub item: NckItem,
+    /// What a row is; none where nobody knows: then it is read as bytes.
+    pub kind: Option<NcKind>,
+}
+
+/// What a row is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NcKind {
+    /// One byte.
+    Byte,
+    /// A word of two bytes.
+    Word,
+    /// A whole number of four bytes.
+    Long,
+    /// A floating point number of four bytes.
+    Real,
+    /// A floating point number of eight bytes.
+    Double,
+    /// A text of so many bytes, filled with zeros.
+    Text(usize),
+}
+
+impl NcKind {
+    /// Bytes of a row.
+    #[must_use]
+    pub const fn bytes(self) -> usize {
+        match self {
+            Self::Byte => 1,
+            Self::Word => 2,
+            Self::Long | Self::Real => 4,
+            Self::Double => 8,
+            Self::Text(length) => length,
+        }
+    }
+
+    /// As the catalogue of the server writes it down.
+    #[must_use]
+    pub const fn of(kind: Kind) -> Self {
+        match kind {
+            Kind::Word => Self::Word,
+            Kind::Long => Self::Long,
+            Kind::Double | Kind::Length => Self::Double,
+            Kind::Text(length) => Self::Text(length),
+        }
+    }
+}
+
+/// Area letters, their number is their place; the first three and A are what the simulator has.
+const AREAS: &[u8; 8] = b"NBCATVHM";
+
+/// Modules by the names of Siemens' lists.
+const MODULES: &[(&str, u8)] = &[
+    ("Y", 0x10),
+    ("FU", 0x12),
+    ("FA", 0x13),
+    ("TO", 0x14),
+    ("RP", 0x15),
+    ("SE", 0x16),
+    ("M", 0x1A),
+    ("FE", 0x20),
+    ("TD", 0x21),
+    ("TS", 0x22),
+    ("TV", 0x26),
+    ("DIAGN", 0x3B),
+    ("FB", 0x41),
+    ("SALAC", 0x54),
+    ("AUXFU", 0x55),
+    ("SPARPI", 0x6F),
+    ("SEGA", 0x70),
+    ("SEMA", 0x71),
+    ("SSP", 0x72),
+    ("SGA", 0x73),
+    ("SMA", 0x74),
+    ("SALAL", 0x75),
+    ("SALAP", 0x76),
+    ("SALA", 0x77),
+    ("SSYNAC", 0x78),
+    ("SPARPF", 0x79),
+    ("SPARPP", 0x7A),
+    ("SNCF", 0x7B),
+    ("SPARP", 0x7D),
+    ("SINF", 0x7E),
+    ("S", 0x7F),
+];
+
+const fn area_code(area: NckArea) -> u8 {
+    match area {
+        NckArea::Nck => 0,
+        NckArea::ModeGroup => 1,
+        NckArea::Channel => 2,
+        NckArea::Axis => 3,
+    }
+}
+
+impl NcVariable {
+    /// A row of the catalogue, of unit 1 and line 1.
+    #[must_use]
+    pub fn of(row: &Row) -> Self {
+        let item = NckItem {
+            system: MeasuringSystem::Current,
+            area: area_code(row.area),
+            unit: 1,
+            column: row.column,
+            line: 1,
+            module: row.module,
+            count: 1,
+        };
+        Self { item, kind: Some(NcKind::of(row.kind)) }
+    }
+
+    /// These rows of it.
+    #[must_use]
+    pub fn rows(self, first: u16, count: u8) -> Self {
+        Self { item: NckItem { line: first, count, ..self.item }, ..self }
+    }
+
+    /// Of this channel, mode group or axis.
+    #[must_use]
+    pub fn unit(self, unit: u8) -> Self {
+        Self { item: NckItem { unit, ..self.item }, ..self }
+    }
+
+    /// Whether its numbers are big-endian: those of drives.
+    pub(super) fn is_big_endian(&self) -> bool {
+        matches!(self.item.area, 5 | 6)
+    }
+}
+
+fn wrong(text: &str, what: &str, cure: impl Into<String>) -> Error {
+    Error::Input { what: format!("expected {what}, found `{text}`"), cure: cure.into() }
+}
+
+impl FromStr for NcVariable {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let (name, rows) = match text.strip_suffix(']').and_then(|text| text.split_once('[')) {
+            Some((name, rows)) => (name, rows),
+            None => (text, "1"),
+        };
+        let rows = match rows.split_once("..") {
+            None => rows.parse().ok().map(|first: u16| (first, 1)),
+            Some((first, last)) => first.parse().ok().zip(last.parse::<u16>().ok()).and_then(|(first, last)| {
+                let count = last.checked_sub(first)?.checked_add(1)?;
+                Some((first, u8::try_from(count).ok()?))
+            }),
+        };
+        let Some((first, count)) = rows.filter(|(first, _)| *first > 0) else {
+            return Err(wrong(text, "one row or up to 255, counted from 1", "write [2] or [1..3]"));
+        };
+        let shape = || wrong(text, "area, module and variable", "write C/MachineAxis/actToolBasePos[1]");
+        let (owner, path) = name.split_once('/').ok_or_else(shape)?;
+        let (letter, unit) = owner.split_at_checked(1).ok_or_else(shape)?;
+        let area = AREAS.iter().position(|known| letter.as_bytes() == [*known]);
+        let area = area.and_then(|area| u8::try_from(area).ok());
+        let unit = if unit.is_empty() { Some(1) } else { unit.parse().ok().filter(|unit| (1..=31).contains(unit)) };
+        let (Some(area), Some(unit)) = (area, unit) else {
+            return Err(wrong(text, "an area N, B, C, A, T, V, H or M with a number from 1 to 31", "write C2/State/…"));
+        };
+        let variable = match path.split_once('/').and_then(|(module, column)| numbered(area, module, column)) {
+            Some(variable) => variable,
+            None => named(area, path, text)?,
+        };
+        Ok(variable.unit(unit).rows(first, count))
+    }
+}
+
+/// `M/32000:DOUBLE`.
+fn numbered(area: u8, module: &str, column: &str) -> Option<NcVariable> {
+    let (column, kind) = column.split_once(':').map_or((column, None), |(column, kind)| (column, Some(kind)));
+    let (_, module) = MODULES.iter().find(|(name, _)| *name == module)?;
+    let kind = match kind {
+        None => None,
+        Some("BYTE" | "BOOL") => Some(NcKind::Byte),
+        Some("WORD") => Some(NcKind::Word),
+        Some("LONG") => Some(NcKind::Long),
+        Some("REAL") => Some(NcKind::Real),
+        Some("DOUBLE") => Some(NcKind::Double),
+        Some(text) => Some(NcKind::Text(text.strip_prefix("TEXT")?.parse().ok().filter(|length| *length <= 200)?)),
+    };
+    let column = column.parse().ok()?;
+    let item = NckItem { system: MeasuringSystem::Current, area, unit: 1, column, line: 1, module: *module, count: 1 };
+    Some(NcVariable { item, kind })
+}
+
+/// `MachineAxis/actToolBasePos` or `SMA/actToolBasePos`.
+fn named(area: u8, path: &str, text: &str) -> Result<NcVariable, Error> {
+    let in_area = || CATALOGUE.iter().filter(|row| area_code(row.area) == area);
+    let tail = |row: &Row| row.name.split_once('/').map_or("", |(_, tail)| tail);
+    let by_module = path.split_once('/').and_then(|(module, name)| {
+        let (_, module) = MODULES.iter().find(|(known, _)| *known == module)?;
+        in_area().find(|row| row.module == *module && row.name.rsplit('/').next() == Some(name))
+    });
+    if let Some(row) = in_area().find(|row| tail(row) == path).or(by_module) {
+        return Ok(NcVariable::of(row));
+    }
+    let last = |name: &str| name.rsplit('/').next().unwrap_or_default().to_ascii_lowercase();
+    let distance = |row: &&Row| strsim::damerau_levenshtein(&last(row.name), &last(path));
+    let near = CATALOGUE.iter().min_by_key(distance).filter(|row| distance(row) <= 3);
+    let cure = near.map_or_else(
+        || "`opennck s7 nck` lists them; others go by number: C/SMA/2:DOUBLE[1]".to_owned(),
+        |row| format!("did you mean `{}`?", row.name),
+    );
+    Err(wrong(text, "an NC variable of the catalogue", cure))
+}
+
+impl fmt::Display for NcVariable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let NckItem { area, unit, column, line, module, count, .. } = self.item;
+        let letter = AREAS.get(usize::from(area)).map_or('?', |letter| char::from(*letter));
+        let unit = if unit == 1 { String::new() } else { unit.to_string() };
+        let row = CATALOGUE.iter().find(|row| {
+            (area_code(row.area), row.module, row.column) == (area, module, column)
+                && self.kind == Some(NcKind::of(row.kind))
+        });
+        match row.and_then(|row| row.name.split_once('/')) {
+            Some((_, path)) => write!(f, "{letter}{unit}/{path}")?,
+            None => {
+                let known = MODULES.iter().find(|(_, code)| *code == module);
+                let module = known.map_or_else(|| format!("{module:02X}"), |(name, _)| (*name).to_owned());
+                write!(f, "{letter}{unit}/{module}/{column}")?;
+                match self.kind {
+                    None => {}
+                    Some(NcKind::Byte) => f.write_str(":BYTE")?,
+                    Some(NcKind::Word) => f.write_str(":WORD")?,
+                    Some(NcKind::Long) => f.write_str(":LONG")?,
+                    Some(NcKind::Real) => f.write_str(":REAL")?,
+                    Some(NcKind::Double) => f.write_str(":DOUBLE")?,
+                    Some(NcKind::Text(length)) => write!(f, ":TEXT{length}")?,
+                }
+            }
+        }
+        match (line, count) {
+            (1, 1) => Ok(()),
+            (line, 1) => write!(f, "[{line}]"),
+            (line, count) => write!(f, "[{line}..{}]", line.saturating_add(u16::from(count).saturating_sub(1))),
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! What a client reads and writes: memory of any PLC by address, and variables of the NCK by name.
+//!
+//! | text | means |
+//! |---|---|
+//! | `DB31.DBX101.4` `M10.3` `IB0` `QW4` `DB31.DBD78:REAL` `T5` `C3` | one element, as everywhere in this project |
+//! | `DB10.DBX100.0..4` | neighbouring bits of one byte |
+//! | `DB31.DBB0..10` `DB21.DBW4..8:INT` `T0..7` | elements from the first byte (or number) to that of the last one |
+//! | `nck:C/MachineAxis/actToolBasePos[2]` | an NC variable; see [`NcVariable`] |
+//!
+//! Numbers of blocks and bytes are free: the host may be any PLC. Without a suffix a number is unsigned.
+
+use std::fmt;
+use std::str::FromStr;
+
+use super::Error;
+use super::nc::NcVariable;
+use crate::image::{Address, Area, Format, Width};
+use crate::s7::wire::data::Type;
+use crate::s7::wire::items::AnyItem;
+
+/// Something to read or write.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Variable {
+    /// Memory of the PLC.
+    Memory(Memory),
+    /// A variable of the NCK.
+    Nc(NcVariable),
+}
+
+/// Elements in the memory of a PLC, one behind another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Memory {
+    /// Where they are.
+    pub area: Area,
+    /// The first byte; the number of a timer or counter.
+    pub byte: u32,
+    /// How much each takes; timers and counters are words.
+    pub width: Width,
+    /// How its bits make a number.
+    pub format: Format,
+    /// How many.
+    pub count: u32,
+}
+
+impl Memory {
+    /// One element; where the address says nothing of it, its number is unsigned.
+    #[must_use]
+    pub fn of(address: &Address) -> Self {
+        let &Address { area, byte, width, format } = address;
+        Self { area, byte: byte.into(), width, format: format.unwrap_or(Format::Unsigned), count: 1 }
+    }
+
+    /// Bytes of an area.
+    #[must_use]
+    pub const fn bytes(area: Area, byte: u32, count: u32) -> Self {
+        Self { area, byte, width: Width::Byte, format: Format::Unsigned, count }
+    }
+
+    /// Bytes of one element.
+    #[must_use]
+    pub const fn element(&self) -> usize {
+        match self.width {
+            Width::Bit(_) | Width::Bits { .. } | Width::Byte => 1,
+            Width::Word => 2,
+            Width::Double => 4,
+        }
+    }
+
+    /// Bytes of all.
+    #[must_use]
+    pub const fn length(&self) -> usize {
+        self.element() * self.count as usize
+    }
+
+    /// The item on the wire for some of its bytes. Everything but bits, timers and counters goes as bytes, which every server
+    /// knows; some count the elements of words and double words wrongly.
+    pub(super) fn item(&self, offset: usize, length: usize) -> AnyItem {
+        let small = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
+        let count = |number: usize| u16::try_from(number).unwrap_or(u16::MAX);
+        let at = match self.area {
+            Area::Timers | Area::Counters => self.byte.saturating_mul(2),
+            Area::DataBlock(_) | Area::Inputs | Area::Outputs | Area::Flags => self.byte,
+        };
+        let byte = at.saturating_add(small(offset));
+        let (kind, count, bit) = match (self.area, self.width) {
+            (Area::Timers, _) => (Type::Timer, count(length / 2), 0),
+            (Area::Counters, _) => (Type::Counter, count(length / 2), 0),
+            (_, Width::Bit(bit)) => (Type::Bit, 1, bit),
+            (_, Width::Bits { .. } | Width::Byte | Width::Word | Width::Double) => (Type::Byte, count(length), 0),
+        };
+        AnyItem { kind, count, area: self.area, byte, bit }
+    }
+
+    /// The first address behind the last element, as the wire counts it.
+    fn end(&self) -> u64 {
+        let step = if matches!(self.area, Area::Timers | Area::Counters) { 1 } else { self.element() as u64 };
+        u64::from(self.byte) + u64::from(self.count) * step
+    }
+}
+
+/// The address space of the wire: three bytes, of which three bits are for bits.
+const ADDRESSES: u64 = 1 << 21;
+
+impl Variable {
+    /// What it takes to refuse before anything is sent.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let wrong =
+            |what: &str, cure: &str| Err(Error::Input { what: format!("{what}, found {self}"), cure: cure.into() });
+        match self {
+            Self::Memory(memory) if memory.count == 0 => wrong("expected at least one element", "ask for one"),
+            Self::Memory(memory) if memory.end() > ADDRESSES => {
+                wrong("expected an address that the protocol has", "it ends at byte 2097151")
+            }
+            Self::Memory(Memory { width: Width::Bit(_) | Width::Bits { .. }, count, .. }) if *count > 1 => {
+                wrong("expected one element where bits are meant", "read bytes (DBB)")
+            }
+            Self::Memory(_) => Ok(()),
+            Self::Nc(variable) if variable.item.count == 0 || variable.item.line == 0 => {
+                wrong("expected rows from 1 on", "rows are counted from 1")
+            }
+            Self::Nc(_) => Ok(()),
+        }
+    }
+}
+
+impl FromStr for Variable {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        if text.starts_with("nck:") || text.contains('/') {
+            return text.strip_prefix("nck:").unwrap_or(text).parse().map(Self::Nc);
+        }
+        let (address, last) = match range(text) {
+            Some((first, last)) => (first, Some(last)),
+            None => (text.to_owned(), None),
+        };
+        let address: Address = address.parse().map_err(|problem: <Address as FromStr>::Err| Error::Input {
+            what: problem.what,
+            cure: problem.cure + ", DB31.DBB0..10 or nck:C/MachineAxis/actToolBasePos[1]",
+        })?;
+        let mut memory = Memory::of(&address);
+        if let Some(last) = last {
+            let step = if matches!(memory.area, Area::Timers | Area::Counters) { 1 } else { memory.element() };
+            let step = u32::try_from(step).unwrap_or(1);
+            match last.checked_sub(memory.byte) {
+                Some(distance) if distance % step == 0 => memory.count = distance / step + 1,
+                _ => {
+                    return Err(Error::Input {
+                        what: format!("expected the address of the last element behind `..`, found `{text}`"),
+                        cure: format!("it is the first one, {}, or whole elements behind it", memory.byte),
+                    });
+                }
+            }
+        }
+        let variable = Self::Memory(memory);
+        variable.check()?;
+        Ok(variable)
+    }
+}
+
+/// First address with its suffix, and the number of the last; bits of one byte (`DBX100.0..4`) are no range.
+fn range(text: &str) -> Option<(String, u32)> {
+    let (plain, suffix) = text.find(':').map_or((text, ""), |at| text.split_at(at));
+    let (first, last) = plain.split_once("..")?;
+    let is_bit = first.rsplit('.').next()?.bytes().all(|digit| digit.is_ascii_digit());
+    let last = last.parse().ok()?;
+    (!is_bit).then(|| (format!("{first}{suffix}"), last))
+}
+
+impl From<Memory> for Variable {
+    fn from(memory: Memory) -> Self {
+        Self::Memory(memory)
+    }
+}
+
+impl From<NcVariable> for Variable {
+    fn from(variable: NcVariable) -> Self {
+        Self::Nc(variable)
+    }
+}
+
+impl fmt::Display for Variable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Memory(memory) => memory.fmt(f),
+            Self::Nc(variable) => write!(f, "nck:{variable}"),
+        }
+    }
+}
+
+impl fmt::Display for Memory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { area, byte, width, format, count } = *self;
+        let is_counted = matches!(area, Area::Timers | Area::Counters);
+        let dot = if matches!(area, Area::DataBlock(_)) { ".DB" } else { "" };
+        let letter = match width {
+            _ if is_counted => "",
+            Width::Bit(_) | Width::Bits { .. } if dot.is_empty() => "",
+            Width::Bit(_) | Width::Bits { .. } => "X",
+            Width::Byte => "B",
+            Width::Word => "W",
+            Width::Double => "D",
+        };
+        write!(f, "{area}{dot}{letter}{byte}")?;
+        match width {
+            Width::Bit(bit) => write!(f, ".{bit}")?,
+            Width::Bits { first, last } => write!(f, ".{first}..{last}")?,
+            Width::Byte | Width::Word | Width::Double if count > 1 => {
+                let step = if is_counted { 1 } else { self.element() as u64 };
+                write!(f, "..{}", u64::from(byte) + (u64::from(count) - 1) * step)?;
+            }
+            Width::Byte | Width::Word | Width::Double => {}
+        }
+        f.write_str(match (format, width) {
+            (Format::Real, _) => ":REAL",
+            (Format::Signed, Width::Double) => ":DINT",
+            (Format::Signed, _) => ":INT",
+            (Format::Unsigned, _) => "",
+        })
+    }
+}
