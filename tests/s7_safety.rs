@@ -9,9 +9,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use opennck::cli::serve::{Capture, Instruments, Live, Speed, Window, WindowOptions};
-use opennck::machine::Machine;
-use rust7::{S7_AREA_MK, S7_WL_BYTE, S7Client};
+use opennck::cli::serve::{Live, Speed, Terms, Window, WindowOptions};
+use opennck::image::{Area, Profile};
+use opennck::machine::{Machine, OpenOptions};
+use opennck::s7::{Protected, Protection, Settings};
+use prometheus_parse::{Scrape, Value};
+use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE, S7Client};
 
 /// The connection request of most clients.
 const CONNECT: [u8; 22] = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
@@ -43,8 +46,11 @@ fn window(live: &Live, options: WindowOptions) -> (Window, SocketAddr) {
 }
 
 fn faults(text: &str) -> WindowOptions {
-    let faults = Some(text.parse().expect("they are faults"));
-    WindowOptions { instruments: Instruments { faults, ..Instruments::default() }, ..WindowOptions::default() }
+    WindowOptions { faults: Some(text.parse().expect("they are faults")), ..WindowOptions::default() }
+}
+
+fn terms(terms: Terms) -> WindowOptions {
+    WindowOptions { terms, ..WindowOptions::default() }
 }
 
 fn client(address: SocketAddr) -> S7Client {
@@ -173,9 +179,7 @@ fn tshark(file: &Path, arguments: &[&str]) -> Option<Vec<String>> {
 #[test]
 fn wireshark_reads_a_capture_without_being_told() {
     let (live, file) = (live(), new_file("session.pcap"));
-    let capture = Some(Capture::create(&file).unwrap());
-    let instruments = Instruments { capture, ..Instruments::default() };
-    let (window, address) = window(&live, WindowOptions { instruments, ..WindowOptions::default() });
+    let (window, address) = window(&live, WindowOptions { capture: Some(file.clone()), ..WindowOptions::default() });
     let mut client = client(address);
     client.write_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &[1, 2, 3]).unwrap();
     client.read_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &mut [0; 100]).unwrap();
@@ -208,8 +212,181 @@ fn wireshark_reads_a_capture_without_being_told() {
 
 #[test]
 fn a_capture_takes_no_file_that_is_there() {
-    let file = new_file("taken.pcap");
+    let (live, file) = (live(), new_file("taken.pcap"));
     std::fs::write(&file, "mine").unwrap();
-    assert!(Capture::create(&file).is_err());
+    let options = WindowOptions { capture: Some(file.clone()), ..WindowOptions::default() };
+    let problem = Window::open_with(&live, &["127.0.0.1:0"], options).unwrap_err().to_string();
+    assert!(problem.contains("taken.pcap") && problem.contains("not there yet"), "{problem}");
     assert_eq!(std::fs::read(&file).unwrap(), b"mine");
+}
+
+/// Three items in one request: the protected one is refused, the others are written.
+#[test]
+fn what_is_protected_is_not_written_and_the_rest_is() {
+    let live = live();
+    let bytes = Protected::Bytes { area: Area::Flags, bytes: 10..=19 };
+    let protected = vec![bytes, Protected::Blocks(31..=32)];
+    let (_window, address) = window(&live, terms(Terms { protected, ..Terms::default() }));
+    let mut stream = bare(address);
+    let mut request = vec![3, 0, 0, 70, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 9, 0, 38, 0, 15, 5, 3];
+    for byte in [9, 10, 20] {
+        request.extend([0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, byte * 8]);
+    }
+    request.extend([0, 4, 0, 8, 1, 0, 0, 4, 0, 8, 2, 0, 0, 4, 0, 8, 3]);
+    request[3] = u8::try_from(request.len()).unwrap();
+    request[16] = 17;
+    stream.write_all(&[&CONNECT[..], &SETUP, &request].concat()).unwrap();
+    let answer = (0..3).map(|_| next(&mut stream).unwrap()).last().unwrap();
+    assert!(answer.ends_with(&[5, 3, 0xFF, 3, 0xFF]), "{answer:02X?}");
+    live.with(|machine| {
+        assert_eq!((machine.memory().flags[9], machine.memory().flags[10], machine.memory().flags[20]), (1, 0, 3))
+    });
+    let mut client = client(address);
+    assert!(client.write_bit(S7_AREA_DB, 31, 2, 1, true).is_err());
+    assert!(client.write_bit(S7_AREA_DB, 33, 2, 1, true).is_ok());
+    assert!(client.write_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &[7; 11]).is_err(), "its last byte is protected");
+    assert!(client.read_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &mut [0; 30]).is_ok());
+}
+
+/// A PDU in one packet.
+fn packet(pdu: &[u8]) -> Vec<u8> {
+    let length = u8::try_from(pdu.len() + 7).unwrap();
+    [&[3, 0, 0, length, 2, 0xF0, 0x80], pdu].concat()
+}
+
+/// User data: group, function, and what its data item holds.
+fn user_data(group: u8, function: u8, payload: &[u8]) -> Vec<u8> {
+    let length = u8::try_from(payload.len()).unwrap();
+    let head =
+        [0x32, 7, 0, 0, 0, 1, 0, 8, 0, length + 4, 0, 1, 0x12, 4, 0x11, 0x40 | group, function, 0, 0xFF, 9, 0, length];
+    packet(&[&head, payload].concat())
+}
+
+/// The bytes of a password as programming devices fold it.
+fn folded(password: &[u8; 8]) -> [u8; 8] {
+    let mut folded = [0; 8];
+    for at in 0..8 {
+        folded[at] = password[at] ^ 0x55 ^ if at < 2 { 0 } else { folded[at - 2] };
+    }
+    folded
+}
+
+#[test]
+fn the_plc_is_stopped_only_with_the_password() {
+    let live = live();
+    let protection = Protection { level: 2, password: Some(*b"secret  ") };
+    let (_window, address) = window(&live, terms(Terms { protection, ..Terms::default() }));
+    let mut stream = bare(address);
+    let mut ask = |request: &[u8]| {
+        stream.write_all(request).unwrap();
+        next(&mut stream).unwrap()
+    };
+    ask(&CONNECT);
+    ask(&SETUP);
+    let stop = packet(&[&[0x32, 1, 0, 0, 0, 2, 0, 16, 0, 0, 0x29, 0, 0, 0, 0, 0, 9][..], b"P_PROGRAM"].concat());
+    assert!(ask(&stop).ends_with(&[0xD2, 0x41]), "protected");
+    let wrong = ask(&user_data(5, 1, &folded(b"Secret  ")));
+    assert_eq!(wrong[27..29], [0xD6, 2], "{wrong:02X?}");
+    assert!(ask(&stop).ends_with(&[0xD2, 0x41]));
+    let right = ask(&user_data(5, 1, &folded(b"secret  ")));
+    assert_eq!(right[27..29], [0, 0], "{right:02X?}");
+    assert_eq!(ask(&stop).last(), Some(&0x29));
+    assert!(live.with(|machine| machine.is_plc_stopped()));
+}
+
+#[test]
+fn the_cpu_says_what_a_file_says() {
+    let (live, file) = (live(), new_file("identity.toml"));
+    std::fs::write(&file, "plant = \"Hall 2\"\norder_number = \"6ES7 999-9ZZ99-9ZZ9\"").unwrap();
+    let identity = opennck::cli::serve::OwnIdentity::read(&file).unwrap();
+    let (_window, address) = window(&live, terms(Terms { identity, ..Terms::default() }));
+    let mut stream = bare(address);
+    stream.write_all(&[&CONNECT[..], &SETUP].concat()).unwrap();
+    next(&mut stream).unwrap();
+    next(&mut stream).unwrap();
+    let mut ask = |list: [u8; 2], index: u8| {
+        stream.write_all(&user_data(4, 1, &[list[0], list[1], 0, index])).unwrap();
+        String::from_utf8_lossy(&next(&mut stream).unwrap()).into_owned()
+    };
+    assert!(ask([1, 0x1C], 3).contains("Hall 2"));
+    assert!(ask([1, 0x11], 1).contains("6ES7 999-9ZZ99-9ZZ9 "));
+    assert!(ask([1, 0x1C], 2).contains("PLC 317-2 PN/DP"));
+}
+
+#[test]
+fn strict_slots_and_a_short_pdu_are_kept() {
+    let live = live();
+    let settings = Settings { longest_pdu: 240, called: Some(vec![[1, 2], [2, 2]]), ..Settings::default() };
+    let (_window, address) = window(&live, WindowOptions { settings, ..WindowOptions::default() });
+    let mut stream = bare(address);
+    stream.write_all(&[&CONNECT[..], &SETUP].concat()).unwrap();
+    next(&mut stream).unwrap();
+    assert!(next(&mut stream).unwrap().ends_with(&[0, 240]), "SETUP asks for 480");
+    let mut elsewhere = CONNECT;
+    elsewhere[21] = 3;
+    let mut stream = bare(address);
+    stream.write_all(&elsewhere).unwrap();
+    assert_eq!(next(&mut stream), None);
+}
+
+#[test]
+fn an_828d_is_served_under_its_numbers() {
+    let options = OpenOptions { profile: Profile::Sinumerik828d, ..OpenOptions::default() };
+    let live = Live::start(Machine::open_with("g1_example", options).unwrap(), Speed::default());
+    let (_window, address) = window(&live, WindowOptions::default());
+    let mut client = client(address);
+    assert!(client.read_db(3900, 0, &mut [0; 4]).is_ok());
+    assert!(client.read_db(31, 60, &mut [0; 4]).is_err());
+}
+
+/// Head and body of an answer.
+fn http(address: SocketAddr, request: &str) -> (String, String) {
+    let mut stream = bare(address);
+    stream.write_all(request.as_bytes()).unwrap();
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer).unwrap();
+    let (head, body) = answer.split_once("\r\n\r\n").unwrap();
+    (head.to_owned(), body.to_owned())
+}
+
+#[test]
+fn prometheus_reads_what_happened() {
+    let live = live();
+    let options = WindowOptions { metrics: Some("127.0.0.1:0".to_owned()), ..WindowOptions::default() };
+    let (window, address) = window(&live, options);
+    let mut client = client(address);
+    client.write_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &[1]).unwrap();
+    assert!(client.read_db(99, 0, &mut [0; 4]).is_err());
+    let metrics = window.metrics_addresses()[0];
+    let (head, body) = http(metrics, "GET /metrics HTTP/1.1\r\nHost: a\r\n\r\n");
+    assert!(head.starts_with("HTTP/1.1 200 ") && head.contains("text/plain; version=0.0.4"), "{head}");
+    let scrape = Scrape::parse(body.lines().map(|line| Ok(line.to_owned()))).unwrap();
+    let value = |name: &str, label: Option<(&str, &str)>| {
+        let is_it = |sample: &&prometheus_parse::Sample| {
+            sample.metric == name && label.is_none_or(|(label, value)| sample.labels.get(label) == Some(value))
+        };
+        match scrape.samples.iter().find(is_it).unwrap_or_else(|| panic!("no {name} in {body}")).value {
+            Value::Counter(value) | Value::Gauge(value) => value,
+            ref other => panic!("{name} is {other:?}: it has no TYPE"),
+        }
+    };
+    assert!(value("opennck_steps_total", None) > 0.0 && value("opennck_simulated_seconds_total", None) > 0.0);
+    for (name, label, expected) in [
+        ("opennck_speed", None, 1.0),
+        ("opennck_plc_running", None, 1.0),
+        ("opennck_s7_clients", None, 1.0),
+        ("opennck_s7_connections_total", None, 1.0),
+        ("opennck_s7_writes_total", None, 1.0),
+        ("opennck_s7_answers_total", None, 4.0), // connect, setup, write, read
+        ("opennck_s7_refusals_total", Some(("code", "0A")), 1.0),
+        ("opennck_s7_sent_away_total", Some(("reason", "places")), 0.0),
+        ("opennck_s7_ended_total", Some(("how", "left")), 0.0),
+    ] {
+        assert!((value(name, label) - expected).abs() < 0.1, "{name}: {}", value(name, label));
+    }
+    // 22 + 25 + 36 + 31 bytes came from the client; every sample has its help.
+    assert!((value("opennck_s7_received_bytes_total", None) - 114.0).abs() < 0.1);
+    assert!(scrape.samples.iter().all(|sample| scrape.docs.contains_key(&sample.metric)));
+    assert!(http(metrics, "GET / HTTP/1.1\r\n\r\n").0.starts_with("HTTP/1.1 404 "));
+    assert!(http(metrics, "POST /metrics HTTP/1.1\r\n\r\n").0.starts_with("HTTP/1.1 405 "));
 }

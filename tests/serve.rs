@@ -6,7 +6,7 @@ use std::net::TcpListener;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 
-use rust7::{S7_AREA_DB, S7Client};
+use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE, S7Client};
 
 fn serve(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
@@ -69,6 +69,7 @@ fn it_serves_until_it_is_asked_to_end() {
 fn a_closed_door_ends_it_with_cause_and_cure() {
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let taken = taken.local_addr().unwrap().to_string();
+    let metrics = format!("--metrics={taken}");
     for (arguments, said) in [
         (["g1_example", "--s7", &taken], ["one in use", "choose another port"]),
         (["g1_example", "--plc", "enable_al"], ["`enable_al`", "enable_all"]),
@@ -76,10 +77,61 @@ fn a_closed_door_ends_it_with_cause_and_cure() {
         (["g1_example", "--plc-image", "no_such"], ["plc_images/no_such.toml", ".toml"]),
         (["g1_example", "--speed", "0"], ["0.001 to 1000", "--speed"]),
         (["g1_example", "--allow", "10.0.0.0/33"], ["10.0.0.0/33", "192.168.0.0/24"]),
+        (["g1_example", "--profile", "840d"], ["840d", "828d"]),
+        (["g1_example", "--s7-fault", "drop=2"], ["drop", "1/100"]),
+        (["g1_example", "--s7=127.0.0.1:0", "--pcap=no_such/a.pcap"], ["no_such/a.pcap", "a folder that is there"]),
+        (["g1_example", "--protect", "DB99"], ["--protect DB99", "DB1000.DBB0..99"]),
+        (["g1_example", "--password", "too long for it"], ["--password", "1 to 8 characters"]),
+        (["g1_example", "--protection-level=3", "--read-only"], ["--protection-level 3", "OPENNCK_S7_PASSWORD"]),
+        (["g1_example", "--identity", "no_such.toml"], ["no_such.toml", "check the path"]),
+        (["g1_example", "--pdu", "100"], ["100", "240..=960"]),
+        (["g1_example", "--idle", "10"], ["10", "500ms, 30s or 10min"]),
+        (["g1_example", "--s7=127.0.0.1:0", &metrics], ["--metrics", "one in use"]),
     ] {
         let output = serve(&arguments).output().unwrap();
         let error = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
         assert!(said.iter().all(|said| error.contains(said)), "{arguments:?}: {error}");
     }
+}
+
+#[test]
+#[cfg(unix)]
+fn its_log_says_who_wrote_and_what_was_refused() {
+    let served = Served::start(&["g1_example", "--log-writes", "--protect", "MB10..19", "--metrics", "0"]);
+    assert!(served.head.iter().any(|line| line.contains("metrics on http://127.0.0.1:")), "{:?}", served.head);
+    let mut client = served.client();
+    client.write_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &[0xAB, 0xCD]).unwrap();
+    assert!(client.write_area(S7_AREA_MK, 0, 8, S7_WL_BYTE, &[1; 4]).is_err());
+    assert!(client.read_db(99, 4, &mut [0; 10]).is_err());
+    let log = String::from_utf8(served.end("-INT").stderr).unwrap();
+    for line in [
+        "has written MB0, 2 bytes = AB CD",
+        "was refused to write MB8, 4 bytes: 03, access is not allowed",
+        "was refused to read DB99.DBB4, 10 bytes: 0A, the object does not exist",
+    ] {
+        assert!(log.lines().any(|found| found.contains("127.0.0.1:") && found.ends_with(line)), "{line}: {log}");
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn who_lets_everybody_write_is_warned() {
+    let open = ["g1_example", "--s7", "0.0.0.0:0"];
+    for (more, is_warned) in [(&[][..], true), (&["--read-only"], false), (&["--allow", "127.0.0.1"], false)] {
+        let served = Served::start(&[&open[..], more].concat());
+        let log = String::from_utf8(served.end("-INT").stderr).unwrap();
+        assert_eq!(log.contains("whoever can reach 0.0.0.0:"), is_warned, "{more:?}: {log}");
+    }
+}
+
+/// The password is not in the list of processes, and not in the help.
+#[test]
+#[cfg(unix)]
+fn a_password_comes_from_the_environment() {
+    let output = serve(&["--help"]).env("OPENNCK_S7_PASSWORD", "hidden").output().unwrap();
+    let help = String::from_utf8(output.stdout).unwrap();
+    assert!(help.contains("OPENNCK_S7_PASSWORD") && !help.contains("hidden"), "{help}");
+    let output = serve(&["g1_example"]).env("OPENNCK_S7_PASSWORD", "too long for it").output().unwrap();
+    assert!(String::from_utf8(output.stderr).unwrap().contains("1 to 8 characters"));
 }

@@ -6,6 +6,7 @@
 
 use super::directory::Directory;
 use super::nck::{self, Control, MachineData};
+use super::protected::Protected;
 use super::station::{
     Areas, BlockInfo, Blocks, Cpu, CpuState, Diagnosis, Identity, NcVariables, Protection, Restart, Value, Write,
 };
@@ -69,6 +70,8 @@ pub struct Machinery<'a> {
     pub diagnosis: &'a [Diagnosis],
     /// Whether clients may change nothing.
     pub is_read_only: bool,
+    /// What clients may not write in any case.
+    pub protected: &'a [Protected],
     /// Machine data; none where there is none of them to be seen.
     pub machine_data: Option<&'a dyn MachineData>,
     /// What the control knows beside them: overrides, R parameters, motors, alarms; none where it is not to be seen.
@@ -86,6 +89,7 @@ impl Default for Machinery<'_> {
             protection: Protection { level: 1, password: None },
             diagnosis: &[],
             is_read_only: false,
+            protected: &[],
             machine_data: None,
             control: None,
             connections: 32,
@@ -199,7 +203,9 @@ impl Areas for Bridge<'_> {
         let mut probe = [0; 1024];
         let probe = usize::try_from(length).ok().and_then(|length| probe.get_mut(..length));
         self.read(area, start, probe.ok_or(Refusal::OutOfRange)?)?;
-        if self.machinery.is_read_only { Err(Refusal::NotAllowed) } else { Ok(()) }
+        let Machinery { is_read_only, protected, .. } = self.machinery;
+        let is_protected = is_read_only || protected.iter().any(|protected| protected.covers(area, start, length));
+        if is_protected { Err(Refusal::NotAllowed) } else { Ok(()) }
     }
 
     fn area_length(&self, area: Area) -> u32 {
@@ -305,6 +311,8 @@ impl NcVariables for Bridge<'_> {
 
     fn may_write_variable(&self, item: &NckItem, bytes: &[u8]) -> Result<(), Refusal> {
         let judged = nck::write(&self.nck(), item, bytes, &mut Vec::new());
-        if self.machinery.is_read_only { Err(Refusal::NotAllowed) } else { judged }
+        let Machinery { is_read_only, protected, .. } = self.machinery;
+        let is_protected = is_read_only || protected.contains(&Protected::NcVariables);
+        if is_protected { Err(Refusal::NotAllowed) } else { judged }
     }
 }

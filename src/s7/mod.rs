@@ -28,6 +28,7 @@ pub mod wire;
 mod bridge;
 pub mod client;
 mod directory;
+mod protected;
 pub mod server;
 mod session;
 mod station;
@@ -37,6 +38,7 @@ mod tests;
 
 pub use bridge::{Bridge, Command, Machinery};
 pub use directory::Directory;
+pub use protected::Protected;
 pub use session::{Connection, Failure, Session, Settings};
 pub use station::{
     Areas, BlockInfo, Blocks, Cpu, CpuState, Diagnosis, Identity, NcVariables, Protection, Restart, Station, Value,

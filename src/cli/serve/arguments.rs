@@ -1,10 +1,17 @@
 //! The arguments of `opennck serve`: what is served, and to whom.
 
-use std::path::{Path, PathBuf};
+use std::convert::Infallible;
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::time::Duration;
 
-use super::{Network, Speed, WindowOptions};
-use crate::s7::server::{Capture, Faults, Instruments, Limits};
+use super::protect::{protected, protection};
+use super::{Network, OwnIdentity, Speed, Terms, WindowOptions};
+use crate::machine::Machine;
+use crate::s7::Settings;
+use crate::s7::server::{Faults, Limits};
 use crate::source::Problem;
+use crate::units::Time;
 
 /// What is served, and to whom.
 #[derive(Debug, clap::Args)]
@@ -38,6 +45,40 @@ pub(crate) struct Arguments {
     /// Writes the trace as JSON lines when it ends; it is kept in memory until then.
     #[arg(long, value_name = "F.jsonl")]
     pub(super) trace: Option<PathBuf>,
+    /// Under which numbers the interface blocks are known: 840d_sl (DB10, DB11, DB21..., DB31...) or 828d (DB1800, DB3800...).
+    #[arg(long, value_name = "PROFILE", default_value = "840d_sl")]
+    pub(super) profile: String,
+    /// What clients may read and not write, on top of what they could; it may be given several times.
+    ///
+    /// Blocks: DB21, DB21..30. Bytes: DB1000.DBB0..99, DB1000.DBW4, MB0..99, IB0, T0..9. Areas: I, Q, M, T, C. nck: all NC
+    /// variables, machine data among them. A write there has return code 03, other items of its request are not affected.
+    #[arg(long, value_name = "ADDRESS")]
+    pub(super) protect: Vec<String>,
+    /// The password of the CPU, up to eight characters; other users see arguments in the list of processes, and not the variable.
+    #[arg(long, env = "OPENNCK_S7_PASSWORD", hide_env_values = true)]
+    pub(super) password: Option<String>,
+    /// What needs the password: 1 nothing; 2 stop, restart, the clock; 3 reading blocks, too. With a password 2 unless said.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=3))]
+    pub(super) protection_level: Option<u8>,
+    /// What the CPU says of itself, as TOML: order_number, version, system_name, module_name, plant, copyright, serial_number,
+    /// module_type, location; what is not there stays as it is.
+    #[arg(long, value_name = "F.toml")]
+    pub(super) identity: Option<PathBuf>,
+    /// Accepts connections to rack 0, slot 2 (PLC), 3 and 4 (NCK) only, as a control does; without it to any rack and slot.
+    #[arg(long)]
+    pub(super) strict_slots: bool,
+    /// The longest PDU that is agreed, from 240 to 960 bytes.
+    #[arg(long, value_name = "BYTES", default_value_t = 960, value_parser = clap::value_parser!(u16).range(240..=960))]
+    pub(super) pdu: u16,
+    /// How long a client may ask nothing, for example 30s; who waits for values that change is not meant.
+    #[arg(long, value_name = "TIME", default_value = "10min", value_parser = duration)]
+    pub(super) idle: Duration,
+    /// Counters for Prometheus at http://ADDR:PORT/metrics; a port alone is of this computer only.
+    #[arg(long, value_name = "[ADDR:]PORT", value_parser = address)]
+    pub(super) metrics: Option<String>,
+    /// Logs what clients write, too: who, where, what.
+    #[arg(long)]
+    pub(super) log_writes: bool,
     /// Writes what goes over the wire as a capture (pcap) that Wireshark opens; a file that exists is refused.
     ///
     /// The server's port is written as 102, where Wireshark shows S7 communication without being told. The file ends at 1 GiB, or
@@ -58,24 +99,44 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     /// What they say of the window for S7 clients.
-    pub(super) fn window(&self) -> Result<WindowOptions, Problem> {
+    pub(super) fn window(&self, machine: &Machine) -> Result<WindowOptions, Problem> {
+        let protected = self.protect.iter().map(|text| protected(text, machine)).collect::<Result<_, _>>()?;
+        let identity = self.identity.as_deref().map(OwnIdentity::read).transpose()?.unwrap_or_default();
+        let protection = protection(self.password.as_deref(), self.protection_level)?;
+        // The kind of connection, and rack and slot.
+        let slots = || (0..=u8::MAX).flat_map(|kind| [[kind, 2], [kind, 3], [kind, 4]]).collect();
         Ok(WindowOptions {
             is_read_only: self.read_only,
-            limits: Limits { networks: self.allow.clone(), ..Limits::default() },
-            instruments: Instruments {
-                faults: self.s7_fault.clone(),
-                capture: self.pcap.as_deref().map(capture).transpose()?,
-            },
-            ..WindowOptions::default()
+            limits: Limits { networks: self.allow.clone(), idle: self.idle, ..Limits::default() },
+            settings: Settings { longest_pdu: self.pdu, called: self.strict_slots.then(slots), ..Settings::default() },
+            faults: self.s7_fault.clone(),
+            capture: self.pcap.clone(),
+            terms: Terms { protected, protection, identity },
+            metrics: self.metrics.clone(),
+        })
+    }
+
+    /// What to say where everybody may come and write.
+    pub(super) fn warning(&self, addresses: &[SocketAddr]) -> Option<String> {
+        let open = addresses.iter().find(|address| !address.ip().to_canonical().is_loopback())?;
+        (!self.read_only && self.allow.is_empty()).then(|| {
+            format!(
+                "whoever can reach {open} can write: S7 communication knows no encryption\n  \
+                let in whom you know (--allow 192.168.0.0/24), or allow reading only (--read-only)"
+            )
         })
     }
 }
 
-fn capture(path: &Path) -> Result<Capture, Problem> {
-    Capture::create(path).map_err(|error| {
-        Problem::new(
-            format!("--pcap {}: expected a file that can be made anew: {error}", path.display()),
-            "name a file that is not there yet, in a folder that is there",
-        )
-    })
+/// `30s`, `10min`.
+fn duration(text: &str) -> Result<Duration, String> {
+    Time::parse(text)
+        .map(|time| Duration::from_nanos(time.nanos().unsigned_abs()))
+        .filter(|time| !time.is_zero())
+        .ok_or_else(|| format!("expected a time such as 500ms, 30s or 10min, found {text}"))
+}
+
+/// An address and a port, or a port of this computer.
+fn address(text: &str) -> Result<String, Infallible> {
+    Ok(if text.parse::<u16>().is_ok() { format!("127.0.0.1:{text}") } else { text.to_owned() })
 }

@@ -83,6 +83,7 @@ pub(super) struct Shared {
     overruns: AtomicU64,
     worst: AtomicU64,
     lost: AtomicU64,
+    speed: Speed,
 }
 
 /// A machine with the clock of its CPU, and what is kept of what happens to it.
@@ -144,6 +145,7 @@ impl Live {
             overruns: AtomicU64::new(0),
             worst: AtomicU64::new(0),
             lost: AtomicU64::new(0),
+            speed,
         });
         let (end, ended) = mpsc::channel();
         let stepped = Arc::clone(&shared);
@@ -159,9 +161,7 @@ impl Live {
     /// How well the schedule was kept so far.
     #[must_use]
     pub fn pace(&self) -> Pace {
-        let nanos = |counter: &AtomicU64| Duration::from_nanos(counter.load(Ordering::Relaxed));
-        let Shared { overruns, worst, lost, .. } = &*self.shared;
-        Pace { overruns: overruns.load(Ordering::Relaxed), worst: nanos(worst), lost: nanos(lost) }
+        self.shared.pace()
     }
 
     /// Whether it still runs; only a defect of the simulator ends it otherwise than by dropping it.
@@ -202,6 +202,18 @@ impl Drop for Live {
 }
 
 impl Shared {
+    /// How well the schedule was kept so far.
+    pub(super) fn pace(&self) -> Pace {
+        let nanos = |counter: &AtomicU64| Duration::from_nanos(counter.load(Ordering::Relaxed));
+        let Self { overruns, worst, lost, .. } = self;
+        Pace { overruns: overruns.load(Ordering::Relaxed), worst: nanos(worst), lost: nanos(lost) }
+    }
+
+    /// How many times real time is wanted.
+    pub(super) fn speed(&self) -> Speed {
+        self.speed
+    }
+
     /// The machine between two steps.
     pub(super) fn lend(&self) -> MutexGuard<'_, Clocked> {
         self.waiting.fetch_add(1, Ordering::Relaxed);

@@ -1,4 +1,4 @@
-//! What happens while a machine is served, line by line on standard error: clients, refused requests, alarms.
+//! What happens while a machine is served, line by line on standard error: clients, refused requests, alarms, and writes on demand.
 
 use std::fmt::{Debug, Write};
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -12,11 +12,14 @@ use tracing::{Event, Level, Metadata, Subscriber};
 #[derive(Debug)]
 pub(super) struct Log {
     pub(super) status: ProgressBar,
+    /// Whether it shows what clients write, too.
+    pub(super) writes: bool,
 }
 
 impl Subscriber for Log {
     fn enabled(&self, metadata: &Metadata<'_>) -> bool {
-        *metadata.level() <= Level::INFO && metadata.target().starts_with(env!("CARGO_CRATE_NAME"))
+        let finest = if self.writes { Level::DEBUG } else { Level::INFO };
+        *metadata.level() <= finest && metadata.target().starts_with(env!("CARGO_CRATE_NAME"))
     }
 
     fn event(&self, event: &Event<'_>) {

@@ -16,15 +16,21 @@
 #![expect(clippy::disallowed_methods, reason = "real time is what it is for")]
 
 mod arguments;
+mod identity;
 mod live;
 mod log;
+mod metrics;
+mod protect;
 mod record;
+mod terms;
 mod window;
 
-pub use crate::s7::server::{Capture, Counter, Counters, Faults, Instruments, Limits, Network, Refused};
+pub use crate::s7::server::{Counter, Counters, Faults, Limits, Network, Refused};
 pub(super) use arguments::Arguments;
+pub use identity::OwnIdentity;
 pub use live::{Ended, GIVE_UP, Keeping, Live, Pace, Speed};
 pub use record::Recording;
+pub use terms::Terms;
 pub use window::{Window, WindowOptions};
 
 use std::fs::File;
@@ -39,6 +45,7 @@ use super::output::Output;
 use crate::image::Preset;
 use crate::machine::{Machine, OpenOptions};
 use crate::plc::Programs;
+use crate::scenario::profile_named;
 use crate::source::{Problem, unreadable};
 use crate::trace::Watch;
 use crate::variables::Describe;
@@ -94,7 +101,10 @@ impl Served {
 fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Result<Served, Problem> {
     let image = arguments.plc_image.as_deref().map(preset).transpose()?;
     let preset = image.as_deref().map(Preset::read).transpose()?;
-    let mut machine = Machine::open_with(&arguments.machine, OpenOptions { preset, ..OpenOptions::default() })?;
+    let profile = profile_named(&arguments.profile)?;
+    let options = OpenOptions { preset, profile, ..OpenOptions::default() };
+    let mut machine = Machine::open_with(&arguments.machine, options)?;
+    let window = arguments.window(&machine)?;
     let plc = match &arguments.plc {
         Some(name) => {
             machine.load_program(programs.program(name, machine.names())?);
@@ -109,7 +119,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let cycle = machine.cycle_time().seconds() * 1000.0;
     let status = status_line();
     // A program that has a log of its own keeps it.
-    let _ = tracing::subscriber::set_global_default(log::Log { status: status.clone() });
+    let _ = tracing::subscriber::set_global_default(log::Log { status: status.clone(), writes: arguments.log_writes });
     let recording = arguments
         .record
         .as_deref()
@@ -122,8 +132,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let trace = trace.transpose()?;
     let live = Live::start_with(machine, arguments.speed, Keeping { recording, trace: trace.is_some() });
     let addresses: Vec<_> = arguments.s7.iter().map(String::as_str).collect();
-    let opened = arguments.window().and_then(|options| Window::open_with(&live, &addresses, options));
-    let window = match opened {
+    let window = match Window::open_with(&live, &addresses, window) {
         Ok(window) => window,
         Err(problem) => {
             // Nobody could come: a file that has only just begun would be in the way of the next try.
@@ -133,9 +142,15 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
         }
     };
     let mut head = format!("{}: axes {}, a cycle of {cycle} ms, {plc}\n", arguments.machine.display(), axes.join(", "));
+    if let Some(warning) = arguments.warning(window.addresses()) {
+        output.warning(warning);
+    }
     let rights = if arguments.read_only { "read only" } else { "read and write" };
     for address in window.addresses() {
         head += &format!("S7 on {address}: rack 0, slot 2, {rights}\n");
+    }
+    for address in window.metrics_addresses() {
+        head += &format!("metrics on http://{address}/metrics\n");
     }
     if let Some(faults) = &arguments.s7_fault {
         head += &format!("faults on purpose: {faults}\n");

@@ -5,6 +5,7 @@
 
 use std::io;
 use std::net::SocketAddr;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread::JoinHandle;
 
@@ -13,10 +14,12 @@ use tokio::sync::watch;
 use tokio::task::JoinSet;
 
 use super::live::{Clocked, Live, Shared};
+use super::metrics;
+use super::terms::Terms;
 use crate::image::Profile;
 use crate::machine::{Command, DatumValue, Machine};
 use crate::s7::nck::{self, Datum};
-use crate::s7::server::{Counters, Instruments, Limits, Server, Stations, listen};
+use crate::s7::server::{Capture, Counters, Faults, Instruments, Limits, Server, Stations, listen};
 use crate::s7::wire::data::Refusal;
 use crate::s7::{self, Bridge, CpuState, Directory, Identity, Machinery, Settings, Station};
 use crate::sinumerik::Alarm;
@@ -30,6 +33,7 @@ use crate::variables::{AlarmNumber, Place};
 pub struct Window {
     server: Arc<Server<Lender>>,
     addresses: Vec<SocketAddr>,
+    metrics_addresses: Vec<SocketAddr>,
     end: watch::Sender<bool>,
     thread: Option<JoinHandle<()>>,
 }
@@ -43,8 +47,14 @@ pub struct WindowOptions {
     pub limits: Limits,
     /// What each client is offered.
     pub settings: Settings,
-    /// Faults on purpose, and a capture.
-    pub instruments: Instruments,
+    /// Faults on purpose.
+    pub faults: Option<Faults>,
+    /// The file in which all that goes over the wire is written; it must not be there yet.
+    pub capture: Option<PathBuf>,
+    /// What clients may not write, what needs a password, and whom they meet.
+    pub terms: Terms,
+    /// Where Prometheus finds its metrics.
+    pub metrics: Option<String>,
 }
 
 impl Window {
@@ -61,12 +71,10 @@ impl Window {
     /// # Errors
     /// As [`Window::open`].
     pub fn open_with(live: &Live, addresses: &[&str], options: WindowOptions) -> Result<Self, Problem> {
-        let WindowOptions { is_read_only, limits, settings, instruments } = options;
+        let WindowOptions { is_read_only, limits, settings, faults, capture, terms, metrics } = options;
         let shared = live.shared();
         let directory = live.with(|machine| Directory::of(machine.memory(), machine.names().profile));
         let connections = u16::try_from(limits.clients).unwrap_or(u16::MAX);
-        let lender = Lender { shared, directory, is_read_only, connections };
-        let server = Server::new(lender, settings, limits).with(instruments);
         let runtime = Builder::new_current_thread().enable_all().build().map_err(|error| {
             Problem::new(
                 format!("the server cannot start: {error}"),
@@ -75,21 +83,42 @@ impl Window {
         })?;
         let mut listeners = Vec::new();
         for address in addresses {
-            let opened = runtime.block_on(listen(address)).map_err(|error| closed_door(address, &error))?;
+            let opened = runtime.block_on(listen(address)).map_err(|error| closed_door("--s7", address, &error))?;
             listeners.extend(opened);
         }
         let addresses = listeners.iter().filter_map(|listener| listener.local_addr().ok()).collect();
+        let for_metrics = match &metrics {
+            Some(address) => {
+                runtime.block_on(listen(address)).map_err(|error| closed_door("--metrics", address, &error))?
+            }
+            None => Vec::new(),
+        };
+        let metrics_addresses = for_metrics.iter().filter_map(|listener| listener.local_addr().ok()).collect();
+        // A file is begun when nothing else can stop it.
+        let capture = capture.as_deref().map(captured).transpose()?;
+        let lender = Lender { shared, directory, is_read_only, connections, terms };
+        let server = Arc::new(Server::new(lender, settings, limits).with(Instruments { faults, capture }));
+        for listener in for_metrics {
+            let (shared, server) = (live.shared(), Arc::clone(&server));
+            let text = move || metrics::text(&shared, server.clients(), server.counters());
+            runtime.spawn(metrics::serve(listener, text));
+        }
         let (end, ended) = watch::channel(false);
-        let server = Arc::new(server);
         let served = Arc::clone(&server);
         let thread = std::thread::spawn(move || serve(&runtime, &served, listeners, &ended));
-        Ok(Self { server, addresses, end, thread: Some(thread) })
+        Ok(Self { server, addresses, metrics_addresses, end, thread: Some(thread) })
     }
 
     /// Where it can be reached.
     #[must_use]
     pub fn addresses(&self) -> &[SocketAddr] {
         &self.addresses
+    }
+
+    /// Where Prometheus finds its metrics: at `/metrics` of these.
+    #[must_use]
+    pub fn metrics_addresses(&self) -> &[SocketAddr] {
+        &self.metrics_addresses
     }
 
     /// How many clients there are now.
@@ -140,11 +169,20 @@ fn serve(
     });
 }
 
-fn closed_door(address: &str, error: &io::Error) -> Problem {
+fn captured(path: &Path) -> Result<Capture, Problem> {
+    Capture::create(path).map_err(|error| {
+        Problem::new(
+            format!("--pcap {}: expected a file that can be made anew: {error}", path.display()),
+            "name a file that is not there yet, in a folder that is there",
+        )
+    })
+}
+
+fn closed_door(option: &str, address: &str, error: &io::Error) -> Problem {
     let (what, cure) = match error.kind() {
         io::ErrorKind::AddrInUse => (
             "expected a free port, found one in use".to_owned(),
-            "end the program that has it, or choose another port, for example --s7 127.0.0.1:10103",
+            "end the program that has it, or choose another port, for example 127.0.0.1:10103",
         ),
         io::ErrorKind::PermissionDenied => (
             "expected a port that may be opened, found a protected one".to_owned(),
@@ -159,7 +197,7 @@ fn closed_door(address: &str, error: &io::Error) -> Problem {
             "write it as 127.0.0.1:10102, [::1]:10102 or localhost:10102",
         ),
     };
-    Problem::new(format!("--s7 {address}: {what}"), cure)
+    Problem::new(format!("{option} {address}: {what}"), cure)
 }
 
 /// Lends a live machine to one request after another.
@@ -169,6 +207,7 @@ struct Lender {
     directory: Directory,
     is_read_only: bool,
     connections: u16,
+    terms: Terms,
 }
 
 impl Stations for Lender {
@@ -201,7 +240,7 @@ impl Lender {
             ..Machinery::default()
         };
         let bridge = Bridge::new(machine.memory(), machine.variables(), machine.names(), &self.directory);
-        let mut bridge = bridge.with(machinery);
+        let mut bridge = bridge.with(self.terms.over(machinery));
         work(&mut bridge);
         let commands = bridge.into_commands();
         if commands.is_empty() {

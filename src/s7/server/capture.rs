@@ -201,3 +201,23 @@ impl Drop for Recording<'_> {
         self.put(first, Kind::Acknowledge, &[]);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A full disk, as the system offers one: nobody is disturbed, and nothing more is written.
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn a_full_disk_ends_the_capture_and_nothing_else() {
+        let full = || std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        assert!(Capture::into_file(full()).is_err());
+        let output = Output { file: Some(full()), length: 24, last: Duration::ZERO, record: Vec::new() };
+        let capture = Capture(Mutex::new(output));
+        let (client, server) = ("127.0.0.1:50000".parse().unwrap(), "127.0.0.1:10102".parse().unwrap());
+        let mut recording = capture.begin(client, server, 1);
+        recording.received(&[3, 0, 0, 7, 2, 0xF0, 0x80]);
+        drop(recording);
+        assert!(capture.output().file.is_none());
+    }
+}
