@@ -17,10 +17,13 @@ pub(crate) const ANSWER: usize = 25 + BYTES;
 /// What stands before the values in an answer, from the function on: read, one item, good, in bits, 222 · 8.
 const HEAD: [u8; 6] = [4, 1, 0xFF, 4, 0x06, 0xF0];
 
-/// The connection request of most clients, to rack 0 slot 2; and the length of its confirm.
-const CONNECT: [u8; 22] = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
-/// Setup communication: a PDU of 240 bytes; and the length of its answer.
-const SETUP: [u8; 25] = [3, 0, 0, 25, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 1, 0, 8, 0, 0, 0xF0, 0, 0, 8, 0, 8, 0, 240];
+/// The connection request of most clients, to rack 0 slot 2; its confirm is as long.
+pub(crate) const CONNECT: [u8; 22] = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
+/// Setup communication; and the length of its answer.
+pub(crate) fn setup(pdu: u16) -> [u8; 25] {
+    let [high, low] = pdu.to_be_bytes();
+    [3, 0, 0, 25, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 1, 0, 8, 0, 0, 0xF0, 0, 0, 8, 0, 8, high, low]
+}
 const SET_UP: usize = 27;
 
 /// The read of the block.
@@ -53,7 +56,7 @@ pub(crate) fn connect(address: SocketAddr, knows_s7: bool) -> io::Result<std::ne
         let mut answer = [0; SET_UP];
         stream.write_all(&CONNECT)?;
         stream.read_exact(&mut answer[..CONNECT.len()])?;
-        stream.write_all(&SETUP)?;
+        stream.write_all(&setup(240))?;
         stream.read_exact(&mut answer)?;
         let pdu = u16::from_be_bytes([answer[25], answer[26]]);
         if answer[7..9] != [0x32, 3] || pdu != 240 {

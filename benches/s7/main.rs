@@ -12,6 +12,7 @@
 mod echo;
 mod load;
 mod servers;
+mod soak;
 
 use std::io;
 use std::time::Duration;
@@ -39,6 +40,12 @@ struct Arguments {
     /// Idle connections that are held, to see what one costs.
     #[arg(long, default_value_t = 1000)]
     held: usize,
+    /// Instead of all that: 32 clients of all kinds for so many seconds, and whether memory and handles stay what they were.
+    #[arg(long, value_name = "SECONDS")]
+    soak: Option<u64>,
+    /// Requests per second of the soak.
+    #[arg(long, default_value_t = 2000.0)]
+    rate: f64,
     /// Be the echo.
     #[arg(long, hide = true)]
     echo: bool,
@@ -58,6 +65,12 @@ fn main() -> io::Result<()> {
     let arguments = Arguments::parse();
     if arguments.echo {
         return echo::serve();
+    }
+    if let Some(seconds) = arguments.soak {
+        let server = Server::opennck()?;
+        let is_good = soak::run(&server, 32, Duration::from_secs(seconds), arguments.rate);
+        show_log(server);
+        return if is_good { Ok(()) } else { Err(io::Error::other("the soak failed")) };
     }
     let mut servers = vec![Server::opennck()?, Server::echo()?];
     match Server::snap7() {
@@ -99,15 +112,18 @@ fn main() -> io::Result<()> {
     }
     println!("\n| row | ratio | value | aim |\n|---|---|---|---|\n{ratios}");
     held(&servers[0], arguments.held)?;
-    for server in servers {
-        let name = server.name;
-        let said = server.end();
-        for line in said.lines().filter(|line| !line.contains(" has come") && !line.contains(" has left")) {
-            println!("{name}: {line}");
-        }
-    }
+    servers.into_iter().for_each(show_log);
     println!("{misses} aims were missed");
     Ok(())
+}
+
+/// Ends a server and shows what it said, without those who came and went.
+fn show_log(server: Server) {
+    let name = server.name;
+    let said = server.end();
+    for line in said.lines().filter(|line| !line.contains(" has come") && !line.contains(" has left")) {
+        println!("{name}: {line}");
+    }
 }
 
 /// The servers one after another, round by round.

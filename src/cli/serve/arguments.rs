@@ -79,6 +79,9 @@ pub(crate) struct Arguments {
     /// Logs what clients write, too: who, where, what.
     #[arg(long)]
     pub(super) log_writes: bool,
+    /// How many clients may be there at once; one more is sent away.
+    #[arg(long, value_name = "N", default_value_t = Limits::default().clients)]
+    pub(super) clients: usize,
     /// Writes what goes over the wire as a capture (pcap) that Wireshark opens; a file that exists is refused.
     ///
     /// The server's port is written as 102, where Wireshark shows S7 communication without being told. The file ends at 1 GiB, or
@@ -107,7 +110,12 @@ impl Arguments {
         let slots = || (0..=u8::MAX).flat_map(|kind| [[kind, 2], [kind, 3], [kind, 4]]).collect();
         Ok(WindowOptions {
             is_read_only: self.read_only,
-            limits: Limits { networks: self.allow.clone(), idle: self.idle, ..Limits::default() },
+            limits: Limits {
+                clients: self.clients,
+                networks: self.allow.clone(),
+                idle: self.idle,
+                ..Limits::default()
+            },
             settings: Settings { longest_pdu: self.pdu, called: self.strict_slots.then(slots), ..Settings::default() },
             faults: self.s7_fault.clone(),
             capture: self.pcap.clone(),

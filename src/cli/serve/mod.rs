@@ -16,6 +16,7 @@
 #![expect(clippy::disallowed_methods, reason = "real time is what it is for")]
 
 mod arguments;
+mod handles;
 mod identity;
 mod live;
 mod log;
@@ -131,6 +132,9 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     });
     let trace = trace.transpose()?;
     let live = Live::start_with(machine, arguments.speed, Keeping { recording, trace: trace.is_some() });
+    if let Some(warning) = handles::allow(arguments.clients) {
+        output.warning(warning);
+    }
     let addresses: Vec<_> = arguments.s7.iter().map(String::as_str).collect();
     let window = match Window::open_with(&live, &addresses, window) {
         Ok(window) => window,
@@ -199,6 +203,7 @@ fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result
         }
     });
     bar.finish_and_clear();
+    tracing::info!("ends: {}", status.sum());
     ended
 }
 
@@ -253,18 +258,28 @@ impl<'a> Status<'a> {
             self.last = (Instant::now(), time, answers);
         }
         let speed = self.speed.map_or_else(|| wanted.to_string(), |speed| format!("{speed:.2}"));
-        let pace = self.live.pace();
         let alarms = if alarms.is_empty() { "none".to_owned() } else { alarms.join(" ") };
         let mut line = format!("{time:.1} s  step {cycle}  speed {speed}");
-        if pace.overruns > 0 {
-            line += &format!("  overruns {} (worst {} ms", pace.overruns, pace.worst.as_millis());
-            if !pace.lost.is_zero() {
-                line += &format!(", lost {:.1} s", pace.lost.as_secs_f64());
-            }
-            line += ")";
+        if self.live.pace().overruns > 0 {
+            line += &format!("  {}", self.overruns());
         }
         line += &format!("  clients {} ({}/s)  alarms {alarms}", self.window.clients(), self.rate);
         line
+    }
+
+    fn overruns(&self) -> String {
+        let pace = self.live.pace();
+        let mut text = format!("overruns {} (worst {} ms", pace.overruns, pace.worst.as_millis());
+        if !pace.lost.is_zero() {
+            text += &format!(", lost {:.1} s", pace.lost.as_secs_f64());
+        }
+        text + ")"
+    }
+
+    /// What all of it was.
+    fn sum(&self) -> String {
+        let step = self.live.with(|machine| machine.cycle());
+        format!("step {step}  {}  answers {}", self.overruns(), self.window.answers())
     }
 }
 
