@@ -1,15 +1,35 @@
-//! How time passes in a session: cycle by cycle, with what must hold in each, and what a failure says.
+//! How time passes in a session: cycle by cycle, what a step does before each, what must hold in each, and what a failure says.
+//!
+//! Nothing here steps a machine. Whoever does asks a [`Book`] before each cycle how an action goes on and tells it after each that
+//! the cycle is over; so the same actions run as fast as they can, for a file or a test, and in real time, where others step.
 
 use std::borrow::Cow;
 
 use super::expression::{Expression, Moment, View};
 use super::failure::{Failure, Missed};
-use super::session::Session;
+use super::session::Condition;
+use super::steps::Action;
 use crate::image::{Location, Memory};
 use crate::machine::{Command, Machine};
 use crate::trace::place_name;
 use crate::units::Time;
 use crate::variables::{Describe, Variables};
+
+/// What a session keeps beside its machine.
+#[derive(Clone, Debug)]
+pub(super) struct Book {
+    /// The cycle that counts as time zero.
+    start: u64,
+    /// Bits that were written and that no cycle has taken up yet.
+    pending: Vec<(Location, u64)>,
+    pub(super) captured_names: Vec<String>,
+    captured: Vec<f64>,
+    pub(super) conditions: Vec<Condition>,
+    /// Bound on the cycles of this session.
+    pub(super) limit: Option<u64>,
+    /// What was shown one cycle ago, kept where an expression looks back.
+    before: Option<Box<Shown>>,
+}
 
 /// What the machine showed after a cycle.
 #[derive(Clone, Debug)]
@@ -19,127 +39,213 @@ pub(super) struct Shown {
     pub(super) time: Time,
 }
 
+/// How an action goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Next {
+    /// A cycle has to pass.
+    Cycle,
+    /// It is over.
+    Over,
+}
+
 /// Why a cycle was the last one.
-enum Stopped {
+pub(super) enum Stopped {
     Limit,
     Condition(usize),
 }
 
-impl Session {
-    pub(super) fn pulse_locations(&mut self, locations: &[Location], cycles: u64) -> Result<(), Failure> {
-        for &location in locations {
-            self.queue(Command::Write { location, value: 1 })?;
+impl Book {
+    /// Begins now.
+    pub(super) fn new(machine: &Machine) -> Self {
+        Self {
+            start: machine.cycle(),
+            pending: Vec::new(),
+            captured_names: Vec::new(),
+            captured: Vec::new(),
+            conditions: Vec::new(),
+            limit: None,
+            before: Some(Box::new(Shown::of(machine, Time::ZERO))),
         }
-        self.run_cycles(cycles)?;
-        for &location in locations {
-            self.queue(Command::Write { location, value: 0 })?;
-        }
-        self.run_cycles(1)
     }
 
-    pub(super) fn run_cycles(&mut self, cycles: u64) -> Result<(), Failure> {
-        for done in 0..cycles {
-            self.pass_cycle().map_err(|stopped| {
-                let passed = self.machine.cycle_time().times(done);
-                self.stopped(&stopped, &format!("after {passed} s of a run"), None)
-            })?;
-        }
-        Ok(())
+    /// Whether the state before the last cycle is kept; needed where an expression has `rose` or `fell`.
+    pub(super) fn look_back(&mut self, wanted: bool, machine: &Machine) {
+        self.before = wanted.then(|| Box::new(Shown::of(machine, self.time(machine))));
     }
 
-    pub(super) fn wait_for(&mut self, expression: &Expression, within: Option<u64>) -> Result<(), Failure> {
-        if self.holds(expression) {
-            return Ok(());
-        }
-        let mut waited = 0;
-        loop {
-            if within.is_some_and(|within| waited >= within) {
-                let what = format!("{}, and it did not become true", self.waited(waited, expression));
-                return Err(self.missed(what, Some(expression)));
+    /// Since the start of the session.
+    pub(super) fn time(&self, machine: &Machine) -> Time {
+        machine.cycle_time().times(machine.cycle() - self.start)
+    }
+
+    /// Queues a command for the next cycle.
+    pub(super) fn queue(&mut self, command: Command, machine: &mut Machine) -> Result<(), Failure> {
+        match command {
+            Command::Write { location, value } | Command::Force { location, value } => {
+                self.pending.push((location, value));
             }
-            let before = self.pass_cycle();
-            before.map_err(|stopped| self.stopped(&stopped, &self.waited(waited, expression), Some(expression)))?;
-            waited += 1;
-            if self.holds(expression) {
-                return Ok(());
-            }
+            _ => {}
         }
+        Ok(machine.queue(command)?)
     }
 
-    fn waited(&self, cycles: u64, expression: &Expression) -> String {
-        format!("waited {} s for `{}`", self.machine.cycle_time().times(cycles), expression.source())
+    fn write_bits(&mut self, locations: &[Location], value: u64, machine: &mut Machine) -> Result<(), Failure> {
+        locations.iter().try_for_each(|&location| self.queue(Command::Write { location, value }, machine))
     }
 
-    pub(super) fn hold_for(&mut self, expression: &Expression, during: u64) -> Result<(), Failure> {
-        for held in 0..=during {
-            if !self.holds(expression) {
-                let held = self.machine.cycle_time().times(held);
+    /// What an action does when this many of its cycles have passed.
+    pub(super) fn go_on(&mut self, action: &Action, passed: u64, machine: &mut Machine) -> Result<Next, Failure> {
+        let while_below = |cycles: u64| if passed < cycles { Next::Cycle } else { Next::Over };
+        match action {
+            Action::Queue(commands) => {
+                commands.iter().try_for_each(|command| self.queue(command.clone(), machine))?;
+                Ok(Next::Over)
+            }
+            Action::Pulse(locations, cycles) => {
+                if passed == 0 {
+                    self.write_bits(locations, 1, machine)?;
+                } else if passed == *cycles {
+                    self.write_bits(locations, 0, machine)?;
+                }
+                Ok(while_below(cycles + 1))
+            }
+            Action::Run(cycles) => Ok(while_below(*cycles)),
+            Action::Wait(expression, within) => {
+                if self.holds(expression, machine) {
+                    return Ok(Next::Over);
+                }
+                if within.is_some_and(|within| passed >= within) {
+                    let what = format!("{}, and it did not become true", waited(passed, expression, machine));
+                    return Err(self.missed(what, Some(expression), machine));
+                }
+                Ok(Next::Cycle)
+            }
+            Action::Hold(expression, during) => {
+                if self.holds(expression, machine) {
+                    return Ok(while_below(*during));
+                }
+                let held = machine.cycle_time().times(passed);
                 let what = format!("expected `{}` to hold, found it false after {held} s", expression.source());
-                return Err(self.missed(what, Some(expression)));
+                Err(self.missed(what, Some(expression), machine))
             }
-            if held < during {
-                self.pass_cycle().map_err(|stopped| {
-                    self.stopped(&stopped, &format!("while `{}` held", expression.source()), Some(expression))
+            Action::Expect(expressions) => {
+                let mut all = expressions.iter();
+                all.try_for_each(|(place, expression)| self.expect(expression, machine).map_err(|f| f.at(place)))?;
+                Ok(Next::Over)
+            }
+            Action::Capture(captures) => {
+                for (index, expression) in captures {
+                    self.keep(*index, expression, machine);
+                }
+                Ok(Next::Over)
+            }
+            Action::Image(bytes) => {
+                let mut all = bytes.iter();
+                all.try_for_each(|(place, location, bits)| {
+                    self.expect_bits(*location, *bits, machine).map_err(|f| f.at(place))
                 })?;
+                Ok(Next::Over)
             }
         }
-        Ok(())
     }
 
-    pub(super) fn expect_now(&mut self, expression: &Expression) -> Result<(), Failure> {
-        if self.holds(expression) {
-            Ok(())
-        } else {
-            Err(self.missed(format!("expected `{}`, found it false", expression.source()), Some(expression)))
-        }
-    }
-
-    /// These bits must be there now.
-    pub(super) fn expect_bits(&mut self, location: Location, bits: u64) -> Result<(), Failure> {
-        let found = self.now().read(location);
-        if found == bits {
-            return Ok(());
-        }
-        let width = usize::from(location.width);
-        let names = self.machine.names();
-        let address = names.address(location);
-        let what = format!("expected {address} = 2#{bits:0width$b}, found 2#{found:0width$b}");
-        Err(self.missed(what, None))
-    }
-
-    /// One cycle, and what must hold in it.
-    fn pass_cycle(&mut self) -> Result<(), Stopped> {
-        if self.limit.is_some_and(|limit| self.elapsed() >= limit) {
+    /// Before a cycle.
+    pub(super) fn begin_cycle(&mut self, machine: &Machine) -> Result<(), Stopped> {
+        if self.limit.is_some_and(|limit| machine.cycle() - self.start >= limit) {
             return Err(Stopped::Limit);
         }
-        let time = self.time();
+        let time = self.time(machine);
         if let Some(before) = &mut self.before {
-            **before = Shown::of(&self.machine, time);
+            **before = Shown::of(machine, time);
         }
-        self.machine.step();
+        Ok(())
+    }
+
+    /// After a cycle: what must hold in it.
+    pub(super) fn end_cycle(&mut self, machine: &Machine) -> Result<(), Stopped> {
         self.pending.clear();
-        self.trace.extend(self.machine.recorder());
-        self.machine.drain();
-        self.trace.note_values(self.machine.cycle(), self.machine.variables());
         let broken = self.conditions.iter().position(|condition| {
-            self.with_view(self.last(), |view| condition.expression.holds(view)) != condition.wanted
+            self.with_view(self.last(machine), machine, |view| condition.expression.holds(view)) != condition.wanted
         });
         broken.map_or(Ok(()), |index| Err(Stopped::Condition(index)))
     }
 
+    /// The failure of a cycle that was the last one of an action.
+    pub(super) fn stopped(&self, stopped: &Stopped, action: &Action, passed: u64, machine: &Machine) -> Failure {
+        let run = |cycles: u64| format!("after {} s of a run", machine.cycle_time().times(cycles));
+        let (doing, expression) = match action {
+            Action::Wait(expression, _) => (waited(passed, expression, machine), Some(expression)),
+            Action::Hold(expression, _) => (format!("while `{}` held", expression.source()), Some(expression)),
+            Action::Pulse(_, cycles) => (run(if passed < *cycles { passed } else { passed - cycles }), None),
+            Action::Run(_) | Action::Queue(_) | Action::Expect(_) | Action::Capture(_) | Action::Image(_) => {
+                (run(passed), None)
+            }
+        };
+        match stopped {
+            Stopped::Limit => {
+                let limit = machine.cycle_time().times(self.limit.unwrap_or(0));
+                self.missed(format!("reached the limit of {limit} s: {doing}"), expression, machine)
+            }
+            Stopped::Condition(index) => {
+                let condition = &self.conditions[*index];
+                let (word, found) = if condition.wanted { ("always", "false") } else { ("never", "true") };
+                let source = condition.expression.source();
+                let what = format!("expected {word} `{source}`, found it {found}");
+                let failure = self.missed(what, Some(&condition.expression), machine);
+                match &condition.place {
+                    Some(place) => failure.at(place),
+                    None => failure,
+                }
+            }
+        }
+    }
+
+    /// Must be true now.
+    pub(super) fn expect(&self, expression: &Expression, machine: &Machine) -> Result<(), Failure> {
+        if self.holds(expression, machine) {
+            Ok(())
+        } else {
+            let what = format!("expected `{}`, found it false", expression.source());
+            Err(self.missed(what, Some(expression), machine))
+        }
+    }
+
+    /// Keeps a value.
+    pub(super) fn keep(&mut self, index: usize, expression: &Expression, machine: &Machine) -> f64 {
+        let value = self.evaluated(expression, machine);
+        if self.captured.len() <= index {
+            self.captured.resize(index + 1, f64::NAN);
+        }
+        self.captured[index] = value;
+        value
+    }
+
+    /// These bits must be there now.
+    fn expect_bits(&self, location: Location, bits: u64, machine: &Machine) -> Result<(), Failure> {
+        let found = self.now(machine).read(location);
+        if found == bits {
+            return Ok(());
+        }
+        let width = usize::from(location.width);
+        let names = machine.names();
+        let address = names.address(location);
+        let what = format!("expected {address} = 2#{bits:0width$b}, found 2#{found:0width$b}");
+        Err(self.missed(what, None, machine))
+    }
+
     /// The state after the last cycle.
-    fn last(&self) -> Moment<'_> {
+    fn last<'a>(&'a self, machine: &'a Machine) -> Moment<'a> {
         Moment {
-            memory: self.machine.memory(),
-            variables: self.machine.variables(),
-            time: self.time(),
+            memory: machine.memory(),
+            variables: machine.variables(),
+            time: self.time(machine),
             captured: &self.captured,
         }
     }
 
     /// Looks at the two last cycles and at `now`.
-    fn with_view<T>(&self, now: Moment<'_>, look: impl FnOnce(&View<'_>) -> T) -> T {
-        let last = self.last();
+    fn with_view<T>(&self, now: Moment<'_>, machine: &Machine, look: impl FnOnce(&View<'_>) -> T) -> T {
+        let last = self.last(machine);
         let before = self.before.as_ref().map_or(last, |before| Moment {
             memory: &before.memory,
             variables: &before.variables,
@@ -150,61 +256,44 @@ impl Session {
     }
 
     /// The memory now: after the last cycle, with what was written since.
-    fn now(&self) -> Cow<'_, Memory> {
+    fn now<'a>(&self, machine: &'a Machine) -> Cow<'a, Memory> {
         if self.pending.is_empty() {
-            return Cow::Borrowed(self.machine.memory());
+            return Cow::Borrowed(machine.memory());
         }
-        let mut memory = self.machine.memory().clone();
+        let mut memory = machine.memory().clone();
         for &(location, value) in &self.pending {
             memory.write(location, value);
         }
         Cow::Owned(memory)
     }
 
-    fn looked_at<T>(&self, look: impl FnOnce(&View<'_>) -> T) -> T {
-        let now = self.now();
-        self.with_view(Moment { memory: &now, ..self.last() }, look)
+    fn looked_at<T>(&self, machine: &Machine, look: impl FnOnce(&View<'_>) -> T) -> T {
+        let now = self.now(machine);
+        self.with_view(Moment { memory: &now, ..self.last(machine) }, machine, look)
     }
 
-    pub(super) fn holds(&self, expression: &Expression) -> bool {
-        self.looked_at(|view| expression.holds(view))
+    fn holds(&self, expression: &Expression, machine: &Machine) -> bool {
+        self.looked_at(machine, |view| expression.holds(view))
     }
 
-    pub(super) fn evaluated(&self, expression: &Expression) -> f64 {
-        self.looked_at(|view| expression.value(view))
+    pub(super) fn evaluated(&self, expression: &Expression, machine: &Machine) -> f64 {
+        self.looked_at(machine, |view| expression.value(view))
     }
 
-    fn missed(&self, what: String, expression: Option<&Expression>) -> Failure {
+    fn missed(&self, what: String, expression: Option<&Expression>, machine: &Machine) -> Failure {
         let operands = expression
-            .map_or_else(Vec::new, |expression| self.looked_at(|view| expression.operands(view, &self.machine)));
-        let names = self.machine.names();
-        let alarms = self.machine.variables().alarms.iter().map(|alarm| {
-            let (name, text) = (self.machine.alarm_name(alarm.number), self.machine.alarm_text(alarm));
+            .map_or_else(Vec::new, |expression| self.looked_at(machine, |view| expression.operands(view, machine)));
+        let names = machine.names();
+        let alarms = machine.variables().alarms.iter().map(|alarm| {
+            let (name, text) = (machine.alarm_name(alarm.number), machine.alarm_text(alarm));
             format!("{name} [{}] {text}", place_name(alarm.place, names))
         });
-        Missed { place: None, time: self.time(), what, operands, alarms: alarms.collect() }.into()
+        Missed { place: None, time: self.time(machine), what, operands, alarms: alarms.collect() }.into()
     }
+}
 
-    /// The failure of a cycle that was the last one.
-    fn stopped(&self, stopped: &Stopped, doing: &str, expression: Option<&Expression>) -> Failure {
-        match stopped {
-            Stopped::Limit => {
-                let limit = self.machine.cycle_time().times(self.limit.unwrap_or(0));
-                self.missed(format!("reached the limit of {limit} s: {doing}"), expression)
-            }
-            Stopped::Condition(index) => {
-                let condition = &self.conditions[*index];
-                let (word, found) = if condition.wanted { ("always", "false") } else { ("never", "true") };
-                let source = condition.expression.source();
-                let what = format!("expected {word} `{source}`, found it {found}");
-                let failure = self.missed(what, Some(&condition.expression));
-                match &condition.place {
-                    Some(place) => failure.at(place),
-                    None => failure,
-                }
-            }
-        }
-    }
+fn waited(cycles: u64, expression: &Expression, machine: &Machine) -> String {
+    format!("waited {} s for `{}`", machine.cycle_time().times(cycles), expression.source())
 }
 
 impl Shown {

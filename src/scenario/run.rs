@@ -4,8 +4,10 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::file::{Named, Scenario, profile_name};
+use super::operator::{Operator, Plan};
+use super::passing::Next;
 use super::session::{Condition, Session};
-use super::steps::{Action, Reader, Step};
+use super::steps::Reader;
 use crate::image::{Preset, Profile};
 use crate::machine::{Machine, OpenOptions};
 use crate::plc::Programs;
@@ -15,7 +17,7 @@ use crate::trace::{Head, Watch};
 /// A scenario that is ready to run: machine opened, names looked up, values checked.
 pub struct Prepared {
     session: Session,
-    steps: Vec<Step>,
+    plan: Plan,
     head: Head,
     causes: bool,
 }
@@ -38,12 +40,11 @@ impl Scenario {
         let mut machine = self.open(profile)?;
         let watch = self.watch(&machine)?;
         let mut reader = Reader::new(&machine);
-        let steps: Vec<Step> = self.steps.iter().map(|step| reader.step(step.clone())).collect::<Result<_, _>>()?;
+        let plan = Plan::new(self.steps.iter().map(|step| reader.step(step.clone())).collect::<Result<_, _>>()?);
         let captured = std::mem::take(&mut reader.captured);
         // What must hold from the first cycle on cannot wait for a value that a step captures.
         let conditions = self.conditions(&reader, &captured)?;
-        let looks_back =
-            conditions.iter().any(|condition| condition.expression.looks_back()) || steps.iter().any(Step::looks_back);
+        let looks_back = conditions.iter().any(|condition| condition.expression.looks_back()) || plan.looks_back();
         let limit = self.limit.cycles(machine.cycle_time());
         let head = Head {
             title: self.title.clone(),
@@ -58,13 +59,12 @@ impl Scenario {
             machine.load_program(program.map_err(|problem| problem.at(&name.place))?);
         }
         let mut session = Session::new(machine);
-        session.bound(Some(limit));
         session.set_watch(watch);
-        session.look_back(looks_back);
-        for condition in conditions {
-            session.add_condition(condition);
-        }
-        Ok(Prepared { session, steps, head, causes: self.causes })
+        let Session { machine, book, .. } = &mut session;
+        book.look_back(looks_back, machine);
+        book.limit = Some(limit);
+        book.conditions = conditions;
+        Ok(Prepared { session, plan, head, causes: self.causes })
     }
 
     fn open(&self, profile: Profile) -> Result<Machine, Problem> {
@@ -122,54 +122,31 @@ impl Scenario {
     }
 }
 
-impl Step {
-    fn looks_back(&self) -> bool {
-        match &self.action {
-            Action::Wait(expression, _) | Action::Hold(expression, _) => expression.looks_back(),
-            Action::Expect(expressions) => expressions.iter().any(|(_, expression)| expression.looks_back()),
-            Action::Capture(captures) => captures.iter().any(|(_, expression)| expression.looks_back()),
-            Action::Queue(_) | Action::Pulse(..) | Action::Run(_) | Action::Image(_) => false,
-        }
-    }
-
-    fn run(&self, session: &mut Session) -> Result<(), Failure> {
-        match &self.action {
-            Action::Queue(commands) => commands.iter().try_for_each(|command| session.queue(command.clone())),
-            Action::Pulse(locations, cycles) => session.pulse_locations(locations, *cycles),
-            Action::Run(cycles) => session.run_cycles(*cycles),
-            Action::Wait(expression, within) => session.wait_for(expression, *within),
-            Action::Hold(expression, during) => session.hold_for(expression, *during),
-            Action::Expect(expressions) => expressions
-                .iter()
-                .try_for_each(|(place, expression)| session.expect_now(expression).map_err(|f| f.at(place))),
-            Action::Capture(captures) => {
-                for (index, expression) in captures {
-                    session.keep(*index, expression);
-                }
-                Ok(())
-            }
-            Action::Image(bytes) => bytes
-                .iter()
-                .try_for_each(|(place, location, bits)| session.expect_bits(*location, *bits).map_err(|f| f.at(place))),
-        }
-    }
-}
-
 impl Prepared {
     /// Runs the steps in order, up to the first that fails.
     #[must_use]
     pub fn run(mut self) -> Finished {
-        let mut failure = None;
-        for step in &self.steps {
-            if let Some(note) = &step.note {
-                self.session.note(note);
+        let failure = loop {
+            let Session { machine, book, trace, .. } = &mut self.session;
+            let note = &mut |machine: &Machine, text: &str| trace.note(machine.cycle() + 1, text);
+            match self.plan.go_on(book, machine, note) {
+                Err(failure) => break Some(failure),
+                Ok(Next::Over) => break None,
+                Ok(Next::Cycle) => self.session.cycle(),
             }
-            if let Err(failed) = step.run(&mut self.session) {
-                failure = Some(failed.at(&step.place));
-                break;
+            let Session { machine, book, .. } = &mut self.session;
+            if let Err(failure) = self.plan.end_cycle(book, machine) {
+                break Some(failure);
             }
-        }
+        };
         Finished { session: self.session, head: self.head, causes: self.causes, failure }
+    }
+
+    /// The machine, for somebody else to step, and the scenario at work on it.
+    #[must_use]
+    pub fn into_operator(self) -> (Machine, Operator) {
+        let Session { machine, book, .. } = self.session;
+        (machine, Operator::new(book, self.plan))
     }
 
     /// Computes every axis in every cycle, also those that rest: slower, and the same trace.

@@ -8,8 +8,8 @@ use std::path::Path;
 use super::duration::Duration;
 use super::expression::{Expression, Scope};
 use super::failure::Failure;
-use super::passing::Shown;
-use super::steps::{axis_named, check_captured_name, writable};
+use super::passing::{Book, Next};
+use super::steps::{Action, axis_named, check_captured_name, writable};
 use super::values::Setting;
 use crate::image::Location;
 use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine};
@@ -33,17 +33,7 @@ pub struct Session {
     pub(super) machine: Machine,
     pub(super) trace: Trace,
     pub(super) watch: Watch,
-    /// The cycle that counts as time zero.
-    pub(super) start: u64,
-    /// Bits that were written and that no cycle has taken up yet.
-    pub(super) pending: Vec<(Location, u64)>,
-    pub(super) captured_names: Vec<String>,
-    pub(super) captured: Vec<f64>,
-    pub(super) conditions: Vec<Condition>,
-    /// Bound on the cycles of this session.
-    pub(super) limit: Option<u64>,
-    /// What was shown one cycle ago, kept where an expression looks back.
-    pub(super) before: Option<Box<Shown>>,
+    pub(super) book: Book,
 }
 
 /// What must hold in every cycle.
@@ -67,17 +57,10 @@ impl Session {
     /// A session with a machine that is already open.
     #[must_use]
     pub fn new(machine: Machine) -> Self {
-        let start = machine.cycle();
         Self {
-            trace: Trace::begin(machine.memory(), machine.cycle_time(), start),
+            trace: Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle()),
             watch: Watch::default(),
-            start,
-            pending: Vec::new(),
-            captured_names: Vec::new(),
-            captured: Vec::new(),
-            conditions: Vec::new(),
-            limit: None,
-            before: Some(Box::new(Shown::of(&machine, Time::ZERO))),
+            book: Book::new(&machine),
             machine,
         }
     }
@@ -138,11 +121,7 @@ impl Session {
     /// Since the start of the session.
     #[must_use]
     pub fn time(&self) -> Time {
-        self.machine.cycle_time().times(self.elapsed())
-    }
-
-    pub(super) fn elapsed(&self) -> u64 {
-        self.machine.cycle() - self.start
+        self.book.time(&self.machine)
     }
 
     /// Chooses what the texts of the trace show, as `watch` of a scenario does; values are noted from now on.
@@ -158,19 +137,6 @@ impl Session {
     pub(super) fn set_watch(&mut self, watch: Watch) {
         self.trace.watch_values(&watch, self.machine.cycle(), self.machine.variables());
         self.watch = watch;
-    }
-
-    pub(super) fn bound(&mut self, limit: Option<u64>) {
-        self.limit = limit;
-    }
-
-    pub(super) fn add_condition(&mut self, condition: Condition) {
-        self.conditions.push(condition);
-    }
-
-    /// Whether the state before the last cycle is kept; needed where an expression has `rose` or `fell`.
-    pub(super) fn look_back(&mut self, wanted: bool) {
-        self.before = wanted.then(|| Box::new(Shown::of(&self.machine, self.time())));
     }
 
     /// Writes a signal once, in the next cycle; the PLC program may overwrite it.
@@ -220,7 +186,7 @@ impl Session {
     pub fn pulse_for(&mut self, signal: &str, time: &str) -> Result<(), Failure> {
         let location = writable(&self.machine, signal)?;
         let cycles = self.cycles(time)?;
-        self.pulse_locations(&[location], cycles)
+        self.act(&Action::Pulse(vec![location], cycles))
     }
 
     /// Lets time pass.
@@ -229,7 +195,7 @@ impl Session {
     /// It is no duration, or something that must hold in every cycle did not.
     pub fn run(&mut self, time: &str) -> Result<(), Failure> {
         let cycles = self.cycles(time)?;
-        self.run_cycles(cycles)
+        self.act(&Action::Run(cycles))
     }
 
     /// Lets time pass until an expression is true; goes on in the cycle in which it became true.
@@ -239,7 +205,7 @@ impl Session {
     pub fn wait(&mut self, expression: &str, within: &str) -> Result<(), Failure> {
         let expression = self.expression(expression)?;
         let within = self.cycles(within)?;
-        self.wait_for(&expression, Some(within))
+        self.act(&Action::Wait(expression, Some(within)))
     }
 
     /// Lets time pass, in every cycle of which an expression must be true; it must be true now, too.
@@ -249,7 +215,7 @@ impl Session {
     pub fn hold(&mut self, expression: &str, during: &str) -> Result<(), Failure> {
         let expression = self.expression(expression)?;
         let during = self.cycles(during)?;
-        self.hold_for(&expression, during)
+        self.act(&Action::Hold(expression, during))
     }
 
     /// An expression must be true now.
@@ -258,7 +224,7 @@ impl Session {
     /// It is not; the failure says what every signal in it is.
     pub fn expect(&mut self, expression: &str) -> Result<(), Failure> {
         let expression = self.expression(expression)?;
-        self.expect_now(&expression)
+        self.book.expect(&expression, &self.machine)
     }
 
     /// What an expression is now.
@@ -267,7 +233,7 @@ impl Session {
     /// It is no expression, or a name in it is unknown.
     pub fn value(&self, expression: &str) -> Result<f64, Failure> {
         let expression = self.expression(expression)?;
-        Ok(self.evaluated(&expression))
+        Ok(self.book.evaluated(&expression, &self.machine))
     }
 
     /// Keeps a value for later expressions.
@@ -277,21 +243,13 @@ impl Session {
     pub fn capture(&mut self, name: &str, expression: &str) -> Result<f64, Failure> {
         check_captured_name(name)?;
         let expression = self.expression(expression)?;
-        let known = self.captured_names.iter().position(|known| known == name);
-        let index = known.unwrap_or(self.captured_names.len());
+        let names = &mut self.book.captured_names;
+        let known = names.iter().position(|known| known == name);
+        let index = known.unwrap_or(names.len());
         if known.is_none() {
-            self.captured_names.push(name.to_owned());
+            names.push(name.to_owned());
         }
-        Ok(self.keep(index, &expression))
-    }
-
-    pub(super) fn keep(&mut self, index: usize, expression: &Expression) -> f64 {
-        let value = self.evaluated(expression);
-        if self.captured.len() <= index {
-            self.captured.resize(index + 1, f64::NAN);
-        }
-        self.captured[index] = value;
-        value
+        Ok(self.book.keep(index, &expression, &self.machine))
     }
 
     /// Stores a machine datum, as `34090[XF]`; it acts when its class says.
@@ -380,25 +338,36 @@ impl Session {
             machine: self.machine.fork()?,
             trace: self.trace.clone(),
             watch: self.watch.clone(),
-            start: self.start,
-            pending: self.pending.clone(),
-            captured_names: self.captured_names.clone(),
-            captured: self.captured.clone(),
-            conditions: self.conditions.clone(),
-            limit: self.limit,
-            before: self.before.clone(),
+            book: self.book.clone(),
         })
     }
 
     /// Queues a command for the next cycle.
-    pub(super) fn queue(&mut self, command: Command) -> Result<(), Failure> {
-        match command {
-            Command::Write { location, value } | Command::Force { location, value } => {
-                self.pending.push((location, value));
-            }
-            _ => {}
+    fn queue(&mut self, command: Command) -> Result<(), Failure> {
+        self.book.queue(command, &mut self.machine)
+    }
+
+    /// Does what a step does.
+    fn act(&mut self, action: &Action) -> Result<(), Failure> {
+        let mut passed = 0;
+        while self.book.go_on(action, passed, &mut self.machine)? == Next::Cycle {
+            let begun = self.book.begin_cycle(&self.machine);
+            let ended = begun.and_then(|()| {
+                self.cycle();
+                self.book.end_cycle(&self.machine)
+            });
+            ended.map_err(|stopped| self.book.stopped(&stopped, action, passed, &self.machine))?;
+            passed += 1;
         }
-        Ok(self.machine.queue(command)?)
+        Ok(())
+    }
+
+    /// One cycle, and its record.
+    pub(super) fn cycle(&mut self) {
+        self.machine.step();
+        self.trace.extend(self.machine.recorder());
+        self.machine.drain();
+        self.trace.note_values(self.machine.cycle(), self.machine.variables());
     }
 
     fn cycles(&self, time: &str) -> Result<u64, Problem> {
@@ -406,7 +375,8 @@ impl Session {
     }
 
     fn expression(&self, source: &str) -> Result<Expression, Problem> {
-        let scope = Scope { memory: self.machine.memory(), describe: &self.machine, captured: &self.captured_names };
+        let scope =
+            Scope { memory: self.machine.memory(), describe: &self.machine, captured: &self.book.captured_names };
         Expression::parse(source, scope)
     }
 }

@@ -448,7 +448,7 @@ mod tests {
                         if found.is_ok_and(|found| Location { format: location.format, ..found } == location) {
                             commands.push(Command::Write {
                                 location,
-                                value: u64::from(offset) * 0x9E37_79B9 & location.mask(),
+                                value: u64::from(offset).wrapping_mul(0x9E37_79B9) & location.mask(),
                             });
                         }
                     }
