@@ -222,12 +222,11 @@ fn of_bits(place: &Place, bits: u64) -> Value {
 pub(super) fn cells(variable: &Variable, value: &Result<Value, Error>) -> [String; 2] {
     let value = match value {
         Ok(value) => value,
-        Err(error @ Error::Refused { code, .. }) => {
+        Err(error) => {
             let text = error.to_string();
-            let words = text.rsplit_once(": ").map_or(text.as_str(), |(_, words)| words);
-            return [format!("refused: {words}"), format!("{code:02X}")];
+            let name = format!("{variable}: ");
+            return [format!("refused: {}", text.strip_prefix(&name).unwrap_or(&text)), String::new()];
         }
-        Err(error) => return [format!("refused: {error}"), String::new()],
     };
     let hex = match (variable, value) {
         // They are in hexadecimal already, or no bytes of their own.

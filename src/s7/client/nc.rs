@@ -8,7 +8,7 @@
 //! | `A1/M/32000:DOUBLE` | column 32000 of module M of axis 1, and its type |
 //! | `C/RP/1[5]` | without a type the bytes as they come |
 //!
-//! Types: `BYTE`, `WORD`, `LONG`, `REAL`, `DOUBLE`, `TEXT32` and other lengths. Drives (areas V and H) are big-endian, all others
+//! Types: `BYTE`, `WORD`, `LONG`, `ULONG`, `REAL`, `DOUBLE`, `DATE`, `TEXT32` and other lengths. Drives (areas V and H) are big-endian, all others
 //! little-endian.
 
 use std::fmt;
@@ -36,10 +36,14 @@ pub enum NcKind {
     Word,
     /// A whole number of four bytes.
     Long,
+    /// A whole number of four bytes without a sign.
+    UnsignedLong,
     /// A floating point number of four bytes.
     Real,
     /// A floating point number of eight bytes.
     Double,
+    /// A point in time of eight bytes (`DATE_AND_TIME`), all zeros where there is none.
+    Date,
     /// A text of so many bytes, filled with zeros.
     Text(usize),
 }
@@ -51,8 +55,8 @@ impl NcKind {
         match self {
             Self::Byte => 1,
             Self::Word => 2,
-            Self::Long | Self::Real => 4,
-            Self::Double => 8,
+            Self::Long | Self::UnsignedLong | Self::Real => 4,
+            Self::Double | Self::Date => 8,
             Self::Text(length) => length,
         }
     }
@@ -63,7 +67,11 @@ impl NcKind {
         match kind {
             Kind::Word => Self::Word,
             Kind::Long => Self::Long,
+            Kind::UnsignedLong => Self::UnsignedLong,
             Kind::Double | Kind::Length => Self::Double,
+            // It is big-endian because its area is.
+            Kind::DriveReal => Self::Real,
+            Kind::Date => Self::Date,
             Kind::Text(length) => Self::Text(length),
         }
     }
@@ -113,6 +121,7 @@ const fn area_code(area: NckArea) -> u8 {
         NckArea::ModeGroup => 1,
         NckArea::Channel => 2,
         NckArea::Axis => 3,
+        NckArea::FeedDrive => 5,
     }
 }
 
@@ -198,6 +207,8 @@ fn numbered(area: u8, module: &str, column: &str) -> Option<NcVariable> {
         Some("BYTE" | "BOOL") => Some(NcKind::Byte),
         Some("WORD") => Some(NcKind::Word),
         Some("LONG") => Some(NcKind::Long),
+        Some("ULONG") => Some(NcKind::UnsignedLong),
+        Some("DATE") => Some(NcKind::Date),
         Some("REAL") => Some(NcKind::Real),
         Some("DOUBLE") => Some(NcKind::Double),
         Some(text) => Some(NcKind::Text(text.strip_prefix("TEXT")?.parse().ok().filter(|length| *length <= 200)?)),
@@ -248,6 +259,8 @@ impl fmt::Display for NcVariable {
                     Some(NcKind::Byte) => f.write_str(":BYTE")?,
                     Some(NcKind::Word) => f.write_str(":WORD")?,
                     Some(NcKind::Long) => f.write_str(":LONG")?,
+                    Some(NcKind::UnsignedLong) => f.write_str(":ULONG")?,
+                    Some(NcKind::Date) => f.write_str(":DATE")?,
                     Some(NcKind::Real) => f.write_str(":REAL")?,
                     Some(NcKind::Double) => f.write_str(":DOUBLE")?,
                     Some(NcKind::Text(length)) => write!(f, ":TEXT{length}")?,

@@ -6,6 +6,7 @@ use super::Error;
 use super::nc::{NcKind, NcVariable};
 use super::variable::{Memory, Variable};
 use crate::image::{Area, Format, Width};
+use crate::s7::wire::date_and_time::DateAndTime;
 
 /// What was read, or is to be written.
 #[derive(Clone, Debug, PartialEq)]
@@ -161,6 +162,13 @@ fn row(kind: NcKind, is_big_endian: bool, bytes: &[u8]) -> Option<Value> {
             .map_or_else(|_| text.iter().map(|byte| char::from(*byte)).collect(), ToOwned::to_owned);
         return Some(Value::Text(text));
     }
+    if kind == NcKind::Date {
+        let time = DateAndTime::parse(bytes);
+        return match time {
+            Some(time) => Some(Value::Text(date(&time))),
+            None => bytes.iter().all(|byte| *byte == 0).then(|| Value::Text(String::new())),
+        };
+    }
     let mut bytes = bytes.to_vec();
     if is_big_endian {
         bytes.reverse();
@@ -172,8 +180,15 @@ fn row(kind: NcKind, is_big_endian: bool, bytes: &[u8]) -> Option<Value> {
         NcKind::Long => Value::DoubleInt(i32::from_le_bytes(bytes.try_into().ok()?)),
         NcKind::Real => Value::Real(f32::from_le_bytes(bytes.try_into().ok()?)),
         NcKind::Double => Value::Double(f64::from_le_bytes(bytes.try_into().ok()?)),
-        NcKind::Text(_) => return None,
+        NcKind::UnsignedLong => Value::DoubleWord(u32::from_le_bytes(bytes.try_into().ok()?)),
+        NcKind::Date | NcKind::Text(_) => return None,
     })
+}
+
+/// `2026-11-22 05:06:07.089`.
+fn date(time: &DateAndTime) -> String {
+    let DateAndTime { year, month, day, hour, minute, second, millisecond } = time;
+    format!("{year:04}-{month:02}-{day:02} {hour:02}:{minute:02}:{second:02}.{millisecond:03}")
 }
 
 /// Negative numbers may go into unsigned places as two's complement, as everywhere in this project.
@@ -228,7 +243,8 @@ fn put_row(kind: NcKind, variable: &Variable, value: &Value, into: &mut Vec<u8>)
             into.resize(start + length, 0);
             return Some(());
         }
-        NcKind::Byte | NcKind::Word | NcKind::Long => {
+        NcKind::Date => return None, // the control alone knows when something happened
+        NcKind::Byte | NcKind::Word | NcKind::Long | NcKind::UnsignedLong => {
             let bits = 8 * u32::try_from(kind.bytes()).ok()?;
             let number = value.whole().filter(|number| fits(*number, bits, Format::Unsigned))?;
             into.extend_from_slice(&number.to_le_bytes()[..kind.bytes()]);
@@ -292,6 +308,8 @@ impl Variable {
                     Some(NcKind::Byte) => "BYTE".to_owned(),
                     Some(NcKind::Word) => "WORD".to_owned(),
                     Some(NcKind::Long) => "LONG".to_owned(),
+                    Some(NcKind::UnsignedLong) => "ULONG".to_owned(),
+                    Some(NcKind::Date) => "DATE".to_owned(),
                     Some(NcKind::Real) => "REAL".to_owned(),
                     Some(NcKind::Double) => "DOUBLE".to_owned(),
                     Some(NcKind::Text(length)) => format!("TEXT{length}"),
@@ -300,5 +318,44 @@ impl Variable {
             }
         };
         if count == 1 { name } else { format!("{name}[{count}]") }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn encoded(text: &str, value: &Value) -> Option<Vec<u8>> {
+        value.encode(&text.parse().unwrap()).ok()
+    }
+
+    #[test]
+    fn numbers_of_the_plc_are_big_endian_and_must_fit() {
+        assert_eq!(encoded("MW0", &Value::Word(0x1234)), Some(vec![0x12, 0x34]));
+        assert_eq!(encoded("MW0", &Value::Int(-2)), Some(vec![0xFF, 0xFE]));
+        assert_eq!(encoded("MW0:INT", &Value::Word(0x8000)), None);
+        assert_eq!(encoded("MB0", &Value::Word(256)), None);
+        assert_eq!(encoded("MD0:REAL", &Value::Double(1.5)), Some(vec![0x3F, 0xC0, 0, 0]));
+        assert_eq!(encoded("MD0:REAL", &Value::Double(1e300)), None);
+        assert_eq!(encoded("MD0", &Value::Real(1.0)), None);
+        assert_eq!(encoded("M0.1", &Value::Byte(2)), None);
+        assert_eq!(encoded("DB10.DBX1.2..4", &Value::Byte(0b110)), Some(vec![0, 1, 1]));
+        assert_eq!(encoded("DB10.DBX1.2..4", &Value::Byte(8)), None);
+    }
+
+    #[test]
+    fn numbers_of_the_nck_are_little_endian_and_those_of_drives_are_not() {
+        assert_eq!(encoded("C/State/chanStatus", &Value::Word(1)), Some(vec![1, 0]));
+        assert_eq!(encoded("A/M/32000:DOUBLE", &Value::Double(1.0)), Some(vec![0, 0, 0, 0, 0, 0, 0xF0, 0x3F]));
+        assert_eq!(encoded("V/M/1717:REAL", &Value::Double(1.0)), Some(vec![0x3F, 0x80, 0, 0]));
+        let text = Value::Text("AB".to_owned());
+        assert_eq!(encoded("N/M/1:TEXT4", &text), Some(vec![b'A', b'B', 0, 0]));
+        assert_eq!(encoded("N/M/1:TEXT2", &text), None, "the last byte stays 0");
+    }
+
+    #[test]
+    fn bits_of_a_group_are_taken_out_of_their_byte() {
+        let variable = "DB10.DBX1.2..4".parse().unwrap();
+        assert_eq!(Value::decode(&variable, &[0b0101_1011]), Some(Value::Byte(0b110)));
     }
 }

@@ -207,7 +207,7 @@ impl<'a> Pdu<'a> {
         };
         let at = start + TRANSPORT;
         answers.bytes[at..at + size_of::<Header>()].copy_from_slice(header.as_bytes());
-        if kind != kind::USER_DATA {
+        if matches!(kind, kind::ACK | kind::ACK_DATA) {
             answers.bytes[parameter - 2..parameter].copy_from_slice(&error.0.to_be_bytes());
         }
         answers.close(start, budget.piece);
@@ -236,5 +236,5 @@ impl Answers {
 }
 
 const fn header_length(kind: u8) -> usize {
-    size_of::<Header>() + if kind == kind::USER_DATA || kind == kind::JOB { 0 } else { 2 }
+    size_of::<Header>() + if matches!(kind, kind::ACK | kind::ACK_DATA) { 2 } else { 0 }
 }
