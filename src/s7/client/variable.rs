@@ -219,3 +219,80 @@ impl fmt::Display for Memory {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn addresses_are_read_and_written_alike() {
+        for text in [
+            "DB31.DBX101.4",
+            "DB10.DBX100.0..4",
+            "DB31.DBB0..10",
+            "DB21.DBW4..8:INT",
+            "DB31.DBD78:REAL",
+            "DB65535.DBD65535:DINT",
+            "M10.3",
+            "MB0..99",
+            "IB0",
+            "QW4",
+            "T0..7",
+            "C3",
+            "nck:C/MachineAxis/actToolBasePos[2]",
+            "nck:N/State/numAlarms",
+            "nck:C2/State/chanStatus",
+            "nck:A1/M/32000:DOUBLE",
+            "nck:C/RP/1[5..9]",
+            "nck:V/M/1717:REAL",
+        ] {
+            let variable: Variable = text.parse().unwrap();
+            assert_eq!(variable.to_string(), text);
+        }
+    }
+
+    #[test]
+    fn ranges_have_whole_elements() {
+        let length = |text: &str| match text.parse().unwrap() {
+            Variable::Memory(memory) => (memory.count, memory.length()),
+            Variable::Nc(_) => (0, 0),
+        };
+        assert_eq!(length("DB31.DBB0..10"), (11, 11));
+        assert_eq!(length("DB21.DBW4..8"), (3, 6));
+        assert_eq!(length("T0..7"), (8, 16));
+        for wrong in ["DB21.DBW4..7", "DB21.DBB4..3", "DB21.DBB4..", "DB21.DBB..4", "X.y", "DB", "", "MB0..4294967295"]
+        {
+            let error = wrong.parse::<Variable>().unwrap_err();
+            assert!(matches!(&error, Error::Input { what, .. } if what.contains(wrong)), "{wrong}: {error:?}");
+        }
+    }
+
+    #[test]
+    fn a_misspelt_variable_is_told_the_nearest() {
+        let error = "nck:C/MachineAxis/actToolBasPos".parse::<Variable>().unwrap_err();
+        assert_eq!(error.cure(), "did you mean `C/MachineAxis/actToolBasePos`?");
+        for wrong in [
+            "nck:C",
+            "nck:X/State/opMode",
+            "nck:C/SMA/2:FLOAT",
+            "C99/State/chanStatus",
+            "C/SMA/2[0]",
+            "C/SMA/2[1..300]",
+        ] {
+            assert!(wrong.parse::<Variable>().is_err(), "{wrong}");
+        }
+    }
+
+    /// C1 = 41, N = 01, B1 = 21, A1 = 61 of the address lists.
+    #[test]
+    fn nc_variables_have_the_bytes_of_the_address_lists() {
+        let bytes = |text: &str| match text.parse().unwrap() {
+            Variable::Nc(variable) => variable.item.bytes(),
+            Variable::Memory(_) => [0; 10],
+        };
+        assert_eq!(bytes("C/SMA/actToolBasePos[2]"), [0x12, 8, 0x82, 0x41, 0, 2, 0, 2, 0x74, 1]);
+        assert_eq!(bytes("N/SALAC/1:LONG"), [0x12, 8, 0x82, 1, 0, 1, 0, 1, 0x54, 1]);
+        assert_eq!(bytes("B/State/opMode"), [0x12, 8, 0x82, 0x21, 0, 3, 0, 1, 0x7F, 1]);
+        assert_eq!(bytes("A1/M/32000"), [0x12, 8, 0x82, 0x61, 0x7D, 0, 0, 1, 0x1A, 1]);
+    }
+}

@@ -1,0 +1,177 @@
+//! Connections that are lost, and what becomes of what was asked.
+
+use super::*;
+use crate::s7::client::{Error, Mode, State, Value};
+
+#[tokio::test]
+async fn what_only_reads_is_asked_again_on_the_next_connection() {
+    let place = Place::open().await;
+    let (client, mut peer) = place.meet(240, 1, quick()).await;
+    let script = async {
+        let (_, first) = peer.request().await;
+        drop(peer);
+        let mut peer = place.accept(240, 1).await;
+        let (reference, again) = peer.request().await;
+        assert_eq!(first, again);
+        peer.values(reference, &[&[7]]).await;
+    };
+    let memory = variable("MB1");
+    let (value, ()) = tokio::join!(client.read(&memory), script);
+    assert_eq!(value, Ok(Value::Byte(7)));
+}
+
+#[tokio::test]
+async fn what_was_written_is_never_written_again() {
+    let place = Place::open().await;
+    let (client, mut peer) = place.meet(240, 1, quick()).await;
+    let script = async {
+        let (_, write) = peer.request().await;
+        assert_eq!(write[0], 5);
+        drop(peer);
+        let mut peer = place.accept(240, 1).await;
+        let (reference, next) = peer.request().await;
+        assert_eq!(next[0], 4, "a read is next, not the write");
+        peer.values(reference, &[&[0]]).await;
+    };
+    let memory = variable("MB1");
+    let asking = async {
+        let error = client.write(&memory, &Value::Byte(1)).await.unwrap_err();
+        assert!(matches!(&error, Error::Lost { what, sent: true, .. } if what == "MB1"), "{error:?}");
+        assert!(error.cure().contains("may have been done"));
+        assert_eq!(client.read(&memory).await, Ok(Value::Byte(0)));
+    };
+    tokio::join!(asking, script);
+}
+
+#[tokio::test]
+async fn what_was_not_sent_waits_for_the_next_connection_and_is_sent_once() {
+    let place = Place::open().await;
+    let (client, peer) = place.meet(240, 1, quick()).await;
+    let mut changes = client.changes();
+    drop(peer);
+    changes.wait_for(|state| matches!(state, State::Lost { .. })).await.unwrap();
+    let script = async {
+        let mut peer = place.accept(240, 1).await;
+        let (reference, write) = peer.request().await;
+        assert_eq!(write[0], 5);
+        peer.answer(reference, &[5, 1], &[0xFF]).await;
+    };
+    let memory = variable("MB1");
+    let (written, ()) = tokio::join!(client.write(&memory, &Value::Byte(1)), script);
+    assert_eq!(written, Ok(()));
+}
+
+#[tokio::test]
+async fn who_waits_too_long_is_told_that_nothing_was_sent() {
+    let place = Place::open().await;
+    let options = Options { patience: Duration::from_millis(100), ..quick() };
+    let (client, peer) = place.meet(240, 1, options).await;
+    drop((peer, place));
+    client.changes().wait_for(|state| matches!(state, State::Lost { .. })).await.unwrap();
+    let error = client.write(&variable("MB1"), &Value::Byte(1)).await.unwrap_err();
+    assert!(matches!(error, Error::Lost { sent: false, .. }), "{error:?}");
+}
+
+#[tokio::test]
+async fn without_reconnection_a_lost_connection_stays_lost() {
+    let place = Place::open().await;
+    let (client, mut peer) = place.meet(240, 1, Options { reconnect: None, ..quick() }).await;
+    let script = async {
+        let _ = peer.request().await;
+        drop(peer);
+    };
+    let memory = variable("MB1");
+    let (value, ()) = tokio::join!(client.read(&memory), script);
+    assert!(matches!(value, Err(Error::Lost { sent: true, .. })), "{value:?}");
+    let later = client.read(&memory).await;
+    assert!(matches!(later, Err(Error::Lost { sent: false, .. })), "{later:?}");
+    assert!(matches!(client.state(), State::Ended { .. }));
+}
+
+#[tokio::test]
+async fn a_server_that_says_nothing_any_more_is_left() {
+    let place = Place::open().await;
+    let options = Options { timeout: Duration::from_millis(50), ..quick() };
+    let (client, _silent) = place.meet(240, 2, options).await;
+    let [a, b] = ["MB1", "MB2"].map(variable);
+    let (a, b, mut peer) = tokio::join!(client.read(&a), client.read(&b), place.accept(240, 2));
+    assert!(matches!(a, Err(Error::TimedOut { .. })) && matches!(b, Err(Error::TimedOut { .. })), "{a:?} {b:?}");
+    let script = async {
+        let (reference, _) = peer.request().await;
+        peer.values(reference, &[&[7]]).await;
+    };
+    let memory = variable("MB1");
+    let (value, ()) = tokio::join!(client.read(&memory), script);
+    assert_eq!(value, Ok(Value::Byte(7)));
+}
+
+#[tokio::test]
+async fn what_was_planned_for_a_longer_pdu_is_planned_again() {
+    let place = Place::open().await;
+    let (client, mut peer) = place.meet(480, 1, quick()).await;
+    let script = async {
+        let (_, request) = peer.request().await;
+        assert_eq!(request[6..8], [1, 0x2C]); // 300 bytes at once
+        drop(peer);
+        let mut peer = place.accept(240, 1).await;
+        for length in [222, 78] {
+            let (reference, request) = peer.request().await;
+            assert_eq!(request[6..8], [0, length]);
+            peer.values(reference, &[&vec![length; length.into()]]).await;
+        }
+    };
+    let memory = variable("MB0..299");
+    let (value, ()) = tokio::join!(client.read(&memory), script);
+    assert_eq!(value, Ok(Value::Bytes([vec![222; 222], vec![78; 78]].concat())));
+}
+
+#[tokio::test]
+async fn subscriptions_are_asked_for_again() {
+    let place = Place::open().await;
+    let (client, mut peer) = place.meet(240, 1, quick()).await;
+    let one = |value: u8| [0, 1, 0xFF, 4, 0, 8, value];
+    let script = async {
+        let (reference, first) = peer.request().await;
+        peer.user_data(reference, 0x82, 5, 1, &one(1)).await;
+        tokio::time::sleep(Duration::from_millis(20)).await;
+        drop(peer);
+        let mut peer = place.accept(240, 1).await;
+        let (reference, again) = peer.request().await;
+        assert_eq!(first, again);
+        peer.user_data(reference, 0x82, 5, 8, &one(2)).await; // another number now
+        peer.user_data(0, 0x02, 5, 8, &one(3)).await;
+        peer
+    };
+    let listening = async {
+        let memory = variables(&["MB1"]);
+        let mut subscription = client.subscribe(&memory, Mode::Change, Duration::from_millis(100)).await.unwrap();
+        let mut values = Vec::new();
+        for _ in 0..3 {
+            values.extend(subscription.next().await.unwrap().unwrap().values.into_iter().map(|(_, value)| value));
+        }
+        values
+    };
+    let (values, _peer) = tokio::join!(listening, script);
+    assert_eq!(values, [Ok(Value::Byte(1)), Ok(Value::Byte(2)), Ok(Value::Byte(3))]);
+}
+
+#[tokio::test]
+async fn who_cannot_be_reached_is_named_with_what_to_check() {
+    let place = Place::open().await;
+    let address = place.address();
+    drop(place);
+    let error = Client::connect(&address, quick()).await.unwrap_err();
+    assert!(matches!(error, Error::Unreachable { .. }) && error.to_string().contains(&address), "{error}");
+    assert!(error.cure().contains("port"));
+    // Somebody who speaks something else.
+    let place = Place::open().await;
+    let (address, other) = (place.address(), async {
+        let (mut stream, _) = place.listener.accept().await.unwrap();
+        stream.write_all(b"SSH-2.0-OpenSSH\r\n").await.unwrap();
+        stream
+    });
+    let (error, _stream) = tokio::join!(Client::connect(&address, quick()), other);
+    let error = error.unwrap_err();
+    assert!(matches!(error, Error::NotAccepted { called: [1, 2], .. }), "{error:?}");
+    assert!(error.cure().contains("rack 0, slot 2"));
+}

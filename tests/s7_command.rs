@@ -1,0 +1,178 @@
+//! `opennck s7` as its users call it, against `opennck serve`; and the commands that the README shows.
+#![cfg(all(feature = "cli", feature = "s7"))]
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::net::TcpListener;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+
+fn program(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
+    command.args(arguments).current_dir(Path::new(env!("CARGO_MANIFEST_DIR")));
+    command
+}
+
+/// A server on any free port.
+struct Served {
+    child: Child,
+    host: String,
+}
+
+impl Served {
+    fn start() -> Self {
+        let arguments = ["serve", "g1_example", "--plc-image", "recipes", "--s7", "127.0.0.1:0"];
+        let mut child = program(&arguments).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it was built");
+        let lines = BufReader::new(child.stdout.take().expect("it is piped")).lines();
+        let mut ports = lines
+            .map_while(Result::ok)
+            .filter_map(|line| Some(line.split_once("127.0.0.1:")?.1.split(':').next()?.to_owned()));
+        let port = ports.next().expect("it says its port");
+        Self { child, host: format!("127.0.0.1:{port}") }
+    }
+
+    /// `opennck s7 COMMAND HOST …`.
+    fn s7(&self, command: &str, arguments: &[&str]) -> Output {
+        program(&["s7", command, &self.host]).args(arguments).output().expect("it was built")
+    }
+
+    fn text(&self, command: &str, arguments: &[&str]) -> String {
+        let output = self.s7(command, arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("it is text")
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// The words of each line behind its head.
+fn rows(text: &str) -> Vec<Vec<&str>> {
+    text.lines().skip(1).map(|line| line.split_whitespace().collect()).collect()
+}
+
+#[test]
+fn it_reads_addresses_symbols_and_nc_variables() {
+    let served = Served::start();
+    let arguments = ["DB1000.DBW2", "DB1000.DBD4:REAL", "DB1001.DBB0..3", "XF.feed_override", "nck:N/Y/maxnumAlarms"];
+    let text = served.text("read", &arguments);
+    let rows = rows(&text);
+    assert_eq!(rows[0], ["DB1000.DBW2", "WORD", "250", "00", "FA"]);
+    assert_eq!(rows[1], ["DB1000.DBD4:REAL", "REAL", "1.5", "3F", "C0", "00", "00"]);
+    assert_eq!(rows[2], ["DB1001.DBB0..3", "BYTE[4]", "8C", "00", "FF", "8C"]);
+    assert_eq!(rows[3][..3], ["DB33.DBB0", "XF.feed_override", "BYTE"]);
+    assert_eq!(rows[4][..2], ["nck:N/Y/maxnumAlarms", "WORD"]);
+    let json: serde_json::Value =
+        serde_json::from_str(&served.text("read", &["DB1000.DBW2", "--format", "json"])).expect("it is JSON");
+    assert_eq!(json[0]["value"], "250");
+    let csv = served.text("read", &["DB1000.DBW2", "--format", "csv"]);
+    assert_eq!(csv, "address,symbol,type,value,hex\nDB1000.DBW2,,WORD,250,00 FA\n");
+}
+
+#[test]
+fn what_is_refused_ends_with_1_and_the_others_are_shown() {
+    let served = Served::start();
+    let output = served.s7("read", &["DB1000.DBW2", "DB999.DBB0"]);
+    let (out, error) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(out.contains("250") && out.contains("refused: the object does not exist (return code 0A)"), "{out}");
+    assert!(error.contains("DB999.DBB0: the object does not exist"), "{error}");
+}
+
+#[test]
+fn it_writes_as_scenarios_do() {
+    let served = Served::start();
+    let writes = ["DB1000.DBB10=16#D0", "DB1000.DBX11.3=true", "DB1000.DBD12:REAL=1.5", "DB1000.DBB16..18=1,2,2#11"];
+    let text = served.text("write", &[&writes[..], &["Y.feed_override=100%"]].concat());
+    assert!(text.contains("DB1000.DBB16..18"), "{text}");
+    let text = served.text("read", &["DB1000.DBB10..18", "DB32.DBB0"]);
+    let rows = rows(&text);
+    assert_eq!(rows[0][2..], ["D0", "08", "3F", "C0", "00", "00", "01", "02", "03"]);
+    // 100 % is position 19 of the switch, 19 ^ 19 >> 1 = 26 in Gray code (MD12000).
+    assert_eq!(rows[1][3..], ["26", "1A"]);
+}
+
+#[test]
+fn unusable_input_ends_with_2_and_writes_nothing() {
+    let served = Served::start();
+    for (command, arguments, said) in [
+        ("read", &["DB31.DBQ1"][..], ["DB31.DBQ1", "DB31.DBX101.5"]),
+        ("read", &["X.controler_enable"], ["X.controler_enable", "controller_enable"]),
+        ("read", &["Z9.controller_enable"], ["Z9", "X"]),
+        ("read", &["nck:C/SMA/actToolBasePo"], ["actToolBasePo", "did you mean"]),
+        ("read", &["MB0", "--profile", "840"], ["840", "840d_sl"]),
+        ("write", &["DB1000.DBB20=1", "DB1000.DBB21=256"], ["256", "-128 to 255"]),
+        ("write", &["DB1000.DBB20=1", "DB1000.DBB21"], ["DB1000.DBB21", "ADDRESS=VALUE"]),
+        ("write", &["DB1000.DBB20=1", "DB1000.DBW22=1.5"], ["whole number", ":REAL"]),
+        ("szl", &["zz"], ["zz", "hexadecimal"]),
+    ] {
+        let output = served.s7(command, arguments);
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+        assert!(said.iter().all(|said| error.contains(said)), "{arguments:?}: {error}");
+    }
+    assert_eq!(rows(&served.text("read", &["DB1000.DBB20"]))[0][2], "0");
+}
+
+#[test]
+fn nobody_there_ends_with_2_and_says_what_to_check() {
+    let free = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().to_string();
+    for command in ["read", "watch"] {
+        let output = program(&["s7", command, &free, "MB0"]).output().unwrap();
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(error.contains(&free) && error.contains("check address and port"), "{error}");
+    }
+}
+
+#[test]
+fn it_tells_what_a_module_is() {
+    let served = Served::start();
+    let info = served.text("info", &[]);
+    for said in ["PLC 317-2 PN/DP", "RUN", "148 bytes", "X at ", "JOG", "6ES7 317-2EK14-0AB0"] {
+        assert!(info.contains(said), "{said} is missing:\n{info}");
+    }
+    let list = served.text("szl", &["0011"]);
+    assert!(list.contains("records of 28 bytes") && list.contains("module 6ES7 317-2EK14-0AB0"), "{list}");
+    assert_eq!(served.s7("szl", &["0042"]).status.code(), Some(1));
+    let catalogue = program(&["s7", "nck", "actToolBasePos"]).output().unwrap();
+    assert!(String::from_utf8_lossy(&catalogue.stdout).contains("nck:C/MachineAxis/actToolBasePos"));
+}
+
+#[test]
+#[cfg(unix)]
+fn watching_prints_a_line_for_each_change_and_ends_with_0() {
+    let served = Served::start();
+    for how in [&["--every", "20ms"][..], &["--every", "100ms", "--cyclic"]] {
+        served.text("write", &["MB1=1"]);
+        let mut command = program(&["s7", "watch", &served.host, "MB1"]);
+        let mut child = command.args(how).stdout(Stdio::piped()).spawn().unwrap();
+        let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+        let mut next = || lines.next().unwrap().unwrap().split_whitespace().skip(1).collect::<Vec<_>>().join(" ");
+        assert_eq!(next(), "MB1 1");
+        served.text("write", &["MB1=2"]);
+        assert_eq!(next(), "MB1 1 -> 2");
+        assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+        assert_eq!(child.wait().unwrap().code(), Some(0));
+    }
+}
+
+/// Each line of the README that calls `opennck s7`, on a port that is free here.
+#[test]
+fn the_commands_of_the_readme_work() {
+    let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+    let served = Served::start();
+    let mut count = 0;
+    for line in readme.lines().filter(|line| line.starts_with("opennck s7 ") && !line.starts_with("opennck s7 watch")) {
+        let line = line.split(" #").next().unwrap().replace("127.0.0.1:10102", &served.host);
+        let arguments: Vec<&str> = line.split_whitespace().skip(1).map(|word| word.trim_matches('\'')).collect();
+        let output = program(&arguments).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+        count += 1;
+    }
+    assert!(count >= 4, "the README shows {count} commands");
+}
