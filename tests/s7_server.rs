@@ -371,3 +371,72 @@ fn a_closed_door_says_why() {
     }
     drop(window);
 }
+
+/// The answer to a job at the NCK of a solution line, from its error on.
+fn ask(stream: &mut TcpStream, parameter: &[u8], data: &[u8]) -> Vec<u8> {
+    let length = |bytes: usize| u16::try_from(bytes).expect("short").to_be_bytes();
+    let [total, p, d] = [17 + parameter.len() + data.len(), parameter.len(), data.len()].map(length);
+    let head = [3, 0, total[0], total[1], 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 1, p[0], p[1], d[0], d[1]];
+    stream.write_all(&[&head, parameter, data].concat()).expect("it goes out");
+    read_packet(stream)[17..].to_vec()
+}
+
+fn collector(address: SocketAddr) -> TcpStream {
+    let mut stream = bare(address);
+    let mut connect = CONNECT;
+    connect[20..].copy_from_slice(&[0x0D, 4]);
+    stream.write_all(&connect).expect("it goes out");
+    read_packet(&mut stream);
+    ask(&mut stream, &[0xF0, 0, 0, 1, 0, 1, 3, 0xC0], &[]);
+    stream
+}
+
+/// MD32000 of X, and R5; a velocity below zero is out of range, and is said to be before anything happens.
+#[test]
+fn a_collector_writes_machine_data_and_r_parameters_and_is_told_what_is_not_taken() {
+    let live = live();
+    let (_window, address) = window(&live, Limits::default());
+    let mut stream = collector(address);
+    let velocity = [0x12, 8, 0x82, 0x61, 0x7D, 0, 0, 1, 0x1A, 1];
+    let r5 = [0x12, 8, 0x82, 0x41, 0, 1, 0, 6, 0x15, 1];
+    let serial_number = [0x12, 8, 0x82, 1, 0x46, 0x6E, 0, 1, 0x1A, 1];
+    let value = |value: f64| [&[0, 9, 0, 8][..], &value.to_le_bytes()].concat();
+    let write = [&[5, 3][..], &velocity, &r5, &serial_number].concat();
+    let answer = ask(&mut stream, &write, &[value(-1.0), value(2.5), value(0.0)].concat());
+    assert_eq!(answer, [0, 0, 5, 3, 5, 0xFF, 3]);
+    let answer = ask(&mut stream, &[&[5, 1][..], &velocity].concat(), &value(9000.0));
+    assert_eq!(answer, [0, 0, 5, 1, 0xFF]);
+    let read = ask(&mut stream, &[&[4, 2][..], &velocity, &r5].concat(), &[]);
+    let expected = [value(9000.0), value(2.5)].concat();
+    assert_eq!((read[4], read[16]), (0xFF, 0xFF));
+    assert_eq!((&read[5..16], &read[17..]), (&expected[1..12], &expected[13..]));
+    let (axis, first) = (live.with(|machine| machine.axis("X")).unwrap(), opennck::units::ChannelNumber::FIRST);
+    live.with(|machine| {
+        assert!((machine.stored_machine_data().axes[axis].max_ax_velo - 9000.0).abs() < 1e-9);
+        assert_eq!(machine.r_parameters().get(first, 5), Some(2.5));
+    });
+}
+
+/// SZL 00A0, newest first: RUN, START-UP, cold restart by hand, STOP by a programming device, and what power on left.
+#[test]
+fn stop_and_cold_restart_stand_in_the_diagnostic_buffer_and_flags_begin_anew() {
+    let live = live();
+    let (_window, address) = window(&live, Limits::default());
+    let mut stream = collector(address);
+    client(address).write_area(S7_AREA_MK, 0, 100, S7_WL_BYTE, &[7]).unwrap();
+    let program = b"\x09P_PROGRAM";
+    let stop = [&[0x29, 0, 0, 0, 0, 0][..], program].concat();
+    assert_eq!(ask(&mut stream, &stop, &[]), [0, 0, 0x29]);
+    wait("STOP", || live.with(|machine| machine.is_plc_stopped()));
+    let start = [&[0x28, 0, 0, 0, 0, 0, 0, 0xFD, 0, 2, b'C', b' '][..], program].concat();
+    assert_eq!(ask(&mut stream, &start, &[]), [0, 0, 0x28]);
+    wait("RUN", || live.with(|machine| !machine.is_plc_stopped()));
+    assert_eq!(live.with(|machine| machine.memory().flags[100]), 0);
+    let list = [0xFF, 9, 0, 4, 0, 0xA0, 0, 0];
+    let head = [3, 0, 0, 33, 2, 0xF0, 0x80, 0x32, 7, 0, 0, 0, 1, 0, 8, 0, 8, 0, 1, 0x12, 4, 0x11, 0x44, 1, 0];
+    stream.write_all(&[&head[..], &list].concat()).expect("it goes out");
+    let answer = read_packet(&mut stream);
+    let events: Vec<u16> =
+        answer[41..].chunks_exact(20).map(|entry| u16::from_be_bytes([entry[0], entry[1]])).collect();
+    assert_eq!(events, [0x4302, 0x4301, 0x1385, 0x4304, 0x4302, 0x4301, 0x4300]);
+}

@@ -386,6 +386,8 @@ mod tests {
             (
                 61,
                 vec![
+                    Command::PlcColdRestart,
+                    Command::RParameter { channel: ChannelNumber::FIRST, number: 5, value: 0.5 },
                     datum("10000[3]", DatumValue::Text("B2\\".to_owned())),
                     datum("34080[AX1]", DatumValue::Integer(7)),
                 ],

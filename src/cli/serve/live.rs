@@ -12,6 +12,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use tokio::sync::watch;
 
+use super::diagnosis::Buffer;
 use super::record::Recording;
 use crate::machine::Machine;
 use crate::s7::DateAndTime;
@@ -90,6 +91,7 @@ pub(super) struct Shared {
 #[derive(Debug)]
 pub(super) struct Clocked {
     pub(super) machine: Machine,
+    pub(super) diagnosis: Buffer,
     set: DateAndTime,
     set_at: Time,
     pub(super) recording: Option<Recording>,
@@ -115,10 +117,20 @@ pub struct Ended {
 }
 
 impl Clocked {
+    fn new(machine: Machine, recording: Option<Recording>, trace: Option<Trace>) -> Self {
+        let set = today();
+        Self { diagnosis: Buffer::new(&machine, set), set, set_at: machine.time(), machine, recording, trace }
+    }
+
+    /// Notes what became of the CPU in a step.
+    fn observe(&mut self) {
+        let Self { machine, diagnosis, set, set_at, .. } = self;
+        diagnosis.observe(machine, || clock(*set, machine.time() - *set_at));
+    }
+
     /// The clock goes with the machine, at whatever speed.
     pub(super) fn clock(&self) -> DateAndTime {
-        let nanos = (self.machine.time() - self.set_at).nanos();
-        self.set.later(u64::try_from(nanos / 1_000_000).unwrap_or(0))
+        clock(self.set, self.machine.time() - self.set_at)
     }
 
     pub(super) fn set_clock(&mut self, time: DateAndTime) {
@@ -137,7 +149,7 @@ impl Live {
     #[must_use]
     pub fn start_with(machine: Machine, speed: Speed, Keeping { recording, trace }: Keeping) -> Self {
         let trace = trace.then(|| Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle()));
-        let clocked = Clocked { set: today(), set_at: machine.time(), machine, recording, trace };
+        let clocked = Clocked::new(machine, recording, trace);
         let shared = Arc::new(Shared {
             cycle: watch::Sender::new(clocked.machine.cycle()),
             clocked: Mutex::new(clocked),
@@ -274,6 +286,8 @@ impl Shared {
             trace.note_values(machine.cycle(), machine.variables());
         }
         machine.drain();
+        clocked.observe();
+        let machine = &mut clocked.machine;
         let changed = changed_alarms(machine, alarms);
         let (cycle, period) = (machine.cycle(), machine.cycle_time().nanos());
         drop(clocked);
@@ -300,6 +314,11 @@ fn changed_alarms(machine: &Machine, known: &mut Vec<RaisedAlarm>) -> Vec<String
     known.clear();
     known.extend(pending.iter().copied());
     changed
+}
+
+/// The clock so long after it was set.
+fn clock(set: DateAndTime, since: Time) -> DateAndTime {
+    set.later(u64::try_from(since.nanos() / 1_000_000).unwrap_or(0))
 }
 
 /// The computer's clock in UTC.

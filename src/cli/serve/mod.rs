@@ -16,6 +16,7 @@
 #![expect(clippy::disallowed_methods, reason = "real time is what it is for")]
 
 mod arguments;
+mod diagnosis;
 mod handles;
 mod identity;
 mod live;

@@ -235,6 +235,7 @@ impl Lender {
             is_read_only: self.is_read_only,
             machine_data: Some(&data),
             control: Some(&data),
+            diagnosis: clocked.diagnosis.entries(),
             connections: self.connections,
             identity: identity(machine),
             ..Machinery::default()
@@ -266,8 +267,13 @@ fn queue(clocked: &mut Clocked, command: &s7::Command) -> Result<(), Problem> {
         s7::Command::MachineDatum { place, number, index, value } => machine_datum(place, number, index, value)?,
         s7::Command::PlcStop => Command::PlcStop,
         s7::Command::RParameter { channel, number, value } => Command::RParameter { channel, number, value },
-        s7::Command::PlcStart(s7::Restart::Warm) => Command::PlcRun,
-        s7::Command::PlcStart(s7::Restart::Cold) => Command::PlcColdRestart,
+        s7::Command::PlcStart(restart) => {
+            clocked.diagnosis.restart_asked(restart);
+            match restart {
+                s7::Restart::Warm => Command::PlcRun,
+                s7::Restart::Cold => Command::PlcColdRestart,
+            }
+        }
         s7::Command::SetClock(time) => {
             clocked.set_clock(time);
             return Ok(());

@@ -12,7 +12,7 @@
 //! | `001C`, `011C` | 34 | 1 to 11 | names, serial number, place |
 //! | `0131` | 40 | 1, 3 | communication |
 //! | `0132`, `0232` | 40 | 4 | protection |
-//! | `0222` | 28 | 1 | the last start of OB1 |
+//! | `0222` | 28 | 1, 100, 102 | the last start of an organization block |
 //! | `0424` | 20 | | operating state and the change into it |
 //! | `00A0`, `01A0` | 20 | how many | diagnostic buffer |
 //!
@@ -166,23 +166,12 @@ fn records(list: u16, index: u16, station: &dyn Station, pdu: usize) -> Result<R
         0x0119 | 0x0174 => lamps(station).only(index),
         0x001C => Ok(names(station)),
         0x011C => names(station).only(index),
-        0x0131 => match index {
-            0 => communication(pdu).only(1),
-            index => communication(pdu).only(index),
-        },
+        0x0131 => communication(station, pdu).only(index.max(1)),
         0x0132 | 0x0232 => match index {
             0 | 4 => Ok(protection(station)),
             _ => Err(ErrorCode::WRONG_INDEX),
         },
-        0x0222 => match index {
-            0 | 1 => {
-                let mut records = Records::of(28);
-                // OB1: event class, start by a cycle that ended, priority class, number.
-                records.add(&[&[0x11, 0x03, 0x01, 0x01]]);
-                Ok(records)
-            }
-            _ => Err(ErrorCode::WRONG_INDEX),
-        },
+        0x0222 => start_of(index, station),
         0x0424 => Ok(operating_state(station)),
         0x00A0 | 0x01A0 => {
             let wanted = if index == 0 || list == 0x00A0 { ENTRIES } else { usize::from(index).min(ENTRIES) };
@@ -260,6 +249,8 @@ fn lamps(station: &dyn Station) -> Records {
     let mut records = Records::of(4);
     for lamp in LAMPS {
         let is_on = match lamp {
+            // The program failed.
+            1 => !runs && station.diagnosis().first().is_some_and(|entry| entry.event == Diagnosis::FAULT),
             4 => runs,
             5 => !runs,
             _ => false,
@@ -291,11 +282,11 @@ fn names(station: &dyn Station) -> Records {
     records
 }
 
-fn communication(pdu: usize) -> Records {
+fn communication(station: &dyn Station, pdu: usize) -> Records {
     let mut records = Records::of(40);
     let pdu = u16::try_from(pdu).unwrap_or(0);
     // Longest PDU, connections, and the rates of two buses that are not there.
-    records.words(&[1, pdu, 32, 0, 0, 0, 0]);
+    records.words(&[1, pdu, station.connections(), 0, 0, 0, 0]);
     // Operator interface: read once, write once, cycles that start at once and can be cleared; inputs, outputs and flags; data
     // blocks and counters; timers.
     let served = [0b0100_0111, 0b1110_0000, 0b1000_0001, 0b0000_0001];
@@ -317,14 +308,42 @@ fn protection(station: &dyn Station) -> Records {
     records
 }
 
+/// The last start of an organization block: OB1, and the one that the last restart called, 100 or 102.
+fn start_of(index: u16, station: &dyn Station) -> Result<Records, ErrorCode> {
+    let entries = station.diagnosis();
+    let started = entries.iter().position(|entry| entry.event == Diagnosis::START_UP);
+    let restart = started.map(|at| (entries.get(at + 1).map(|before| before.event), entries[at].time.bytes()));
+    let is_cold = |before: Option<u16>| before == Some(Diagnosis::COLD_RESTART);
+    let mut records = Records::of(28);
+    // Event class and what started it, priority class, number; eight bytes of its own; the time of the start.
+    match (index, restart) {
+        (0 | 1, _) => records.add(&[&[0x11, 0x03, 0x01, 0x01], &[0; 8], &station.clock().bytes()]),
+        (100, Some((before, time))) if !is_cold(before) => {
+            records.add(&[&[0x13, 0x81, 0x1B, 100], &[0; 8], &time]);
+        }
+        (102, Some((before, time))) if is_cold(before) => {
+            records.add(&[&[0x13, 0x85, 0x1B, 102], &[0; 8], &time]);
+        }
+        _ => return Err(ErrorCode::WRONG_INDEX),
+    }
+    Ok(records)
+}
+
 fn operating_state(station: &dyn Station) -> Records {
-    // Event, identifier of the change, and from which state into which: 08 RUN, 04 STOP.
-    let change: [u8; 4] = match station.state() {
-        CpuState::Run => [0x53, 0x02, 0xFF, 0x08],
-        CpuState::Stop => [0x43, 0x04, 0xFF, 0x04],
+    let changes: &[u16] = match station.state() {
+        CpuState::Run => &[Diagnosis::RUN],
+        CpuState::Stop => &[Diagnosis::STOP, Diagnosis::FAULT],
+    };
+    let change = station.diagnosis().iter().find(|entry| changes.contains(&entry.event));
+    // The event that led there, an identifier, the state (08 RUN, 04 STOP), and when that was.
+    let event = change.map_or(changes[0], |change| change.event);
+    let time = change.map_or_else(|| station.clock(), |change| change.time);
+    let state = match station.state() {
+        CpuState::Run => 8,
+        CpuState::Stop => 4,
     };
     let mut records = Records::of(20);
-    records.add(&[&change, &[0; 8], &station.clock().bytes()]);
+    records.add(&[&event.to_be_bytes(), &[0xFF, state], &[0; 8], &time.bytes()]);
     records
 }
 

@@ -104,6 +104,32 @@ fn the_operating_state_is_live() {
     assert_eq!(list(&mut client, "01 19", "00 05").2, [0, 5, 1, 0]);
 }
 
+/// 0222 tells when an organization block was started last, 0424 when the operating state changed, both from the diagnostic buffer.
+#[test]
+fn restarts_and_changes_of_the_state_have_their_time() {
+    let mut client = Client::ready(480);
+    let at = |hour| DateAndTime { hour, ..client.clock };
+    let entry = |(event, hour)| Diagnosis::of_state(event, at(hour));
+    let cold = [(0x4302, 2), (0x4301, 2), (0x1385, 2), (0x4304, 1), (0x4302, 0), (0x4301, 0), (0x4300, 0)].map(entry);
+    client.diagnosis = cold.to_vec();
+    let (length, count, start) = list(&mut client, "02 22", "00 66"); // OB102
+    assert_eq!((length, count), (28, 1));
+    assert_eq!(hex(&start[..20]), "13 85 1B 66 00 00 00 00 00 00 00 00 26 11 22 02 04 05 67 81");
+    assert_eq!(client.user_data(4, 1, "02 22 00 64").0, "D4 02"); // it was no OB100
+    assert_eq!(hex(&list(&mut client, "02 22", "00 01").2[..4]), "11 03 01 01");
+    let state = list(&mut client, "04 24", "00 00").2;
+    assert_eq!(hex(&state), "43 02 FF 08 00 00 00 00 00 00 00 00 26 11 22 02 04 05 67 81");
+    client.state = CpuState::Stop;
+    client.diagnosis = cold[3..].to_vec();
+    let state = list(&mut client, "04 24", "00 00").2;
+    assert_eq!(hex(&state), "43 04 FF 04 00 00 00 00 00 00 00 00 26 11 22 01 04 05 67 81");
+    assert_eq!(hex(&list(&mut client, "02 22", "00 64").2[..4]), "13 81 1B 64");
+    // SF is for a program that failed.
+    assert_eq!(list(&mut client, "01 74", "00 01").2, [0, 1, 0, 0]);
+    client.diagnosis.insert(0, entry((0x4562, 3)));
+    assert_eq!(list(&mut client, "01 74", "00 01").2, [0, 1, 1, 0]);
+}
+
 #[test]
 fn communication_and_protection_have_records_of_40_bytes() {
     let mut client = Client::ready(480);
@@ -117,6 +143,8 @@ fn communication_and_protection_have_records_of_40_bytes() {
         assert_eq!((length, count), (40, 1));
         assert!(hex(&record).starts_with(start), "{asked}: {}", hex(&record));
     }
+    client.connections = 7;
+    assert_eq!(hex(&list(&mut client, "01 31", "00 01").2[..6]), "00 01 01 E0 00 07");
 }
 
 #[test]
@@ -177,6 +205,15 @@ fn the_clock_is_set_with_the_next_step_if_the_time_exists() {
         assert_eq!(client.user_data(7, 2, wrong).0, "DC 01", "{wrong}");
     }
     assert!(client.commands.is_empty());
+}
+
+#[test]
+fn an_earlier_time_is_as_much_earlier_and_1990_is_the_first_year() {
+    let leap = DateAndTime { year: 2000, month: 3, day: 1, hour: 0, minute: 0, second: 0, millisecond: 1 };
+    let day_before = DateAndTime { month: 2, day: 29, hour: 23, minute: 59, second: 59, millisecond: 999, ..leap };
+    assert_eq!(leap.earlier(2), day_before);
+    assert_eq!(leap.earlier(1_000_000_000).later(1_000_000_000), leap);
+    assert_eq!(leap.earlier(u64::MAX), DateAndTime::FIRST);
 }
 
 #[test]
@@ -263,6 +300,17 @@ fn a_module_without_a_password_says_so() {
     assert_eq!(client.user_data(5, 1, "32 30 0F 00 33 38 46 4D").0, "D6 05");
     assert_eq!(client.user_data(5, 2, "").0, "D6 05");
     assert_eq!(client.user_data(5, 1, "32 30").0, "D4 05");
+}
+
+/// The PLC of an 828D is another one.
+#[test]
+fn each_control_has_its_own_plc() {
+    use crate::s7::Identity;
+    for identity in [Identity::SINUMERIK_840D_SL, Identity::SINUMERIK_828D] {
+        assert!(identity.order_number.is_ascii() && identity.order_number.len() == 20);
+        assert!(identity.module_name.len() <= 24 && identity.module_type.len() <= 32);
+    }
+    assert_ne!(Identity::SINUMERIK_840D_SL.order_number, Identity::SINUMERIK_828D.order_number);
 }
 
 #[test]

@@ -50,6 +50,7 @@ struct Client {
     protection: Protection,
     diagnosis: Vec<Diagnosis>,
     is_read_only: bool,
+    connections: u16,
     commands: Vec<Command>,
     connection: Connection,
 }
@@ -83,6 +84,7 @@ impl Client {
             protection: Protection { level: 1, password: None },
             diagnosis: Vec::new(),
             is_read_only: false,
+            connections: 32,
             commands: Vec::new(),
             connection: Connection::Open,
         }
@@ -151,6 +153,7 @@ impl Client {
             is_read_only: self.is_read_only,
             machine_data: self.machine_data.as_deref(),
             control: self.control.as_deref(),
+            connections: self.connections,
             ..Machinery::default()
         };
         let mut bridge = Bridge::new(&self.memory, &self.variables, &self.names, &self.directory).with(machinery);
