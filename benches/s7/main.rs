@@ -46,6 +46,9 @@ struct Arguments {
     /// Requests per second of the soak.
     #[arg(long, default_value_t = 2000.0)]
     rate: f64,
+    /// Only the load, on a server that is there already and has the block.
+    #[arg(long, value_name = "ADDR:PORT")]
+    only: Option<std::net::SocketAddr>,
     /// Be the echo.
     #[arg(long, hide = true)]
     echo: bool,
@@ -65,6 +68,19 @@ fn main() -> io::Result<()> {
     let arguments = Arguments::parse();
     if arguments.echo {
         return echo::serve();
+    }
+    if let Some(address) = arguments.only {
+        for &in_flight in &arguments.in_flight {
+            for &connections in &arguments.connections {
+                let time = Duration::from_secs_f64(arguments.seconds);
+                let Figures { per_second, p50, p99, p999, .. } =
+                    load::run(address, true, connections, in_flight, time)?;
+                println!(
+                    "{connections} × {in_flight}: {per_second:.0} req/s, p50 {p50:.0}, p99 {p99:.0}, p99.9 {p999:.0} µs"
+                );
+            }
+        }
+        return Ok(());
     }
     if let Some(seconds) = arguments.soak {
         let server = Server::opennck()?;
@@ -121,7 +137,9 @@ fn main() -> io::Result<()> {
 fn show_log(server: Server) {
     let name = server.name;
     let said = server.end();
-    for line in said.lines().filter(|line| !line.contains(" has come") && !line.contains(" has left")) {
+    for line in
+        said.lines().filter(|line| !["has come", "has left", "were left out"].iter().any(|usual| line.contains(usual)))
+    {
         println!("{name}: {line}");
     }
 }

@@ -5,6 +5,7 @@
 Prints "ready" when clients may come, and ends when its input ends. Python only waits: clients are served by threads of the library.
 """
 
+import contextlib
 import ctypes
 import glob
 import importlib.util
@@ -44,7 +45,8 @@ def main():
     if any(done):
         sys.exit(f"snap7's server did not start: {done}")
     print("ready", flush=True)
-    sys.stdin.read()
+    with contextlib.suppress(KeyboardInterrupt):
+        sys.stdin.read()
     snap7.Srv_Stop(server)
 
 
