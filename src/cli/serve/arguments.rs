@@ -48,7 +48,7 @@ pub(crate) struct Arguments {
     /// Under which numbers the interface blocks are known: 840d_sl (DB10, DB11, DB21..., DB31...) or 828d (DB1800, DB3800...).
     #[arg(long, value_name = "PROFILE", default_value = "840d_sl")]
     pub(super) profile: String,
-    /// What clients may read and not write, on top of what they could; it may be given several times.
+    /// What clients may not write; it may be given several times.
     ///
     /// Blocks: DB21, DB21..30. Bytes: DB1000.DBB0..99, DB1000.DBW4, MB0..99, IB0, T0..9. Areas: I, Q, M, T, C. nck: all NC
     /// variables, machine data among them. A write there has return code 03, other items of its request are not affected.

@@ -123,8 +123,10 @@ fn code(value: &str) -> Result<Failure, String> {
 impl fmt::Display for Faults {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { delay, drop, close, error, failure, seed } = self;
-        if *delay.end() > Duration::ZERO {
-            write!(f, "delay={:?}..{:?} ", delay.start(), delay.end())?;
+        match (delay.start(), delay.end()) {
+            (_, &Duration::ZERO) => {}
+            (first, last) if first == last => write!(f, "delay={last:?} ")?,
+            (first, last) => write!(f, "delay={first:?}..{last:?} ")?,
         }
         for (name, chance) in [("drop", drop), ("close", close), ("error", error)] {
             if *chance > 0.0 {
@@ -253,6 +255,8 @@ mod tests {
         assert_eq!((faults.drop, faults.error, faults.seed), (0.25, 0.05, 7));
         assert_eq!(faults.failure, Failure::Request(ErrorCode::NOT_IMPLEMENTED));
         assert_eq!(faults.to_string(), "drop=25% error=5% code=8104 seed=7");
+        assert_eq!("delay=10ms..1.5s".parse::<Faults>().unwrap().to_string(), "delay=10ms..1.5s seed=1");
+        assert_eq!("delay=50ms".parse::<Faults>().unwrap().to_string(), "delay=50ms seed=1");
         for (wrong, said) in [
             ("", "delay=, drop="),
             ("drip=1%", "drip=1%"),
