@@ -268,9 +268,10 @@ impl<'a, S: Stations> Conversation<'a, S> {
         let now = self.server.begin.elapsed().as_millis();
         let now = Time::from_millis(i64::try_from(now).unwrap_or(i64::MAX));
         self.take_space();
+        let known = self.answers.count();
         let (session, answers) = (&mut self.session, &mut self.answers);
         self.server.stations.lend(&mut |station| session.tick(now, station, answers));
-        self.witness.pushed(&self.answers);
+        self.witness.pushed(self.answers.count() - known);
     }
 
     async fn send(&mut self) -> Option<End> {

@@ -79,9 +79,9 @@ impl<'a> Witness<'a> {
         }
     }
 
-    /// Something is to be sent without being asked for.
-    pub(super) fn pushed(&self, answers: &Answers) {
-        self.counters.pushes.add(answers.count());
+    /// So much is to be sent without being asked for.
+    pub(super) fn pushed(&self, count: usize) {
+        self.counters.pushes.add(count);
     }
 
     /// Something is to be sent.
