@@ -95,7 +95,7 @@ enum Command {
     /// variables. What one request reads is of one cycle; what it writes acts at the edge of the next, whole. Ctrl-C and SIGTERM end it
     /// with 0.
     #[cfg(feature = "s7")]
-    Serve(serve::Arguments),
+    Serve(Box<serve::Arguments>),
     /// Reads, writes and watches a PLC or an NCK by S7 communication: this simulator, a control, or any other.
     #[cfg(feature = "s7")]
     S7 {

@@ -68,15 +68,27 @@ impl Scenario {
     }
 
     fn open(&self, profile: Profile) -> Result<Machine, Problem> {
-        let preset = self.plc_image.as_ref().map(|image| self.preset(image)).transpose()?;
+        let read = |image: &Named| {
+            let file = self.file_of(image)?;
+            Preset::read(&file).map_err(|problem| problem.at(&image.place))
+        };
+        let preset = self.plc_image.as_ref().map(read).transpose()?;
         let options = OpenOptions { plant_over: self.plant.clone(), profile, preset };
         Machine::open_with(self.directory().join(&self.machine.text), options)
             .map_err(|problem| problem.at(&self.machine.place))
     }
 
+    /// The file of its PLC image, if it has one.
+    ///
+    /// # Errors
+    /// There is no file of that name.
+    pub fn image_file(&self) -> Result<Option<PathBuf>, Problem> {
+        self.plc_image.as_ref().map(|image| self.file_of(image)).transpose()
+    }
+
     /// A PLC image: a file, or a name that is looked for in `plc_images` beside the scenario or above it.
-    fn preset(&self, image: &Named) -> Result<Preset, Problem> {
-        let file = if image.text.ends_with(".toml") {
+    fn file_of(&self, image: &Named) -> Result<PathBuf, Problem> {
+        Ok(if image.text.ends_with(".toml") {
             self.directory().join(&image.text)
         } else {
             let name = Path::new("plc_images").join(format!("{}.toml", image.text));
@@ -90,8 +102,7 @@ impl Scenario {
                     "name a file that ends in .toml, relative to the scenario",
                 )
             })?
-        };
-        Preset::read(&file).map_err(|problem| problem.at(&image.place))
+        })
     }
 
     fn watch(&self, machine: &Machine) -> Result<Watch, Problem> {
@@ -142,11 +153,11 @@ impl Prepared {
         Finished { session: self.session, head: self.head, causes: self.causes, failure }
     }
 
-    /// The machine, for somebody else to step, and the scenario at work on it.
+    /// The machine, for somebody else to step, the scenario at work on it, and what its trace shows.
     #[must_use]
-    pub fn into_operator(self) -> (Machine, Operator) {
-        let Session { machine, book, .. } = self.session;
-        (machine, Operator::new(book, self.plan))
+    pub fn into_operator(self) -> (Machine, Operator, Watch) {
+        let Session { machine, book, watch, .. } = self.session;
+        (machine, Operator::new(book, self.plan), watch)
     }
 
     /// Computes every axis in every cycle, also those that rest: slower, and the same trace.

@@ -9,6 +9,7 @@ use std::fmt::Write;
 
 use crate::image::{Address, Format, Location, Profile, Writer};
 use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine, Switch};
+use crate::source::{Table, Value as SourceValue};
 use crate::units::{AxisNumber, Position};
 
 use super::file::profile_name;
@@ -29,6 +30,10 @@ pub struct Heading<'a> {
     pub plc: Option<&'a str>,
     /// The PLC image, relative to the file.
     pub plc_image: Option<&'a str>,
+    /// What the trace shows.
+    pub watch: Option<&'a [String]>,
+    /// What is merged into the plant.
+    pub plant: Option<&'a Table>,
 }
 
 /// Words about the commands from one on.
@@ -73,6 +78,13 @@ impl Transcript {
             }
         }
         text += &format!("limit = {}\n", quoted(LIMIT));
+        if let Some(watch) = heading.watch {
+            let entries: Vec<_> = watch.iter().map(|entry| quoted(entry)).collect();
+            text += &format!("watch = [{}]\n", entries.join(", "));
+        }
+        if let Some(plant) = heading.plant {
+            text += &format!("plant = {}\n", toml(&SourceValue::Table(plant.clone())));
+        }
         Self { text, written: 0, notes: Vec::new(), open: None }
     }
 
@@ -281,6 +293,26 @@ fn axis_name(axis: AxisNumber, machine: &Machine) -> String {
     quoted(machine.names().axes[axis].as_deref().unwrap_or_default())
 }
 
+/// A value as TOML has it, in one line.
+fn toml(value: &SourceValue) -> String {
+    match value {
+        SourceValue::Text(text) => quoted(text),
+        SourceValue::Integer(number) => number.to_string(),
+        SourceValue::Float(number) => format!("{number:?}"),
+        SourceValue::Boolean(value) => value.to_string(),
+        SourceValue::Array(nodes) => {
+            let nodes: Vec<_> = nodes.iter().map(|node| toml(&node.value)).collect();
+            format!("[{}]", nodes.join(", "))
+        }
+        SourceValue::Table(table) => {
+            let entries = table.clone().take_rest();
+            let entries: Vec<_> =
+                entries.iter().map(|(key, _, node)| format!("{} = {}", quoted(key), toml(&node.value))).collect();
+            format!("{{ {} }}", entries.join(", "))
+        }
+    }
+}
+
 /// A text as TOML has it.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
@@ -315,6 +347,8 @@ mod tests {
         profile: Profile::Sinumerik840dSl,
         plc: None,
         plc_image: None,
+        watch: None,
+        plant: None,
     };
 
     /// Does all of it to a machine, writes it down, and runs that.
@@ -473,7 +507,7 @@ mod tests {
             (0x7F7F_FFFF, "3.4028235e38"),
         ] {
             assert_eq!(number(bits, location).as_deref(), Some(text));
-            let node = crate::source::Table::parse(&format!("a = {text}"), "t").unwrap().take("a").unwrap();
+            let node = Table::parse(&format!("a = {text}"), "t").unwrap().take("a").unwrap();
             assert_eq!(raw_value(&node, location, machine.override_coding()).unwrap(), bits);
         }
         for no_number in [0x7FC0_0000, 0x7F80_0000, 0xFFFF_FFFF] {

@@ -16,8 +16,9 @@ use crate::units::Time;
 /// What is served, and to whom.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// A directory, an archive file, or the name of a built-in machine.
-    pub(super) machine: PathBuf,
+    /// A directory, an archive file, or the name of a built-in machine; without one, that of the scenario.
+    #[arg(required_unless_present = "scenario")]
+    pub(super) machine: Option<PathBuf>,
     /// Where S7 clients connect; it may be given several times.
     #[arg(long, value_name = "ADDR:PORT", default_value = "127.0.0.1:10102")]
     pub(super) s7: Vec<String>,
@@ -42,12 +43,20 @@ pub(crate) struct Arguments {
     /// a second at most. A file that exists is refused.
     #[arg(long, value_name = "F.toml")]
     pub(super) record: Option<PathBuf>,
+    /// A scenario acts on the machine in real time, while clients are connected.
+    ///
+    /// Its machine, PLC program and image are served, with its profile and its plant; what the command line names counts instead. A step
+    /// that fails is logged and ends the scenario; serving goes on, as it does when the scenario is over. A recording has what the
+    /// scenario did, too.
+    #[arg(long, value_name = "F.toml")]
+    pub(super) scenario: Option<PathBuf>,
     /// Writes the trace as JSON lines when it ends; it is kept in memory until then.
     #[arg(long, value_name = "F.jsonl")]
     pub(super) trace: Option<PathBuf>,
-    /// Under which numbers the interface blocks are known: 840d_sl (DB10, DB11, DB21..., DB31...) or 828d (DB1800, DB3800...).
-    #[arg(long, value_name = "PROFILE", default_value = "840d_sl")]
-    pub(super) profile: String,
+    /// Under which numbers the interface blocks are known: 840d_sl (DB10, DB11, DB21..., DB31...) or 828d (DB1800, DB3800...);
+    /// 840d_sl unless a scenario says otherwise.
+    #[arg(long, value_name = "PROFILE")]
+    pub(super) profile: Option<String>,
     /// What clients may not write; it may be given several times.
     ///
     /// Blocks: DB21, DB21..30. Bytes: DB1000.DBB0..99, DB1000.DBW4, MB0..99, IB0, T0..9. Areas: I, Q, M, T, C. nck: all NC

@@ -16,7 +16,8 @@ use super::diagnosis::Buffer;
 use super::record::Recording;
 use crate::machine::Machine;
 use crate::s7::DateAndTime;
-use crate::trace::Trace;
+use crate::scenario::{Operator, State};
+use crate::trace::{Trace, Watch};
 use crate::units::Time;
 use crate::variables::{Describe, RaisedAlarm};
 
@@ -95,16 +96,19 @@ pub(super) struct Clocked {
     set: DateAndTime,
     set_at: Time,
     pub(super) recording: Option<Recording>,
-    trace: Option<Trace>,
+    trace: Option<(Trace, Watch)>,
+    pub(super) operator: Option<Operator>,
 }
 
-/// What is kept of a live machine.
+/// What goes with a live machine.
 #[derive(Debug, Default)]
-pub struct Keeping {
+pub struct LiveOptions {
     /// Writes down what is done to it.
     pub recording: Option<Recording>,
-    /// Keeps its trace, in memory.
-    pub trace: bool,
+    /// Keeps its trace, in memory, which shows this.
+    pub trace: Option<Watch>,
+    /// Acts on it, for a machine that has not run yet.
+    pub operator: Option<Operator>,
 }
 
 /// What was kept of a machine that has ended.
@@ -112,14 +116,28 @@ pub struct Keeping {
 pub struct Ended {
     /// The machine.
     pub machine: Machine,
-    /// Its trace, if it was kept.
-    pub trace: Option<Trace>,
+    /// Its trace and what that shows, if it was kept.
+    pub trace: Option<(Trace, Watch)>,
+}
+
+impl Ended {
+    /// The trace as JSON lines, if it was kept.
+    #[must_use]
+    pub fn json_lines(&self) -> Option<String> {
+        self.trace.as_ref().map(|(trace, watch)| trace.json_lines(&self.machine, watch))
+    }
 }
 
 impl Clocked {
-    fn new(machine: Machine, recording: Option<Recording>, trace: Option<Trace>) -> Self {
+    fn new(
+        machine: Machine,
+        recording: Option<Recording>,
+        trace: Option<(Trace, Watch)>,
+        operator: Option<Operator>,
+    ) -> Self {
         let set = today();
-        Self { diagnosis: Buffer::new(&machine, set), set, set_at: machine.time(), machine, recording, trace }
+        let diagnosis = Buffer::new(&machine, set);
+        Self { diagnosis, set, set_at: machine.time(), machine, recording, trace, operator }
     }
 
     /// Notes what became of the CPU in a step.
@@ -136,20 +154,63 @@ impl Clocked {
     pub(super) fn set_clock(&mut self, time: DateAndTime) {
         (self.set, self.set_at) = (time, self.machine.time());
     }
+
+    /// One step, with what goes with the machine. Says how the scenario ended, if it did in this step.
+    fn step(&mut self) -> Option<String> {
+        let Self { machine, recording, trace, operator, .. } = self;
+        let was_at_work = operator.as_ref().is_some_and(|operator| *operator.state() == State::Acting);
+        if was_at_work && let Some(operator) = operator {
+            let queued = machine.queued().len();
+            for note in operator.act(machine) {
+                if let Some((trace, _)) = trace {
+                    trace.note(machine.cycle() + 1, note.clone());
+                }
+                if let Some(recording) = recording {
+                    recording.note(&note);
+                }
+            }
+            if let Some(recording) = recording {
+                recording.remark(queued, "the scenario".to_owned());
+            }
+        }
+        if let Some(recording) = recording {
+            recording.edge(machine);
+        }
+        machine.step();
+        if let Some((trace, _)) = trace {
+            trace.extend(machine.recorder());
+            trace.note_values(machine.cycle(), machine.variables());
+        }
+        machine.drain();
+        self.observe();
+        let Self { machine, operator, .. } = self;
+        let operator = operator.as_mut().filter(|_| was_at_work)?;
+        operator.look(machine);
+        match operator.state() {
+            State::Acting => None,
+            State::Done => Some("the scenario is over, all of it held; serving goes on".to_owned()),
+            State::Failed(failure) => Some(format!("the scenario failed, serving goes on: {failure}")),
+        }
+    }
 }
 
 impl Live {
     /// Starts a machine. The clock of its CPU begins with the computer's, in UTC.
     #[must_use]
     pub fn start(machine: Machine, speed: Speed) -> Self {
-        Self::start_with(machine, speed, Keeping::default())
+        Self::start_with(machine, speed, LiveOptions::default())
     }
 
-    /// Starts a machine of which something is kept.
+    /// Starts a machine with what goes with it.
     #[must_use]
-    pub fn start_with(machine: Machine, speed: Speed, Keeping { recording, trace }: Keeping) -> Self {
-        let trace = trace.then(|| Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle()));
-        let clocked = Clocked::new(machine, recording, trace);
+    pub fn start_with(machine: Machine, speed: Speed, options: LiveOptions) -> Self {
+        let LiveOptions { recording, trace, operator } = options;
+        let trace = trace.map(|watch| {
+            let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle());
+            trace.watch_values(&watch, machine.cycle(), machine.variables());
+            (trace, watch)
+        });
+        let clocked = Clocked::new(machine, recording, trace, operator);
         let shared = Arc::new(Shared {
             cycle: watch::Sender::new(clocked.machine.cycle()),
             clocked: Mutex::new(clocked),
@@ -168,6 +229,12 @@ impl Live {
     /// Looks at the machine between two steps, or queues commands.
     pub fn with<T>(&self, look: impl FnOnce(&mut Machine) -> T) -> T {
         look(&mut self.shared.lend().machine)
+    }
+
+    /// How far the scenario is that acts on it, if one does.
+    #[must_use]
+    pub fn scenario(&self) -> Option<State> {
+        self.shared.lend().operator.as_ref().map(|operator| operator.state().clone())
     }
 
     /// How well the schedule was kept so far.
@@ -276,24 +343,14 @@ impl Shared {
             std::thread::yield_now();
         }
         let mut clocked = self.clocked.lock().unwrap_or_else(PoisonError::into_inner);
-        let Clocked { machine, recording, trace, .. } = &mut *clocked;
-        if let Some(recording) = recording {
-            recording.edge(machine);
-        }
-        machine.step();
-        if let Some(trace) = trace {
-            trace.extend(machine.recorder());
-            trace.note_values(machine.cycle(), machine.variables());
-        }
-        machine.drain();
-        clocked.observe();
-        let machine = &mut clocked.machine;
+        let over = clocked.step();
+        let machine = &clocked.machine;
         let changed = changed_alarms(machine, alarms);
         let (cycle, period) = (machine.cycle(), machine.cycle_time().nanos());
         drop(clocked);
         self.cycle.send_replace(cycle);
         // Nobody waits for the machine while a terminal waits for its reader.
-        for line in changed {
+        for line in changed.into_iter().chain(over) {
             tracing::info!("{line}");
         }
         u128::try_from(period).unwrap_or(1).max(1)

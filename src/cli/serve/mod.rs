@@ -22,6 +22,7 @@ mod identity;
 mod live;
 mod log;
 mod metrics;
+mod opening;
 mod protect;
 mod record;
 mod terms;
@@ -30,27 +31,25 @@ mod window;
 pub use crate::s7::server::{Counter, Counters, Faults, Limits, Network, Refused};
 pub(super) use arguments::Arguments;
 pub use identity::OwnIdentity;
-pub use live::{Ended, GIVE_UP, Keeping, Live, Pace, Speed};
+pub use live::{Ended, GIVE_UP, Live, LiveOptions, Pace, Speed};
 pub use record::Recording;
 pub use terms::Terms;
 pub use window::{Window, WindowOptions};
 
 use std::fs::File;
 use std::io::{IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tokio::runtime::Builder;
 
 use super::output::Output;
-use crate::image::Preset;
-use crate::machine::{Machine, OpenOptions};
 use crate::plc::Programs;
-use crate::scenario::profile_named;
+use crate::scenario::State;
 use crate::source::{Problem, unreadable};
-use crate::trace::Watch;
 use crate::variables::Describe;
+use opening::Opened;
 
 /// How often the status line is drawn.
 const DRAW: Duration = Duration::from_millis(200);
@@ -93,7 +92,7 @@ impl Served {
             return Ok(());
         };
         let ended = live.end();
-        let text = ended.and_then(|Ended { machine, trace }| Some(trace?.json_lines(&machine, &Watch::default())));
+        let text = ended.and_then(|ended| ended.json_lines());
         file.write_all(text.unwrap_or_default().as_bytes())
             .map_err(|error| Problem::new(format!("{} cannot be written: {error}", path.display()), "check the disk"))
     }
@@ -101,38 +100,27 @@ impl Served {
 
 /// Opens all doors, or says which one stays closed.
 fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Result<Served, Problem> {
-    let image = arguments.plc_image.as_deref().map(preset).transpose()?;
-    let preset = image.as_deref().map(Preset::read).transpose()?;
-    let profile = profile_named(&arguments.profile)?;
-    let options = OpenOptions { preset, profile, ..OpenOptions::default() };
-    let mut machine = Machine::open_with(&arguments.machine, options)?;
-    let window = arguments.window(&machine)?;
-    let plc = match &arguments.plc {
-        Some(name) => {
-            machine.load_program(programs.program(name, machine.names())?);
-            format!("PLC program {name}")
-        }
-        None => "no PLC program: clients write the PLC's side".to_owned(),
-    };
-    for warning in machine.warnings() {
-        output.warning(warning);
-    }
+    let opened = Opened::open(arguments, programs, output)?;
+    let machine = &opened.machine;
+    let window = arguments.window(machine)?;
+    let plc = opened.plc.as_ref().map_or_else(
+        || "no PLC program: clients write the PLC's side".to_owned(),
+        |name| format!("PLC program {name}"),
+    );
     let axes: Vec<_> = machine.names().axes.iter().filter_map(|(_, name)| name.clone()).collect();
     let cycle = machine.cycle_time().seconds() * 1000.0;
     let status = status_line();
     // A program that has a log of its own keeps it.
     let _ = tracing::subscriber::set_global_default(log::Log { status: status.clone(), writes: arguments.log_writes });
-    let recording = arguments
-        .record
-        .as_deref()
-        .map(|path| record::of(path, &arguments.machine, arguments.plc.as_deref(), image.as_deref(), &machine));
-    let recording = recording.transpose()?;
+    let recording = arguments.record.as_deref().map(|path| record::of(path, &opened)).transpose()?;
     let trace = arguments.trace.as_ref().map(|path| {
         let file = File::create(path).map_err(|error| unreadable(path, &error))?;
         Ok((path.clone(), file))
     });
     let trace = trace.transpose()?;
-    let live = Live::start_with(machine, arguments.speed, Keeping { recording, trace: trace.is_some() });
+    let Opened { machine, operator, watch, path, .. } = opened;
+    let options = LiveOptions { recording, trace: trace.is_some().then_some(watch), operator };
+    let live = Live::start_with(machine, arguments.speed, options);
     if let Some(warning) = handles::allow(arguments.clients) {
         output.warning(warning);
     }
@@ -146,7 +134,10 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
             return Err(problem);
         }
     };
-    let mut head = format!("{}: axes {}, a cycle of {cycle} ms, {plc}\n", arguments.machine.display(), axes.join(", "));
+    let mut head = format!("{}: axes {}, a cycle of {cycle} ms, {plc}\n", path.display(), axes.join(", "));
+    if let Some(scenario) = &arguments.scenario {
+        head += &format!("scenario {}\n", scenario.display());
+    }
     if let Some(warning) = arguments.warning(window.addresses()) {
         output.warning(warning);
     }
@@ -264,6 +255,14 @@ impl<'a> Status<'a> {
         if self.live.pace().overruns > 0 {
             line += &format!("  {}", self.overruns());
         }
+        if let Some(scenario) = self.live.scenario() {
+            let how = match scenario {
+                State::Acting => "acts",
+                State::Done => "held",
+                State::Failed(_) => "FAILED",
+            };
+            line += &format!("  scenario {how}");
+        }
         line += &format!("  clients {} ({}/s)  alarms {alarms}", self.window.clients(), self.rate);
         line
     }
@@ -282,20 +281,4 @@ impl<'a> Status<'a> {
         let step = self.live.with(|machine| machine.cycle());
         format!("step {step}  {}  answers {}", self.overruns(), self.window.answers())
     }
-}
-
-/// A PLC image: a file, or a name that is looked for in `plc_images` here or above.
-fn preset(name: &str) -> Result<PathBuf, Problem> {
-    if name.ends_with(".toml") {
-        return Ok(PathBuf::from(name));
-    }
-    let file = Path::new("plc_images").join(format!("{name}.toml"));
-    let here = std::env::current_dir().unwrap_or_default();
-    let found = here.ancestors().map(|directory| directory.join(&file)).find(|file| file.is_file());
-    found.ok_or_else(|| {
-        Problem::new(
-            format!("expected a PLC image, found no plc_images/{name}.toml here or above"),
-            "name a file that ends in .toml, or start where plc_images is",
-        )
-    })
 }

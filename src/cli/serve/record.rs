@@ -14,6 +14,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use super::opening::Opened;
 use crate::machine::Machine;
 use crate::scenario::{Heading, Remark, Transcript};
 use crate::source::{Place, Problem, unreadable};
@@ -33,19 +34,21 @@ pub struct Recording {
 }
 
 /// The recording of a machine that `serve` has opened.
-pub(super) fn of(
-    path: &Path,
-    machine: &Path,
-    plc: Option<&str>,
-    image: Option<&Path>,
-    opened: &Machine,
-) -> Result<Recording, Problem> {
+pub(super) fn of(path: &Path, opened: &Opened) -> Result<Recording, Problem> {
+    let machine = &opened.path;
     let machine = if machine.exists() { from(path, machine)? } else { built_in(path, machine)? };
-    let image = image.map(|image| from(path, image)).transpose()?;
+    let image = opened.image.as_deref().map(|image| from(path, image)).transpose()?;
     let title = format!("A session with {}", machine.rsplit('/').next().unwrap_or_default());
-    let heading =
-        Heading { title: &title, machine: &machine, profile: opened.names().profile, plc, plc_image: image.as_deref() };
-    Recording::begin(path, &heading, opened)
+    let heading = Heading {
+        title: &title,
+        machine: &machine,
+        profile: opened.machine.names().profile,
+        plc: opened.plc.as_deref(),
+        plc_image: image.as_deref(),
+        watch: opened.entries.as_deref(),
+        plant: opened.plant.as_ref(),
+    };
+    Recording::begin(path, &heading, &opened.machine)
 }
 
 /// A machine that is built in has no path, but a folder of its name beside the file would be taken for it.
@@ -115,9 +118,9 @@ impl Recording {
         Ok(Self { book, remarks: Vec::new(), clients: Vec::new(), end: Some(end), thread: Some(thread) })
     }
 
-    /// Says whose the commands are that are queued next. Clients have numbers in the order in which they write: the port from which
-    /// one comes is another one each time.
-    pub(super) fn remark(&mut self, machine: &Machine, client: Option<SocketAddr>) {
+    /// Says that a client queues the commands that follow. Clients have numbers in the order in which they write: the port from
+    /// which one comes is another one each time.
+    pub(super) fn client(&mut self, machine: &Machine, client: Option<SocketAddr>) {
         let text = client.map_or_else(
             || "a client".to_owned(),
             |client| {
@@ -129,7 +132,17 @@ impl Recording {
                 format!("client {}, from {}", index + 1, client.ip().to_canonical())
             },
         );
-        self.remarks.push(Remark { before: machine.queued().len(), text });
+        self.remark(machine.queued().len(), text);
+    }
+
+    /// Says whose the commands are behind the first ones.
+    pub(super) fn remark(&mut self, before: usize, text: String) {
+        self.remarks.push(Remark { before, text });
+    }
+
+    /// Notes a text, as the trace does at the end of the next step.
+    pub(super) fn note(&mut self, text: &str) {
+        self.book.lock().unwrap_or_else(PoisonError::into_inner).transcript.note(text);
     }
 
     /// Writes down what a machine does at the edge of its next step, which follows at once.

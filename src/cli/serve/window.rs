@@ -249,7 +249,7 @@ impl Lender {
         }
         let Clocked { machine, recording, .. } = &mut *clocked;
         if let Some(recording) = recording {
-            recording.remark(machine, client);
+            recording.client(machine, client);
         }
         for command in commands {
             if let Err(problem) = queue(&mut clocked, &command) {

@@ -108,7 +108,8 @@ fn the_operating_state_is_live() {
 #[test]
 fn restarts_and_changes_of_the_state_have_their_time() {
     let mut client = Client::ready(480);
-    let at = |hour| DateAndTime { hour, ..client.clock };
+    let clock = client.clock;
+    let at = |hour| DateAndTime { hour, ..clock };
     let entry = |(event, hour)| Diagnosis::of_state(event, at(hour));
     let cold = [(0x4302, 2), (0x4301, 2), (0x1385, 2), (0x4304, 1), (0x4302, 0), (0x4301, 0), (0x4300, 0)].map(entry);
     client.diagnosis = cold.to_vec();
