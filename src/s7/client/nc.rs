@@ -7,6 +7,7 @@
 //! | `C2/State/chanStatus` | of channel 2; unit 1 where nothing is said |
 //! | `A1/M/32000:DOUBLE` | column 32000 of module M of axis 1, and its type |
 //! | `C/RP/1[5]` | without a type the bytes as they come |
+//! | `V/16#80/30:REAL` | a module by its number |
 //!
 //! Types: `BYTE`, `WORD`, `LONG`, `ULONG`, `REAL`, `DOUBLE`, `DATE`, `TEXT32` and other lengths. Drives (areas V and H) are big-endian, all others
 //! little-endian.
@@ -113,6 +114,7 @@ const MODULES: &[(&str, u8)] = &[
     ("SPARP", 0x7D),
     ("SINF", 0x7E),
     ("S", 0x7F),
+    ("DRIVE", 0x82),
 ];
 
 const fn area_code(area: NckArea) -> u8 {
@@ -201,7 +203,10 @@ impl FromStr for NcVariable {
 /// `M/32000:DOUBLE`.
 fn numbered(area: u8, module: &str, column: &str) -> Option<NcVariable> {
     let (column, kind) = column.split_once(':').map_or((column, None), |(column, kind)| (column, Some(kind)));
-    let (_, module) = MODULES.iter().find(|(name, _)| *name == module)?;
+    let module = match module.strip_prefix("16#") {
+        Some(number) => u8::from_str_radix(number, 16).ok()?,
+        None => MODULES.iter().find(|(name, _)| *name == module)?.1,
+    };
     let kind = match kind {
         None => None,
         Some("BYTE" | "BOOL") => Some(NcKind::Byte),
@@ -214,7 +219,7 @@ fn numbered(area: u8, module: &str, column: &str) -> Option<NcVariable> {
         Some(text) => Some(NcKind::Text(text.strip_prefix("TEXT")?.parse().ok().filter(|length| *length <= 200)?)),
     };
     let column = column.parse().ok()?;
-    let item = NckItem { system: MeasuringSystem::Current, area, unit: 1, column, line: 1, module: *module, count: 1 };
+    let item = NckItem { system: MeasuringSystem::Current, area, unit: 1, column, line: 1, module, count: 1 };
     Some(NcVariable { item, kind })
 }
 
@@ -252,7 +257,7 @@ impl fmt::Display for NcVariable {
             Some((_, path)) => write!(f, "{letter}{unit}/{path}")?,
             None => {
                 let known = MODULES.iter().find(|(_, code)| *code == module);
-                let module = known.map_or_else(|| format!("{module:02X}"), |(name, _)| (*name).to_owned());
+                let module = known.map_or_else(|| format!("16#{module:02X}"), |(name, _)| (*name).to_owned());
                 write!(f, "{letter}{unit}/{module}/{column}")?;
                 match self.kind {
                     None => {}

@@ -210,7 +210,7 @@ fn put_element(memory: &Memory, value: &Value, into: &mut Vec<u8>) -> Option<()>
         Width::Double => 32,
     };
     if memory.format == Format::Real && bits == 32 {
-        into.extend_from_slice(&real(value.number()?)?.to_be_bytes());
+        into.extend_from_slice(&real(value)?.to_be_bytes());
         return Some(());
     }
     let number = value.whole().filter(|number| fits(*number, bits, memory.format))?;
@@ -224,10 +224,13 @@ fn put_element(memory: &Memory, value: &Value, into: &mut Vec<u8>) -> Option<()>
 }
 
 /// A number as a REAL; what does not fit is none.
-#[expect(clippy::cast_possible_truncation, reason = "what becomes infinite is refused")]
-fn real(number: f64) -> Option<f32> {
-    let value = number as f32;
-    (value.is_finite() || !number.is_finite()).then_some(value)
+#[expect(clippy::cast_possible_truncation, reason = "what does not fit becomes infinite, and is refused")]
+fn real(value: &Value) -> Option<f32> {
+    if let Value::Real(value) = value {
+        return Some(*value); // whatever it is
+    }
+    let value = value.number()? as f32;
+    value.is_finite().then_some(value)
 }
 
 fn put_row(kind: NcKind, variable: &Variable, value: &Value, into: &mut Vec<u8>) -> Option<()> {
@@ -249,7 +252,7 @@ fn put_row(kind: NcKind, variable: &Variable, value: &Value, into: &mut Vec<u8>)
             let number = value.whole().filter(|number| fits(*number, bits, Format::Unsigned))?;
             into.extend_from_slice(&number.to_le_bytes()[..kind.bytes()]);
         }
-        NcKind::Real => into.extend_from_slice(&real(value.number()?)?.to_le_bytes()),
+        NcKind::Real => into.extend_from_slice(&real(value)?.to_le_bytes()),
         NcKind::Double => into.extend_from_slice(&value.number()?.to_le_bytes()),
     }
     if matches!(variable, Variable::Nc(variable) if variable.is_big_endian()) {

@@ -135,7 +135,7 @@ impl FromStr for Variable {
             None => (text.to_owned(), None),
         };
         let address: Address = address.parse().map_err(|problem: <Address as FromStr>::Err| Error::Input {
-            what: problem.what,
+            what: if problem.what.contains(text) { problem.what } else { format!("{} in `{text}`", problem.what) },
             cure: problem.cure + ", DB31.DBB0..10 or nck:C/MachineAxis/actToolBasePos[1]",
         })?;
         let mut memory = Memory::of(&address);
@@ -143,7 +143,9 @@ impl FromStr for Variable {
             let step = if matches!(memory.area, Area::Timers | Area::Counters) { 1 } else { memory.element() };
             let step = u32::try_from(step).unwrap_or(1);
             match last.checked_sub(memory.byte) {
-                Some(distance) if distance % step == 0 => memory.count = distance / step + 1,
+                Some(distance) if distance % step == 0 => {
+                    memory.count = (distance / step).saturating_add(1);
+                }
                 _ => {
                     return Err(Error::Input {
                         what: format!("expected the address of the last element behind `..`, found `{text}`"),
@@ -242,7 +244,9 @@ mod tests {
             "nck:C/MachineAxis/actToolBasePos[2]",
             "nck:N/State/numAlarms",
             "nck:C2/State/chanStatus",
-            "nck:A1/M/32000:DOUBLE",
+            "nck:A2/M/32000:DOUBLE",
+            "nck:V/16#80/30:REAL[2]",
+            "nck:V/DRIVE/30:REAL",
             "nck:C/RP/1[5..9]",
             "nck:V/M/1717:REAL",
         ] {
@@ -260,7 +264,7 @@ mod tests {
         assert_eq!(length("DB31.DBB0..10"), (11, 11));
         assert_eq!(length("DB21.DBW4..8"), (3, 6));
         assert_eq!(length("T0..7"), (8, 16));
-        for wrong in ["DB21.DBW4..7", "DB21.DBB4..3", "DB21.DBB4..", "DB21.DBB..4", "X.y", "DB", "", "MB0..4294967295"]
+        for wrong in ["DB21.DBW4..7", "DB21.DBB4..3", "DB21.DBB4..", "DB21.DBB..4", "X.y", "DB", "", "MB0..4294967290"]
         {
             let error = wrong.parse::<Variable>().unwrap_err();
             assert!(matches!(&error, Error::Input { what, .. } if what.contains(wrong)), "{wrong}: {error:?}");
