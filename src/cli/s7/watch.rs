@@ -116,6 +116,7 @@ async fn tell_of_connection(
     while state.changed().await.is_ok() {
         let text = match &*state.borrow_and_update() {
             State::Lost { .. } if is_lost => continue,
+            State::Connected(_) if !is_lost => continue, // the first one
             State::Lost { cause, .. } => {
                 is_lost = true;
                 format!("{name}: the connection was lost ({cause}); trying again")
