@@ -6,7 +6,7 @@
 
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError, TryRecvError};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
@@ -14,6 +14,7 @@ use tokio::sync::watch;
 
 use super::diagnosis::Buffer;
 use super::record::Recording;
+use super::urgency::Urgency;
 use crate::machine::Machine;
 use crate::s7::DateAndTime;
 use crate::scenario::{Operator, State};
@@ -28,8 +29,11 @@ const EXACT: Duration = Duration::from_millis(1);
 /// How often the stepping thread lets others go first, at most.
 const COURTESY: u32 = 100;
 
+/// How often who wants the machine lets others go first before it waits in a queue.
+const PATIENCE: u32 = 20;
+
 /// How many times real time, in thousandths.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Speed(u32);
 
 impl Default for Speed {
@@ -295,6 +299,14 @@ impl Shared {
 
     /// The machine between two steps.
     pub(super) fn lend(&self) -> MutexGuard<'_, Clocked> {
+        // A step is over sooner than the system puts a thread to sleep and wakes it.
+        for _ in 0..PATIENCE {
+            match self.clocked.try_lock() {
+                Ok(lent) => return lent,
+                Err(TryLockError::Poisoned(lent)) => return lent.into_inner(),
+                Err(TryLockError::WouldBlock) => std::thread::yield_now(),
+            }
+        }
         self.waiting.fetch_add(1, Ordering::Relaxed);
         let lent = self.clocked.lock().unwrap_or_else(PoisonError::into_inner);
         self.waiting.fetch_sub(1, Ordering::Relaxed);
@@ -305,6 +317,7 @@ impl Shared {
         let mut begin = Instant::now();
         let mut simulated = 0_u128; // nanoseconds since then
         let mut alarms = Vec::new();
+        let mut urgency = Urgency::new(speed);
         loop {
             let period = self.step(&mut alarms);
             simulated += period;
@@ -321,6 +334,7 @@ impl Shared {
             if is_ended {
                 return;
             }
+            urgency.note(!ahead.is_zero());
             let late = due.elapsed();
             if late > real(period).max(EXACT) {
                 let nanos = u64::try_from(late.as_nanos()).unwrap_or(u64::MAX);

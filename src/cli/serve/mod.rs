@@ -26,6 +26,7 @@ mod opening;
 mod protect;
 mod record;
 mod terms;
+mod urgency;
 mod window;
 
 pub use crate::s7::server::{Counter, Counters, Faults, Limits, Network, Refused};
