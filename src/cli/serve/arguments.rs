@@ -54,7 +54,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "F.jsonl")]
     pub(super) trace: Option<PathBuf>,
     /// Under which numbers the interface blocks are known: 840d_sl (DB10, DB11, DB21..., DB31...) or 828d (DB1800, DB3800...);
-    /// 840d_sl unless a scenario says otherwise.
+    /// 840d_sl unless a scenario says another.
     #[arg(long, value_name = "PROFILE")]
     pub(super) profile: Option<String>,
     /// What clients may not write; it may be given several times.

@@ -133,15 +133,14 @@ impl Ended {
 }
 
 impl Clocked {
-    fn new(
-        machine: Machine,
-        recording: Option<Recording>,
-        trace: Option<(Trace, Watch)>,
-        operator: Option<Operator>,
-    ) -> Self {
+    fn new(machine: Machine, LiveOptions { recording, trace, operator }: LiveOptions) -> Self {
+        let trace = trace.map(|watch| {
+            let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle());
+            trace.watch_values(&watch, machine.cycle(), machine.variables());
+            (trace, watch)
+        });
         let set = today();
-        let diagnosis = Buffer::new(&machine, set);
-        Self { diagnosis, set, set_at: machine.time(), machine, recording, trace, operator }
+        Self { diagnosis: Buffer::new(&machine, set), set, set_at: machine.time(), machine, recording, trace, operator }
     }
 
     /// Notes what became of the CPU in a step.
@@ -186,8 +185,6 @@ impl Clocked {
             trace.note_values(machine.cycle(), machine.variables());
         }
         machine.drain();
-        self.observe();
-        let Self { machine, operator, .. } = self;
         let operator = operator.as_mut().filter(|_| was_at_work)?;
         operator.look(machine);
         match operator.state() {
@@ -208,13 +205,7 @@ impl Live {
     /// Starts a machine with what goes with it.
     #[must_use]
     pub fn start_with(machine: Machine, speed: Speed, options: LiveOptions) -> Self {
-        let LiveOptions { recording, trace, operator } = options;
-        let trace = trace.map(|watch| {
-            let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle());
-            trace.watch_values(&watch, machine.cycle(), machine.variables());
-            (trace, watch)
-        });
-        let clocked = Clocked::new(machine, recording, trace, operator);
+        let clocked = Clocked::new(machine, options);
         let shared = Arc::new(Shared {
             cycle: watch::Sender::new(clocked.machine.cycle()),
             clocked: Mutex::new(clocked),
@@ -358,6 +349,7 @@ impl Shared {
         }
         let mut clocked = self.clocked.lock().unwrap_or_else(PoisonError::into_inner);
         let over = clocked.step();
+        clocked.observe();
         let machine = &clocked.machine;
         let changed = changed_alarms(machine, alarms);
         let (cycle, period) = (machine.cycle(), machine.cycle_time().nanos());

@@ -36,8 +36,10 @@ impl Opened {
         let image = arguments.plc_image.as_deref().map(image).transpose()?;
         let profile = arguments.profile.as_deref().map(profile_named).transpose()?;
         let opened = match (&arguments.scenario, &arguments.machine) {
-            (Some(file), _) => Self::with_scenario(file, image.as_deref(), profile, arguments, programs, output)?,
-            (None, Some(path)) => Self::alone(path, image, profile, arguments.plc.as_deref(), programs)?,
+            (Some(file), _) => Self::with_scenario(file, profile, image.as_deref(), arguments, programs, output)?,
+            (None, Some(path)) => {
+                Self::alone(path, profile.unwrap_or_default(), image, arguments.plc.as_deref(), programs)?
+            }
             (None, None) => {
                 return Err(Problem::new(
                     "expected a machine or a scenario, found neither",
@@ -53,16 +55,13 @@ impl Opened {
 
     fn alone(
         path: &Path,
+        profile: Profile,
         image: Option<PathBuf>,
-        profile: Option<Profile>,
         plc: Option<&str>,
         programs: &Programs,
     ) -> Result<Self, Problem> {
         let preset = image.as_deref().map(Preset::read).transpose()?;
-        let mut machine = Machine::open_with(
-            path,
-            OpenOptions { preset, profile: profile.unwrap_or_default(), ..OpenOptions::default() },
-        )?;
+        let mut machine = Machine::open_with(path, OpenOptions { preset, profile, ..OpenOptions::default() })?;
         if let Some(name) = plc {
             machine.load_program(programs.program(name, machine.names())?);
         }
@@ -80,8 +79,8 @@ impl Opened {
 
     fn with_scenario(
         file: &Path,
-        image: Option<&Path>,
         profile: Option<Profile>,
+        image: Option<&Path>,
         arguments: &Arguments,
         programs: &Programs,
         output: &mut Output,
