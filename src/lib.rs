@@ -95,7 +95,7 @@
 //! # What is deliberately absent
 //!
 //! No real-time claim and no connection to hardware: it is no safety device. No NC programs; no path motion beyond what
-//! referencing and JOG need. No unsafe code. No hidden state: what a machine remembers is in
+//! referencing and JOG need. No unsafe code but one block that maps a file. No hidden state: what a machine remembers is in
 //! [`Machine::save`](machine::Machine::save), and what files said is shared between forks and never changes.
 //!
 //! # Where to add something

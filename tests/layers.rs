@@ -60,6 +60,9 @@ const REFUSED_ANYWHERE: &[(&str, &str)] = &[
     ("sparse\x2b", "a mirror of the registry belongs into the cargo configuration of the computer"),
 ];
 
+/// The one file with code that the compiler does not check.
+const UNSAFE: &str = "src/image/mapped/words.rs";
+
 /// The one source of packages in `Cargo.lock`.
 const REGISTRY: &str = "source = \"registry+https://github.com/rust-lang/crates.io-index\"";
 
@@ -105,6 +108,15 @@ fn imports_go_by_rooms() {
 fn nothing_inside_asks_a_clock_a_socket_or_chance() {
     let inside = rust("src").into_iter().filter(|file| !OUTSIDE.iter().any(|outside| file.path.starts_with(outside)));
     report(inside.flat_map(|file| refused(&file.path, &file.text, REFUSED_INSIDE)).collect());
+}
+
+#[test]
+fn one_file_is_unsafe_and_says_why_it_is_sound() {
+    report(rust("").iter().flat_map(|file| unchecked(&file.path, &file.text)).collect());
+    let text = fs::read_to_string(root().join(UNSAFE)).unwrap();
+    assert_eq!(text.matches("\x75nsafe {").count(), 1, "{UNSAFE}: one block is enough");
+    let manifest = fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    assert!(manifest.contains("unsafe_code = \"deny\""), "Cargo.toml: elsewhere the compiler refuses it");
 }
 
 #[test]
@@ -180,6 +192,28 @@ fn refused(path: &str, text: &str, table: &[(&str, &str)]) -> Vec<String> {
                 findings.push(format!("{path}:{line}: `{needle}` is refused; instead: {instead}"));
             }
         }
+    }
+    findings
+}
+
+/// `\x75nsafe`, and what lets it pass, in another file than [`UNSAFE`], or a block without its reason before it.
+fn unchecked(path: &str, text: &str) -> Vec<String> {
+    let mut findings = Vec::new();
+    let mut is_explained = false;
+    for (line, found) in lines(text) {
+        let found = found.trim();
+        if found.starts_with("//") {
+            is_explained |= found.starts_with("// SAFETY: ");
+            continue;
+        }
+        if is_word_in("\x75nsafe", found) || is_word_in("\x75nsafe_code", found) {
+            if path != UNSAFE {
+                findings.push(format!("{path}:{line}: only {UNSAFE} may do what the compiler does not check"));
+            } else if is_word_in("\x75nsafe", found) && !is_explained {
+                findings.push(format!("{path}:{line}: say in `// SAFETY: ` before it why it is sound"));
+            }
+        }
+        is_explained = false;
     }
     findings
 }
@@ -346,6 +380,20 @@ fn refused_words_are_found_and_longer_names_are_not() {
 
 fn super_refused(text: &str) -> Vec<String> {
     refused("src/x.rs", text, REFUSED_IN_RUST)
+}
+
+#[test]
+fn an_unchecked_block_is_found_elsewhere_and_without_its_reason() {
+    let block = "fn f() {\n    \x75nsafe { g() }\n}";
+    let found = |path, text| unchecked(path, text).len();
+    assert_eq!(
+        unchecked("src/x.rs", block),
+        [format!("src/x.rs:2: only {UNSAFE} may do what the compiler does not check")]
+    );
+    assert_eq!(found("src/x.rs", "#[allow(\x75nsafe_code)]"), 1);
+    assert_eq!(found("src/x.rs", "//! No \x75nsafe code."), 0);
+    assert_eq!(found(UNSAFE, block), 1);
+    assert_eq!(found(UNSAFE, "    // SAFETY: it is\n    // sound.\n    \x75nsafe { g() }"), 0);
 }
 
 #[test]

@@ -76,6 +76,25 @@ pub struct Memory {
     pub blocks: Blocks,
 }
 
+/// Memory by writer, whoever holds it.
+pub trait Parts {
+    /// The bytes of a part; none for a block that does not exist.
+    fn part(&self, part: Part) -> &[u8];
+
+    /// The bytes of a part, to be written; none for one that may not be.
+    fn part_mut(&mut self, part: Part) -> &mut [u8];
+}
+
+impl Parts for Memory {
+    fn part(&self, part: Part) -> &[u8] {
+        Self::part(self, part)
+    }
+
+    fn part_mut(&mut self, part: Part) -> &mut [u8] {
+        Self::part_mut(self, part)
+    }
+}
+
 impl Default for Memory {
     fn default() -> Self {
         Self::new()

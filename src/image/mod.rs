@@ -30,6 +30,8 @@ mod db21;
 mod db31;
 mod location;
 mod machine_functions;
+#[cfg(feature = "mapped")]
+pub mod mapped;
 mod memory;
 mod names;
 mod override_switch;
@@ -52,7 +54,7 @@ pub use db11::{ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck};
 pub use db21::{ChannelFromNck, ChannelHmi, ChannelToNck};
 pub use db31::{AxisFromNck, AxisToNck};
 pub use location::{Location, Part, Profile};
-pub use memory::{Blocks, DataBlock, Memory};
+pub use memory::{Blocks, DataBlock, Memory, Parts};
 pub use names::Names;
 pub use override_switch::{OverrideCoding, override_code};
 pub use parts::{FromNck, Hmi, Plain, ToNck};

@@ -162,6 +162,26 @@ pub(super) fn interface_840d(db: u16) -> Option<(Block, u8)> {
     u8::try_from(db - first + 1).ok().map(|number| (block, number))
 }
 
+/// The interface block behind a data block number; both mode groups count as the first.
+#[cfg(feature = "mapped")]
+pub(super) fn block_of(db: u16, profile: Profile) -> Option<(Block, u8)> {
+    match profile {
+        Profile::Sinumerik840dSl => interface_840d(db),
+        Profile::Sinumerik828d => profile_828d::block_of(db),
+    }
+}
+
+/// The bytes that an interface block has: from, to before, ascending.
+#[cfg(feature = "mapped")]
+pub(super) fn spans(db: u16, profile: Profile) -> Vec<(usize, usize)> {
+    match profile {
+        Profile::Sinumerik840dSl => {
+            interface_840d(db).map(|(block, _)| (0, length(block).into())).into_iter().collect()
+        }
+        Profile::Sinumerik828d => profile_828d::spans(db),
+    }
+}
+
 /// Whether the interface has a data block of this number.
 pub(super) fn is_interface(db: u16, profile: Profile) -> bool {
     match profile {

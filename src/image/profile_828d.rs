@@ -61,6 +61,19 @@ pub(super) fn has(db: u16) -> bool {
     WINDOWS.iter().any(|window| window.number(db).is_some())
 }
 
+/// The interface block that a data block shows.
+#[cfg(feature = "mapped")]
+pub(super) fn block_of(db: u16) -> Option<(Block, u8)> {
+    WINDOWS.iter().find_map(|window| Some((window.block, window.number(db)?)))
+}
+
+/// The bytes that a data block has: from, to before, ascending.
+#[cfg(feature = "mapped")]
+pub(super) fn spans(db: u16) -> Vec<(usize, usize)> {
+    let shown = WINDOWS.iter().filter(|window| window.number(db).is_some());
+    shown.map(|window| (window.first.into(), usize::from(window.last) + 1)).collect()
+}
+
 /// Where the bytes from `byte` lie; all up to `last` must exist.
 pub(super) fn run(db: u16, byte: u32, last: u32) -> Result<Run, Problem> {
     let windows = || WINDOWS.iter().filter(|window| window.number(db).is_some());

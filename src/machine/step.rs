@@ -106,6 +106,7 @@ impl Machine {
             timers: &mut memory.timers,
             counters: &mut memory.counters,
             blocks: &mut memory.blocks,
+            cycle: self.cycle,
             time: self.time,
             cycle_time: self.time - self.plc.last_scan,
             names: &self.definition.names,

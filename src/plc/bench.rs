@@ -53,6 +53,7 @@ impl Bench {
             timers,
             counters,
             blocks,
+            cycle: 0,
             time: self.time,
             cycle_time: Time::from_millis(10),
             names: &self.names,

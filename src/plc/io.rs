@@ -1,6 +1,8 @@
 //! What a program sees in one scan.
 
-use crate::image::{Blocks, Bytes, FromNck, Hmi, Names, ToNck};
+use zerocopy::IntoBytes;
+
+use crate::image::{Blocks, Bytes, FromNck, Hmi, Names, Part, Parts, ToNck};
 use crate::units::{AxisNumber, ChannelNumber, Time};
 
 /// The PLC's view of the memory during one scan: its own side to write, the others' to read.
@@ -24,6 +26,8 @@ pub struct PlcIo<'a> {
     pub counters: &'a mut Bytes,
     /// The program's own data blocks.
     pub blocks: &'a mut Blocks,
+    /// The cycle of the NC in which this scan is.
+    pub cycle: u64,
     /// The time of this scan.
     pub time: Time,
     /// The time since the last scan.
@@ -49,5 +53,34 @@ impl<'a> PlcIo<'a> {
     pub fn axes(&self) -> impl Iterator<Item = AxisNumber> + use<'a> {
         let names = self.names;
         names.axes.iter().filter(|(_, name)| name.is_some()).map(|(number, _)| number)
+    }
+}
+
+/// All of the memory to read, the PLC's own to write.
+impl Parts for PlcIo<'_> {
+    fn part(&self, part: Part) -> &[u8] {
+        match part {
+            Part::ToNck => self.to_nck.as_bytes(),
+            Part::FromNck => self.from_nck.as_bytes(),
+            Part::Hmi => self.hmi.as_bytes(),
+            Part::Inputs => self.inputs,
+            Part::Outputs => self.outputs,
+            Part::Flags => self.flags,
+            Part::Timers => self.timers,
+            Part::Counters => self.counters,
+            Part::Block(number) => self.blocks.get(number).map_or(&[], |bytes| bytes),
+        }
+    }
+
+    fn part_mut(&mut self, part: Part) -> &mut [u8] {
+        match part {
+            Part::ToNck => self.to_nck.as_mut_bytes(),
+            Part::FromNck | Part::Hmi | Part::Inputs => &mut [],
+            Part::Outputs => self.outputs,
+            Part::Flags => self.flags,
+            Part::Timers => self.timers,
+            Part::Counters => self.counters,
+            Part::Block(number) => self.blocks.get_mut(number).map_or(&mut [], |bytes| bytes),
+        }
     }
 }

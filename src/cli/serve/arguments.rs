@@ -31,6 +31,15 @@ pub(crate) struct Arguments {
     /// The PLC program; without one, clients write the PLC's side.
     #[arg(long, value_name = "NAME")]
     pub(super) plc: Option<String>,
+    /// The PLC program is in another process, which maps this file; the file is created where it does not exist.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["plc", "record"])]
+    pub(super) image: Option<PathBuf>,
+    /// With --image: each scan waits for the answer of the PLC process.
+    #[arg(long, requires = "image")]
+    pub(super) lock_step: bool,
+    /// With --image: how long the PLC process may be silent before the PLC counts as stopped, alarm 2000.
+    #[arg(long, value_name = "TIME", requires = "image", default_value = "1s", value_parser = duration)]
+    pub(super) plc_timeout: Duration,
     /// Memory of the PLC beside the interface: a file (*.toml), or a name in `plc_images` here or above.
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) plc_image: Option<String>,

@@ -19,6 +19,7 @@ mod arguments;
 mod diagnosis;
 mod handles;
 mod identity;
+mod image;
 mod live;
 mod log;
 mod metrics;
@@ -32,6 +33,7 @@ mod window;
 pub use crate::s7::server::{Counter, Counters, Faults, Limits, Network, Refused};
 pub(super) use arguments::Arguments;
 pub use identity::OwnIdentity;
+pub use image::{Exchange, Keeper, MappedPlc};
 pub use live::{Ended, GIVE_UP, Live, LiveOptions, Pace, Speed};
 pub use record::Recording;
 pub use terms::Terms;
@@ -76,6 +78,8 @@ pub(super) fn serve(arguments: &Arguments, programs: &Programs, output: &mut Out
 struct Served {
     /// It closes before the machine ends.
     window: Window,
+    /// It ends before the machine, too.
+    keeper: Option<Keeper>,
     live: Live,
     status: ProgressBar,
     /// What to say of it.
@@ -87,8 +91,9 @@ struct Served {
 impl Served {
     /// Ends it: no client writes any more, then the last step, then what was kept.
     fn close(self) -> Result<(), Problem> {
-        let Self { window, live, trace, .. } = self;
+        let Self { window, keeper, live, trace, .. } = self;
         drop(window);
+        drop(keeper);
         let Some((path, mut file)) = trace else {
             return Ok(());
         };
@@ -105,15 +110,26 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let machine = &opened.machine;
     let window = arguments.window(machine)?;
     let plc = opened.plc.as_ref().map_or_else(
-        || "no PLC program: clients write the PLC's side".to_owned(),
+        || match &arguments.image {
+            Some(file) => format!("PLC program in another process, by {}", file.display()),
+            None => "no PLC program: clients write the PLC's side".to_owned(),
+        },
         |name| format!("PLC program {name}"),
     );
+    if let (Some(_), Some(name)) = (&arguments.image, &opened.plc) {
+        return Err(Problem::new(
+            format!("expected one PLC program, found {name} of the scenario and --image"),
+            "remove `plc` from the scenario: the PLC process is the program",
+        ));
+    }
     let axes: Vec<_> = machine.names().axes.iter().filter_map(|(_, name)| name.clone()).collect();
     let cycle = machine.cycle_time().seconds() * 1000.0;
     let status = status_line();
     // A program that has a log of its own keeps it.
     let _ = tracing::subscriber::set_global_default(log::Log { status: status.clone(), writes: arguments.log_writes });
     let recording = arguments.record.as_deref().map(|path| record::of(path, &opened)).transpose()?;
+    let exchange = Exchange { lock_step: arguments.lock_step, time_out: arguments.plc_timeout };
+    let mapped = arguments.image.as_deref().map(|file| MappedPlc::create(file, machine, exchange)).transpose()?;
     let trace = arguments.trace.as_ref().map(|path| {
         let file = File::create(path).map_err(|error| unreadable(path, &error))?;
         Ok((path.clone(), file))
@@ -121,7 +137,14 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let trace = trace.transpose()?;
     let Opened { machine, operator, watch, path, .. } = opened;
     let options = LiveOptions { recording, trace: trace.is_some().then_some(watch), operator };
-    let live = Live::start_with(machine, arguments.speed, options);
+    let start = |machine| Live::start_with(machine, arguments.speed, options);
+    let (live, keeper) = match mapped {
+        Some(mapped) => {
+            let (live, keeper) = Keeper::start(machine, mapped, start);
+            (live, Some(keeper))
+        }
+        None => (start(machine), None),
+    };
     if let Some(warning) = handles::allow(arguments.clients) {
         output.warning(warning);
     }
@@ -130,6 +153,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
         Ok(window) => window,
         Err(problem) => {
             // Nobody could come: a file that has only just begun would be in the way of the next try.
+            drop(keeper);
             drop(live);
             let _ = arguments.record.as_ref().map(std::fs::remove_file);
             return Err(problem);
@@ -153,7 +177,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
         head += &format!("faults on purpose: {faults}\n");
     }
     head += "Ctrl-C ends\n";
-    Ok(Served { live, window, status, head, trace })
+    Ok(Served { window, keeper, live, status, head, trace })
 }
 
 fn status_line() -> ProgressBar {

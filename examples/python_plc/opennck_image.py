@@ -1,0 +1,239 @@
+"""The PLC's side of `opennck serve MACHINE --image FILE`: plain Python 3, standard library only.
+
+    from opennck_image import Image
+
+    with Image("nck.image") as image:
+        for step in image.steps():                     # ends with the NC
+            step["DB31.DBX2.1"] = 1                    # controller enable of axis 1
+            if step["DB31.DBX101.4"]:                  # gantry synchronization ready to start
+                step["DB31.DBX29.4"] = 1
+            image.answer(step)
+
+The layout of the file stands byte by byte in the README of OpenNCK. Two rules make it right in Python:
+
+* A word that somebody else waits for is loaded and stored as one aligned word of 64 bits: through a memoryview cast to "Q", never
+  byte by byte.
+* Python has no memory barriers. On x86-64 stores become visible in their order anyway; elsewhere (ARM) they need not, so every slot
+  ends with a checksum, and a reader whose checksum does not fit reads again.
+"""
+
+import mmap
+import os
+import re
+import struct
+import sys
+import time
+import zlib
+
+MAGIC = b"OpenNCK\0"
+VERSION = 1
+
+# The header.
+GENERATION = 16
+SECTIONS = 40
+SECTION_TABLE = 48
+SECTION_BYTES = 56
+IMAGE_BYTES = 64
+SLOTS = 72
+NC_SLOTS = 80
+NC_SLOT_BYTES = 88
+PLC_SLOTS = 96
+PLC_SLOT_BYTES = 104
+STATE = 256
+NEWEST_STEP = 264
+REQUEST = 272
+PLC_STARTS = 512
+NEWEST_ANSWER = 520
+ACKNOWLEDGE = 528
+POWER = 536
+
+# STATE.
+ENDED, RUN, STOP = 0, 1, 2
+
+# A slot begins with 64 bytes of its own; the image follows.
+HEAD = 64
+
+WRITERS = {1: "PLC", 2: "NCK", 3: "HMI", 4: "machine"}
+
+ADDRESS = re.compile(r"(?:DB(\d+)\.DB([XBWD])|([IQMTC])([BWD]?))(\d+)(?:\.([0-7]))?$")
+
+
+class Section:
+    """Bytes of one area or data block that have one writer."""
+
+    def __init__(self, entry):
+        kind, self.number, self.first, self.length, self.offset, writer, name = struct.unpack_from("<8s5Q32s", entry)
+        self.kind = kind.rstrip(b"\0").decode()
+        self.writer = WRITERS[writer]
+        self.name = name.rstrip(b"\0").decode()
+
+
+class Step:
+    """One step of the NC: the image as it was, and as the PLC changes it."""
+
+    def __init__(self, image, slot):
+        self.number, self.cycle, nanoseconds, since_last, self.starts, self.taken = struct.unpack_from("<6Q", slot)
+        self.time = nanoseconds / 1e9
+        self.since_last = since_last / 1e9
+        self.first_scan = False
+        self.before = slot[HEAD : HEAD + image.image_bytes]
+        self.image = bytearray(self.before)
+        self._find = image.find
+
+    def __getitem__(self, address):
+        offset, width, bit = self._find(address)
+        number = int.from_bytes(self.image[offset : offset + width], "big")
+        return number if bit is None else number >> bit & 1
+
+    def __setitem__(self, address, value):
+        offset, width, bit = self._find(address)
+        if bit is None:
+            self.image[offset : offset + width] = int(value).to_bytes(width, "big", signed=value < 0)
+        elif value:
+            self.image[offset] |= 1 << bit
+        else:
+            self.image[offset] &= ~(1 << bit) & 0xFF
+
+
+class Image:
+    """The file. `wait` is how many seconds to wait for an NC that serves it."""
+
+    def __init__(self, path, wait=10.0):
+        if sys.byteorder != "little":
+            raise OSError("the words of the file are little-endian; this computer's are not")
+        end = time.monotonic() + wait
+        while not self._open(path):
+            if time.monotonic() > end:
+                raise TimeoutError(f"no NC serves {path}")
+            time.sleep(0.01)
+
+    def _open(self, path):
+        try:
+            if os.path.getsize(path) < 4096:
+                return False
+            with open(path, "r+b") as file:
+                self.map = mmap.mmap(file.fileno(), 0)
+        except FileNotFoundError:
+            return False
+        self.bytes = memoryview(self.map)
+        self.words = self.bytes.cast("Q")
+        self.generation = self.word(GENERATION)
+        head = bytes(self.bytes[:16])
+        if self.word(STATE) == ENDED or head[:8] != MAGIC:
+            self.close()
+            return False
+        if head[8:16] != struct.pack("<Q", VERSION):
+            raise ValueError(f"{path} has another version than {VERSION}")
+        self.image_bytes, self._slots = self.word(IMAGE_BYTES), self.word(SLOTS)
+        self._nc_slots, self._nc_slot_bytes = self.word(NC_SLOTS), self.word(NC_SLOT_BYTES)
+        self._plc_slots, self._plc_slot_bytes = self.word(PLC_SLOTS), self.word(PLC_SLOT_BYTES)
+        table, size = self.word(SECTION_TABLE), self.word(SECTION_BYTES)
+        entries = (self.bytes[table + size * n : table + size * (n + 1)] for n in range(self.word(SECTIONS)))
+        self.sections = [Section(entry) for entry in entries]
+        self._places = {}
+        self._newest = self._starts = 0
+        self._answered = None
+        self.store(PLC_STARTS, self.word(PLC_STARTS) + 1)
+        return True
+
+    def close(self):
+        self.words.release()
+        self.bytes.release()
+        self.map.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def word(self, offset):
+        """Loads one aligned word."""
+        return self.words[offset // 8]
+
+    def store(self, offset, value):
+        """Stores one aligned word."""
+        self.words[offset // 8] = value
+
+    def is_served(self):
+        """Whether the NC that this began with is still there."""
+        return self.word(STATE) != ENDED and self.word(GENERATION) == self.generation
+
+    def find(self, address):
+        """Offset in the image, bytes, and bit of an address such as DB31.DBX4.7, DB31.DBD24, MW20 or Q4.0."""
+        place = self._places.get(address)
+        if place is None:
+            place = self._places[address] = self._look_up(address)
+        return place
+
+    def _look_up(self, address):
+        match = ADDRESS.match(address)
+        if not match:
+            raise LookupError(f"{address}: write DB31.DBX4.7, DB31.DBB4, DB31.DBW4, DB31.DBD4, M10.3, QB4, IW6, MD8, T3 or C3")
+        db, db_width, area, area_width, byte, bit = match.groups()
+        kind, number, width = (area, 0, area_width) if area else ("DB", int(db), db_width)
+        byte, bit = int(byte), bit and int(bit)
+        if (bit is None) == (width in ("X", "") and kind not in "TC"):
+            raise LookupError(f"{address}: a bit has a number from 0 to 7 behind a point, and nothing else has")
+        size = {"B": 1, "W": 2, "D": 4}.get(width, 1)
+        if kind in "TC":
+            byte, size = 2 * byte, 2
+        if size > 1:  # all of it, whoever writes it
+            first, last = self._offset(kind, number, byte, address), self._offset(kind, number, byte + size - 1, address)
+            if last - first != size - 1:
+                raise LookupError(f"{address}: its bytes do not lie together")
+        return self._offset(kind, number, byte, address), size, bit
+
+    def _offset(self, kind, number, byte, address):
+        for section in self.sections:
+            if (section.kind, section.number) == (kind, number) and 0 <= byte - section.first < section.length:
+                return section.offset + byte - section.first
+        raise LookupError(f"{address}: the image has no such byte")
+
+    def newest(self):
+        """The newest step, if it is newer than the last, and the last answer is in it; else None."""
+        number = self.word(NEWEST_STEP)
+        if number in (0, self._newest):
+            return None
+        size = self._nc_slot_bytes
+        start = self._nc_slots + number % self._slots * size
+        slot = bytes(self.bytes[start : start + size])
+        if struct.unpack_from("<Q", slot)[0] != number or self.word(start) != number:
+            return None  # it was being written
+        checksum = struct.unpack_from("<Q", slot, size - 8)[0]
+        if checksum not in (0, zlib.crc32(slot[:-8])):
+            return None  # not all of it is visible yet
+        step = Step(self, slot)
+        if self._answered not in (None, step.taken):
+            return None
+        step.first_scan = step.starts != self._starts
+        self._newest, self._starts = number, step.starts
+        return step
+
+    def steps(self, nap=0.00005):
+        """The steps of the NC as they come, while it is there and the PLC is in RUN; a slow program misses some."""
+        while self.is_served():
+            step = self.newest() if self.word(STATE) == RUN else None
+            if step is None:
+                time.sleep(nap)
+            else:
+                yield step
+
+    def answer(self, step):
+        """Publishes what the PLC made of a step. Whoever changed a bit wins it; what stayed as it was is nobody's write."""
+        number = self.word(NEWEST_ANSWER) + 1
+        size = self._plc_slot_bytes
+        start = self._plc_slots + number % self._slots * size
+        head = struct.pack("<QQ", number, step.number).ljust(HEAD, b"\0")
+        slot = (head + step.before + step.image).ljust(size - 8, b"\0")
+        slot += struct.pack("<Q", zlib.crc32(slot))
+        self.store(start, 0)  # it is being written
+        self.bytes[start + 8 : start + size] = slot[8:]
+        self.store(start, number)
+        self.store(NEWEST_ANSWER, number)
+        self.store(ACKNOWLEDGE, step.number)
+        self._answered = number
+
+    def power_off_and_on(self):
+        """Switches the control off and on, which is what alarm 2000 asks for."""
+        self.store(POWER, self.word(POWER) + 1)

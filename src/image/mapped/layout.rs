@@ -1,0 +1,229 @@
+//! Which byte of the image is which byte of the PLC: sections in the order of data block numbers, then I, Q, M, T and C.
+
+use super::fields::section;
+use super::words::field;
+use crate::image::places::{self, is_interface};
+use crate::image::{Area, Block, Memory, Names, Part, Parts, Profile};
+use crate::source::Problem;
+use crate::units::{AxisNumber, ChannelNumber};
+
+/// Who writes the bytes of a section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The PLC: what it changes is taken.
+    Plc,
+    /// The NCK.
+    Nck,
+    /// The HMI.
+    Hmi,
+    /// The machine: inputs.
+    Machine,
+}
+
+/// Their codes in the file.
+const SOURCES: [(Source, u64); 4] = [(Source::Plc, 1), (Source::Nck, 2), (Source::Hmi, 3), (Source::Machine, 4)];
+
+/// Bytes of one area or data block that have one writer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Section {
+    /// The area or data block.
+    pub area: Area,
+    /// Its first byte in this section.
+    pub first: u32,
+    /// How many bytes.
+    pub length: u32,
+    /// Where they begin in the image.
+    pub offset: u32,
+    /// Who writes them.
+    pub writer: Source,
+    /// What the axis, channel or own block is called; empty where nothing is.
+    pub name: String,
+}
+
+/// Bytes that lie together in the memory by writer.
+#[derive(Clone, Debug)]
+struct Piece {
+    part: Part,
+    start: usize,
+    offset: usize,
+    length: usize,
+}
+
+/// The layout of an image.
+#[derive(Clone, Debug)]
+pub(super) struct Layout {
+    pub(super) sections: Vec<Section>,
+    pieces: Vec<Piece>,
+    /// Bytes of the image.
+    pub(super) length: usize,
+}
+
+impl Layout {
+    /// The layout of a machine's memory.
+    pub(super) fn of(memory: &Memory, names: &Names) -> Result<Self, Problem> {
+        let mut layout = Self { sections: Vec::new(), pieces: Vec::new(), length: 0 };
+        let own = |db| memory.blocks.get(db).map_or(0, |bytes| bytes.len());
+        for db in 1..=u16::MAX {
+            let spans =
+                if is_interface(db, names.profile) { places::spans(db, names.profile) } else { vec![(0, own(db))] };
+            let name = name(memory, names, db);
+            for (first, end) in spans {
+                layout.append(memory, names.profile, Area::DataBlock(db), first, end, &name)?;
+            }
+        }
+        for area in [Area::Inputs, Area::Outputs, Area::Flags, Area::Timers, Area::Counters] {
+            layout.append(memory, names.profile, area, 0, memory.part(area.plain_part()).len(), "")?;
+        }
+        layout.length = layout.length.next_multiple_of(64);
+        Ok(layout)
+    }
+
+    /// Appends bytes `first` to before `end`; what follows the last section in its block follows it in the image.
+    fn append(
+        &mut self,
+        memory: &Memory,
+        profile: Profile,
+        area: Area,
+        first: usize,
+        end: usize,
+        name: &str,
+    ) -> Result<(), Problem> {
+        let number = |number: usize| u32::try_from(number).expect("an area has at most 65535 bytes");
+        let mut byte = first;
+        while byte < end {
+            let run = places::run(memory, area, number(byte), 1, profile)?;
+            let length = (run.left as usize).min(end - byte);
+            let writer = match run.part {
+                Part::FromNck => Source::Nck,
+                Part::Hmi => Source::Hmi,
+                Part::Inputs => Source::Machine,
+                Part::ToNck | Part::Outputs | Part::Flags | Part::Timers | Part::Counters | Part::Block(_) => {
+                    Source::Plc
+                }
+            };
+            let follows = |last: &&mut Section| last.area == area && last.first + last.length == number(byte);
+            let last = self.sections.last_mut().filter(follows);
+            if last.is_none() {
+                self.length = self.length.next_multiple_of(8);
+            }
+            self.pieces.push(Piece { part: run.part, start: run.offset as usize, offset: self.length, length });
+            match last.filter(|last| last.writer == writer) {
+                Some(last) => last.length += number(length),
+                None => self.sections.push(Section {
+                    area,
+                    first: number(byte),
+                    length: number(length),
+                    offset: number(self.length),
+                    writer,
+                    name: name.to_owned(),
+                }),
+            }
+            self.length += length;
+            byte += length;
+        }
+        Ok(())
+    }
+
+    /// Copies the memory into an image.
+    pub(super) fn gather(&self, memory: &impl Parts, image: &mut [u8]) {
+        for &Piece { part, start, offset, length } in &self.pieces {
+            image[offset..offset + length].copy_from_slice(&memory.part(part)[start..start + length]);
+        }
+    }
+
+    /// Writes the bits that differ between two images into the memory, where they are the PLC's.
+    pub(super) fn scatter(&self, before: &[u8], after: &[u8], memory: &mut impl Parts) {
+        if before == after {
+            return;
+        }
+        for &Piece { part, start, offset, length } in &self.pieces {
+            let (before, after) = (&before[offset..offset + length], &after[offset..offset + length]);
+            if before == after || matches!(part, Part::FromNck | Part::Hmi | Part::Inputs) {
+                continue;
+            }
+            for ((byte, before), after) in memory.part_mut(part)[start..].iter_mut().zip(before).zip(after) {
+                let changed = before ^ after;
+                *byte = *byte & !changed | after & changed;
+            }
+        }
+    }
+
+    /// The table of sections as it stands in the file.
+    pub(super) fn table(&self) -> Vec<u8> {
+        self.sections.iter().flat_map(entry).collect()
+    }
+}
+
+/// What the axis, channel or own block behind a data block is called.
+fn name(memory: &Memory, names: &Names, db: u16) -> String {
+    let name = match places::block_of(db, names.profile) {
+        Some((Block::Axis, number)) => AxisNumber::new(number).and_then(|axis| names.axes[axis].clone()),
+        Some((Block::Channel, number)) => {
+            ChannelNumber::new(number).and_then(|channel| names.channels[channel].clone())
+        }
+        Some((Block::Nck | Block::ModeGroup, _)) => None,
+        None => {
+            let own = memory.blocks.iter().find(|block| block.number == db);
+            own.and_then(|block| block.name.as_deref().map(str::to_owned))
+        }
+    };
+    name.unwrap_or_default()
+}
+
+fn kind(area: Area) -> (&'static str, u16) {
+    match area {
+        Area::DataBlock(number) => ("DB", number),
+        Area::Inputs => ("I", 0),
+        Area::Outputs => ("Q", 0),
+        Area::Flags => ("M", 0),
+        Area::Timers => ("T", 0),
+        Area::Counters => ("C", 0),
+    }
+}
+
+fn entry(entry: &Section) -> [u8; section::BYTES] {
+    let (kind, number) = kind(entry.area);
+    let writer = SOURCES.iter().find(|(source, _)| *source == entry.writer).map_or(0, |(_, code)| *code);
+    let mut bytes = [0; section::BYTES];
+    bytes[section::KIND..section::KIND + kind.len()].copy_from_slice(kind.as_bytes());
+    for (offset, value) in [
+        (section::NUMBER, number.into()),
+        (section::FIRST, entry.first.into()),
+        (section::LENGTH, entry.length.into()),
+        (section::OFFSET, entry.offset.into()),
+        (section::WRITER, writer),
+    ] {
+        bytes[offset..offset + 8].copy_from_slice(&u64::to_le_bytes(value));
+    }
+    // The last byte stays 0; a name is cut between characters.
+    let name = &entry.name[..entry.name.floor_char_boundary(section::BYTES - section::NAME - 1)];
+    bytes[section::NAME..section::NAME + name.len()].copy_from_slice(name.as_bytes());
+    bytes
+}
+
+/// A section as it stands in the file; `None` where it is no entry of this version.
+pub(super) fn parse(bytes: &[u8]) -> Option<Section> {
+    let number = |offset| field(bytes, offset);
+    let text = |range: std::ops::Range<usize>| {
+        let text = bytes.get(range)?.split(|byte| *byte == 0).next()?;
+        std::str::from_utf8(text).ok()
+    };
+    let area = match text(section::KIND..section::KIND + 8)? {
+        "DB" => Area::DataBlock(u16::try_from(number(section::NUMBER)).ok()?),
+        "I" => Area::Inputs,
+        "Q" => Area::Outputs,
+        "M" => Area::Flags,
+        "T" => Area::Timers,
+        "C" => Area::Counters,
+        _ => return None,
+    };
+    let (writer, _) = *SOURCES.iter().find(|(_, code)| *code == number(section::WRITER))?;
+    Some(Section {
+        area,
+        first: u32::try_from(number(section::FIRST)).ok()?,
+        length: u32::try_from(number(section::LENGTH)).ok()?,
+        offset: u32::try_from(number(section::OFFSET)).ok()?,
+        writer,
+        name: text(section::NAME..section::BYTES)?.to_owned(),
+    })
+}

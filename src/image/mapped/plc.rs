@@ -1,0 +1,185 @@
+//! The PLC's side of the file, for a soft PLC in Rust and for tests; one in another language does the same by the tables.
+
+use std::fs::OpenOptions;
+use std::path::Path;
+
+use super::fields::{MAGIC, VERSION, answer, header, section, step};
+use super::layout::{Section, parse};
+use super::nc::{Geometry, State, Step};
+use super::words::{WORD, Words, field};
+use crate::image::Area;
+use crate::source::{Place, Problem};
+use crate::units::Time;
+
+/// The interface as a file in memory, from the PLC's side.
+#[derive(Debug)]
+pub struct PlcImage {
+    words: Words,
+    sections: Vec<Section>,
+    geometry: Geometry,
+    generation: u64,
+    step: Vec<u8>,
+    answer: Vec<u8>,
+    newest: u64,
+    /// The last answer; a step without it is not for the next scan.
+    pub(super) answered: Option<u64>,
+}
+
+impl PlcImage {
+    /// Maps the file that an NC has created, and counts as a start of the PLC.
+    ///
+    /// # Errors
+    /// There is no such file, it cannot be opened, or it is not such an image.
+    pub fn open(path: &Path) -> Result<Self, Problem> {
+        let at = |what: String, cure: &str| Place::file(&path.display().to_string()).problem(what, cure);
+        let unusable = |error: std::io::Error| at(format!("cannot be opened: {error}"), "start the NC first");
+        let foreign = || {
+            let what = format!("expected an image of version {VERSION}, found something else");
+            at(what, "name the file that the NC serves")
+        };
+        let file = OpenOptions::new().read(true).write(true).open(path).map_err(unusable)?;
+        let length = file.metadata().map_err(unusable)?.len();
+        let length = usize::try_from(length).unwrap_or(0) / header::END * header::END;
+        if length < header::END {
+            return Err(foreign());
+        }
+        let words = Words::map(&file, length).map_err(unusable)?;
+        let number = |offset| usize::try_from(words.load(offset)).unwrap_or(usize::MAX);
+        let mut magic = [0; MAGIC.len()];
+        words.read(header::MAGIC, &mut magic);
+        let geometry = Geometry {
+            image_bytes: number(header::IMAGE_BYTES),
+            nc_slots: number(header::NC_SLOTS),
+            nc_slot_bytes: number(header::NC_SLOT_BYTES),
+            plc_slots: number(header::PLC_SLOTS),
+            plc_slot_bytes: number(header::PLC_SLOT_BYTES),
+            slots: number(header::SLOTS),
+            file_bytes: number(header::FILE_BYTES),
+        };
+        let is_whole = magic == MAGIC && words.load(header::VERSION) == VERSION && geometry.is_possible(length);
+        if !is_whole || number(header::SECTION_BYTES) != section::BYTES || number(header::SECTION_TABLE) != header::END
+        {
+            return Err(foreign());
+        }
+        let room = geometry.nc_slots - header::END;
+        let sections = number(header::SECTIONS).checked_mul(section::BYTES).filter(|bytes| *bytes <= room);
+        let mut table = vec![0; sections.ok_or_else(foreign)?];
+        words.read(header::END, &mut table);
+        let sections: Option<Vec<_>> = table.chunks_exact(section::BYTES).map(parse).collect();
+        let image = Self {
+            sections: sections.ok_or_else(foreign)?,
+            generation: words.load(header::GENERATION),
+            step: vec![0; geometry.nc_slot_bytes],
+            answer: vec![0; geometry.plc_slot_bytes],
+            newest: 0,
+            answered: None,
+            words,
+            geometry,
+        };
+        image.words.store(header::PLC_STARTS, image.words.load(header::PLC_STARTS) + 1);
+        Ok(image)
+    }
+
+    /// What the NC does. An NC that has started anew counts as ended: open the file again.
+    #[must_use]
+    pub fn state(&self) -> State {
+        match self.words.load(header::STATE) {
+            _ if self.words.load(header::GENERATION) != self.generation => State::Ended,
+            1 => State::Run,
+            2 => State::Stop,
+            _ => State::Ended,
+        }
+    }
+
+    /// Which bytes are where.
+    #[must_use]
+    pub fn sections(&self) -> &[Section] {
+        &self.sections
+    }
+
+    /// Where a byte is in the image.
+    #[must_use]
+    pub fn offset(&self, area: Area, byte: u32) -> Option<usize> {
+        let has = |section: &&Section| {
+            section.area == area && (section.first..section.first + section.length).contains(&byte)
+        };
+        let section = self.sections.iter().find(has)?;
+        usize::try_from(section.offset + (byte - section.first)).ok()
+    }
+
+    /// Copies the newest step, if it is newer than the last and has the last answer in it; gives its number.
+    pub fn next_step(&mut self) -> Option<u64> {
+        let number = self.words.load(header::NEWEST_STEP);
+        if number == self.newest || number == 0 {
+            return None;
+        }
+        self.words.read_slot(self.geometry.nc_slot(number), number, &mut self.step).ok()?;
+        if self.answered.is_some_and(|answered| answered != field(&self.step, step::TAKEN)) {
+            return None;
+        }
+        self.newest = number;
+        let images = &mut self.answer[answer::BEFORE..answer::BEFORE + 2 * self.geometry.image_bytes];
+        let (before, after) = images.split_at_mut(self.geometry.image_bytes);
+        let image = &self.step[step::IMAGE..step::IMAGE + self.geometry.image_bytes];
+        before.copy_from_slice(image);
+        after.copy_from_slice(image);
+        Some(number)
+    }
+
+    /// What stands at the head of the step.
+    #[must_use]
+    pub fn step(&self) -> Step {
+        let time = |offset| Time::from_nanos(i64::try_from(field(&self.step, offset)).unwrap_or(i64::MAX));
+        Step { cycle: field(&self.step, step::CYCLE), time: time(step::TIME), since_last: time(step::SINCE_LAST) }
+    }
+
+    /// How often the NC has started the PLC: another number than at the last scan means OB100.
+    #[must_use]
+    pub fn starts(&self) -> u64 {
+        field(&self.step, step::STARTS)
+    }
+
+    /// The image: as the step had it, with what was changed since.
+    #[must_use]
+    pub fn image(&self) -> &[u8] {
+        let start = answer::BEFORE + self.geometry.image_bytes;
+        &self.answer[start..start + self.geometry.image_bytes]
+    }
+
+    /// The image, to be changed.
+    pub fn image_mut(&mut self) -> &mut [u8] {
+        let start = answer::BEFORE + self.geometry.image_bytes;
+        &mut self.answer[start..start + self.geometry.image_bytes]
+    }
+
+    /// Answers the step: the bits that were changed since it was copied.
+    pub fn answer(&mut self) {
+        let number = self.words.load(header::NEWEST_ANSWER) + 1;
+        self.answer[answer::ANSWERS..answer::ANSWERS + WORD].copy_from_slice(&self.newest.to_le_bytes());
+        self.words.write_slot(self.geometry.plc_slot(number), number, &mut self.answer);
+        self.words.store(header::NEWEST_ANSWER, number);
+        self.words.store(header::ACKNOWLEDGE, self.newest);
+        self.answered = Some(number);
+    }
+
+    /// Asks for power off and on of the control.
+    pub fn power_off_and_on(&self) {
+        self.words.store(header::POWER, self.words.load(header::POWER) + 1);
+    }
+}
+
+impl Geometry {
+    /// Whether everything lies inside the file, in whole words.
+    fn is_possible(&self, length: usize) -> bool {
+        let end = |first: usize, bytes: usize| bytes.checked_mul(self.slots).and_then(|bytes| bytes.checked_add(first));
+        let words = [self.image_bytes, self.nc_slots, self.nc_slot_bytes, self.plc_slots, self.plc_slot_bytes];
+        (1..=1024).contains(&self.slots)
+            && self.file_bytes <= length
+            && words.iter().all(|number| *number <= length && number % WORD == 0)
+            && self.nc_slots >= header::END
+            && self.nc_slot_bytes >= step::IMAGE + self.image_bytes + WORD
+            && self.plc_slot_bytes >= answer::BEFORE + 2 * self.image_bytes + WORD
+            && end(self.nc_slots, self.nc_slot_bytes).is_some_and(|end| end <= self.plc_slots)
+            && end(self.plc_slots, self.plc_slot_bytes).is_some_and(|end| end <= self.file_bytes)
+    }
+}

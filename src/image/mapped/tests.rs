@@ -1,0 +1,299 @@
+//! The file from both sides.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::{
+    Look, MAGIC, MappedImage, PlcImage, Refusal, Rules, Section, Source, State, Step, answer, header, section, step,
+};
+use crate::image::{Area, Memory, Names, Profile};
+use crate::units::{AxisNumber, Time};
+
+const RULES: Rules = Rules { lock_step: false, time_out: Time::from_millis(100) };
+
+/// A file of its own for one test.
+struct File(PathBuf);
+
+impl File {
+    fn new(name: &str) -> Self {
+        let file = Self(std::env::temp_dir().join(format!("opennck-{}-{name}.image", std::process::id())));
+        let _ = fs::remove_file(&file.0);
+        file
+    }
+}
+
+impl Drop for File {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.0);
+    }
+}
+
+fn names() -> Names {
+    let mut names = Names::default();
+    names.axes[AxisNumber::FIRST] = Some("X".to_owned());
+    names
+}
+
+fn step(cycle: u64) -> Step {
+    Step { cycle, time: Time::from_millis(2 * cycle.cast_signed()), since_last: Time::from_millis(2) }
+}
+
+fn create(file: &File, memory: &Memory) -> MappedImage {
+    MappedImage::create(&file.0, memory, &names(), RULES).unwrap()
+}
+
+/// Both sides, and an answer to the step that is published.
+fn both(file: &File, memory: &Memory) -> (MappedImage, PlcImage) {
+    let nc = create(file, memory);
+    let plc = PlcImage::open(&file.0).unwrap();
+    (nc, plc)
+}
+
+fn at(plc: &PlcImage, db: u16, byte: u32) -> usize {
+    plc.offset(Area::DataBlock(db), byte).unwrap()
+}
+
+#[test]
+fn every_field_stands_in_the_documents_where_it_is() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for document in ["src/image/mapped/mod.rs", "README.md"] {
+        let text = fs::read_to_string(root.join(document)).unwrap();
+        let mut rows = text.lines().map(|line| line.trim_start_matches("//! "));
+        for table in [header::FIELDS, section::FIELDS, step::FIELDS, answer::FIELDS] {
+            assert!(rows.any(|row| row.starts_with("| byte | bytes |")), "{document} has a table for each");
+            for (offset, bytes, field) in table {
+                let bytes = if *bytes == 0 { "`IMAGE_BYTES`".to_owned() } else { bytes.to_string() };
+                let wanted = format!("| {offset} | {bytes} | `{field}` | ");
+                assert!(rows.any(|row| row.starts_with(&wanted)), "{document} has no row `{wanted}` in its place");
+            }
+        }
+    }
+}
+
+#[test]
+fn sections_have_one_writer_and_step_7_addresses() {
+    let file = File::new("sections");
+    let (_nc, plc) = both(&file, &Memory::new());
+    let of = |db| plc.sections().iter().filter(move |s| s.area == Area::DataBlock(db)).collect::<Vec<&Section>>();
+    let spans: Vec<_> = of(31).iter().map(|s| (s.first, s.length, s.writer, s.name.as_str())).collect();
+    // DB31.DBB0 to 59 are the PLC's, 60 to 102 the NCK's, the rest is plain memory.
+    assert_eq!(spans, [(0, 60, Source::Plc, "X"), (60, 43, Source::Nck, "X"), (103, 45, Source::Plc, "X")]);
+    let hmi: Vec<_> = of(10).iter().filter(|s| s.writer == Source::Hmi).map(|s| (s.first, s.length)).collect();
+    assert_eq!(hmi, [(97, 7)]);
+    for db in (10..=11).chain(21..=61).chain(Memory::STANDARD_BLOCKS) {
+        let first = of(db)[0];
+        assert_eq!((first.first, first.offset % 8), (0, 0), "DB{db}");
+        assert!(of(db).iter().all(|s| s.offset == first.offset + s.first), "DB{db} lies in one piece");
+    }
+    assert_eq!(plc.offset(Area::DataBlock(31), 148), None);
+    assert_eq!(plc.offset(Area::DataBlock(30), 415).map(|end| end + 1), plc.offset(Area::DataBlock(31), 0));
+}
+
+#[test]
+fn the_828d_has_its_own_blocks_with_their_gaps() {
+    let file = File::new("828d");
+    let names = Names { profile: Profile::Sinumerik828d, ..names() };
+    let nc = MappedImage::create(&file.0, &Memory::new(), &names, RULES).unwrap();
+    let spans = |db| {
+        let of = nc.sections().iter().filter(move |s| s.area == Area::DataBlock(db));
+        of.map(|s| (s.first, s.length, s.writer)).collect::<Vec<_>>()
+    };
+    let axis = [(0, 12), (1000, 4), (2000, 4), (4000, 4), (5000, 8)];
+    assert_eq!(spans(3800), axis.map(|(first, length)| (first, length, Source::Plc)));
+    assert_eq!(spans(3900), axis.map(|(first, length)| (first, length, Source::Nck)));
+    assert_eq!(spans(31), []);
+}
+
+#[test]
+fn a_step_arrives_whole_and_its_answer_is_taken_where_the_plc_changed_something() {
+    let file = File::new("both");
+    let mut memory = Memory::new();
+    let (mut nc, mut plc) = both(&file, &memory);
+    let x = AxisNumber::FIRST;
+    memory.from_nck.axes[x].set_gantry_synchronization_ready_to_start(true); // DB31.DBX101.4
+    memory.flags.set_byte(10, 0b0001);
+    let number = nc.publish(&memory, step(7), false);
+    assert_eq!(plc.next_step(), Some(number));
+    assert_eq!((plc.step(), plc.next_step()), (step(7), None));
+    let (ready, start, flag) = (at(&plc, 31, 101), at(&plc, 31, 29), plc.offset(Area::Flags, 10).unwrap());
+    assert_eq!((plc.image()[ready], plc.image()[start], plc.image()[flag]), (0b1_0000, 0, 0b0001));
+    plc.image_mut()[start] |= 0b1_0000; // DB31.DBX29.4
+    plc.image_mut()[ready] = 0; // not the PLC's
+    plc.image_mut()[flag] |= 0b0010;
+    plc.answer();
+    memory.flags.set_byte(10, 0b0100); // an HMI was there meanwhile: M10.0 off, M10.2 on
+    assert_eq!(nc.look(number), Look::Answer(number));
+    nc.take(&mut memory);
+    assert!(memory.to_nck.axes[x].start_gantry_synchronization());
+    assert!(memory.from_nck.axes[x].gantry_synchronization_ready_to_start());
+    assert_eq!(memory.flags.byte(10), 0b0110);
+    assert_eq!(nc.look(number), Look::Nothing);
+}
+
+#[test]
+fn a_plc_that_counts_in_its_flags_counts_every_answer_once() {
+    let file = File::new("counts");
+    let mut memory = Memory::new();
+    let (mut nc, mut plc) = both(&file, &memory);
+    let flag = plc.offset(Area::Flags, 0).unwrap();
+    for count in 1..=20 {
+        nc.publish(&memory, step(2 * u64::from(count)), false);
+        plc.next_step().unwrap();
+        plc.image_mut()[flag] += 1;
+        plc.answer();
+        // The next step is published before the answer is seen: it still has the old count, and is not for the next scan.
+        nc.publish(&memory, step(2 * u64::from(count) + 1), false);
+        assert_eq!(plc.next_step(), None);
+        assert!(matches!(nc.look(0), Look::Answer(_)));
+        nc.take(&mut memory);
+        assert_eq!(memory.flags.byte(0), count);
+    }
+}
+
+#[test]
+fn an_answer_from_before_the_start_is_not_taken() {
+    let file = File::new("start");
+    let memory = Memory::new();
+    let (mut nc, mut plc) = both(&file, &memory);
+    plc.next_step().unwrap();
+    plc.answer();
+    let least = nc.start();
+    assert_eq!(nc.look(least), Look::Refused(Refusal::Step));
+    assert_eq!(nc.publish(&memory, step(1), true), least);
+    assert!(!nc.is_acknowledged(least));
+    // The refused answer was seen, so the PLC goes on.
+    assert_eq!((plc.next_step(), plc.starts()), (Some(least), 1));
+    plc.answer();
+    assert!(nc.is_acknowledged(least));
+    assert_eq!(nc.look(least), Look::Answer(least));
+}
+
+#[test]
+fn what_was_there_and_is_no_image_stays_as_it_was() {
+    let file = File::new("foreign");
+    let other = [&MAGIC[..], &2_u64.to_le_bytes()].concat();
+    for (content, said) in [(&b"a letter"[..], "something else"), (&[0; 64], "something else"), (&other, "version 2")] {
+        fs::write(&file.0, content).unwrap();
+        let problem = MappedImage::create(&file.0, &Memory::new(), &names(), RULES).unwrap_err();
+        assert!(problem.what.contains(said) && problem.place.is_some(), "{problem}");
+        assert!(PlcImage::open(&file.0).is_err());
+        assert_eq!(fs::read(&file.0).unwrap(), content);
+    }
+    let folder = MappedImage::create(&std::env::temp_dir(), &Memory::new(), &names(), RULES).unwrap_err();
+    assert!(folder.what.contains("expected a file"), "{folder}");
+    let nowhere = std::env::temp_dir().join("no/such/folder/nck.image");
+    let nowhere = MappedImage::create(&nowhere, &Memory::new(), &names(), RULES).unwrap_err();
+    assert!(nowhere.what.contains("cannot be used"), "{nowhere}");
+}
+
+#[test]
+fn one_file_is_served_by_one_nc_at_a_time_and_numbers_go_on() {
+    let file = File::new("again");
+    let memory = Memory::new();
+    let mut first = create(&file, &memory);
+    let problem = MappedImage::create(&file.0, &memory, &names(), RULES).unwrap_err();
+    assert!(problem.what.contains("one in use"), "{problem}");
+    let number = first.publish(&memory, step(1), false);
+    let mut plc = PlcImage::open(&file.0).unwrap();
+    plc.next_step().unwrap();
+    plc.answer();
+    assert_eq!(plc.state(), State::Run);
+    drop(first);
+    assert_eq!(plc.state(), State::Ended);
+    // Longer than needed, as one with more own blocks: it stays so, for somebody may have all of it mapped.
+    let length = fs::metadata(&file.0).unwrap().len() + 4096;
+    fs::File::options().write(true).open(&file.0).unwrap().set_len(length).unwrap();
+    let mut second = create(&file, &memory);
+    assert_eq!(fs::metadata(&file.0).unwrap().len(), length);
+    assert_eq!(plc.state(), State::Ended, "it must read the header again");
+    assert_eq!(second.look(0), Look::Nothing, "an answer to the first NC is none to the second");
+    assert!(second.publish(&memory, step(1), false) > number);
+    assert_eq!(PlcImage::open(&file.0).unwrap().state(), State::Run);
+}
+
+#[test]
+fn a_broken_header_or_slot_is_refused_and_never_read_beyond() {
+    let file = File::new("broken");
+    let memory = Memory::new();
+    let (mut nc, mut plc) = both(&file, &memory);
+    let number = nc.publish(&memory, step(1), false);
+    plc.next_step().unwrap();
+    plc.answer();
+    let slot = nc.geometry.plc_slot(1);
+    nc.words.store(slot + 64, 1);
+    assert_eq!(nc.look(number), Look::Refused(Refusal::Checksum));
+    nc.words.store(slot + nc.geometry.plc_slot_bytes - 8, 0); // none: a PLC with barriers
+    assert_eq!(nc.look(number), Look::Answer(number));
+    nc.words.store(header::NEWEST_ANSWER, u64::MAX);
+    assert_eq!(nc.look(number), Look::Refused(Refusal::Number));
+    for (offset, _, field) in header::FIELDS.iter().take_while(|(offset, ..)| *offset <= header::PLC_SLOT_BYTES) {
+        let right = nc.words.load(*offset);
+        for wrong in [1_u64 << 20, 1 << 40, u64::MAX] {
+            nc.words.store(*offset, wrong);
+            let opened = PlcImage::open(&file.0);
+            let may = [header::GENERATION, header::PROFILE].contains(offset);
+            assert_eq!(opened.is_ok(), may, "{field} {wrong}");
+        }
+        nc.words.store(*offset, right);
+    }
+}
+
+#[test]
+fn nobody_takes_half_a_step_or_half_an_answer() {
+    let file = File::new("torn");
+    let mut memory = Memory::new();
+    let (mut nc, mut plc) = both(&file, &memory);
+    let (first, last) = (at(&plc, 2, 0), at(&plc, 73, 255));
+    let done = AtomicBool::new(false);
+    let (taken, answered) = std::thread::scope(|scope| {
+        // The other side: a mapping of its own, as in another process. All own blocks of a step have the same byte.
+        let other = scope.spawn(|| {
+            let mut answered = 0_u64;
+            while !done.load(Ordering::Relaxed) {
+                // Without waiting for its answers to be taken, so that it is as fast as it can be.
+                plc.answered = None;
+                if plc.next_step().is_none() {
+                    continue;
+                }
+                let value = plc.image()[first];
+                assert_eq!(plc.image()[last], value, "half a step");
+                for db in Memory::STANDARD_BLOCKS {
+                    let start = at(&plc, db, 0);
+                    assert!(plc.image()[start..start + 256].iter().all(|byte| *byte == value), "half a step");
+                    plc.image_mut()[start..start + 256].fill(!value);
+                }
+                plc.answer();
+                answered += 1;
+            }
+            answered
+        });
+        let mut taken = 0_u64;
+        for cycle in 0..20_000_u64 {
+            let value = u8::try_from(cycle % 251).unwrap();
+            for db in Memory::STANDARD_BLOCKS {
+                memory.blocks.get_mut(db).unwrap().fill(value);
+            }
+            nc.publish(&memory, step(cycle), false);
+            match nc.look(0) {
+                Look::Answer(_) => {
+                    let images = &nc.answer[answer::BEFORE..];
+                    let (before, after) = images.split_at(nc.geometry.image_bytes);
+                    for db in Memory::STANDARD_BLOCKS {
+                        let start =
+                            nc.sections().iter().find(|s| s.area == Area::DataBlock(db)).unwrap().offset as usize;
+                        let value = before[start];
+                        assert!(before[start..start + 256].iter().all(|byte| *byte == value), "half an answer");
+                        assert!(after[start..start + 256].iter().all(|byte| *byte == !value), "half an answer");
+                    }
+                    taken += 1;
+                }
+                Look::Refused(Refusal::Number) | Look::Nothing => {}
+                Look::Refused(refusal) => panic!("{refusal}"),
+            }
+        }
+        done.store(true, Ordering::Relaxed);
+        (taken, other.join().unwrap())
+    });
+    assert!(taken > 10 && answered > 10, "they met: {taken} of {answered}");
+}

@@ -1,0 +1,104 @@
+//! The file in memory: words of 64 bits that this process and others load and store. It is the one place of this crate with
+//! `unsafe`, called by both sides of the image.
+//!
+//! Everything that goes through it is an atomic load or store of one aligned word, so no byte is ever borrowed while somebody else
+//! writes it. What whole pieces of the file mean, and when they are whole, is the business of the callers.
+
+use std::fs::File;
+use std::io;
+use std::sync::atomic::{AtomicU64, Ordering, fence};
+
+use memmap2::{MmapOptions, MmapRaw};
+
+/// Bytes of a word.
+pub(super) const WORD: usize = size_of::<u64>();
+
+/// A file in memory.
+#[derive(Debug)]
+pub(super) struct Words {
+    map: MmapRaw,
+}
+
+impl Words {
+    /// Maps the first `length` bytes of a file, which must have them.
+    pub(super) fn map(file: &File, length: usize) -> io::Result<Self> {
+        assert_eq!(length % WORD, 0, "whole words are mapped");
+        let map = MmapOptions::new().len(length).map_raw(file)?;
+        Ok(Self { map })
+    }
+
+    #[expect(unsafe_code, reason = "memory that is shared with other processes is a pointer")]
+    fn words(&self) -> &[AtomicU64] {
+        // SAFETY: the mapping begins at a page, so words are aligned; it has `len` bytes and lives as long as `self.map`, from
+        // which the slice borrows; any 64 bits are a valid word. Nobody has a reference to these bytes but as atomics: this is
+        // the only place that reads the pointer. Other processes may write at any time, which is what atomics allow. The pages
+        // exist as long as nobody makes the file shorter; both sides never do, and a stranger who does ends this process by a
+        // signal, not by undefined behaviour.
+        unsafe { std::slice::from_raw_parts(self.map.as_mut_ptr().cast::<AtomicU64>(), self.map.len() / WORD) }
+    }
+
+    /// The number at a place, and with it all that its writer wrote before.
+    pub(super) fn load(&self, offset: usize) -> u64 {
+        u64::from_le(self.words()[offset / WORD].load(Ordering::Acquire))
+    }
+
+    /// Stores a number after all that this process wrote before.
+    pub(super) fn store(&self, offset: usize, value: u64) {
+        self.words()[offset / WORD].store(value.to_le(), Ordering::Release);
+    }
+
+    /// Copies whole words out.
+    pub(super) fn read(&self, offset: usize, into: &mut [u8]) {
+        for (word, bytes) in self.words()[offset / WORD..].iter().zip(into.chunks_exact_mut(WORD)) {
+            bytes.copy_from_slice(&word.load(Ordering::Relaxed).to_ne_bytes());
+        }
+    }
+
+    /// Copies whole words in.
+    pub(super) fn write(&self, offset: usize, bytes: &[u8]) {
+        for (word, bytes) in self.words()[offset / WORD..].iter().zip(bytes.as_chunks::<WORD>().0) {
+            word.store(u64::from_ne_bytes(*bytes), Ordering::Relaxed);
+        }
+    }
+
+    /// Writes a slot that begins with its number and ends with its checksum: nobody who keeps the rules takes it half.
+    pub(super) fn write_slot(&self, offset: usize, number: u64, slot: &mut [u8]) {
+        slot[..WORD].copy_from_slice(&number.to_le_bytes());
+        let end = slot.len() - WORD;
+        let checksum = u64::from(crc32fast::hash(&slot[..end]));
+        slot[end..].copy_from_slice(&checksum.to_le_bytes());
+        self.store(offset, 0);
+        fence(Ordering::Release);
+        self.write(offset + WORD, &slot[WORD..]);
+        self.store(offset, number);
+    }
+
+    /// Copies a slot, if it is the whole one of this number.
+    pub(super) fn read_slot(&self, offset: usize, number: u64, slot: &mut [u8]) -> Result<(), Torn> {
+        if self.load(offset) != number {
+            return Err(Torn::Number);
+        }
+        self.read(offset, slot);
+        fence(Ordering::Acquire);
+        if self.load(offset) != number || field(slot, 0) != number {
+            return Err(Torn::Number);
+        }
+        let end = slot.len() - WORD;
+        let checksum = field(slot, end);
+        if checksum == 0 || checksum == u64::from(crc32fast::hash(&slot[..end])) { Ok(()) } else { Err(Torn::Checksum) }
+    }
+}
+
+/// Why a slot is not taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Torn {
+    /// It has another number, or is being written.
+    Number,
+    /// Its checksum is another one.
+    Checksum,
+}
+
+/// The number at a place of a copy; 0 beyond its end.
+pub(super) fn field(bytes: &[u8], offset: usize) -> u64 {
+    bytes.get(offset..).and_then(|rest| rest.first_chunk()).map_or(0, |bytes| u64::from_le_bytes(*bytes))
+}
