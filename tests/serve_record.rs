@@ -101,7 +101,7 @@ impl Bare {
     fn connect(address: SocketAddr) -> Self {
         let mut bare = Self(TcpStream::connect(address).expect("the server is there"));
         bare.0.set_read_timeout(Some(Duration::from_secs(10))).expect("it is a time");
-        bare.exchange(&[3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2]);
+        bare.exchange(&[3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 4]); // slot 4, the NCK's
         bare.job(&[0xF0, 0, 0, 1, 0, 1, 3, 0xC0], &[]); // a PDU of 960 bytes
         bare
     }
@@ -467,7 +467,7 @@ fn a_scenario_acts_in_real_time_as_it_runs_and_is_recorded() {
 #[cfg(unix)]
 fn a_scenario_brings_its_plant_profile_and_image_into_the_recording() {
     let folder = folder("brings");
-    let scenario = "machine = \"g1_example\"\nplc_image = \"image.toml\"\nprofile = \"828d\"\nwatch = [\"Y.position\", \"Y.*\"]\n\
+    let scenario = "machine = \"g1_example\"\nplc_image = \"image.toml\"\nprofile = \"828d\"\nwatch = [\"Y.slide\", \"Y.*\"]\n\
         [plant.Y]\nstart = 12.5\n[[step]]\nset = { MW90 = 5 }\n[[step]]\nrun = \"1s\"\n\
         [[step]]\nexpect = \"Y.position > 1000\"\n[[step]]\nset = { \"M0.0\" = 1 }\n";
     fs::write(folder.join("mine.toml"), scenario).unwrap();
@@ -483,7 +483,7 @@ fn a_scenario_brings_its_plant_profile_and_image_into_the_recording() {
     let recording = fs::read_to_string(folder.join("again.toml")).unwrap();
     assert_eq!(output.status.code(), Some(0), "{}{recording}", String::from_utf8_lossy(&output.stderr));
     let live = fs::read_to_string(folder.join("live.jsonl")).unwrap();
-    assert!(live.contains("\"symbol\":\"Y.position\",\"value\":12.5"), "{live}");
+    assert!(live.contains("\"symbol\":\"Y.slide\",\"value\":12.5"), "{live}");
     assert!(live == fs::read_to_string(folder.join("again.jsonl")).unwrap(), "{recording}");
     for said in ["profile = \"828d\"", "plc_image = \"image.toml\"", "plant = { \"Y\" = { \"start\" = 12.5 } }"] {
         assert!(recording.contains(said), "no {said} in\n{recording}");
