@@ -545,6 +545,7 @@ fn the_doors_of_a_recording_say_what_is_wrong() {
         (vec!["--scenario", "wrong.toml"], ["wrong.toml:3", "`sett`"]),
         (vec!["--scenario", "none.toml"], ["none.toml", "cannot be read"]),
         (vec![], ["<MACHINE>", "required"]),
+        (vec!["g1_example", "--record", "new.toml", "--image", "new.image"], ["--record", "--image"]),
     ] {
         let output = run(&folder, &[&["serve"], arguments.as_slice()].concat());
         let error = String::from_utf8_lossy(&output.stderr).into_owned();

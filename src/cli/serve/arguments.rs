@@ -49,8 +49,8 @@ pub(crate) struct Arguments {
     /// Writes down what clients do as a scenario: `opennck run F.toml` does the same again, to the byte.
     ///
     /// Each write stands there with its cycle, in order. The file is a whole scenario at any moment; an end without warning loses
-    /// a second at most. A file that exists is refused.
-    #[arg(long, value_name = "F.toml")]
+    /// a second at most. A file that exists is refused. Not with --image: what another process does cannot be run again.
+    #[arg(long, value_name = "F.toml", conflicts_with = "image")]
     pub(super) record: Option<PathBuf>,
     /// A scenario acts on the machine in real time, while clients are connected.
     ///
