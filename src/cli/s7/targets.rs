@@ -187,7 +187,9 @@ fn is_symbol(text: &str) -> bool {
 fn node(text: &str) -> Result<Node, Problem> {
     let parse = |line: String| Table::parse(&line, "the command line").ok()?.take("value");
     let quoted = || parse(format!("value = {}", serde_json::Value::from(text)));
-    parse(format!("value = {text}"))
+    // 16#D0 is no number with a comment.
+    let bare = (!text.contains('#')).then(|| format!("value = {text}"));
+    bare.and_then(parse)
         .or_else(quoted)
         .ok_or_else(|| Problem::new(format!("expected a value, found `{text}`"), "write a number, true or false"))
 }
