@@ -4,7 +4,7 @@
 //! of them at the same edge, so nobody sees half of what a request wrote. A bit of the NCK takes what is written, as on a
 //! control, and loses it at the NCK's next publication (SIG-11).
 
-use super::directory::Directory;
+use super::directory::{Directory, bytes_of_pages};
 use super::nck::{self, Control, MachineData};
 use super::protected::Protected;
 use super::station::{
@@ -244,9 +244,11 @@ impl Blocks for Bridge<'_> {
 
     fn read_block(&self, number: u16, into: &mut [u8]) {
         if self.read(Area::DataBlock(number), 0, into).is_err() {
-            // A block of the 828D has gaps.
-            for (byte, value) in (0..).zip(into) {
-                let _ = self.read(Area::DataBlock(number), byte, std::slice::from_mut(value));
+            // A block of the 828D has gaps, where nothing is looked for: the machine stands meanwhile.
+            for byte in bytes_of_pages() {
+                if let Some(value) = into.get_mut(usize::from(byte)) {
+                    let _ = self.read(Area::DataBlock(number), byte.into(), std::slice::from_mut(value));
+                }
             }
         }
     }

@@ -51,9 +51,13 @@ fn block(memory: &Memory, profile: Profile, number: u16) -> BlockInfo {
             u16::try_from(bytes.partition_point(exists)).unwrap_or(0)
         }
         Profile::Sinumerik828d => {
-            let bytes = (0..10).flat_map(|page| (0..32).map(move |byte| page * 1000 + byte));
-            bytes.rev().find(exists).map_or(0, |last| last + 1)
+            bytes_of_pages().rev().find(exists).map_or(0, |last| last + 1)
         }
     };
     BlockInfo { number, length }
+}
+
+/// Where a block of the 828D may have bytes: at the beginning of each thousand.
+pub(super) fn bytes_of_pages() -> impl DoubleEndedIterator<Item = u16> {
+    (0..10).flat_map(|page| (0..32).map(move |byte| page * 1000 + byte))
 }
