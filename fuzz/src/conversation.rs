@@ -25,6 +25,8 @@ use super::oracle::{Expected, Listener, Shadow, packet_length};
 pub const PAUSE: [u8; 2] = [0xFE, 0xED];
 /// What a session may hold at its end, and what it may need to answer one packet.
 const MEMORY: u64 = 192 * 1024;
+/// How often it may ask for memory for one packet: what is slow mostly does so often, and the machine stands meanwhile.
+const ALLOCATIONS: u64 = 4000;
 /// How often a session may say something by itself at once.
 const PUSHES: usize = 32;
 
@@ -240,6 +242,7 @@ fn judged(world: &World, rights: Rights, parts: &[(&[u8], u8)]) -> Record {
             let mut connection = Connection::Open;
             let used = allocation_counter::measure(|| connection = telling.receive(piece, &mut answers));
             assert!(used.bytes_max <= MEMORY, "{} bytes for one packet", used.bytes_max);
+            assert!(used.count_total <= ALLOCATIONS, "{} allocations for one packet", used.count_total);
             let has_ended = connection == Connection::Closed;
             let each: Vec<&[u8]> = answers.iter().collect();
             assert_eq!(each.concat(), answers.bytes());

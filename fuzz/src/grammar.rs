@@ -32,7 +32,9 @@ pub fn stream(choices: &[u8]) -> Vec<u8> {
     let mut choices = Choices(choices);
     let mut stream = vec![choices.byte()];
     let size = choices.of(&[10, 7, 8, 9, 11, 13]);
-    stream.extend([3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, size, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2]);
+    // The PLC, the NCK, a drive.
+    let slot = choices.of(&[2, 4, 3, 9]);
+    stream.extend([3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, size, 0xC1, 2, 1, 0, 0xC2, 2, 1, slot]);
     let [high, low] = choices.of(&[480_u16, 240, 960, 241, 0xFFFF, 0]).to_be_bytes();
     packet(&mut stream, &mut choices, 1, &[0xF0, 0, 0, 1, 0, 1, high, low], &[]);
     while !choices.0.is_empty() && stream.len() < 8192 {
@@ -141,7 +143,11 @@ fn items(choices: &mut Choices<'_>, is_write: bool) -> (Vec<u8>, Vec<u8>) {
     let (mut items, mut values) = (vec![count], Vec::new());
     for index in 0..count {
         let what = choices.byte();
-        let (item, length) = if what % 8 == 7 { variable(choices) } else { area(choices, what) };
+        let (item, length) = match what % 16 {
+            7 | 15 => variable(choices),
+            11 => drive(choices),
+            _ => area(choices, what),
+        };
         items.extend(&item);
         if item.len() % 2 == 1 && index + 1 < count {
             items.push(0);
@@ -214,9 +220,19 @@ fn variable(choices: &mut Choices<'_>) -> (Vec<u8>, usize) {
         (0xA1, 26, 0x82),
     ]);
     let [c1, c0] = column.to_be_bytes();
-    let syntax = choices.of(&[0x82, 0x83, 0x84, 0xB2, 0xA2]);
+    let syntax = choices.of(&[0x82, 0x83, 0x84, 0xB2]);
     let (line, count) = (choices.of(&[1, 2, 3, 4, 0, 31]), choices.of(&[1, 3, 2, 0, 255]));
     (vec![0x12, 8, syntax, unit, c1, c0, 0, line, module, count], 8 * usize::from(count))
+}
+
+/// A parameter of a drive object: type, rows, object, parameter, index.
+fn drive(choices: &mut Choices<'_>) -> (Vec<u8>, usize) {
+    let parameter: u8 = choices.of(&[0x1A, 0x1E, 0x20, 0x25, 2]);
+    let rows = choices.of(&[1, 2, 0, 255]);
+    (
+        vec![0x12, 10, 0xA2, choices.of(&[8, 4]), 0, rows, 0, choices.byte() % 8, 0, parameter, 0, 0],
+        4 * usize::from(rows),
+    )
 }
 
 fn user_data(stream: &mut Vec<u8>, choices: &mut Choices<'_>, group: u8, function: u8, payload: &[u8]) {

@@ -33,8 +33,12 @@ impl Conversation {
     }
 
     fn ready(name: impl Into<String>) -> Self {
+        Self::ready_at(2, name)
+    }
+
+    fn ready_at(slot: u8, name: impl Into<String>) -> Self {
         let mut conversation = Self::new(name);
-        conversation.connect();
+        conversation.connect_to(slot);
         conversation.set_up(480);
         conversation
     }
@@ -45,7 +49,11 @@ impl Conversation {
 
     /// The connection request of snap7: TPDU 1024, TSAPs 0100 and 0102.
     fn connect(&mut self) {
-        self.send([3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2]);
+        self.connect_to(2);
+    }
+
+    fn connect_to(&mut self, slot: u8) {
+        self.send([3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, slot]);
     }
 
     fn set_up(&mut self, pdu: u16) {
@@ -108,6 +116,10 @@ fn act(conversation: &mut Conversation, line: &str) -> Option<()> {
     let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
     match word {
         "connect" => conversation.connect(),
+        "nck" => {
+            conversation.connect_to(4);
+            conversation.set_up(rest.parse().ok()?);
+        }
         "ready" => {
             conversation.connect();
             conversation.set_up(rest.parse().ok()?);

@@ -5,6 +5,10 @@ use super::{Conversation, length};
 /// A read of MB0.
 const READ: [u8; 14] = [4, 1, 0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 0];
 
+/// Slots of a solution line.
+const PLC: u8 = 2;
+const NCK: u8 = 4;
+
 pub(super) fn conversations() -> Vec<Conversation> {
     let mut all = Vec::new();
     all.extend(every_function());
@@ -20,8 +24,12 @@ pub(super) fn conversations() -> Vec<Conversation> {
 
 /// A conversation in which a field takes every value, 16 values in each conversation.
 fn every(name: &str, ask: impl Fn(&mut Conversation, u8)) -> Vec<Conversation> {
+    every_at(PLC, name, ask)
+}
+
+fn every_at(slot: u8, name: &str, ask: impl Fn(&mut Conversation, u8)) -> Vec<Conversation> {
     let tens = (0..16_u8).map(|high| {
-        let mut conversation = Conversation::ready(format!("{name} {high:X}0 to {high:X}F"));
+        let mut conversation = Conversation::ready_at(slot, format!("{name} {high:X}0 to {high:X}F"));
         (0..16).for_each(|low| ask(&mut conversation, high << 4 | low));
         conversation
     });
@@ -92,11 +100,13 @@ fn items() -> Vec<Conversation> {
     all.extend(every("length of an item that is there", |conversation, count| {
         read(conversation, &[&[0x12, count][..], &vec![0x10; count.into()]].concat());
     }));
-    all.extend(every("syntax", |conversation, syntax| {
-        read(conversation, &[0x12, 10, syntax, 2, 0, 1, 0, 0, 0x83, 0, 0, 0]);
-        read(conversation, &[0x12, 8, syntax, 0x41, 0, 2, 0, 1, 0x74, 1]);
-        conversation.job(&[5, 1, 0x12, 8, syntax, 0x41, 0, 2, 0, 1, 0x74, 1], &[0, 9, 0, 1, 0]);
-    }));
+    for (slot, name) in [(PLC, "syntax"), (NCK, "syntax, to the NCK")] {
+        all.extend(every_at(slot, name, |conversation, syntax| {
+            read(conversation, &[0x12, 10, syntax, 2, 0, 1, 0, 0, 0x83, 0, 0, 0]);
+            read(conversation, &[0x12, 8, syntax, 0x41, 0, 2, 0, 1, 0x74, 1]);
+            conversation.job(&[5, 1, 0x12, 8, syntax, 0x41, 0, 2, 0, 1, 0x74, 1], &[0, 9, 0, 1, 0]);
+        }));
+    }
     all.extend(every("type", |conversation, kind| {
         for count in [0, 1, 0xFF] {
             read(conversation, &[0x12, 10, 0x10, kind, count, count, 3, 0xE8, 0x84, 0, 0, 0]);
@@ -365,7 +375,7 @@ fn services() -> Vec<Conversation> {
 fn variables() -> Vec<Conversation> {
     let mut all = Vec::new();
     let mut field = |name: &str, item: fn(u8) -> [u8; 10]| {
-        all.extend(every(name, move |conversation, byte| {
+        all.extend(every_at(NCK, name, move |conversation, byte| {
             for syntax in [0x82, 0x83, 0x84] {
                 let mut item = item(byte);
                 item[2] = syntax;
@@ -380,6 +390,14 @@ fn variables() -> Vec<Conversation> {
     field("line", |byte| [0x12, 8, 0x82, 0x41, 0, 2, byte, byte, 0x74, 1]);
     field("module", |byte| [0x12, 8, 0x82, 0x41, 0, 2, 0, 1, byte, 1]);
     field("count of lines", |byte| [0x12, 8, 0x82, 0x41, 0, 2, 0, 1, 0x74, byte]);
+    field("R parameter", |byte| [0x12, 8, 0x82, 0x41, 0, 1, byte, byte, 0x15, 1]);
     field("count of machine data", |byte| [0x12, 8, 0x82, 0x01, 0x27, 0x10, 0, 1, 0x1A, byte]);
+    all.extend(every_at(9, "type, rows, object, parameter and index of a drive", |conversation, byte| {
+        for at in 3..12 {
+            let mut item = [0x12, 10, 0xA2, 8, 0, 1, 0, 3, 0, 0x1A, 0, 0];
+            item[at] = byte;
+            read(conversation, &item);
+        }
+    }));
     all
 }
