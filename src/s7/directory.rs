@@ -50,9 +50,7 @@ fn block(memory: &Memory, profile: Profile, number: u16) -> BlockInfo {
             let bytes: Vec<u16> = (0..512).collect();
             u16::try_from(bytes.partition_point(exists)).unwrap_or(0)
         }
-        Profile::Sinumerik828d => {
-            bytes_of_pages().rev().find(exists).map_or(0, |last| last + 1)
-        }
+        Profile::Sinumerik828d => bytes_of_pages().rev().find(exists).map_or(0, |last| last + 1),
     };
     BlockInfo { number, length }
 }
