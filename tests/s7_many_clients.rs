@@ -1,0 +1,155 @@
+//! Many clients at once, and clients that ask much at once: what one costs, in which order it is answered, and that it holds up
+//! nobody. How fast that goes is measured by `benches/s7`.
+#![cfg(all(feature = "cli", feature = "s7"))]
+
+use std::io::{Read, Write};
+use std::net::{SocketAddr, TcpStream};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use opennck::cli::serve::{Limits, Live, Speed, Window};
+use opennck::machine::Machine;
+
+/// The connection request of most clients.
+const CONNECT: [u8; 22] = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
+/// Setup communication: one job, a PDU of 240 bytes.
+const SETUP: [u8; 25] = [3, 0, 0, 25, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 1, 0, 8, 0, 0, 0xF0, 0, 0, 1, 0, 1, 0, 240];
+/// Clients that are held.
+const MANY: usize = 1000;
+
+/// Reads one byte: MB0.
+fn read(reference: u16) -> Vec<u8> {
+    let [high, low] = reference.to_be_bytes();
+    let head = [3, 0, 0, 31, 2, 0xF0, 0x80, 0x32, 1, 0, 0, high, low, 0, 14, 0, 0];
+    [&head[..], &[4, 1, 0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 0]].concat()
+}
+
+/// Writes it.
+fn write(reference: u16, value: u8) -> Vec<u8> {
+    let [high, low] = reference.to_be_bytes();
+    let head = [3, 0, 0, 36, 2, 0xF0, 0x80, 0x32, 1, 0, 0, high, low, 0, 14, 0, 5];
+    [&head[..], &[5, 1, 0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 0, 0, 4, 0, 8, value]].concat()
+}
+
+fn served(speed: &str) -> (Live, Window, SocketAddr) {
+    let speed: Speed = speed.parse().expect("it is one");
+    let live = Live::start(Machine::open("g1_example").expect("it is built in"), speed);
+    let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default()).expect("some port is free");
+    let address = window.addresses()[0];
+    (live, window, address)
+}
+
+fn client(address: SocketAddr) -> TcpStream {
+    let mut stream = TcpStream::connect(address).expect("the server is there");
+    stream.set_nodelay(true).expect("it is a socket");
+    stream.set_read_timeout(Some(Duration::from_secs(20))).expect("it is a time");
+    stream.write_all(&CONNECT).expect("it is taken");
+    packet(&mut stream);
+    stream.write_all(&SETUP).expect("it is taken");
+    packet(&mut stream);
+    stream
+}
+
+fn packet(stream: &mut TcpStream) -> Vec<u8> {
+    let mut packet = vec![0; 4];
+    stream.read_exact(&mut packet).expect("a packet comes");
+    packet.resize(usize::from(u16::from_be_bytes([packet[2], packet[3]])), 0);
+    stream.read_exact(&mut packet[4..]).expect("its rest comes");
+    packet
+}
+
+/// Bytes that this process has in memory, where the system tells.
+fn memory() -> Option<usize> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    Some(1024 * line.split_whitespace().next()?.parse::<usize>().ok()?)
+}
+
+/// Each has asked for something; the clients of this test themselves are handles and nothing else.
+#[test]
+fn a_thousand_clients_are_held_for_less_than_8_kib_each() {
+    let handles = 2 * MANY as u64 + 100;
+    let given = rlimit::increase_nofile_limit(handles).unwrap_or(0);
+    if given < handles {
+        println!("not tested: the system gives {given} handles, and {handles} are needed");
+        return;
+    }
+    let (_live, window, address) = served("1");
+    let mut first = client(address);
+    let before = memory();
+    let mut clients: Vec<_> = (1..MANY).map(|_| client(address)).collect();
+    for (reference, stream) in (0..).zip(&mut clients) {
+        stream.write_all(&read(reference)).unwrap();
+    }
+    for (reference, stream) in (0_u16..).zip(&mut clients) {
+        assert_eq!(packet(stream)[11..13], reference.to_be_bytes());
+    }
+    assert_eq!(window.clients(), MANY);
+    if let (Some(before), Some(after)) = (before, memory()) {
+        let each = after.saturating_sub(before) / clients.len();
+        assert!(each < 8 * 1024, "{each} bytes for a client");
+    }
+    first.write_all(&read(7)).unwrap();
+    assert_eq!(packet(&mut first)[21], 0xFF);
+}
+
+/// A write and a read of the same byte, again and again, in one piece of TCP: each read finds what stands before it.
+#[test]
+fn what_came_together_is_answered_in_order_and_finds_what_was_written() {
+    let (_live, _window, address) = served("10");
+    let mut stream = client(address);
+    let requests = (0..100_u8).flat_map(|value| {
+        let reference = 2 * u16::from(value);
+        [write(reference, value), read(reference + 1)].concat()
+    });
+    stream.write_all(&requests.collect::<Vec<_>>()).unwrap();
+    for value in 0..100_u8 {
+        let reference = 2 * u16::from(value);
+        let (written, found) = (packet(&mut stream), packet(&mut stream));
+        assert_eq!((&written[11..13], written[21]), (&reference.to_be_bytes()[..], 0xFF));
+        assert_eq!((&found[11..13], found[25]), (&(reference + 1).to_be_bytes()[..], value));
+    }
+}
+
+/// A cycle lasts 200 ms here, so that it matters: eight writes need one, not eight.
+#[test]
+fn writes_that_came_together_are_taken_up_together() {
+    let (live, _window, address) = served("0.01");
+    let mut stream = client(address);
+    let before = live.with(|machine| machine.cycle());
+    let requests: Vec<_> = (0..8).flat_map(|value| write(value.into(), value)).collect();
+    stream.write_all(&requests).unwrap();
+    for reference in 0..8_u16 {
+        assert_eq!(packet(&mut stream)[11..13], reference.to_be_bytes());
+    }
+    let (after, last) = live.with(|machine| (machine.cycle(), machine.memory().flags[0]));
+    assert_eq!(last, 7);
+    assert!(after - before < 8, "{} cycles", after - before);
+}
+
+/// Somebody asks a thousand times at once, and takes the answers, for as long as others work.
+#[test]
+fn who_floods_holds_up_nobody() {
+    let (_live, window, address) = served("1");
+    let (mut flood, is_over) = (client(address), AtomicBool::new(false));
+    let mut taken = flood.try_clone().unwrap();
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            let requests: Vec<_> = (0..1000).flat_map(read).collect();
+            while !is_over.load(Ordering::Relaxed) && flood.write_all(&requests).is_ok() {}
+            flood.shutdown(std::net::Shutdown::Write).unwrap();
+        });
+        scope.spawn(|| while taken.read(&mut [0; 65536]).is_ok_and(|count| count > 0) {});
+        let mut others: Vec<_> = (0..8).map(|_| client(address)).collect();
+        for round in 0..50 {
+            for stream in &mut others {
+                stream.write_all(&read(round)).unwrap();
+            }
+            for stream in &mut others {
+                assert_eq!(packet(stream)[11..13], round.to_be_bytes());
+            }
+        }
+        is_over.store(true, Ordering::Relaxed);
+    });
+    assert!(window.answers() > 8 * 50 + 1000);
+}
