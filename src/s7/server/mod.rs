@@ -5,6 +5,9 @@
 //! |---|---|
 //! | one request, one loan | what it reads is of one step, and what it writes is taken up whole |
 //! | an answer to a write waits until the write was taken up | who writes and then reads finds what was written |
+//! | writes that came together wait for one step | it takes them up whole, and the next request finds all of them |
+//! | a turn ends after 32 KiB of answers | who floods holds up nobody |
+//! | the room for requests and answers belongs to the thread, not to the client | a thousand panels need some 3 MiB |
 //! | answers leave in one write, in order; no delay of TCP | clients that read once find all of it |
 //! | a client that does not take its answers is not read any more, and is left after a while | it holds up nobody else |
 //! | idle is who got no answer for long, not who has sent nothing | half packets keep no place |
