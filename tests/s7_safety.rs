@@ -1,6 +1,7 @@
 //! What keeps a served machine safe, and what makes panels testable: faults on purpose, captures as Wireshark's tshark reads them,
 //! write protection, passwords. Bare sockets where no proper client does such a thing.
 #![cfg(all(feature = "cli", feature = "s7"))]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![expect(clippy::disallowed_methods, reason = "a live machine is watched in real time")]
 
 use std::io::{Read, Write};
@@ -232,7 +233,7 @@ fn what_is_protected_is_not_written_and_the_rest_is() {
     let answer = (0..3).map(|_| next(&mut stream).unwrap()).last().unwrap();
     assert!(answer.ends_with(&[5, 3, 0xFF, 3, 0xFF]), "{answer:02X?}");
     live.with(|machine| {
-        assert_eq!((machine.memory().flags[9], machine.memory().flags[10], machine.memory().flags[20]), (1, 0, 3))
+        assert_eq!((machine.memory().flags[9], machine.memory().flags[10], machine.memory().flags[20]), (1, 0, 3));
     });
     let mut client = client(address);
     assert!(client.write_bit(S7_AREA_DB, 31, 2, 1, true).is_err());

@@ -297,7 +297,7 @@ fn an_override_counts_as_100_per_cent_unless_it_is_active() {
     assert_eq!((machine.axis_override(x), machine.channel_overrides(first)), (20.0, [120.0, 100.0]));
     set(&mut machine, "DB21.DBB5", 12);
     run(&mut machine, 1);
-    assert_eq!(machine.channel_overrides(first), [120.0, 20.0]);
+    assert_eq!((machine.axis_override(x), machine.channel_overrides(first)), (20.0, [120.0, 20.0]));
 }
 
 #[test]

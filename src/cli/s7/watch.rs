@@ -60,7 +60,7 @@ pub(super) async fn watch(
             came = news.recv() => came,
         };
         match came {
-            Some(News::Value(at, value)) => screen.take(at, value, output),
+            Some(News::Value(at, value)) => screen.take(at, &value, output),
             Some(News::Connection(text)) => output.warning(text),
             Some(News::End(problem)) => return Err(problem),
             None => return Ok(0),
@@ -155,9 +155,9 @@ impl<'a> Screen<'a> {
     }
 
     /// Prints a value if it is another one than before.
-    fn take(&mut self, at: usize, value: Result<Value, Error>, output: &mut Output) {
+    fn take(&mut self, at: usize, value: &Result<Value, Error>, output: &mut Output) {
         let target = &self.targets[at];
-        let cells = cells(&target.variable, &value);
+        let cells = cells(&target.variable, value);
         if self.last[at].as_ref() == Some(&cells) {
             return;
         }

@@ -71,6 +71,14 @@ impl Window {
     /// # Errors
     /// As [`Window::open`].
     pub fn open_with(live: &Live, addresses: &[&str], options: WindowOptions) -> Result<Self, Problem> {
+        // In a thread of its own: a runtime cannot be entered from within another, and tests of clients have one.
+        std::thread::scope(|scope| {
+            let opening = scope.spawn(|| Self::open_here(live, addresses, options));
+            opening.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        })
+    }
+
+    fn open_here(live: &Live, addresses: &[&str], options: WindowOptions) -> Result<Self, Problem> {
         let WindowOptions { is_read_only, limits, settings, faults, capture, terms, metrics } = options;
         let shared = live.shared();
         let directory = live.with(|machine| Directory::of(machine.memory(), machine.names().profile));

@@ -176,7 +176,7 @@ impl Client {
                     }
                 };
                 match reply.error {
-                    ErrorCode::NONE => parts.extend(take(purpose, request, &reply, progress)),
+                    ErrorCode::NONE => parts.extend(take(purpose, &request, &reply, progress)),
                     // Some refuse a request for the sake of one item. Whoever only reads may ask for each by itself.
                     _ if purpose == Purpose::Read && request.len() > 1 => {
                         most = if all == 1 { request.len().div_ceil(2) } else { 1 };
@@ -190,10 +190,10 @@ impl Client {
 }
 
 /// A server that answers half of the items is asked for the others; they stay.
-fn take(purpose: Purpose, request: Vec<Part>, reply: &Reply, progress: &mut Progress<'_>) -> Vec<Part> {
+fn take(purpose: Purpose, request: &[Part], reply: &Reply, progress: &mut Progress<'_>) -> Vec<Part> {
     let taken = match purpose {
-        Purpose::Read | Purpose::Subscribe => take_values(&request, &reply.data, progress),
-        Purpose::Write => take_codes(&request, &reply.data, progress),
+        Purpose::Read | Purpose::Subscribe => take_values(request, &reply.data, progress),
+        Purpose::Write => take_codes(request, &reply.data, progress),
     };
     let rest = request.get(taken..).unwrap_or_default();
     match (purpose, taken) {

@@ -9,7 +9,11 @@
 //! Choices: texts of machine data and of alarm parameters have 32 bytes. `sysTimeUdword` counts seconds since 1970.
 
 use super::alarms::{self, Order};
-use super::values::*;
+use super::values::{
+    asked, axis, axis_name, axis_number, axis_signal, channel, channel_exists, channel_name, channel_status,
+    count_axes, empty, feedrate, flag, geometry_axis, machine_function, measuring_system, mode, number, of_axis,
+    of_channel, only, program_status, seconds, zero,
+};
 use super::{Kind, NckArea, Shown, Variable, drives, module};
 use crate::image::ChannelToNck;
 use crate::variables::Alarms;
