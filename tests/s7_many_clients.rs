@@ -136,7 +136,11 @@ fn who_floods_holds_up_nobody() {
     std::thread::scope(|scope| {
         scope.spawn(|| {
             let requests: Vec<_> = (0..1000).flat_map(read).collect();
-            while !is_over.load(Ordering::Relaxed) && flood.write_all(&requests).is_ok() {}
+            while !is_over.load(Ordering::Relaxed) {
+                if flood.write_all(&requests).is_err() {
+                    break;
+                }
+            }
             flood.shutdown(std::net::Shutdown::Write).unwrap();
         });
         scope.spawn(|| while taken.read(&mut [0; 65536]).is_ok_and(|count| count > 0) {});
