@@ -335,6 +335,21 @@ fn the_end_is_graceful() {
     assert!(client(again.addresses()[0]).read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
 }
 
+/// Bytes that nobody takes reset a connection that is closed, and with it go the answers that are still on their way.
+#[test]
+fn who_is_disconnected_in_the_middle_still_gets_what_was_answered_before() {
+    let live = live();
+    let (_window, address) = window(&live, Limits::default());
+    let mut stream = bare(address);
+    let foreign = b"GET / HTTP/1.1\r\n\r\n".repeat(1000);
+    stream.write_all(&[&CONNECT[..], &SETUP, &READ.repeat(400), &foreign].concat()).unwrap();
+    std::thread::sleep(Duration::from_millis(50));
+    let mut all = Vec::new();
+    stream.read_to_end(&mut all).expect("an end, no reset");
+    // The answer to the setup has 27 bytes, each value 4 + 3 + 12 + 2 + 5.
+    assert_eq!(all.len(), 22 + 27 + 400 * 26);
+}
+
 #[test]
 fn ipv6_is_served_too() {
     let live = live();

@@ -11,7 +11,7 @@ use std::pin::{Pin, pin};
 use std::task::{Context, Poll, ready};
 use std::time::Duration;
 
-use tokio::io::{AsyncRead, AsyncWrite, AsyncWriteExt, ReadBuf};
+use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt, ReadBuf};
 use tokio::net::TcpStream;
 use tokio::sync::watch;
 use tokio::task::yield_now;
@@ -35,6 +35,8 @@ const TURN: usize = 32 * 1024;
 const PARTS: u32 = 8;
 /// How often subscriptions are looked at.
 const PUSHES: Duration = Duration::from_millis(10);
+/// How long who is disconnected is still listened to.
+const FAREWELL: Duration = Duration::from_millis(200);
 
 thread_local! {
     /// The space of this thread, while nobody has it.
@@ -107,10 +109,16 @@ impl<'a, S: Stations> Conversation<'a, S> {
         }
     }
 
-    /// Says good-bye on TCP.
+    /// Says good-bye on TCP. Whoever is disconnected in the middle of what it sends has a moment to take what was answered before:
+    /// bytes that nobody reads would reset the connection, and answers on their way would be lost with it.
     pub(super) async fn close(mut self, end: End) {
         self.witness.ended(end);
         let _ = timeout(self.server.limits.writing, self.stream.shutdown()).await;
+        if end == End::Closed {
+            let mut unread = [0; 512];
+            let rest = async { while matches!(self.stream.read(&mut unread).await, Ok(1..)) {} };
+            let _ = timeout(FAREWELL, rest).await;
+        }
     }
 
     pub(super) async fn hold(&mut self, ended: watch::Receiver<bool>) -> End {
