@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Fault, FaultKind, Machine};
 use crate::image::{Location, Part};
-use crate::sinumerik::machine_data::{MachineData, Value};
+use crate::sinumerik::machine_data::Value;
 use crate::source::Problem;
 use crate::units::{AxisSet, ChannelNumber};
 use crate::variables::RParameters;
@@ -109,7 +109,7 @@ impl Machine {
         if let Command::MachineDatum { target, value } = command {
             let stored = self.control.stored();
             let target = stored.parse_target(target)?;
-            MachineData::clone(stored).set(&target, value)?;
+            stored.check(&target, value)?;
         }
         if let Command::Handwheel { number, .. } = command
             && !(1..=3).contains(number)

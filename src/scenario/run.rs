@@ -52,8 +52,7 @@ impl Scenario {
             profile: (profile != Profile::default()).then(|| profile_name(profile).to_owned()),
             cycle_time: machine.cycle_time(),
         };
-        // Only now, because what was tried out above was tried on copies of the machine, and a program need not
-        // have copies.
+        // Only now: what is wrong with the file is said first.
         if let Some(name) = &self.plc {
             let program = programs.program(&name.text, machine.names());
             machine.load_program(program.map_err(|problem| problem.at(&name.place))?);

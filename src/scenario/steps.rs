@@ -124,7 +124,7 @@ impl<'a> Reader<'a> {
         let action = self.action(verb, node, &mut table)?;
         if let Action::Queue(commands) = &action {
             for command in commands {
-                self.try_out(command, &place)?;
+                self.judge(command, &place)?;
             }
         }
         self.refuse_foreign_modifiers(verb, &mut table)?;
@@ -133,7 +133,7 @@ impl<'a> Reader<'a> {
     }
 
     /// What the machine refuses is refused before anything runs.
-    fn try_out(&self, command: &Command, place: &Place) -> Result<(), Problem> {
+    fn judge(&self, command: &Command, place: &Place) -> Result<(), Problem> {
         self.machine.check(command).map_err(|problem| problem.at(place))
     }
 
@@ -308,7 +308,7 @@ impl<'a> Reader<'a> {
                 }
             };
             let command = Command::MachineDatum { target, value };
-            self.try_out(&command, &place)?;
+            self.judge(&command, &place)?;
             commands.push(command);
         }
         Ok(commands)
@@ -326,7 +326,7 @@ impl<'a> Reader<'a> {
                 ));
             };
             let command = Command::RParameter { channel, number, value: node.number("a number")? };
-            self.try_out(&command, &place)?;
+            self.judge(&command, &place)?;
             commands.push(command);
         }
         Ok(commands)

@@ -24,6 +24,7 @@ mod live;
 mod log;
 mod metrics;
 mod opening;
+mod panel;
 mod protect;
 mod record;
 mod terms;
@@ -50,7 +51,7 @@ use tokio::runtime::Builder;
 use super::output::Output;
 use crate::plc::Programs;
 use crate::scenario::State;
-use crate::source::{Problem, unreadable};
+use crate::source::Problem;
 use crate::variables::Describe;
 use opening::Opened;
 
@@ -127,14 +128,20 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let status = status_line();
     // A program that has a log of its own keeps it.
     let _ = tracing::subscriber::set_global_default(log::Log { status: status.clone(), writes: arguments.log_writes });
-    let recording = arguments.record.as_deref().map(|path| record::of(path, &opened)).transpose()?;
     let exchange = Exchange { lock_step: arguments.lock_step, time_out: arguments.plc_timeout };
     let mapped = arguments.image.as_deref().map(|file| MappedPlc::create(file, machine, exchange)).transpose()?;
     let trace = arguments.trace.as_ref().map(|path| {
-        let file = File::create(path).map_err(|error| unreadable(path, &error))?;
-        Ok((path.clone(), file))
+        let cannot = |error| {
+            Problem::new(
+                format!("--trace {}: cannot be written: {error}", path.display()),
+                "check the path and the permissions",
+            )
+        };
+        Ok((path.clone(), File::create(path).map_err(cannot)?))
     });
     let trace = trace.transpose()?;
+    // Last of the files: one that has begun would be in the way of the next try.
+    let recording = arguments.record.as_deref().map(|path| record::of(path, &opened)).transpose()?;
     let Opened { machine, operator, watch, path, .. } = opened;
     let options = LiveOptions { recording, trace: trace.is_some().then_some(watch), operator };
     let start = |machine| Live::start_with(machine, arguments.speed, options);

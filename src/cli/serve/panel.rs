@@ -70,8 +70,7 @@ impl nck::MachineData for Panel<'_> {
         }
         let command = machine_datum(place, number, index, value).map_err(|_| Refusal::DoesNotExist)?;
         let Command::MachineDatum { value, .. } = command else { return Ok(()) };
-        let mut data = self.0.stored_machine_data().clone();
-        data.set(&target, &value).map_err(|_| Refusal::OutOfRange)
+        self.0.stored_machine_data().check(&target, &value).map_err(|_| Refusal::OutOfRange)
     }
 }
 

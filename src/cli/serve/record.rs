@@ -5,6 +5,7 @@
 //! time; so the file is a whole scenario at any moment, also after an end without warning. Whatever was written before stays. A
 //! disk that takes nothing more ends the recording, not the machine: the file is what it was a second before.
 
+use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::net::SocketAddr;
@@ -28,7 +29,7 @@ pub struct Recording {
     book: Arc<Mutex<Book>>,
     remarks: Vec<Remark>,
     /// Who has written, in order.
-    clients: Vec<SocketAddr>,
+    clients: BTreeMap<SocketAddr, usize>,
     end: Option<mpsc::Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -115,7 +116,7 @@ impl Recording {
         let (end, ended) = mpsc::channel();
         let filled = Arc::clone(&book);
         let thread = std::thread::spawn(move || written.follow(&filled, &ended));
-        Ok(Self { book, remarks: Vec::new(), clients: Vec::new(), end: Some(end), thread: Some(thread) })
+        Ok(Self { book, remarks: Vec::new(), clients: BTreeMap::new(), end: Some(end), thread: Some(thread) })
     }
 
     /// Says that a client queues the commands that follow. Clients have numbers in the order in which they write: the port from
@@ -124,12 +125,9 @@ impl Recording {
         let text = client.map_or_else(
             || "a client".to_owned(),
             |client| {
-                let known = self.clients.iter().position(|known| *known == client);
-                let index = known.unwrap_or(self.clients.len());
-                if known.is_none() {
-                    self.clients.push(client);
-                }
-                format!("client {}, from {}", index + 1, client.ip().to_canonical())
+                let next = self.clients.len() + 1;
+                let number = self.clients.entry(client).or_insert(next);
+                format!("client {number}, from {}", client.ip().to_canonical())
             },
         );
         self.remark(machine.queued().len(), text);
@@ -142,7 +140,10 @@ impl Recording {
 
     /// Notes a text, as the trace does at the end of the next step.
     pub(super) fn note(&mut self, text: &str) {
-        self.book.lock().unwrap_or_else(PoisonError::into_inner).transcript.note(text);
+        let mut book = self.book.lock().unwrap_or_else(PoisonError::into_inner);
+        if !book.is_over {
+            book.transcript.note(text);
+        }
     }
 
     /// Writes down what a machine does at the edge of its next step, which follows at once.

@@ -39,12 +39,11 @@ fn at<'a>(view: &View<'a>, order: Order, line: u16) -> Option<Option<(&'a Raised
     let mut all: ArrayVec<_, { Alarms::CAPACITY }> = view.variables.alarms.arrivals().collect();
     let priority = |alarm: &RaisedAlarm| match view.control.map_or(0, |control| control.clear_info(alarm.number)) {
         1 => 0,
-        7 => 1,
-        6 => 2,
-        2 => 3,
-        3 => 4,
-        5 => 5,
-        _ => 6,
+        6 => 1,
+        2 => 2,
+        3 => 3,
+        5 => 4,
+        _ => 5,
     };
     match order {
         Order::Time => all.sort_by_key(|(_, arrival)| arrival.ordinal),

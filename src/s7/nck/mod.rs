@@ -250,7 +250,7 @@ fn put_variable(
     Ok(())
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "the catalogue gives whole numbers that fit; others are clamped")]
+#[expect(clippy::cast_possible_truncation, reason = "the rows of the catalogue give whole numbers that fit their kind")]
 fn whole(value: f64) -> i64 {
     value as i64
 }

@@ -68,6 +68,33 @@ impl std::str::FromStr for Network {
         let address: IpAddr = address.parse().map_err(|_| wrong())?;
         let most = if address.is_ipv4() { 32 } else { 128 };
         let bits = bits.map_or(Ok(most), str::parse).map_err(|_| wrong())?;
-        if bits > most { Err(wrong()) } else { Ok(Self { address, bits }) }
+        if bits > most {
+            return Err(wrong());
+        }
+        // IPv4 in IPv6 counts as IPv4 here, too, as far as all its bits before the IPv4 address are meant.
+        match (address, address.to_canonical()) {
+            (IpAddr::V6(_), IpAddr::V4(within)) if bits >= 96 => Ok(Self { address: within.into(), bits: bits - 96 }),
+            _ => Ok(Self { address, bits }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ipv4_in_ipv6_is_ipv4_on_both_sides() {
+        let has = |network: &str, address: &str| network.parse::<Network>().unwrap().contains(address.parse().unwrap());
+        assert!(has("192.168.0.0/24", "::ffff:192.168.0.7") && has("::ffff:192.168.0.0/120", "192.168.0.7"));
+        assert!(!has("::ffff:192.168.0.0/120", "192.168.1.7") && !has("192.168.0.0/24", "fd00::7"));
+        assert!(has("0.0.0.0/0", "10.1.2.3") && has("::/0", "fd00::7") && !has("fd00::/8", "fe80::1"));
+    }
+
+    #[test]
+    fn what_is_no_network_is_refused() {
+        for text in ["", "192.168.0.0/33", "fd00::/129", "192.168.0/24", "host", "192.168.0.0/-1"] {
+            assert!(text.parse::<Network>().is_err(), "{text}");
+        }
     }
 }

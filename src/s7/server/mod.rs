@@ -204,14 +204,22 @@ impl Drop for Counted<'_> {
     }
 }
 
-/// Opens every address that a text such as `127.0.0.1:10102`, `[::1]:10102` or `localhost:10102` stands for.
+/// Opens every address that a text such as `127.0.0.1:10102`, `[::1]:10102` or `localhost:10102` stands for. Where a name stands for
+/// several, those of a protocol that this computer does not have are left out.
 ///
 /// # Errors
 /// There is no such address here, or its port is in use.
 pub async fn listen(address: &str) -> io::Result<Vec<TcpListener>> {
     let mut listeners = Vec::new();
+    let mut nowhere = io::Error::from(io::ErrorKind::AddrNotAvailable);
     for address in tokio::net::lookup_host(address).await? {
-        listeners.push(TcpListener::bind(address).await?);
+        match TcpListener::bind(address).await {
+            Ok(listener) => listeners.push(listener),
+            Err(error) if matches!(error.kind(), io::ErrorKind::AddrNotAvailable | io::ErrorKind::Unsupported) => {
+                nowhere = error;
+            }
+            Err(error) => return Err(error),
+        }
     }
-    Ok(listeners)
+    if listeners.is_empty() { Err(nowhere) } else { Ok(listeners) }
 }

@@ -151,29 +151,32 @@ impl MachineData {
     /// # Errors
     /// The datum is read-only, or the value is not of its type or not in its range. Nothing changes then.
     pub fn set(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
-        let datum = target.datum();
-        if datum.read_only {
-            return Err(Problem::new(
-                format!("expected a machine datum that can be written, found {datum}, which only the control writes"),
-                "leave it to the control",
-            ));
-        }
+        may_be_written(target)?;
         self.store(target, value)
+    }
+
+    /// Whether a value could be written so.
+    ///
+    /// # Errors
+    /// As [`MachineData::set`].
+    pub fn check(&self, target: &Target, value: &Value) -> Result<(), Problem> {
+        may_be_written(target)?;
+        is_in_range(target, value)?;
+        // Only the table that has the datum is copied: clients ask this hundreds of times in a request.
+        let stored = match (target.datum().scope, target.owner()) {
+            (Scope::General, _) => store_in(&mut self.general.clone(), target, value),
+            (Scope::Setting, _) => store_in(&mut self.setting.clone(), target, value),
+            (_, Owner::Channel(channel)) => store_in(&mut self.channels[channel].clone(), target, value),
+            (_, Owner::Axis(axis)) => store_in(&mut self.axes[axis].clone(), target, value),
+            (Scope::Channel | Scope::Axis, Owner::Nck) => Err(NO_OWNER.to_owned()),
+        };
+        stored.map_err(|expected| refused(target, value, &expected))
     }
 
     /// Writes a value as the import of an archive does.
     fn store(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
-        let datum = target.datum();
-        let refused = |expected: &str| {
-            let found = value.export(datum.kind);
-            Problem::new(format!("expected {expected} for {datum}, found {found}"), "correct the value")
-        };
-        if let Some(number) = value.number()
-            && !datum.range.contains(number)
-        {
-            return Err(refused(&datum.range.to_string()));
-        }
-        let stored = match (datum.scope, target.owner()) {
+        is_in_range(target, value)?;
+        let stored = match (target.datum().scope, target.owner()) {
             (Scope::General, _) => store_in(&mut self.general, target, value),
             (Scope::Setting, _) => store_in(&mut self.setting, target, value),
             (_, Owner::Channel(channel)) => store_in(&mut self.channels[channel], target, value),
@@ -188,9 +191,9 @@ impl MachineData {
                 }
                 stored
             }
-            (Scope::Channel | Scope::Axis, Owner::Nck) => Err("an axis or a channel".to_owned()),
+            (Scope::Channel | Scope::Axis, Owner::Nck) => Err(NO_OWNER.to_owned()),
         };
-        stored.map_err(|expected| refused(&expected))
+        stored.map_err(|expected| refused(target, value, &expected))
     }
 
     /// Makes stored data active: copies every datum whose class acts at this level. POWER ON takes all, RESET all but
@@ -204,6 +207,34 @@ impl MachineData {
         for (number, axis) in self.axes.iter_mut() {
             axis.activate(&stored.axes[number], level);
         }
+    }
+}
+
+/// What a datum of an axis or a channel needs.
+const NO_OWNER: &str = "an axis or a channel";
+
+fn refused(target: &Target, value: &Value, expected: &str) -> Problem {
+    let datum = target.datum();
+    let found = value.export(datum.kind);
+    Problem::new(format!("expected {expected} for {datum}, found {found}"), "correct the value")
+}
+
+fn may_be_written(target: &Target) -> Result<(), Problem> {
+    let datum = target.datum();
+    if datum.read_only {
+        return Err(Problem::new(
+            format!("expected a machine datum that can be written, found {datum}, which only the control writes"),
+            "leave it to the control",
+        ));
+    }
+    Ok(())
+}
+
+fn is_in_range(target: &Target, value: &Value) -> Result<(), Problem> {
+    let range = &target.datum().range;
+    match value.number() {
+        Some(number) if !range.contains(number) => Err(refused(target, value, &range.to_string())),
+        Some(_) | None => Ok(()),
     }
 }
 
