@@ -320,6 +320,7 @@ fn strict_slots_and_a_short_pdu_are_kept() {
     elsewhere[21] = 3;
     let mut stream = bare(address);
     stream.write_all(&elsewhere).unwrap();
+    assert_eq!(next(&mut stream).as_deref(), Some(&[3, 0, 0, 11, 6, 0x80, 0, 1, 0, 0, 3][..]), "address unknown");
     assert_eq!(next(&mut stream), None);
 }
 

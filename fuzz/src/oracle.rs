@@ -327,8 +327,10 @@ impl Request {
         if usize::from(*length) != 4 + rest.len() {
             return None;
         }
-        if !matches!(kind >> 4, 0 | 4) {
-            return Some(false);
+        match kind >> 4 {
+            0 | 4 => {}
+            8.. => return Some(false),
+            _ => return None,
         }
         let fits = match self.data.as_slice() {
             [] => true,

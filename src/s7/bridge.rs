@@ -315,6 +315,11 @@ impl NcVariables for Bridge<'_> {
         let judged = nck::write(&self.nck(), item, bytes, &mut Vec::new());
         let Machinery { is_read_only, protected, .. } = self.machinery;
         let is_protected = is_read_only || protected.contains(&Protected::NcVariables);
-        if is_protected { Err(Refusal::NotAllowed) } else { judged }
+        match judged {
+            // What is not there cannot be protected either.
+            Err(Refusal::DoesNotExist | Refusal::OutOfRange) => judged,
+            _ if is_protected => Err(Refusal::NotAllowed),
+            _ => judged,
+        }
     }
 }

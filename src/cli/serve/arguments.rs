@@ -98,7 +98,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     pub(super) log_writes: bool,
     /// How many clients may be there at once; one more is sent away.
-    #[arg(long, value_name = "N", default_value_t = Limits::default().clients)]
+    #[arg(long, value_name = "N", default_value_t = Limits::default().clients, value_parser = clients)]
     pub(super) clients: usize,
     /// Writes what goes over the wire as a capture (pcap) that Wireshark opens; a file that exists is refused.
     ///
@@ -123,7 +123,7 @@ impl Arguments {
     pub(super) fn window(&self, machine: &Machine) -> Result<WindowOptions, Problem> {
         let protected = self.protect.iter().map(|text| protected(text, machine)).collect::<Result<_, _>>()?;
         let identity = self.identity.as_deref().map(OwnIdentity::read).transpose()?.unwrap_or_default();
-        let protection = protection(self.password.as_deref(), self.protection_level)?;
+        let protection = protection(self.password.as_deref().filter(|text| !text.is_empty()), self.protection_level)?;
         // The kind of connection, and rack and slot.
         let slots = || (0..=u8::MAX).flat_map(|kind| [[kind, 2], [kind, 3], [kind, 4]]).collect();
         Ok(WindowOptions {
@@ -165,4 +165,8 @@ fn duration(text: &str) -> Result<Duration, String> {
 /// An address and a port, or a port of this computer.
 fn address(text: &str) -> Result<String, Infallible> {
     Ok(if text.parse::<u16>().is_ok() { format!("127.0.0.1:{text}") } else { text.to_owned() })
+}
+
+fn clients(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|clients| *clients > 0).ok_or_else(|| "expected a number from 1".to_owned())
 }

@@ -42,6 +42,13 @@ impl Default for Speed {
     }
 }
 
+impl Speed {
+    /// How long so many nanoseconds of the machine take.
+    fn real(self, simulated: u128) -> Duration {
+        Duration::from_nanos(u64::try_from(simulated * 1000 / u128::from(self.0)).unwrap_or(u64::MAX))
+    }
+}
+
 impl std::str::FromStr for Speed {
     type Err = String;
 
@@ -232,6 +239,13 @@ impl Live {
         self.shared.lend().operator.as_ref().map(|operator| operator.state().clone())
     }
 
+    /// How long a cycle takes at its speed, by the clock of the computer.
+    #[must_use]
+    pub fn cycle(&self) -> Duration {
+        let nanos = self.with(|machine| machine.cycle_time().nanos());
+        self.shared.speed.real(u128::try_from(nanos).unwrap_or(1))
+    }
+
     /// How well the schedule was kept so far.
     #[must_use]
     pub fn pace(&self) -> Pace {
@@ -312,10 +326,7 @@ impl Shared {
         loop {
             let period = self.step(&mut alarms);
             simulated += period;
-            let real = |simulated: u128| {
-                Duration::from_nanos(u64::try_from(simulated * 1000 / u128::from(speed.0)).unwrap_or(u64::MAX))
-            };
-            let due = begin + real(simulated);
+            let due = begin + speed.real(simulated);
             let ahead = due.saturating_duration_since(Instant::now());
             let is_ended = if ahead.is_zero() {
                 ended.try_recv() != Err(TryRecvError::Empty)
@@ -327,7 +338,7 @@ impl Shared {
             }
             urgency.note(!ahead.is_zero());
             let late = due.elapsed();
-            if late > real(period).max(EXACT) {
+            if late > speed.real(period).max(EXACT) {
                 let nanos = u64::try_from(late.as_nanos()).unwrap_or(u64::MAX);
                 self.overruns.fetch_add(1, Ordering::Relaxed);
                 self.worst.fetch_max(nanos, Ordering::Relaxed);

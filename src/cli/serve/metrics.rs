@@ -81,7 +81,9 @@ fn answer_to(request: &[u8], text: impl Fn() -> String) -> Option<String> {
 
 /// A target without its query.
 fn path(target: &str) -> &str {
-    target.split_once('?').map_or(target, |(path, _)| path)
+    // With a proxy in between it is a whole address.
+    let path = target.strip_prefix("http://").and_then(|rest| rest.find('/').map(|at| &rest[at..])).unwrap_or(target);
+    path.split_once('?').map_or(path, |(path, _)| path)
 }
 
 /// Everything there is to tell, now.

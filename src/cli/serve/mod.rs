@@ -42,7 +42,7 @@ pub use window::{Window, WindowOptions};
 
 use std::fs::File;
 use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -86,7 +86,7 @@ struct Served {
     /// What to say of it.
     head: String,
     /// Where the trace is written when it ends.
-    trace: Option<(PathBuf, File)>,
+    trace: Option<Kept>,
 }
 
 impl Served {
@@ -95,13 +95,46 @@ impl Served {
         let Self { window, keeper, live, trace, .. } = self;
         drop(window);
         drop(keeper);
-        let Some((path, mut file)) = trace else {
+        let Some(trace) = trace else {
             return Ok(());
         };
         let ended = live.end();
         let text = ended.and_then(|ended| ended.json_lines());
-        file.write_all(text.unwrap_or_default().as_bytes())
-            .map_err(|error| Problem::new(format!("{} cannot be written: {error}", path.display()), "check the disk"))
+        trace.write(&text.unwrap_or_default())
+    }
+}
+
+/// A file that is written when all is over; what was in it before stays until then.
+struct Kept {
+    path: PathBuf,
+    file: File,
+}
+
+impl Kept {
+    fn open(path: &Path, arguments: &Arguments) -> Result<Self, Problem> {
+        if arguments.record.as_deref() == Some(path) {
+            return Err(Problem::new(
+                format!("expected two files, found {} for --record and --trace", path.display()),
+                "name another one for the trace, for example one that ends in .jsonl",
+            ));
+        }
+        let file = File::options().write(true).create(true).truncate(false).open(path);
+        let file = file.map_err(|error| Self::cannot(path, &error))?;
+        Ok(Self { path: path.to_owned(), file })
+    }
+
+    fn write(mut self, text: &str) -> Result<(), Problem> {
+        let is_file = self.file.metadata().is_ok_and(|data| data.is_file());
+        let emptied = if is_file { self.file.set_len(0) } else { Ok(()) };
+        let written = emptied.and_then(|()| self.file.write_all(text.as_bytes()));
+        written.map_err(|error| Self::cannot(&self.path, &error))
+    }
+
+    fn cannot(path: &Path, error: &std::io::Error) -> Problem {
+        Problem::new(
+            format!("--trace {}: cannot be written: {error}", path.display()),
+            "check the path, the rights and the disk",
+        )
     }
 }
 
@@ -130,16 +163,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let _ = tracing::subscriber::set_global_default(log::Log { status: status.clone(), writes: arguments.log_writes });
     let exchange = Exchange { lock_step: arguments.lock_step, time_out: arguments.plc_timeout };
     let mapped = arguments.image.as_deref().map(|file| MappedPlc::create(file, machine, exchange)).transpose()?;
-    let trace = arguments.trace.as_ref().map(|path| {
-        let cannot = |error| {
-            Problem::new(
-                format!("--trace {}: cannot be written: {error}", path.display()),
-                "check the path and the permissions",
-            )
-        };
-        Ok((path.clone(), File::create(path).map_err(cannot)?))
-    });
-    let trace = trace.transpose()?;
+    let trace = arguments.trace.as_deref().map(|path| Kept::open(path, arguments)).transpose()?;
     // Last of the files: one that has begun would be in the way of the next try.
     let recording = arguments.record.as_deref().map(|path| record::of(path, &opened)).transpose()?;
     let Opened { machine, operator, watch, path, .. } = opened;

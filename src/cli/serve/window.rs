@@ -73,7 +73,9 @@ impl Window {
     }
 
     fn open_here(live: &Live, addresses: &[&str], options: WindowOptions) -> Result<Self, Problem> {
-        let WindowOptions { is_read_only, limits, settings, faults, capture, terms, metrics } = options;
+        let WindowOptions { is_read_only, mut limits, settings, faults, capture, terms, metrics } = options;
+        // A slow machine takes up what was written later.
+        limits.step = limits.step.max(2 * live.cycle());
         let shared = live.shared();
         let directory = live.with(|machine| Directory::of(machine.memory(), machine.names().profile));
         let connections = u16::try_from(limits.clients).unwrap_or(u16::MAX);

@@ -113,7 +113,8 @@ fn chance(value: &str) -> Result<f64, String> {
 
 fn code(value: &str) -> Result<Failure, String> {
     let wrong = || format!("expected two hexadecimal digits (05, 0A) or four (8104), not 00 and not FF, found {value}");
-    match (value.len(), u16::from_str_radix(value, 16)) {
+    let digits = value.bytes().all(|digit| digit.is_ascii_hexdigit()).then_some(value);
+    match (value.len(), u16::from_str_radix(digits.ok_or_else(wrong)?, 16)) {
         (2, Ok(code @ 1..=0xFE)) => Ok(Failure::Items(u8::try_from(code).map_err(|_| wrong())?)),
         (4, Ok(error @ 1..)) => Ok(Failure::Request(ErrorCode(error))),
         _ => Err(wrong()),

@@ -9,7 +9,7 @@
 //! A change is looked for as often as the interval says. Without an interval (factor 0) it is looked for as often as the server
 //! allows.
 
-use super::variables::put_values;
+use super::variables::{budget_of, put_values};
 use super::{Exchange, Session};
 use crate::s7::station::Station;
 use crate::s7::wire::data::{SUCCESS, TransportSize};
@@ -68,7 +68,8 @@ impl Subscriptions {
             }
             // From now on, not from when it was due: who is late does not catch up in a burst.
             job.due = Some(now + interval);
-            let mut pdu = job.head(ErrorCode::NONE).begin_push(answers, budget);
+            let items = Items::new(&job.items, job.count.into());
+            let mut pdu = job.head(ErrorCode::NONE).begin_push(answers, budget_of(items, budget));
             job.put(&mut pdu, scratch, station);
             let is_changed = pdu.data_mut() != job.last.as_slice();
             if pdu.is_full() || job.function == CHANGE && !is_changed {
@@ -144,7 +145,8 @@ impl Session {
             items: items.to_vec(),
             last: Vec::new(),
         };
-        let mut pdu = job.head(ErrorCode::NONE).begin(exchange.answers, exchange.reference, exchange.budget);
+        let mut pdu =
+            job.head(ErrorCode::NONE).begin(exchange.answers, exchange.reference, budget_of(known, exchange.budget));
         job.put(&mut pdu, &mut self.scratch, exchange.station);
         if pdu.is_full() {
             pdu.discard();

@@ -209,6 +209,7 @@ impl Session {
     fn connect(&mut self, request: &ConnectionRequest<'_>, answers: &mut Answers) {
         let is_called = |known: &Vec<[u8; 2]>| known.iter().any(|tsap| request.called == Some(tsap.as_slice()));
         if self.settings.called.as_ref().is_some_and(|known| !is_called(known)) {
+            answers.transport(|out| cotp::disconnect_request(request.source, cotp::UNKNOWN_ADDRESS, out));
             self.connection = Connection::Closed;
             return;
         }
@@ -317,6 +318,8 @@ impl Session {
         answer.finish();
         self.budget.pdu = pdu.into();
         self.is_set_up = true;
+        // What was begun for another PDU might not fit this one.
+        self.subscriptions = Subscriptions::default();
     }
 
     fn user_data(&mut self, request: &Request<'_>, exchange: &mut Exchange<'_>) {

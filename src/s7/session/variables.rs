@@ -16,7 +16,7 @@ const NCK_SLOTS: [u8; 2] = [3, 4];
 const DRIVE_PDU: usize = 240;
 
 /// How long an answer to these items may be.
-fn budget_of(mut items: Items<'_>, budget: Budget) -> Budget {
+pub(super) fn budget_of(mut items: Items<'_>, budget: Budget) -> Budget {
     let is_of_drive = items.any(|item| matches!(item, Ok(Item::Nck(item)) if item.is_of_drive()));
     if is_of_drive { Budget { pdu: budget.pdu.min(DRIVE_PDU), ..budget } } else { budget }
 }
@@ -60,11 +60,11 @@ impl Session {
         };
         let mut codes = ArrayVec::<u8, 255>::new();
         let mut writes = ArrayVec::<Write<'_>, 255>::new();
-        for (item, (_, value)) in items.zip(values) {
+        for (item, (size, value)) in items.zip(values) {
             let Ok(item) = item else {
                 return exchange.refuse(ErrorCode::WRONG_FRAME);
             };
-            codes.push(match accepted(&item, value, exchange.station) {
+            codes.push(match accepted(&item, size, value, exchange.station) {
                 Ok(write) => {
                     writes.push(write);
                     SUCCESS
@@ -141,7 +141,20 @@ fn put_area(pdu: &mut Pdu<'_>, item: &AnyItem, station: &dyn Station) -> Result<
 }
 
 /// What an item writes, if it may.
-fn accepted<'a>(item: &Item, value: &'a [u8], station: &dyn Station) -> Result<Write<'a>, Refusal> {
+fn accepted<'a>(
+    item: &Item,
+    size: TransportSize,
+    value: &'a [u8],
+    station: &dyn Station,
+) -> Result<Write<'a>, Refusal> {
+    let is_bit = matches!(item, Item::Any(AnyItem { kind: Type::Bit, .. }));
+    // Clients say 04 or 09 of all sorts of values, and only of a bit that it is one.
+    if !matches!(size.0, 3..=7 | 9) || size == TransportSize::BIT && !is_bit {
+        return Err(match item {
+            Item::Refused(refusal) => *refusal,
+            Item::Any(_) | Item::Nck(_) | Item::Drive(_) => Refusal::TypeInconsistent,
+        });
+    }
     match item {
         Item::Any(item) => {
             if item.count == 0 {

@@ -110,3 +110,13 @@ fn a_client_has_32_jobs_and_ends_them_all_with_number_0() {
     assert_eq!(client.user_data(2, 4, "00 00").0, "00 00");
     assert!(client.tick(1000).is_empty());
 }
+
+/// What was begun for a long PDU might not fit a short one, and would never come.
+#[test]
+fn a_second_setup_ends_what_comes_by_itself() {
+    let mut client = Client::ready(480);
+    subscribe(&mut client, 1, "00 02 00 02");
+    client.ask("32 01 00 00 00 0A 00 08 00 00 F0 00 00 01 00 01 00 F0");
+    assert!(!client.session.has_subscriptions());
+    assert!(client.tick(5000).is_empty());
+}

@@ -24,11 +24,12 @@ fn a_connection_without_parameters_is_confirmed_without_them() {
 }
 
 #[test]
-fn a_called_tsap_that_is_not_among_those_accepted_is_refused() {
+fn a_called_tsap_that_is_not_among_those_accepted_is_refused_with_its_reason() {
     let settings = Settings { called: Some(vec![[1, 3], [3, 3]]), ..Settings::default() };
     let mut client = Client::new();
     client.session = Session::new(settings.clone());
-    assert!(client.send(&bytes(CONNECT)).is_empty());
+    // A disconnect request to whom asked, reason 3: address unknown.
+    assert_eq!(client.send(&bytes(CONNECT)), [bytes("03 00 00 0B 06 80 00 01 00 00 03")]);
     assert_eq!(client.connection, Connection::Closed);
     let mut client = Client::new();
     client.session = Session::new(settings);

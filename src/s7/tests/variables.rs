@@ -262,3 +262,16 @@ fn lengths_and_codes_are_those_of_the_protocol() {
     ];
     assert_eq!(refusals.map(Refusal::code), [3, 5, 6, 7, 10]);
 }
+
+/// The transport sizes of values are 03 to 07 and 09; 03 is one bit.
+#[test]
+fn a_value_of_no_known_kind_is_inconsistent_and_is_not_written() {
+    let mut client = Client::ready(480);
+    for size in ["00", "01", "02", "03", "08", "0A", "FF"] {
+        let length = if size == "03" { "00 10" } else { "00 02" };
+        let item = "12 0A 10 04 00 01 00 00 83 00 00 10";
+        let answer = client.ask(&format!("32 01 00 00 00 09 00 0E 00 06 05 01 {item} 00 {size} {length} 12 34"));
+        assert!(answer.ends_with("05 01 07"), "{size}: {answer}");
+    }
+    assert!(client.commands.is_empty());
+}

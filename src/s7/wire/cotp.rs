@@ -15,6 +15,7 @@ pub const DATA_LAST: [u8; 3] = [2, 0xF0, 0x80];
 pub const DATA_MORE: [u8; 3] = [2, 0xF0, 0x00];
 /// Disconnect confirm is answered to a disconnect request.
 const DISCONNECT_CONFIRM: u8 = 0xC0;
+const DISCONNECT_REQUEST: u8 = 0x80;
 const CONNECTION_CONFIRM: u8 = 0xD0;
 const CONNECTION_REQUEST: u8 = 0xE0;
 
@@ -182,6 +183,14 @@ impl ConnectionRequest<'_> {
         self.put_parameters(self.size, &mut header);
         super::tpkt::put(out, [&header, &[]]);
     }
+}
+
+/// Reason of a disconnect request: nobody has the called TSAP.
+pub const UNKNOWN_ADDRESS: u8 = 3;
+
+/// Appends the refusal of a connection request: a disconnect request with a reason.
+pub fn disconnect_request(source: [u8; 2], reason: u8, out: &mut Vec<u8>) {
+    super::tpkt::put(out, [&[6, DISCONNECT_REQUEST, source[0], source[1], 0, 0, reason], &[]]);
 }
 
 /// Appends the answer to a disconnect request.

@@ -76,7 +76,8 @@ pub fn parse<'a>(parameter: &'a [u8], data: &'a [u8]) -> Received<'a> {
     }
     match kind_group >> 4 {
         0 | 4 => {}
-        _ => return Received::Answer,
+        8.. => return Received::Answer,
+        _ => return Received::Malformed,
     }
     let payload = match data {
         [] => &[],
