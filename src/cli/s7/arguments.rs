@@ -41,8 +41,8 @@ pub(in crate::cli) struct Host {
     /// How long an answer may take.
     #[arg(long, value_name = "TIME", default_value = "5s", value_parser = duration)]
     timeout: Duration,
-    /// The password of the PLC, up to eight characters.
-    #[arg(long, value_name = "TEXT")]
+    /// The password of the PLC, one to eight ASCII characters; in the environment other users do not see it.
+    #[arg(long, value_name = "TEXT", env = "OPENNCK_S7_PASSWORD", hide_env_values = true)]
     password: Option<String>,
 }
 
@@ -82,7 +82,10 @@ impl Host {
         let tsaps = self.tsap.unwrap_or_else(|| Tsaps::of(kind, self.rack, self.slot));
         let given = self.password.as_deref().map(|text| {
             password(text).ok_or_else(|| {
-                Problem::new("expected a password of up to eight characters, found a longer one", "shorten it")
+                Problem::new(
+                    "expected a password of one to eight ASCII characters, found another text",
+                    "the module takes no others: check --password and OPENNCK_S7_PASSWORD",
+                )
             })
         });
         self.connect(Options { tsaps, password: given.transpose()?, ..self.options() }).await

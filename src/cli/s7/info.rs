@@ -106,7 +106,7 @@ async fn of_the_nck(nck: &Client, rows: &mut Rows) -> Result<(), Error> {
     let mut axes = Vec::new();
     for (number, name) in (1_u8..).zip(names) {
         match name {
-            Some(Value::Text(name)) if !name.is_empty() => axes.push((number, name)),
+            Some(Value::Text(name)) if !name.is_empty() => axes.push((number, Value::Text(name).to_string())),
             _ => {}
         }
     }

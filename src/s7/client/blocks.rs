@@ -1,6 +1,7 @@
 //! The blocks of the PLC: how many of each type, which, what one is, and its content.
 
 use super::error::Error;
+use super::system::text;
 use super::{Client, Question};
 use crate::s7::wire::header::{ErrorCode, function};
 use crate::s7::wire::replies;
@@ -162,23 +163,35 @@ impl Client {
         let reply = self.ask(Question::job("upload", &begin)).await.map_err(|error| error.of(&name))?;
         let begun = replies::upload_begun(&reply.parameter);
         let (number, length) = begun.ok_or_else(|| unexpected("no number of the upload".to_owned()))?;
+        let block = self.pieces(&name, number).await;
+        if matches!(block, Err(Error::Lost { .. })) {
+            return block; // the upload is gone with its connection
+        }
+        // Whatever came: an upload that is not ended keeps one of few places at the module.
+        let end = requests::upload(function::END_UPLOAD, number);
+        let ended = self.ask(Question::job("upload", &end)).await.map_err(|error| error.of(&name));
+        let block = block?;
+        ended?;
+        if block.len() == length { Ok(block) } else { Err(unexpected(format!("{} of {length} bytes", block.len()))) }
+    }
+
+    /// The content of an upload that was begun.
+    async fn pieces(&self, name: &str, number: [u8; 4]) -> Result<Vec<u8>, Error> {
+        let unexpected = |found: String| Error::Unexpected { what: name.to_owned(), found };
         let mut block = Vec::new();
         let piece = requests::upload(function::UPLOAD, number);
         loop {
-            let reply = self.ask(Question::job("upload", &piece)).await.map_err(|error| error.of(&name))?;
+            let reply = self.ask(Question::job("upload", &piece)).await.map_err(|error| error.of(name))?;
             let piece = replies::upload_piece(&reply.parameter, &reply.data);
             let (piece, more) = piece.ok_or_else(|| unexpected("no piece of a block".to_owned()))?;
             block.extend_from_slice(piece);
             if !more {
-                break;
+                return Ok(block);
             }
             if block.len() > LONGEST || piece.is_empty() {
                 return Err(unexpected(format!("a block without end, {} bytes so far", block.len())));
             }
         }
-        let end = requests::upload(function::END_UPLOAD, number);
-        self.ask(Question::job("upload", &end)).await.map_err(|error| error.of(&name))?;
-        if block.len() == length { Ok(block) } else { Err(unexpected(format!("{} of {length} bytes", block.len()))) }
     }
 }
 
@@ -186,11 +199,7 @@ impl Client {
 fn describe(kind: BlockKind, payload: &[u8]) -> Option<BlockDescription> {
     let head = payload.get(6..)?;
     let word = |at: usize| Some(u16::from_be_bytes(head.get(at..at + 2)?.try_into().ok()?));
-    let text = |at: usize| {
-        let bytes = head.get(at..at + 8)?;
-        Some(bytes.iter().take_while(|byte| **byte != 0).map(|byte| char::from(*byte)).collect::<String>())
-    };
-    let text = |at| text(at).map(|text| text.trim().to_owned());
+    let text = |at: usize| head.get(at..at + 8).map(text);
     Some(BlockDescription {
         kind,
         number: word(6)?,

@@ -135,6 +135,9 @@ pub(super) struct Link {
     /// When something came last.
     heard: Instant,
     silences: u32,
+    /// How long the next attempt to connect waits. An answer ends it, an open connection alone does not: a server that closes on
+    /// each request is not called without a pause.
+    wait: Duration,
 }
 
 /// Why the task leaves a connection.
@@ -167,7 +170,13 @@ impl Link {
             identifier: 0,
             heard,
             silences: 0,
+            wait: Duration::ZERO,
         }
+    }
+
+    /// Whether such a job is on its way.
+    pub(super) fn is_in_flight(&self, is_it: impl Fn(&Job) -> bool) -> bool {
+        self.in_flight.values().any(|waiting| is_it(&waiting.job))
     }
 
     /// Works until nobody asks any more, or the connection is lost for good.
@@ -209,8 +218,8 @@ impl Link {
                 }
             }
             let deadline = self.deadline();
+            // Each in its turn: a server that floods keeps nobody from asking, and no time from running out.
             tokio::select! {
-                biased;
                 read = door.stream.read(&mut input) => match read {
                     Ok(0) => return End::Lost("the server closed it".to_owned()),
                     Err(error) => return End::Lost(error.to_string()),
@@ -321,6 +330,7 @@ impl Link {
         if answers(&waiting.job, &message)
             && let Some(InFlight { job, .. }) = self.in_flight.remove(&message.reference)
         {
+            self.wait = Duration::ZERO;
             let (parameter, data) = (message.parameter.to_vec(), message.data.to_vec());
             self.answer(job, Ok(Reply { error: message.error, parameter, data }));
         }
@@ -393,9 +403,11 @@ impl Link {
         };
         let (address, options) = (Arc::clone(&self.address), Arc::clone(&self.options));
         let (address, options) = (&*address, &*options);
-        let (mut attempts, mut wait, mut cause) = (0, Duration::ZERO, cause.to_owned());
+        let (mut attempts, mut cause) = (0, cause.to_owned());
         loop {
             self.state.send_replace(State::Lost { cause: cause.clone(), attempts });
+            let wait = self.wait;
+            self.wait = if wait.is_zero() { backoff.first } else { (wait * 2).min(backoff.most) };
             let mut attempt = pin!(async move {
                 sleep(wait).await;
                 open(address, options).await
@@ -416,7 +428,6 @@ impl Link {
                 Err(error) => cause = error.to_string(),
             }
             attempts += 1;
-            wait = if attempts == 1 { backoff.first } else { (wait * 2).min(backoff.most) };
         }
     }
 

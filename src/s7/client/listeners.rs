@@ -52,9 +52,31 @@ impl Link {
                 && subscribed.function == push.function
                 && subscribed.number == Some(push.sequence)
         };
-        if let Some(at) = self.subscriptions.iter().position(is_it) {
-            self.forward(at, Ok(push.payload.to_vec()));
+        match self.subscriptions.iter().position(is_it) {
+            Some(at) => self.forward(at, Ok(push.payload.to_vec())),
+            // The answer that said its number never came: nobody listens, and the module has few places.
+            None if push.group == group::CYCLIC => self.end(push.function, push.sequence),
+            None => {}
         }
+    }
+
+    /// Ends a job of the module, once.
+    fn end(&mut self, function: u8, number: u8) {
+        let data = requests::payload(&[function, number]);
+        let is_same = |job: &Job| matches!(job.reply, ReplyTo::Nobody) && job.data == data;
+        if self.queue.iter().any(is_same) || self.is_in_flight(is_same) {
+            return;
+        }
+        self.queue.push_back(Job {
+            what: "end of a subscription",
+            kind: kind::USER_DATA,
+            parameter: requests::user_data(group::CYCLIC, 4).to_vec(),
+            data,
+            pdu: 0,
+            repeat: false,
+            asked: Instant::now(),
+            reply: ReplyTo::Nobody,
+        });
     }
 
     /// Gives values to whoever listens. Who does not take them misses some; who has gone is unsubscribed.
@@ -63,16 +85,7 @@ impl Link {
         if let Err(mpsc::error::TrySendError::Closed(_)) = subscribed.to.try_send((subscribed.group, values)) {
             let subscribed = self.subscriptions.swap_remove(at);
             if let Some(number) = subscribed.number {
-                self.queue.push_back(Job {
-                    what: "end of a subscription",
-                    kind: kind::USER_DATA,
-                    parameter: requests::user_data(group::CYCLIC, 4).to_vec(),
-                    data: requests::payload(&[subscribed.function, number]),
-                    pdu: 0,
-                    repeat: false,
-                    asked: Instant::now(),
-                    reply: ReplyTo::Nobody,
-                });
+                self.end(subscribed.function, number);
             }
         }
     }
@@ -101,6 +114,14 @@ impl Link {
                     let _ = ready.send(Ok(()));
                 }
                 self.forward(at, Ok(values));
+            }
+            // One answer was lost, the connection was not: nobody else asks again.
+            Err(Error::TimedOut { .. }) if ready.is_none() => {
+                if subscribed.to.is_closed() {
+                    self.subscriptions.swap_remove(at);
+                } else {
+                    self.renew(at);
+                }
             }
             // A connection that was lost meanwhile brings it again.
             Err(error) if ready.is_none() && error.is_of_the_connection() => {}

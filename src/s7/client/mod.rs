@@ -66,7 +66,7 @@ use std::sync::Arc;
 use tokio::sync::{Mutex, mpsc, oneshot, watch};
 use tokio::time::Instant;
 
-use crate::s7::wire::header::kind;
+use crate::s7::wire::header::{ErrorCode, kind};
 use link::{Command, Failure, Job, Link, Reply, ReplyTo};
 
 /// How many requests wait for the task; who has more waits itself.
@@ -169,7 +169,7 @@ impl Client {
             Ok(Err(Failure::Renegotiated)) | Err(_) => return Err(self.gone(what)),
         };
         match reply.error {
-            crate::s7::wire::header::ErrorCode::NONE => Ok(reply),
+            ErrorCode::NONE => Ok(reply),
             error => Err(Error::Rejected { what: what.to_owned(), error }),
         }
     }

@@ -16,7 +16,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::Error;
-use crate::s7::nck::{CATALOGUE, Kind, NckArea, Variable as Row};
+use crate::s7::nck::{CATALOGUE, Kind, Variable as Row};
 use crate::s7::wire::items::{MeasuringSystem, NckItem};
 
 /// Rows of a variable of the NCK.
@@ -117,23 +117,13 @@ const MODULES: &[(&str, u8)] = &[
     ("DRIVE", 0x82),
 ];
 
-const fn area_code(area: NckArea) -> u8 {
-    match area {
-        NckArea::Nck => 0,
-        NckArea::ModeGroup => 1,
-        NckArea::Channel => 2,
-        NckArea::Axis => 3,
-        NckArea::FeedDrive => 5,
-    }
-}
-
 impl NcVariable {
     /// A row of the catalogue, of unit 1 and line 1.
     #[must_use]
     pub fn of(row: &Row) -> Self {
         let item = NckItem {
             system: MeasuringSystem::Current,
-            area: area_code(row.area),
+            area: row.area.code(),
             unit: 1,
             column: row.column,
             line: 1,
@@ -216,7 +206,9 @@ fn numbered(area: u8, module: &str, column: &str) -> Option<NcVariable> {
         Some("DATE") => Some(NcKind::Date),
         Some("REAL") => Some(NcKind::Real),
         Some("DOUBLE") => Some(NcKind::Double),
-        Some(text) => Some(NcKind::Text(text.strip_prefix("TEXT")?.parse().ok().filter(|length| *length <= 200)?)),
+        Some(text) => {
+            Some(NcKind::Text(text.strip_prefix("TEXT")?.parse().ok().filter(|length| (1..=200).contains(length))?))
+        }
     };
     let column = column.parse().ok()?;
     let item = NckItem { system: MeasuringSystem::Current, area, unit: 1, column, line: 1, module, count: 1 };
@@ -225,7 +217,7 @@ fn numbered(area: u8, module: &str, column: &str) -> Option<NcVariable> {
 
 /// `MachineAxis/actToolBasePos` or `SMA/actToolBasePos`.
 fn named(area: u8, path: &str, text: &str) -> Result<NcVariable, Error> {
-    let in_area = || CATALOGUE.iter().filter(|row| area_code(row.area) == area);
+    let in_area = || CATALOGUE.iter().filter(|row| row.area.code() == area);
     let tail = |row: &Row| row.name.split_once('/').map_or("", |(_, tail)| tail);
     let by_module = path.split_once('/').and_then(|(module, name)| {
         let (_, module) = MODULES.iter().find(|(known, _)| *known == module)?;
@@ -250,7 +242,7 @@ impl fmt::Display for NcVariable {
         let letter = AREAS.get(usize::from(area)).map_or('?', |letter| char::from(*letter));
         let unit = if unit == 1 { String::new() } else { unit.to_string() };
         let row = CATALOGUE.iter().find(|row| {
-            (area_code(row.area), row.module, row.column) == (area, module, column)
+            (row.area.code(), row.module, row.column) == (area, module, column)
                 && self.kind == Some(NcKind::of(row.kind))
         });
         match row.and_then(|row| row.name.split_once('/')) {

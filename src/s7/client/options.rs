@@ -70,7 +70,7 @@ pub struct Backoff {
 pub struct Options {
     /// Who calls whom.
     pub tsaps: Tsaps,
-    /// The longest PDU that is asked for, 240 to 8192; modules of a SINUMERIK grant up to 960.
+    /// The longest PDU that is asked for, 64 to 4096; modules of a SINUMERIK grant up to 960.
     pub pdu: u16,
     /// How many requests on their way at once are asked for.
     pub jobs: u16,
@@ -110,11 +110,23 @@ impl Options {
     }
 }
 
-/// A password of up to eight characters, filled with blanks.
+/// A password of one to eight ASCII characters, filled with blanks.
 #[must_use]
 pub fn password(text: &str) -> Option<[u8; 8]> {
     let mut password = [b' '; 8];
-    let bytes = text.as_bytes();
+    let bytes = Some(text.as_bytes()).filter(|bytes| !bytes.is_empty() && bytes.is_ascii())?;
     password.get_mut(..bytes.len())?.copy_from_slice(bytes);
     Some(password)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_password_has_one_to_eight_ascii_characters() {
+        assert_eq!(password("secret"), Some(*b"secret  "));
+        assert_eq!(password("12345678"), Some(*b"12345678"));
+        assert_eq!(["", "123456789", "gehe\u{ed}m"].map(password), [None; 3]);
+    }
 }

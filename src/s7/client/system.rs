@@ -72,7 +72,7 @@ pub struct Identification {
 }
 
 /// Printable text up to the first zero, without blanks around it.
-fn text(bytes: &[u8]) -> String {
+pub(super) fn text(bytes: &[u8]) -> String {
     let end = bytes.iter().position(|byte| *byte == 0).unwrap_or(bytes.len());
     let text: String = bytes[..end].iter().map(|byte| char::from(*byte)).filter(|c| !c.is_control()).collect();
     text.trim().to_owned()

@@ -1,6 +1,6 @@
 //! Values as they are in the address, and their bytes on the wire.
 
-use std::fmt;
+use std::fmt::{self, Write};
 
 use super::Error;
 use super::nc::{NcKind, NcVariable};
@@ -272,7 +272,8 @@ impl fmt::Display for Value {
             Self::DoubleInt(value) => value.fmt(f),
             Self::Real(value) => value.fmt(f),
             Self::Double(value) => value.fmt(f),
-            Self::Text(text) => f.write_str(text),
+            // It is of the other side: what is printed gives no orders to a terminal.
+            Self::Text(text) => text.chars().try_for_each(|c| f.write_char(if c.is_control() { '.' } else { c })),
             Self::Bytes(bytes) => {
                 let each: Vec<String> = bytes.iter().map(|byte| format!("{byte:02X}")).collect();
                 f.write_str(&each.join(" "))
@@ -354,6 +355,13 @@ mod tests {
         let text = Value::Text("AB".to_owned());
         assert_eq!(encoded("N/M/1:TEXT4", &text), Some(vec![b'A', b'B', 0, 0]));
         assert_eq!(encoded("N/M/1:TEXT2", &text), None, "the last byte stays 0");
+    }
+
+    #[test]
+    fn a_text_that_is_shown_gives_no_orders_to_a_terminal() {
+        let text = Value::Text("X\u{1b}[2J\u{9b}1m\nY".to_owned());
+        assert_eq!(text.to_string(), "X.[2J.1m.Y");
+        assert_eq!(Value::List(vec![text]).to_string(), "X.[2J.1m.Y");
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::plan::{Part, Plan, Purpose, Room, plan};
 use super::value::Value;
 use super::variable::{Memory, Variable};
 use super::{Client, Question};
-use crate::image::Area;
+use crate::image::{Area, Format, Width};
 use crate::s7::wire::data::{SUCCESS, TransportSize};
 use crate::s7::wire::header::{ErrorCode, function, kind};
 use crate::s7::wire::replies::DataItems;
@@ -281,7 +281,7 @@ fn bytes_of(area: Area, start: u32, length: u32) -> Result<Memory, Error> {
             cure: "they have two bytes each".to_owned(),
         });
     }
-    let (width, format) = (crate::image::Width::Word, crate::image::Format::Unsigned);
+    let (width, format) = (Width::Word, Format::Unsigned);
     Ok(Memory { area, byte: start / 2, width, format, count: length / 2 })
 }
 

@@ -111,7 +111,8 @@ pub enum NckArea {
 }
 
 impl NckArea {
-    const fn code(self) -> u8 {
+    /// Its number on the wire.
+    pub(in crate::s7) const fn code(self) -> u8 {
         match self {
             Self::Nck => 0,
             Self::ModeGroup => 1,

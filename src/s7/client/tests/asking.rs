@@ -198,6 +198,12 @@ async fn what_a_module_sends_by_itself_goes_to_whoever_subscribed() {
     };
     let (values, mut peer) = tokio::join!(listening, script);
     assert_eq!(values, [(0, Ok(Value::Byte(1))), (0, Ok(Value::Byte(2)))]);
+    // What nobody asked for is ended.
+    for job in [[1, 34], [5, 33]] {
+        let (reference, request) = peer.request().await;
+        assert_eq!((request[6], &request[12..14]), (4, &job[..]));
+        peer.user_data(reference, 0x82, 4, 0, &[]).await;
+    }
     // Nobody listens any more: at the next value the module is told.
     peer.user_data(0, 0x02, 1, 33, &one(3)).await;
     let (_, request) = peer.request().await;

@@ -1,7 +1,7 @@
 //! Connections that are lost, and what becomes of what was asked.
 
 use super::*;
-use crate::s7::client::{Error, Mode, State, Value};
+use crate::s7::client::{BlockKind, Error, Mode, State, Value};
 
 #[tokio::test]
 async fn what_only_reads_is_asked_again_on_the_next_connection() {
@@ -153,6 +153,97 @@ async fn subscriptions_are_asked_for_again() {
     };
     let (values, _peer) = tokio::join!(listening, script);
     assert_eq!(values, [Ok(Value::Byte(1)), Ok(Value::Byte(2)), Ok(Value::Byte(3))]);
+}
+
+#[tokio::test]
+async fn a_renewed_subscription_whose_answer_is_lost_is_asked_for_again_and_the_lost_one_is_ended() {
+    let place = Place::open().await;
+    let (client, mut peer) = place.meet(240, 1, quick()).await;
+    let one = |value: u8| [0, 1, 0xFF, 4, 0, 8, value];
+    let script = async {
+        let (reference, first) = peer.request().await;
+        peer.user_data(reference, 0x82, 5, 1, &one(1)).await;
+        drop(peer);
+        let mut peer = place.accept(240, 1).await;
+        let (_, lost) = peer.request().await; // the module has it as number 8, and its answer is lost
+        assert_eq!(first, lost);
+        let (reference, again) = peer.request().await;
+        assert_eq!(first, again);
+        peer.user_data(reference, 0x82, 5, 9, &one(2)).await;
+        peer.user_data(0, 0x02, 5, 8, &one(7)).await;
+        let (reference, end) = peer.request().await;
+        assert_eq!((end[6], &end[8..]), (4, &[0xFF, 9, 0, 2, 5, 8][..]));
+        peer.user_data(reference, 0x82, 4, 8, &[]).await;
+        peer.user_data(0, 0x02, 5, 9, &one(3)).await;
+        peer
+    };
+    let listening = async {
+        let memory = variables(&["MB1"]);
+        let mut subscription = client.subscribe(&memory, Mode::Change, Duration::from_millis(100)).await.unwrap();
+        let mut values = Vec::new();
+        for _ in 0..3 {
+            values.extend(subscription.next().await.unwrap().unwrap().values.into_iter().map(|(_, value)| value));
+        }
+        values
+    };
+    let (values, _peer) = tokio::join!(listening, script);
+    assert_eq!(values, [Ok(Value::Byte(1)), Ok(Value::Byte(2)), Ok(Value::Byte(3))]);
+}
+
+#[tokio::test]
+async fn who_closes_on_each_request_is_called_after_longer_and_longer_pauses() {
+    let place = Place::open().await;
+    let backoff = Backoff { first: Duration::from_millis(40), most: Duration::from_secs(1) };
+    let (client, mut peer) = place.meet(240, 1, Options { reconnect: Some(backoff), ..quick() }).await;
+    let script = async {
+        let begin = std::time::Instant::now();
+        for _ in 0..4 {
+            let _ = peer.request().await;
+            drop(peer);
+            peer = place.accept(240, 1).await;
+        }
+        // At once, then after 40 ms, 80 ms and 160 ms.
+        assert!(begin.elapsed() >= Duration::from_millis(280), "{:?}", begin.elapsed());
+        let (reference, _) = peer.request().await;
+        peer.values(reference, &[&[7]]).await;
+    };
+    let memory = variable("MB1");
+    let (value, ()) = tokio::join!(client.read(&memory), script);
+    assert_eq!(value, Ok(Value::Byte(7)));
+}
+
+#[tokio::test]
+async fn a_server_that_floods_keeps_no_time_from_running_out() {
+    let place = Place::open().await;
+    let (client, mut peer) = place.meet(240, 1, quick()).await;
+    let flood = tokio::spawn(async move {
+        let head = [3, 0, 0, 33, 2, 0xF0, 0x80, 0x32, 7, 0, 0, 0, 0, 0, 12, 0, 4];
+        let push = [&head[..], &[0, 1, 0x12, 8, 0x12, 4, 1, 1, 0, 0, 0, 0], &[0xFF, 9, 0, 0]].concat().repeat(2000);
+        while peer.stream.write_all(&push).await.is_ok() {}
+    });
+    let memory = variable("MB1");
+    let value = tokio::time::timeout(Duration::from_secs(10), client.read(&memory)).await;
+    flood.abort();
+    assert!(matches!(value, Ok(Err(Error::TimedOut { sent: true, .. }))), "{value:?}");
+}
+
+#[tokio::test]
+async fn an_upload_that_fails_is_ended() {
+    let place = Place::open().await;
+    let (client, mut peer) = place.meet(240, 1, quick()).await;
+    let script = async {
+        let (reference, begin) = peer.request().await;
+        assert_eq!(begin[0], 0x1D);
+        peer.answer(reference, &[0x1D, 0, 1, 0, 0, 0, 0, 5, 7, b'0', b'0', b'0', b'0', b'0', b'9', b'0'], &[]).await;
+        let (reference, piece) = peer.request().await;
+        assert_eq!((piece[0], piece[7]), (0x1E, 5));
+        peer.refuse(reference, 0x8104).await;
+        let (reference, end) = peer.request().await;
+        assert_eq!((end[0], end[7]), (0x1F, 5));
+        peer.answer(reference, &[0x1F], &[]).await;
+    };
+    let (block, ()) = tokio::join!(client.upload(BlockKind::Db, 1), script);
+    assert!(matches!(block, Err(Error::Rejected { .. })), "{block:?}");
 }
 
 #[tokio::test]
