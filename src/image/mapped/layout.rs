@@ -201,8 +201,8 @@ fn entry(entry: &Section) -> [u8; section::BYTES] {
     bytes
 }
 
-/// A section as it stands in the file; `None` where it is no entry of this version.
-pub(super) fn parse(bytes: &[u8]) -> Option<Section> {
+/// A section as it stands in the file; `None` where it is no entry of this version or goes beyond the image.
+pub(super) fn parse(bytes: &[u8], image_bytes: usize) -> Option<Section> {
     let number = |offset| field(bytes, offset);
     let text = |range: std::ops::Range<usize>| {
         let text = bytes.get(range)?.split(|byte| *byte == 0).next()?;
@@ -218,12 +218,12 @@ pub(super) fn parse(bytes: &[u8]) -> Option<Section> {
         _ => return None,
     };
     let (writer, _) = *SOURCES.iter().find(|(_, code)| *code == number(section::WRITER))?;
-    Some(Section {
-        area,
-        first: u32::try_from(number(section::FIRST)).ok()?,
-        length: u32::try_from(number(section::LENGTH)).ok()?,
-        offset: u32::try_from(number(section::OFFSET)).ok()?,
-        writer,
-        name: text(section::NAME..section::BYTES)?.to_owned(),
-    })
+    let small = |offset| u32::try_from(number(offset)).ok();
+    let (first, length, offset) = (small(section::FIRST)?, small(section::LENGTH)?, small(section::OFFSET)?);
+    first.checked_add(length)?;
+    let end = usize::try_from(offset.checked_add(length)?).ok()?;
+    if end > image_bytes {
+        return None;
+    }
+    Some(Section { area, first, length, offset, writer, name: text(section::NAME..section::BYTES)?.to_owned() })
 }

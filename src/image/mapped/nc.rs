@@ -3,10 +3,11 @@
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
+use std::sync::atomic::{Ordering, fence};
 
 use super::fields::{MAGIC, SLOTS, VERSION, answer, header, section, step};
 use super::layout::{Layout, Section};
-use super::words::{Torn, WORD, Words, field};
+use super::words::{Torn, WORD, Words, field, next};
 use crate::image::{Memory, Names, Parts, Profile};
 use crate::source::{Place, Problem};
 use crate::units::Time;
@@ -133,7 +134,9 @@ impl MappedImage {
             .map_err(|error| at(path, format!("cannot be made {} bytes long: {error}", geometry.file_bytes), ROOM))?;
         // From here on, those who have it mapped know that it is not valid.
         words.store(header::STATE, 0);
-        words.store(header::GENERATION, words.load(header::GENERATION) + 1);
+        words.store(header::GENERATION, next(words.load(header::GENERATION)));
+        // What is stored now is seen by nobody who has not seen that.
+        fence(Ordering::Release);
         let table = layout.table();
         words.write(header::END, &table);
         let profile = match names.profile {
@@ -162,6 +165,8 @@ impl MappedImage {
         }
         words.write(header::MAGIC, &MAGIC);
         let (newest, seen) = (words.load(header::NEWEST_STEP), words.load(header::NEWEST_ANSWER));
+        // Nobody has counted so far: it was written by a stranger, and numbers would come to their end.
+        let newest = if newest > u64::MAX / 2 { 0 } else { newest };
         let mut image = Self {
             step: vec![0; geometry.nc_slot_bytes],
             answer: vec![0; geometry.plc_slot_bytes],
@@ -203,12 +208,12 @@ impl MappedImage {
     /// The PLC starts with the next step, which has the number that this gives.
     pub fn start(&mut self) -> u64 {
         self.starts += 1;
-        self.newest + 1
+        next(self.newest)
     }
 
     /// Publishes a step, and says whether the NC waits for its answer; gives its number.
     pub fn publish(&mut self, memory: &impl Parts, step: Step, waits: bool) -> u64 {
-        let number = self.newest + 1;
+        let number = next(self.newest);
         for (offset, value) in [
             (step::CYCLE, step.cycle),
             (step::TIME, nanos(step.time)),

@@ -2,14 +2,18 @@
 
 use std::fs::OpenOptions;
 use std::path::Path;
+use std::sync::atomic::{Ordering, fence};
 
 use super::fields::{MAGIC, VERSION, answer, header, section, step};
 use super::layout::{Section, parse};
 use super::nc::{Geometry, State, Step};
-use super::words::{WORD, Words, field};
+use super::words::{WORD, Words, field, next};
 use crate::image::Area;
 use crate::source::{Place, Problem};
 use crate::units::Time;
+
+/// How often the header is read again, when an NC has begun anew meanwhile.
+const TRIES: usize = 100;
 
 /// The interface as a file in memory, from the PLC's side.
 #[derive(Debug)]
@@ -26,10 +30,10 @@ pub struct PlcImage {
 }
 
 impl PlcImage {
-    /// Maps the file that an NC has created, and counts as a start of the PLC.
+    /// Maps the file that an NC serves, and counts as a start of the PLC.
     ///
     /// # Errors
-    /// There is no such file, it cannot be opened, or it is not such an image.
+    /// There is no such file, it cannot be opened, it is not such an image, or no NC serves it.
     pub fn open(path: &Path) -> Result<Self, Problem> {
         let at = |what: String, cure: &str| Place::file(&path.display().to_string()).problem(what, cure);
         let unusable = |error: std::io::Error| at(format!("cannot be opened: {error}"), "start the NC first");
@@ -37,58 +41,48 @@ impl PlcImage {
             let what = format!("expected an image of version {VERSION}, found something else");
             at(what, "name the file that the NC serves")
         };
-        let file = OpenOptions::new().read(true).write(true).open(path).map_err(unusable)?;
-        let length = file.metadata().map_err(unusable)?.len();
-        let length = usize::try_from(length).unwrap_or(0) / header::END * header::END;
-        if length < header::END {
-            return Err(foreign());
+        for _ in 0..TRIES {
+            let file = OpenOptions::new().read(true).write(true).open(path).map_err(unusable)?;
+            let length = file.metadata().map_err(unusable)?.len();
+            let length = usize::try_from(length).unwrap_or(0) / header::END * header::END;
+            if length < header::END {
+                return Err(foreign());
+            }
+            let words = Words::map(&file, length).map_err(unusable)?;
+            // An NC that begins with this file says so in these two before it writes anything else.
+            let generation = words.load(header::GENERATION);
+            let state = state(&words);
+            let read = read(&words, length);
+            fence(Ordering::Acquire);
+            if words.load(header::GENERATION) != generation {
+                continue;
+            }
+            let (geometry, sections) = read.ok_or_else(foreign)?;
+            if state == State::Ended || self::state(&words) == State::Ended {
+                return Err(at(
+                    "expected an image that an NC serves, found one that it left".into(),
+                    "start the NC first",
+                ));
+            }
+            words.store(header::PLC_STARTS, next(words.load(header::PLC_STARTS)));
+            return Ok(Self {
+                sections,
+                generation,
+                step: vec![0; geometry.nc_slot_bytes],
+                answer: vec![0; geometry.plc_slot_bytes],
+                newest: 0,
+                answered: None,
+                words,
+                geometry,
+            });
         }
-        let words = Words::map(&file, length).map_err(unusable)?;
-        let number = |offset| usize::try_from(words.load(offset)).unwrap_or(usize::MAX);
-        let mut magic = [0; MAGIC.len()];
-        words.read(header::MAGIC, &mut magic);
-        let geometry = Geometry {
-            image_bytes: number(header::IMAGE_BYTES),
-            nc_slots: number(header::NC_SLOTS),
-            nc_slot_bytes: number(header::NC_SLOT_BYTES),
-            plc_slots: number(header::PLC_SLOTS),
-            plc_slot_bytes: number(header::PLC_SLOT_BYTES),
-            slots: number(header::SLOTS),
-            file_bytes: number(header::FILE_BYTES),
-        };
-        let is_whole = magic == MAGIC && words.load(header::VERSION) == VERSION && geometry.is_possible(length);
-        if !is_whole || number(header::SECTION_BYTES) != section::BYTES || number(header::SECTION_TABLE) != header::END
-        {
-            return Err(foreign());
-        }
-        let room = geometry.nc_slots - header::END;
-        let sections = number(header::SECTIONS).checked_mul(section::BYTES).filter(|bytes| *bytes <= room);
-        let mut table = vec![0; sections.ok_or_else(foreign)?];
-        words.read(header::END, &mut table);
-        let sections: Option<Vec<_>> = table.chunks_exact(section::BYTES).map(parse).collect();
-        let image = Self {
-            sections: sections.ok_or_else(foreign)?,
-            generation: words.load(header::GENERATION),
-            step: vec![0; geometry.nc_slot_bytes],
-            answer: vec![0; geometry.plc_slot_bytes],
-            newest: 0,
-            answered: None,
-            words,
-            geometry,
-        };
-        image.words.store(header::PLC_STARTS, image.words.load(header::PLC_STARTS) + 1);
-        Ok(image)
+        Err(foreign())
     }
 
     /// What the NC does. An NC that has started anew counts as ended: open the file again.
     #[must_use]
     pub fn state(&self) -> State {
-        match self.words.load(header::STATE) {
-            _ if self.words.load(header::GENERATION) != self.generation => State::Ended,
-            1 => State::Run,
-            2 => State::Stop,
-            _ => State::Ended,
-        }
+        if self.words.load(header::GENERATION) == self.generation { state(&self.words) } else { State::Ended }
     }
 
     /// Which bytes are where.
@@ -152,9 +146,13 @@ impl PlcImage {
         &mut self.answer[start..start + self.geometry.image_bytes]
     }
 
-    /// Answers the step: the bits that were changed since it was copied.
+    /// Answers the step: the bits that were changed since it was copied. Where its NC has ended it writes nothing: the slots may be
+    /// another's.
     pub fn answer(&mut self) {
-        let number = self.words.load(header::NEWEST_ANSWER) + 1;
+        if self.state() == State::Ended {
+            return;
+        }
+        let number = next(self.words.load(header::NEWEST_ANSWER));
         self.answer[answer::ANSWERS..answer::ANSWERS + WORD].copy_from_slice(&self.newest.to_le_bytes());
         self.words.write_slot(self.geometry.plc_slot(number), number, &mut self.answer);
         self.words.store(header::NEWEST_ANSWER, number);
@@ -164,8 +162,43 @@ impl PlcImage {
 
     /// Asks for power off and on of the control.
     pub fn power_off_and_on(&self) {
-        self.words.store(header::POWER, self.words.load(header::POWER) + 1);
+        self.words.store(header::POWER, next(self.words.load(header::POWER)));
     }
+}
+
+fn state(words: &Words) -> State {
+    match words.load(header::STATE) {
+        1 => State::Run,
+        2 => State::Stop,
+        _ => State::Ended,
+    }
+}
+
+/// What the NC said once; `None` where it is no image of this version, or one that goes beyond the file.
+fn read(words: &Words, length: usize) -> Option<(Geometry, Vec<Section>)> {
+    let number = |offset| usize::try_from(words.load(offset)).unwrap_or(usize::MAX);
+    let mut magic = [0; MAGIC.len()];
+    words.read(header::MAGIC, &mut magic);
+    let geometry = Geometry {
+        image_bytes: number(header::IMAGE_BYTES),
+        nc_slots: number(header::NC_SLOTS),
+        nc_slot_bytes: number(header::NC_SLOT_BYTES),
+        plc_slots: number(header::PLC_SLOTS),
+        plc_slot_bytes: number(header::PLC_SLOT_BYTES),
+        slots: number(header::SLOTS),
+        file_bytes: number(header::FILE_BYTES),
+    };
+    let is_whole = magic == MAGIC && words.load(header::VERSION) == VERSION && geometry.is_possible(length);
+    if !is_whole || number(header::SECTION_BYTES) != section::BYTES || number(header::SECTION_TABLE) != header::END {
+        return None;
+    }
+    let room = geometry.nc_slots - header::END;
+    let bytes = number(header::SECTIONS).checked_mul(section::BYTES).filter(|bytes| *bytes <= room)?;
+    let mut table = vec![0; bytes];
+    words.read(header::END, &mut table);
+    let sections: Option<Vec<_>> =
+        table.chunks_exact(section::BYTES).map(|entry| parse(entry, geometry.image_bytes)).collect();
+    Some((geometry, sections?))
 }
 
 impl Geometry {

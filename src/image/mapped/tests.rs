@@ -241,3 +241,110 @@ fn a_broken_header_or_slot_is_refused_and_never_read_beyond() {
         nc.words.store(*offset, right);
     }
 }
+
+#[test]
+fn a_section_beyond_the_image_is_refused() {
+    let file = File::new("sections-wrong");
+    let nc = create(&file, &Memory::new());
+    let image_bytes = nc.geometry.image_bytes as u64;
+    let last = header::END + (nc.sections().len() - 1) * section::BYTES;
+    let length = nc.words.load(last + section::LENGTH);
+    let u32_max = u64::from(u32::MAX);
+    for (field, wrong) in [
+        (section::OFFSET, [image_bytes - length + 1, u32_max, u64::MAX]),
+        (section::LENGTH, [image_bytes + 1, u32_max, u64::MAX]),
+        (section::FIRST, [u32_max, u32_max - length + 1, u64::MAX]),
+    ] {
+        let right = nc.words.load(last + field);
+        for wrong in wrong {
+            nc.words.store(last + field, wrong);
+            assert!(PlcImage::open(&file.0).is_err(), "{field} {wrong}");
+        }
+        nc.words.store(last + field, right);
+    }
+    assert!(PlcImage::open(&file.0).is_ok());
+}
+
+#[test]
+fn a_stale_plc_writes_nothing_and_an_image_without_an_nc_is_not_opened() {
+    let file = File::new("stale");
+    let memory = Memory::new();
+    let (first, mut plc) = both(&file, &memory);
+    plc.next_step().unwrap();
+    drop(first);
+    let problem = PlcImage::open(&file.0).unwrap_err();
+    assert!(problem.what.contains("an image that an NC serves"), "{problem}");
+    let second = create(&file, &memory);
+    let before = fs::read(&file.0).unwrap();
+    plc.answer();
+    assert!(before == fs::read(&file.0).unwrap());
+    drop(second);
+}
+
+#[test]
+fn numbers_of_a_file_may_be_at_their_end() {
+    let file = File::new("end");
+    let memory = Memory::new();
+    let nc = create(&file, &memory);
+    for word in [header::GENERATION, header::NEWEST_STEP, header::PLC_STARTS, header::NEWEST_ANSWER, header::POWER] {
+        nc.words.store(word, u64::MAX);
+    }
+    drop(nc);
+    let (mut nc, mut plc) = both(&file, &memory);
+    plc.power_off_and_on();
+    assert_eq!((nc.plc_starts(), nc.power_requests(), nc.words.load(header::GENERATION)), (1, 1, 1));
+    assert_eq!((nc.start(), plc.next_step()), (2, Some(1)));
+    plc.answer();
+    assert_eq!(nc.look(1), Look::Answer(1));
+    assert_eq!(nc.words.load(header::NEWEST_ANSWER), 1);
+}
+
+#[test]
+fn whatever_somebody_writes_into_the_file_the_nc_goes_on() {
+    let file = File::new("scribbled");
+    let mut memory = Memory::new();
+    let mut nc = create(&file, &memory);
+    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
+    let mut random = || {
+        // xorshift: the same in every run
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        state
+    };
+    let bytes = nc.geometry.file_bytes;
+    let (mut taken, mut least) = (0, 0);
+    for cycle in 0..2000 {
+        for _ in 0..20 {
+            let place = usize::try_from(random()).unwrap_or(0) % (bytes / 8) * 8;
+            nc.words.store(place, random());
+        }
+        // The words that the NC looks at, and now and then an answer that is garbage but for its numbers.
+        for word in [header::PLC_STARTS, header::NEWEST_ANSWER, header::ACKNOWLEDGE, header::POWER, header::STATE] {
+            nc.words.store(word, [0, 1, u64::MAX, random()][usize::try_from(cycle % 4).unwrap()]);
+        }
+        let answer = nc.words.load(header::NEWEST_ANSWER);
+        if cycle % 3 == 0 {
+            let slot = nc.geometry.plc_slot(answer);
+            nc.words.store(slot, answer);
+            nc.words.store(slot + answer::ANSWERS, nc.words.load(header::NEWEST_STEP));
+            nc.words.store(slot + nc.geometry.plc_slot_bytes - 8, 0);
+        }
+        if cycle % 100 == 0 {
+            least = nc.start();
+        }
+        let from_nck = memory.from_nck.clone();
+        if let Look::Answer(_) = nc.look(least) {
+            nc.take(&mut memory);
+            taken += 1;
+        }
+        assert!(memory.from_nck == from_nck, "the PLC writes nothing of the NCK's");
+        let _ = (nc.plc_starts(), nc.power_requests(), nc.is_acknowledged(answer));
+        nc.publish(&memory, step(cycle), false);
+        let _ = PlcImage::open(&file.0);
+    }
+    assert!(taken > 10, "some garbage keeps to the rules: {taken}");
+    drop(nc);
+    // An NC starts with what it finds, or says that it is something else.
+    let _ = MappedImage::create(&file.0, &memory, &names(), RULES);
+}

@@ -98,6 +98,11 @@ pub(super) enum Torn {
     Checksum,
 }
 
+/// The number after one, whatever the file says; 0 is none.
+pub(super) fn next(number: u64) -> u64 {
+    number.wrapping_add(1).max(1)
+}
+
 /// The number at a place of a copy; 0 beyond its end.
 pub(super) fn field(bytes: &[u8], offset: usize) -> u64 {
     bytes.get(offset..).and_then(|rest| rest.first_chunk()).map_or(0, |bytes| u64::from_le_bytes(*bytes))
