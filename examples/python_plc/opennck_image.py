@@ -133,6 +133,9 @@ class Image:
         self._places = {}
         self._newest = self._starts = 0
         self._answered = None
+        if not self.is_served():  # another NC has begun meanwhile
+            self.close()
+            return False
         self.store(PLC_STARTS, self.word(PLC_STARTS) + 1)
         return True
 
@@ -221,6 +224,8 @@ class Image:
 
     def answer(self, step):
         """Publishes what the PLC made of a step. Whoever changed a bit wins it; what stayed as it was is nobody's write."""
+        if not self.is_served():
+            return  # the slots may be another NC's
         number = self.word(NEWEST_ANSWER) + 1
         size = self._plc_slot_bytes
         start = self._plc_slots + number % self._slots * size
