@@ -260,3 +260,23 @@ fn a_silent_plc_raises_2000_and_another_one_restarts_the_plc() {
         wait("power off and on clears it", || !alarm() && ready() && !stopped());
     }
 }
+
+/// The machine is in the middle of a scan then, and everybody waits for it.
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_it_while_a_scan_waits_for_a_process_that_has_gone() {
+    let file = File::new("gone");
+    let mut served = Served::start(&["g1_example", "--image", file.text(), "--lock-step", "--plc-timeout", "60min"]);
+    let mut scans = 0;
+    let process = soft_plc(&file.0, move |_| {
+        scans += 1;
+        scans < 20
+    });
+    process.join().unwrap();
+    std::thread::sleep(Duration::from_millis(500)); // the scan waits, and the status line has been drawn
+    let killed = Command::new("kill").arg(served.0.id().to_string()).status().unwrap();
+    assert!(killed.success());
+    let begin = Instant::now();
+    assert_eq!(served.0.wait().unwrap().code(), Some(0));
+    assert!(begin.elapsed() < Duration::from_secs(20), "{:?}", begin.elapsed());
+}

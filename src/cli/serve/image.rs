@@ -9,6 +9,7 @@
 //! process comes after a fault (alarm 2000 stays, as on a control, until power off and on), and switches power on request.
 
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
@@ -25,6 +26,8 @@ use crate::units::Time;
 const KEEP: Duration = Duration::from_millis(10);
 /// One scan counts at most this part of the time-out as silence: a computer that slept makes nobody silent.
 const SHARE: u32 = 4;
+/// How long the last scans wait for their answer when all of it ends.
+const FAREWELL: Duration = Duration::from_millis(100);
 /// So long a scan waits awake for its answer, before it sleeps in between.
 const AWAKE: Duration = Duration::from_micros(20);
 /// So short it sleeps then.
@@ -53,6 +56,8 @@ pub struct MappedPlc {
     refusal: Option<Refusal>,
     /// How often a process had opened the file when this was created.
     plc_starts: u64,
+    /// Nobody waits for the process any more.
+    ends: Arc<AtomicBool>,
 }
 
 impl MappedPlc {
@@ -74,6 +79,7 @@ impl MappedPlc {
             silent: Duration::ZERO,
             last_scan: Instant::now(),
             refusal: None,
+            ends: Arc::default(),
         })
     }
 
@@ -136,6 +142,9 @@ impl MappedPlc {
                 Look::Nothing => {}
             }
             let waited = start.elapsed();
+            if waited > FAREWELL && self.ends.load(Ordering::Relaxed) {
+                return Ok(());
+            }
             if waited > self.exchange.time_out {
                 image.give_up();
                 drop(image);
@@ -212,6 +221,7 @@ impl PlcProgram for MappedPlc {
 /// Keeps the file of a live machine alive until it is dropped.
 #[derive(Debug)]
 pub struct Keeper {
+    ends: Arc<AtomicBool>,
     end: Option<mpsc::Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -220,18 +230,26 @@ impl Keeper {
     /// Gives a machine its program in another process, starts the machine, and keeps the file.
     #[must_use]
     pub fn start(mut machine: Machine, plc: MappedPlc, start: impl FnOnce(Machine) -> Live) -> (Live, Self) {
-        let image = Arc::clone(&plc.image);
+        let (image, ends) = (Arc::clone(&plc.image), Arc::clone(&plc.ends));
         machine.load_program(Box::new(plc));
         let live = start(machine);
         let shared = live.shared();
         let (end, ended) = mpsc::channel();
         let thread = std::thread::spawn(move || keep(&shared, &image, &ended));
-        (live, Self { end: Some(end), thread: Some(thread) })
+        (live, Self { ends, end: Some(end), thread: Some(thread) })
+    }
+}
+
+impl Keeper {
+    /// All of it ends: nobody waits long for a process any more, however patient the time-out is.
+    pub fn let_go(&self) {
+        self.ends.store(true, Ordering::Relaxed);
     }
 }
 
 impl Drop for Keeper {
     fn drop(&mut self) {
+        self.let_go();
         drop(self.end.take());
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();

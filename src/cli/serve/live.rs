@@ -26,6 +26,8 @@ use crate::variables::{Describe, RaisedAlarm};
 pub const GIVE_UP: Duration = Duration::from_millis(500);
 /// A computer wakes nobody more exactly than this.
 const EXACT: Duration = Duration::from_millis(1);
+/// How often the lock is tried by whoever does not wait for it.
+const SOON: u32 = 40;
 /// How often the stepping thread lets others go first, at most.
 const COURTESY: u32 = 100;
 
@@ -233,6 +235,11 @@ impl Live {
         look(&mut self.shared.lend().machine)
     }
 
+    /// The same if it can be had soon: a scan in lock-step may wait for long.
+    pub(super) fn with_soon<T>(&self, look: impl FnOnce(&mut Machine) -> T) -> Option<T> {
+        self.shared.lend_soon().map(|mut lent| look(&mut lent.machine))
+    }
+
     /// How far the scenario is that acts on it, if one does.
     #[must_use]
     pub fn scenario(&self) -> Option<State> {
@@ -314,6 +321,21 @@ impl Shared {
         }
         self.waiting.fetch_add(1, Ordering::Relaxed);
         let lent = self.clocked.lock().unwrap_or_else(PoisonError::into_inner);
+        self.waiting.fetch_sub(1, Ordering::Relaxed);
+        lent
+    }
+
+    /// The machine between two steps, or none within some milliseconds.
+    fn lend_soon(&self) -> Option<MutexGuard<'_, Clocked>> {
+        self.waiting.fetch_add(1, Ordering::Relaxed);
+        let lent = (0..SOON).find_map(|_| match self.clocked.try_lock() {
+            Ok(lent) => Some(lent),
+            Err(TryLockError::Poisoned(lent)) => Some(lent.into_inner()),
+            Err(TryLockError::WouldBlock) => {
+                std::thread::sleep(Duration::from_micros(250));
+                None
+            }
+        });
         self.waiting.fetch_sub(1, Ordering::Relaxed);
         lent
     }

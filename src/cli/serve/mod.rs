@@ -223,7 +223,7 @@ fn status_line() -> ProgressBar {
 
 /// Waits for Ctrl-C or SIGTERM.
 fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result<(), Problem> {
-    let Served { live, window, status: bar, head, .. } = served;
+    let Served { live, window, keeper, status: bar, head, .. } = served;
     let mut status = Status::new(live, window);
     let no_signals = |error: std::io::Error| {
         Problem::new(
@@ -250,6 +250,9 @@ fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result
             }
         }
     });
+    if let Some(keeper) = keeper {
+        keeper.let_go();
+    }
     bar.finish_and_clear();
     tracing::info!("ends: {}", status.sum());
     ended
@@ -292,11 +295,15 @@ impl<'a> Status<'a> {
     }
 
     fn line(&mut self, wanted: Speed) -> String {
-        let (time, cycle, alarms) = self.live.with(|machine| {
+        let looked = self.live.with_soon(|machine| {
             let name = |number| machine.alarm_name(number);
             let alarms: Vec<_> = machine.variables().alarms.iter().map(|alarm| name(alarm.number)).collect();
             (machine.time().seconds(), machine.cycle(), alarms)
         });
+        let Some((time, cycle, alarms)) = looked else {
+            // A scan in lock-step waits for its answer; whoever waited here would not hear a signal.
+            return "waits for the PLC process".to_owned();
+        };
         let elapsed = self.last.0.elapsed();
         if elapsed >= RATES {
             let answers = self.window.answers();
