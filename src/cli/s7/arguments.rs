@@ -69,7 +69,7 @@ enum Kind {
 
 impl Host {
     /// Address and port.
-    pub(super) fn address(&self) -> String {
+    pub(super) fn address(&self) -> Result<String, Problem> {
         with_port(&self.host)
     }
 
@@ -101,18 +101,22 @@ impl Host {
     }
 
     async fn connect(&self, options: Options) -> Result<Client, Problem> {
-        Client::connect(&self.address(), options).await.map_err(|error| super::problem(&error))
+        Client::connect(&self.address()?, options).await.map_err(|error| super::problem(&error))
     }
 }
 
 /// `::1` and `[::1]` are addresses without a port.
-fn with_port(host: &str) -> String {
+fn with_port(host: &str) -> Result<String, Problem> {
     if host.parse::<std::net::Ipv6Addr>().is_ok() {
-        return format!("[{host}]:{PORT}");
+        return Ok(format!("[{host}]:{PORT}"));
     }
     match host.rsplit_once(':') {
-        Some((_, port)) if port.parse::<u16>().is_ok() => host.to_owned(),
-        _ => format!("{host}:{PORT}"),
+        Some((_, port)) if port.parse::<u16>().is_ok_and(|port| port > 0) => Ok(host.to_owned()),
+        Some((_, port)) if !host.ends_with(']') => Err(Problem::new(
+            format!("expected a port from 1 to 65535, found {port} in {host}"),
+            "write it as 192.168.214.1:102, [::1]:10102 or localhost:10102; without a port it is 102",
+        )),
+        _ => Ok(format!("{host}:{PORT}")),
     }
 }
 
@@ -162,7 +166,10 @@ mod tests {
             ("[::1]", "[::1]:102"),
             ("[::1]:10102", "[::1]:10102"),
         ] {
-            assert_eq!(with_port(host), address);
+            assert_eq!(with_port(host).unwrap(), address);
+        }
+        for host in ["127.0.0.1:99999", "127.0.0.1:0", "plc:s7", "[::1]:-1"] {
+            assert!(with_port(host).is_err(), "{host}");
         }
     }
 

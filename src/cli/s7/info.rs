@@ -29,7 +29,7 @@ impl Rows {
 pub(super) async fn info(host: &Host, format: Format, output: &mut Output) -> Result<u8, Problem> {
     let mut rows = Rows(Vec::new());
     let plc = host.plc().await?;
-    rows.add("host", host.address());
+    rows.add("host", host.address()?);
     of_the_plc(&plc, &mut rows).await.map_err(|error| problem(&error))?;
     drop(plc);
     // A PLC without an NCK beside it is all right, too.

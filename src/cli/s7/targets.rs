@@ -71,7 +71,7 @@ impl Dictionary {
         let all = |dictionary: &Self| texts.iter().map(|text| dictionary.target(text)).collect::<Result<Vec<_>, _>>();
         match all(self) {
             Err(first) if !self.is_known && texts.iter().any(|text| is_symbol(text)) => {
-                let Some(names) = self.names_of_the_nck(host).await else {
+                let Some(names) = self.names_of_the_nck(host).await? else {
                     let cure = format!("{}\n  the NCK does not tell its names: give --machine", first.cure);
                     return Err(Problem { cure, ..first });
                 };
@@ -109,9 +109,12 @@ impl Dictionary {
         Ok(Target { variable: Place::of(&address).into(), symbol, location: Some(location) })
     }
 
-    /// Names of axes (MD10000) and channels (MD20000) as the control has them.
-    async fn names_of_the_nck(&self, host: &Host) -> Option<Names> {
-        let nck = host.nck().await.ok()?;
+    /// Names of axes (MD10000) and channels (MD20000) as the control has them; none where there is no NCK that tells them.
+    async fn names_of_the_nck(&self, host: &Host) -> Result<Option<Names>, Problem> {
+        let Ok(nck) = host.nck().await else {
+            // Nobody at all is another thing than a PLC without an NCK.
+            return host.plc().await.map(|_| None);
+        };
         let mut names = Names { profile: self.names.profile, ..Names::default() };
         let axes = AxisNumber::all().map(|axis| format!("nck:N/$MN_AXCONF_MACHAX_NAME_TAB[{}]", axis.number()));
         let channels = ChannelNumber::all().map(|channel| format!("nck:C{}/$MC_CHAN_NAME", channel.number()));
@@ -128,7 +131,7 @@ impl Dictionary {
             names.channels[channel] = told.next().flatten();
         }
         let is_told = names.axes.iter().any(|(_, name)| name.is_some());
-        is_told.then_some(names)
+        Ok(is_told.then_some(names))
     }
 
     /// The value of a text, as scenarios have them.

@@ -75,7 +75,8 @@ pub(crate) struct Arguments {
     /// The password of the CPU, up to eight characters; other users see arguments in the list of processes, and not the variable.
     #[arg(long, env = "OPENNCK_S7_PASSWORD", hide_env_values = true)]
     pub(super) password: Option<String>,
-    /// What needs the password: 1 nothing; 2 stop, restart, the clock; 3 reading blocks, too. With a password 2 unless said.
+    /// What needs the password: 1 nothing; 2 stop, restart, the clock; 3 uploading blocks, too. Values are read and written without it. With
+    /// a password 2 unless said.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=3))]
     pub(super) protection_level: Option<u8>,
     /// What the CPU says of itself, as TOML: order_number, version, system_name, module_name, plant, copyright, serial_number,

@@ -108,7 +108,7 @@ fn chance(value: &str) -> Result<f64, String> {
     };
     chance
         .filter(|chance| (0.0..=1.0).contains(chance))
-        .ok_or_else(|| format!("expected a chance such as 1% or 1/100, at most 100%, found {value}"))
+        .ok_or_else(|| format!("expected a chance such as 1% or 1/100, at most 100%, found {value:?}"))
 }
 
 fn code(value: &str) -> Result<Failure, String> {

@@ -196,7 +196,7 @@ async fn who_closes_on_each_request_is_called_after_longer_and_longer_pauses() {
     let backoff = Backoff { first: Duration::from_millis(40), most: Duration::from_secs(1) };
     let (client, mut peer) = place.meet(240, 1, Options { reconnect: Some(backoff), ..quick() }).await;
     let script = async {
-        let begin = std::time::Instant::now();
+        let begin = tokio::time::Instant::now();
         for _ in 0..4 {
             let _ = peer.request().await;
             drop(peer);
