@@ -2,7 +2,8 @@
 //!
 //! The stepping thread writes down what waits for the edge of its step (`scenario::Transcript`), whoever queued it. A thread of
 //! its own brings that to the disk, once a second. The last step of the file lets time pass up to the end and is written anew each
-//! time; so the file is a whole scenario at any moment, also after an end without warning. Whatever was written before stays. A
+//! time; so the file is a whole scenario at any moment, also after an end without warning (only who reads while it is written may
+//! meet half a step). Whatever was written before stays. A
 //! disk that takes nothing more ends the recording, not the machine: the file is what it was a second before.
 
 use std::collections::BTreeMap;
