@@ -5,11 +5,12 @@
 
 use std::io::{Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use opennck::cli::serve::{Limits, Live, Speed, Window};
 use opennck::machine::Machine;
-use opennck::plc::Programs;
+use opennck::plc::{self, PlcIo, Programs};
 use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE, S7Client};
 
 /// The connection request of most clients.
@@ -104,6 +105,53 @@ fn who_writes_and_then_reads_finds_what_was_written() {
         assert_eq!(found, [round, !round]);
     }
     assert_eq!(live.with(|machine| machine.memory().flags[100]), 19);
+}
+
+/// The program of another process may let a scan wait: a panel reads on meanwhile, and what it writes acts afterwards.
+#[test]
+fn a_scan_that_lasts_holds_up_nobody_who_reads() {
+    static IS_HELD: AtomicBool = AtomicBool::new(false);
+    let mut machine = Machine::open("g1_example").expect("it is built in");
+    machine.load_program(Box::new(plc::program("holds", (), |(), io: &mut PlcIo<'_>| {
+        if io.flags[100] == 1 {
+            IS_HELD.store(true, Ordering::SeqCst);
+            while IS_HELD.load(Ordering::SeqCst) {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        }
+    })));
+    let live = Live::start(machine, Speed::default());
+    let (_window, address) = window(&live, Limits { step: Duration::from_millis(20), ..Limits::default() });
+    let (mut panel, mut found) = (client(address), [0; 2]);
+    panel.write_area(S7_AREA_MK, 0, 100, S7_WL_BYTE, &[1]).unwrap();
+    wait("the scan that lasts", || IS_HELD.load(Ordering::SeqCst));
+    panel.read_area(S7_AREA_MK, 0, 100, S7_WL_BYTE, &mut found).unwrap();
+    assert_eq!(found, [0, 0], "the step before it");
+    panel.write_area(S7_AREA_MK, 0, 100, S7_WL_BYTE, &[0, 7]).unwrap();
+    client(address).read_area(S7_AREA_MK, 0, 100, S7_WL_BYTE, &mut found).unwrap();
+    assert!(IS_HELD.swap(false, Ordering::SeqCst), "all of that was in one scan");
+    assert_eq!(found, [0, 0], "nobody sees what the machine has not taken up");
+    wait("what was written", || live.with(|machine| machine.memory().flags[100..102] == [0, 7]));
+}
+
+/// A cycle lasts two microseconds here, so that the reads would see many.
+#[test]
+fn reads_that_came_together_see_one_step() {
+    let mut machine = Machine::open("g1_example").expect("it is built in");
+    machine.load_program(Box::new(plc::program("counts", 0_u8, |count: &mut u8, io: &mut PlcIo<'_>| {
+        *count = count.wrapping_add(1);
+        io.flags[0] = *count;
+    })));
+    let live = Live::start(machine, "1000".parse().unwrap());
+    let (_window, address) = window(&live, Limits::default());
+    let mut stream = bare(address);
+    stream.write_all(&[&CONNECT[..], &SETUP].concat()).unwrap();
+    let _answers = (read_packet(&mut stream), read_packet(&mut stream));
+    for _ in 0..10 {
+        stream.write_all(&READ.repeat(30)).unwrap(); // 930 bytes: one segment
+        let answers: Vec<_> = (0..30).map(|_| read_packet(&mut stream).pop()).collect();
+        assert!(answers.iter().all(|value| *value == answers[0]), "{answers:?}");
+    }
 }
 
 /// Everything by S7: enables, the mode, the key.

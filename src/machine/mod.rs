@@ -29,6 +29,7 @@ pub use crate::sinumerik::machine_data::Value as DatumValue;
 pub use crate::sinumerik::{ApproachPhase, GroupingPhase, TakenTransitions};
 pub use command::Command;
 pub use open::OpenOptions;
+pub use saved::Snapshot;
 
 use std::path::Path;
 use std::sync::Arc;

@@ -10,6 +10,7 @@ use super::command::{Command, Force};
 use super::step::Plc;
 use crate::image::{Memory, Names};
 use crate::plant::Plant;
+use crate::plc::PlcProgram;
 use crate::sinumerik::{Feedback, SavedControl};
 use crate::source::Problem;
 use crate::trace::Recorder;
@@ -140,6 +141,16 @@ impl Machine {
                 )
             })?),
         };
+        Ok(self.copy(program, Recorder::default()))
+    }
+
+    /// The machine as it is now, to be looked at while the other goes on.
+    #[must_use]
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot(self.copy(None, Recorder::without_room()))
+    }
+
+    fn copy(&self, program: Option<Box<dyn PlcProgram>>, recorder: Recorder) -> Self {
         let mut plc = Plc::default();
         plc.program = program;
         plc.stopped = self.plc.stopped;
@@ -149,7 +160,7 @@ impl Machine {
         plc.fault.clone_from(&self.plc.fault);
         let mut alarms_before = Vec::with_capacity(Alarms::CAPACITY);
         alarms_before.extend_from_slice(&self.alarms_before);
-        Ok(Self {
+        Self {
             definition: Arc::clone(&self.definition),
             control: self.control.clone(),
             plant: self.plant.clone(),
@@ -165,8 +176,20 @@ impl Machine {
             feedback: self.feedback,
             before: Before::new(&self.memory, self.before.last_event),
             alarms_before,
-            recorder: Recorder::default(),
-        })
+            recorder,
+        }
+    }
+}
+
+/// A machine that stands still: what another one was after some step, without its program and its record.
+#[derive(Debug)]
+pub struct Snapshot(Machine);
+
+impl std::ops::Deref for Snapshot {
+    type Target = Machine;
+
+    fn deref(&self) -> &Machine {
+        &self.0
     }
 }
 

@@ -90,6 +90,12 @@ impl Recorder {
     /// How many events fit between two drains.
     pub const EVENTS: usize = 1024;
 
+    /// One that has no room yet, for a machine that does not go on.
+    #[must_use]
+    pub const fn without_room() -> Self {
+        Self { rows: Vec::new(), events: Vec::new(), lost: 0 }
+    }
+
     /// Notes a change; counts it as lost where nobody drains.
     pub fn push(&mut self, row: Row) {
         if self.rows.len() < Self::ROWS {

@@ -13,7 +13,9 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use tokio::sync::watch;
 
 use super::diagnosis::Buffer;
+use super::inbox::{self, Inbox, Order};
 use super::record::Recording;
+use super::seen::{Seen, View};
 use super::urgency::Urgency;
 use crate::machine::Machine;
 use crate::s7::DateAndTime;
@@ -91,6 +93,12 @@ pub struct Pace {
 #[derive(Debug)]
 pub(super) struct Shared {
     clocked: Mutex<Clocked>,
+    /// What clients see of it.
+    view: View,
+    /// What clients asked for.
+    pub(super) inbox: Inbox,
+    /// Whether each step is shown; else it is copied for whoever looks.
+    is_shown: bool,
     /// How many wait for the lock.
     waiting: AtomicUsize,
     /// How many cycles are over.
@@ -167,6 +175,26 @@ impl Clocked {
         (self.set, self.set_at) = (time, self.machine.time());
     }
 
+    /// What clients see of it now.
+    fn seen(&self) -> Box<Seen> {
+        let (machine, diagnosis) = (self.machine.snapshot(), self.diagnosis.entries().to_vec());
+        Box::new(Seen { machine, clock: self.clock(), diagnosis })
+    }
+
+    /// Queues what clients asked for. Says what of it the machine does not take.
+    fn take(&mut self, orders: Vec<Order>) -> Vec<String> {
+        let mut lines = Vec::new();
+        for Order { client, commands } in orders {
+            if let Some(recording) = &mut self.recording {
+                recording.client(&self.machine, client);
+            }
+            let queued = commands.iter().map(|command| inbox::queue(self, command));
+            let problems = queued.filter_map(Result::err);
+            lines.extend(problems.map(|problem| format!("a client wrote what the machine does not take: {problem}")));
+        }
+        lines
+    }
+
     /// One step, with what goes with the machine. Says how the scenario ended, if it did in this step.
     fn step(&mut self) -> Option<String> {
         let Self { machine, recording, trace, operator, .. } = self;
@@ -215,8 +243,13 @@ impl Live {
     #[must_use]
     pub fn start_with(machine: Machine, speed: Speed, options: LiveOptions) -> Self {
         let clocked = Clocked::new(machine, options);
+        let cycle = clocked.machine.cycle();
         let shared = Arc::new(Shared {
-            cycle: watch::Sender::new(clocked.machine.cycle()),
+            view: View::new(clocked.seen()),
+            inbox: Inbox::new(cycle + 1),
+            // Cheap beside a cycle in real time; faster, few of so many steps are looked at.
+            is_shown: speed <= Speed::default(),
+            cycle: watch::Sender::new(cycle),
             clocked: Mutex::new(clocked),
             waiting: AtomicUsize::new(0),
             overruns: AtomicU64::new(0),
@@ -325,6 +358,11 @@ impl Shared {
         lent
     }
 
+    /// The machine as it was after its last step.
+    pub(super) fn look<T>(&self, look: impl FnOnce(&Seen) -> T) -> T {
+        self.view.look(|| self.lend().seen(), look)
+    }
+
     /// The machine between two steps, or none within some milliseconds.
     fn lend_soon(&self) -> Option<MutexGuard<'_, Clocked>> {
         self.waiting.fetch_add(1, Ordering::Relaxed);
@@ -381,15 +419,19 @@ impl Shared {
             std::thread::yield_now();
         }
         let mut clocked = self.clocked.lock().unwrap_or_else(PoisonError::into_inner);
+        let orders = self.inbox.empty(clocked.machine.cycle() + 1);
+        let refused = clocked.take(orders);
         let over = clocked.step();
         clocked.observe();
         let machine = &clocked.machine;
         let changed = changed_alarms(machine, alarms);
         let (cycle, period) = (machine.cycle(), machine.cycle_time().nanos());
+        let shown = self.is_shown.then(|| clocked.seen());
         drop(clocked);
+        self.view.over(cycle, shown);
         self.cycle.send_replace(cycle);
         // Nobody waits for the machine while a terminal waits for its reader.
-        for line in changed.into_iter().chain(over) {
+        for line in refused.into_iter().chain(changed).chain(over) {
             tracing::info!("{line}");
         }
         u128::try_from(period).unwrap_or(1).max(1)

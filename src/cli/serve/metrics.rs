@@ -90,15 +90,14 @@ fn path(target: &str) -> &str {
 pub(super) fn text(shared: &Shared, clients: usize, counters: &Counters) -> String {
     let mut text = Text(String::new());
     let pace = shared.pace();
-    let (steps, seconds, runs, alarms) = {
-        let clocked = shared.lend();
-        let machine = &clocked.machine;
+    let (steps, seconds, runs, alarms) = shared.look(|seen| {
+        let machine = &seen.machine;
         let mut alarms = BTreeMap::<_, u64>::new();
         for alarm in machine.variables().alarms.iter() {
             *alarms.entry(machine.alarm_name(alarm.number)).or_default() += 1;
         }
         (machine.cycle(), machine.time().seconds(), !machine.is_plc_stopped(), alarms)
-    };
+    });
     text.one("opennck_steps_total", "Steps of the machine, one a cycle.", steps);
     text.one("opennck_simulated_seconds_total", "Time of the machine.", seconds);
     text.one("opennck_speed", "How many times real time is wanted.", shared.speed());

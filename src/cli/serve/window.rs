@@ -1,7 +1,7 @@
 //! The S7 server of a live machine: a thread with all its clients, and what it lends them.
 //!
-//! A request reads the machine between two steps. What it writes is queued as commands of the machine, all of them at once, so they
-//! act at the edge of the same step.
+//! A request reads the machine as its last step left it. What it writes is queued as commands of the machine, all of them at once, so
+//! they act at the edge of the same step.
 
 use std::io;
 use std::net::SocketAddr;
@@ -13,11 +13,13 @@ use tokio::runtime::{Builder, Runtime};
 use tokio::sync::watch;
 use tokio::task::JoinSet;
 
-use super::live::{Clocked, Live, Shared};
+use super::inbox::Order;
+use super::live::{Live, Shared};
 use super::metrics;
-use super::panel::{Panel, identity, machine_datum};
+use super::panel::{Panel, identity};
+use super::seen::Seen;
 use super::terms::Terms;
-use crate::machine::Command;
+use crate::machine::Machine;
 use crate::s7::server::{Capture, Counters, Faults, Instruments, Limits, Server, Stations, listen};
 use crate::s7::{self, Bridge, CpuState, Directory, Machinery, Settings, Station};
 use crate::source::Problem;
@@ -230,16 +232,22 @@ impl Stations for Lender {
 
 impl Lender {
     fn lend_out(&self, client: Option<SocketAddr>, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
-        let mut clocked = self.shared.lend();
-        let machine = &clocked.machine;
+        let commands = self.shared.look(|seen| self.show(seen, work));
+        let has_asked = !commands.is_empty();
+        has_asked.then(|| self.shared.inbox.add(Order { client, commands }))
+    }
+
+    /// Lends what is seen of the machine; gives what was asked for.
+    fn show(&self, seen: &Seen, work: &mut dyn FnMut(&mut dyn Station)) -> Vec<s7::Command> {
+        let machine: &Machine = &seen.machine;
         let data = Panel(machine);
         let machinery = Machinery {
             state: if machine.is_plc_stopped() { CpuState::Stop } else { CpuState::Run },
-            clock: clocked.clock(),
+            clock: seen.clock,
             is_read_only: self.is_read_only,
             machine_data: Some(&data),
             control: Some(&data),
-            diagnosis: clocked.diagnosis.entries(),
+            diagnosis: &seen.diagnosis,
             connections: self.connections,
             identity: identity(machine),
             ..Machinery::default()
@@ -247,41 +255,6 @@ impl Lender {
         let bridge = Bridge::new(machine.memory(), machine.variables(), machine.names(), &self.directory);
         let mut bridge = bridge.with(self.terms.over(machinery));
         work(&mut bridge);
-        let commands = bridge.into_commands();
-        if commands.is_empty() {
-            return None;
-        }
-        let Clocked { machine, recording, .. } = &mut *clocked;
-        if let Some(recording) = recording {
-            recording.client(machine, client);
-        }
-        for command in commands {
-            if let Err(problem) = queue(&mut clocked, &command) {
-                tracing::info!("a client wrote what the machine does not take: {problem}");
-            }
-        }
-        Some(clocked.machine.cycle() + 1)
+        bridge.into_commands()
     }
-}
-
-/// Queues what a client asked for.
-fn queue(clocked: &mut Clocked, command: &s7::Command) -> Result<(), Problem> {
-    let command = match *command {
-        s7::Command::Write { location, value } => Command::Write { location, value },
-        s7::Command::MachineDatum { place, number, index, value } => machine_datum(place, number, index, value)?,
-        s7::Command::PlcStop => Command::PlcStop,
-        s7::Command::RParameter { channel, number, value } => Command::RParameter { channel, number, value },
-        s7::Command::PlcStart(restart) => {
-            clocked.diagnosis.restart_asked(restart);
-            match restart {
-                s7::Restart::Warm => Command::PlcRun,
-                s7::Restart::Cold => Command::PlcColdRestart,
-            }
-        }
-        s7::Command::SetClock(time) => {
-            clocked.set_clock(time);
-            return Ok(());
-        }
-    };
-    clocked.machine.queue(command)
 }

@@ -211,7 +211,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
         }
     }
 
-    /// Gives the session what has come, packet by packet: each sees its own step. What is written by packets that came together is
+    /// Gives the session what has come. Reads that came together see one step. What is written by packets that came together is
     /// taken up together; whatever else is asked behind them finds it.
     async fn receive(&mut self) -> Option<End> {
         let mut start = 0;
@@ -229,17 +229,8 @@ impl<'a, S: Stations> Conversation<'a, S> {
             if owed.is_some() && !is_write(&rest[..length]) {
                 self.settle(&mut owed).await;
             }
-            let packet = &self.input[start..start + length];
-            start += length;
-            let (session, answers) = (&mut self.session, &mut self.answers);
-            if let Some(faulty) = &mut self.faulty {
-                session.fail_next(faulty.failure());
-            }
-            let known = answers.count();
-            let mut connection = Connection::Open;
-            let mut work = |station: &mut dyn Station| connection = session.receive(packet, station, answers);
-            let written = self.server.stations.lend_to(self.witness.peer(), &mut work);
-            self.witness.answered(packet, &self.answers, known, written.is_some());
+            let (answered, connection, written) = self.answer(start, length);
+            start += answered;
             owed = written.or(owed);
             if connection == Connection::Closed {
                 self.settle(&mut owed).await;
@@ -257,6 +248,42 @@ impl<'a, S: Stations> Conversation<'a, S> {
         self.input.copy_within(start..self.filled, 0);
         self.filled -= start;
         None
+    }
+
+    /// Answers the packet of this length, and the reads behind it if it is one: so many bytes, whether the connection goes on, and
+    /// the step that takes up what was written.
+    fn answer(&mut self, start: usize, length: usize) -> (usize, Connection, Option<u64>) {
+        let Self { server, witness, faulty, session, answers, input, filled, .. } = self;
+        let mut rest = &input[start..*filled];
+        let (mut length, mut answered, mut known) = (length, 0, 0);
+        let mut connection = Connection::Open;
+        let peer = witness.peer();
+        let mut work = |station: &mut dyn Station| loop {
+            let packet = &rest[..length];
+            if let Some(faulty) = faulty {
+                session.fail_next(faulty.failure());
+            }
+            known = answers.count();
+            connection = session.receive(packet, station, answers);
+            rest = &rest[length..];
+            answered += length;
+            match tpkt::split(rest) {
+                Packet::Whole { length: next, .. }
+                    if connection == Connection::Open
+                        && is_read(packet)
+                        && is_read(&rest[..next])
+                        && answers.bytes().len() < TURN =>
+                {
+                    witness.answered(packet, answers, known, false);
+                    length = next;
+                }
+                _ => break,
+            }
+        };
+        let written = server.stations.lend_to(peer, &mut work);
+        let last = &input[start + answered - length..start + answered];
+        witness.answered(last, answers, known, written.is_some());
+        (answered, connection, written)
     }
 
     /// Waits for the step that takes up what was written.
@@ -336,8 +363,20 @@ async fn due(pushes: &mut Option<Interval>) {
 
 /// Whether a packet holds a whole job that writes variables and nothing else: what it is answered does not tell of the memory.
 fn is_write(packet: &[u8]) -> bool {
-    let pdu = packet.get(tpkt::HEADER + 3..).unwrap_or_default();
-    matches!(pdu, [PROTOCOL, kind::JOB, _, _, _, _, _, _, _, _, function::WRITE, ..])
+    job_of(packet) == Some(function::WRITE)
+}
+
+/// Whether a packet holds a whole job that reads variables and nothing else: it changes nothing.
+fn is_read(packet: &[u8]) -> bool {
+    job_of(packet) == Some(function::READ)
+}
+
+/// The function of the job that begins in a packet.
+fn job_of(packet: &[u8]) -> Option<u8> {
+    match packet.get(tpkt::HEADER + 3..)? {
+        [PROTOCOL, kind::JOB, _, _, _, _, _, _, _, _, function, ..] => Some(*function),
+        _ => None,
+    }
 }
 
 /// Whether a packet that has begun would not fit.

@@ -3,7 +3,7 @@
 //!
 //! | what | and why |
 //! |---|---|
-//! | one request, one loan | what it reads is of one step, and what it writes is taken up whole |
+//! | one request, one loan; reads that came together have one as well | what they read is of one step, and what is written is taken up whole |
 //! | an answer to a write waits until the write was taken up | who writes and then reads finds what was written |
 //! | writes that came together wait for one step | it takes them up whole, and the next request finds all of them |
 //! | a turn ends after 32 KiB of answers | who floods holds up nobody |

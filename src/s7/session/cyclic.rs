@@ -68,7 +68,7 @@ impl Subscriptions {
             }
             // From now on, not from when it was due: who is late does not catch up in a burst.
             job.due = Some(now + interval);
-            let items = Items::new(&job.items, job.count.into());
+            let items = Items::new(&job.items, job.count.into()).flatten();
             let mut pdu = job.head(ErrorCode::NONE).begin_push(answers, budget_of(items, budget));
             job.put(&mut pdu, scratch, station);
             let is_changed = pdu.data_mut() != job.last.as_slice();
@@ -95,7 +95,7 @@ impl Job {
     fn put(&self, pdu: &mut Pdu<'_>, scratch: &mut Vec<u8>, station: &dyn Station) {
         let [high, low] = self.count.to_be_bytes();
         pdu.put(&[SUCCESS, TransportSize::OCTETS.0, 0, 0, high, low]);
-        put_values(pdu, Items::new(&self.items, self.count.into()), scratch, station);
+        put_values(pdu, Items::new(&self.items, self.count.into()).flatten(), scratch, station);
         let length = pdu.data_length().saturating_sub(4);
         if let [_, _, high, low, ..] = pdu.data_mut() {
             [*high, *low] = TransportSize::OCTETS.field(length).to_be_bytes();
@@ -132,7 +132,7 @@ impl Session {
         if count == 0 || (*factor == 0 && function == CYCLE) || known.clone().any(|item| item.is_err()) {
             return Err(ErrorCode::NOT_SUPPORTED);
         }
-        self.may_ask_for(known)?;
+        self.may_ask_for(known.flatten())?;
         if self.subscriptions.jobs.len() >= JOBS {
             return Err(ErrorCode::TOO_MANY);
         }
@@ -145,8 +145,11 @@ impl Session {
             items: items.to_vec(),
             last: Vec::new(),
         };
-        let mut pdu =
-            job.head(ErrorCode::NONE).begin(exchange.answers, exchange.reference, budget_of(known, exchange.budget));
+        let mut pdu = job.head(ErrorCode::NONE).begin(
+            exchange.answers,
+            exchange.reference,
+            budget_of(known.flatten(), exchange.budget),
+        );
         job.put(&mut pdu, &mut self.scratch, exchange.station);
         if pdu.is_full() {
             pdu.discard();

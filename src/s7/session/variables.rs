@@ -16,8 +16,8 @@ const NCK_SLOTS: [u8; 2] = [3, 4];
 const DRIVE_PDU: usize = 240;
 
 /// How long an answer to these items may be.
-pub(super) fn budget_of(mut items: Items<'_>, budget: Budget) -> Budget {
-    let is_of_drive = items.any(|item| matches!(item, Ok(Item::Nck(item)) if item.is_of_drive()));
+pub(super) fn budget_of(mut items: impl Iterator<Item = Item>, budget: Budget) -> Budget {
+    let is_of_drive = items.any(|item| matches!(item, Item::Nck(item) if item.is_of_drive()));
     if is_of_drive { Budget { pdu: budget.pdu.min(DRIVE_PDU), ..budget } } else { budget }
 }
 
@@ -26,14 +26,18 @@ impl Session {
         let Some((&count, bytes)) = rest.split_first().filter(|(count, _)| **count > 0) else {
             return exchange.refuse(ErrorCode::WRONG_FRAME);
         };
-        let items = Items::new(bytes, count.into());
-        if items.clone().any(|item| item.is_err()) {
-            return exchange.refuse(ErrorCode::WRONG_FRAME);
+        let mut items = ArrayVec::<Item, 255>::new();
+        for item in Items::new(bytes, count.into()) {
+            let Ok(item) = item else {
+                return exchange.refuse(ErrorCode::WRONG_FRAME);
+            };
+            items.push(item);
         }
-        if let Err(error) = self.may_ask_for(items) {
+        let items = items.iter().copied();
+        if let Err(error) = self.may_ask_for(items.clone()) {
             return exchange.refuse(error);
         }
-        let budget = budget_of(items, exchange.budget);
+        let budget = budget_of(items.clone(), exchange.budget);
         let mut pdu = Pdu::ack_data(exchange.answers, exchange.reference, budget);
         pdu.put(&[function::READ, count]);
         pdu.data();
@@ -42,8 +46,8 @@ impl Session {
     }
 
     /// Whether the module that was called has the items: variables of the NCK are asked of the NCK.
-    pub(super) fn may_ask_for(&self, mut items: Items<'_>) -> Result<(), ErrorCode> {
-        let is_of_nck = items.any(|item| matches!(item, Ok(Item::Nck(_))));
+    pub(super) fn may_ask_for(&self, mut items: impl Iterator<Item = Item>) -> Result<(), ErrorCode> {
+        let is_of_nck = items.any(|item| matches!(item, Item::Nck(_)));
         if is_of_nck && !NCK_SLOTS.contains(&self.slot) { Err(ErrorCode::NOT_IMPLEMENTED) } else { Ok(()) }
     }
 
@@ -52,7 +56,7 @@ impl Session {
             return exchange.refuse(ErrorCode::WRONG_FRAME);
         };
         let items = Items::new(bytes, count.into());
-        if let Err(error) = self.may_ask_for(items) {
+        if let Err(error) = self.may_ask_for(items.flatten()) {
             return exchange.refuse(error);
         }
         let Some(values) = Values::new(data, count.into()) else {
@@ -84,7 +88,12 @@ impl Session {
 }
 
 /// Appends the value of each item, or why there is none. Items that do not fit leave the PDU full.
-pub(super) fn put_values(pdu: &mut Pdu<'_>, items: Items<'_>, scratch: &mut Vec<u8>, station: &dyn Station) {
+pub(super) fn put_values(
+    pdu: &mut Pdu<'_>,
+    items: impl Iterator<Item = Item>,
+    scratch: &mut Vec<u8>,
+    station: &dyn Station,
+) {
     // Values begin at even places: what stands before them in a data part, if anything, has an even length.
     for item in items {
         if pdu.is_full() {
@@ -95,17 +104,16 @@ pub(super) fn put_values(pdu: &mut Pdu<'_>, items: Items<'_>, scratch: &mut Vec<
         }
         let start = pdu.data_length();
         let put = match item {
-            Ok(Item::Any(item)) => put_area(pdu, &item, station),
-            Ok(Item::Nck(item)) => {
+            Item::Any(item) => put_area(pdu, &item, station),
+            Item::Nck(item) => {
                 scratch.clear();
                 station.read_variable(&item, scratch).map(|()| put_octets(pdu, scratch))
             }
-            Ok(Item::Drive(item)) => {
+            Item::Drive(item) => {
                 scratch.clear();
                 station.read_drive(&item, scratch).map(|()| put_octets(pdu, scratch))
             }
-            Ok(Item::Refused(refusal)) => Err(refusal),
-            Err(_) => Err(Refusal::TypeNotSupported),
+            Item::Refused(refusal) => Err(refusal),
         };
         if let Err(refusal) = put {
             pdu.truncate_data(start);
