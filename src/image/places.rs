@@ -192,18 +192,20 @@ pub(super) fn is_interface(db: u16, profile: Profile) -> bool {
 
 /// Where `bytes` bytes from `byte` of an area lie; the run may be shorter, but the whole span exists.
 pub(super) fn run(memory: &Memory, area: Area, byte: u32, bytes: u32, profile: Profile) -> Result<Run, Problem> {
-    let part = match area {
+    let (part, length) = match area {
         Area::DataBlock(db) if is_interface(db, profile) => {
             return interface(db, byte, bytes, profile);
         }
-        Area::DataBlock(db) if memory.blocks.get(db).is_none() => {
-            return Err(unknown(memory, db, profile));
-        }
-        Area::DataBlock(_) | Area::Inputs | Area::Outputs | Area::Flags | Area::Timers | Area::Counters => {
-            area.plain_part()
+        Area::DataBlock(db) => match memory.blocks.get(db) {
+            Some(block) => (Part::Block(db), block.len()),
+            None => return Err(unknown(memory, db, profile)),
+        },
+        Area::Inputs | Area::Outputs | Area::Flags | Area::Timers | Area::Counters => {
+            let part = area.plain_part();
+            (part, memory.part(part).len())
         }
     };
-    let length = u32::try_from(memory.part(part).len()).unwrap_or(u32::MAX);
+    let length = u32::try_from(length).unwrap_or(u32::MAX);
     if byte.saturating_add(bytes) > length {
         return Err(beyond(&area.to_string(), length, byte.saturating_add(bytes)));
     }
@@ -211,7 +213,6 @@ pub(super) fn run(memory: &Memory, area: Area, byte: u32, bytes: u32, profile: P
 }
 
 fn interface(db: u16, byte: u32, bytes: u32, profile: Profile) -> Result<Run, Problem> {
-    let name = Area::DataBlock(db).to_string();
     let last = byte.saturating_add(bytes.max(1)) - 1;
     match profile {
         Profile::Sinumerik840dSl => {
@@ -219,7 +220,7 @@ fn interface(db: u16, byte: u32, bytes: u32, profile: Profile) -> Result<Run, Pr
             let exists = |byte| u16::try_from(byte).ok().and_then(|byte| place(block, number, byte));
             match (exists(byte), exists(last)) {
                 (Some(run), Some(_)) => Ok(run),
-                _ => Err(beyond(&name, length(block).into(), last + 1)),
+                _ => Err(beyond(&Area::DataBlock(db).to_string(), length(block).into(), last + 1)),
             }
         }
         Profile::Sinumerik828d => profile_828d::run(db, byte, last),
