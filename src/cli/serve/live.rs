@@ -1,4 +1,5 @@
-//! A machine in real time: a thread that steps it when its cycle is due, and a lock that lends it between two steps.
+//! A machine in real time: a thread that steps it when its cycle is due, and a lock that lends it between two steps. Clients do not take
+//! that lock: they see a copy of the last step (`seen.rs`), and what they ask for waits for the edge of the next (`inbox.rs`).
 //!
 //! The schedule is absolute: cycle n is due n cycles after the start, so delays do not add up. A cycle that begins later than the
 //! next one was due is an overrun and is made up for at once. Who is late by more than [`GIVE_UP`] lets the time go: a computer that
