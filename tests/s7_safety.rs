@@ -148,6 +148,33 @@ fn a_request_that_fails_on_purpose_is_not_done() {
     }
 }
 
+/// A packet, and the same in three packets with pieces of its PDU and an empty one behind them, as some clients send.
+fn in_pieces(packet: &[u8]) -> Vec<u8> {
+    let (pdu, mut all) = (&packet[7..], Vec::new());
+    for (piece, end) in [(&pdu[..5], 0), (&pdu[5..20], 0), (&pdu[20..], 0x80), (&[], 0x80)] {
+        all.extend([3, 0, 0, u8::try_from(piece.len() + 7).unwrap(), 2, 0xF0, end]);
+        all.extend(piece);
+    }
+    all
+}
+
+#[test]
+fn a_request_in_pieces_meets_the_fault_that_it_meets_in_one() {
+    let live = live();
+    let refused = |split: bool| {
+        let (_window, address) = window(&live, faults("error=25%,seed=3"));
+        let mut stream = bare(address);
+        let reads = (0..100).flat_map(|reference| if split { in_pieces(&read(reference)) } else { read(reference) });
+        stream.write_all(&[&CONNECT[..], &SETUP, &reads.collect::<Vec<_>>()].concat()).unwrap();
+        let packets: Vec<_> = (0..102).map(|_| next(&mut stream).unwrap()).collect();
+        packets[2..].iter().filter(|packet| packet[21] == 0x0A).map(|packet| packet[12]).collect::<Vec<_>>()
+    };
+    let found = refused(false);
+    assert_eq!(found, refused(true));
+    // 25 are expected, with a standard deviation of 4.3.
+    assert!((8..=42).contains(&found.len()), "{}", found.len());
+}
+
 #[test]
 fn a_connection_breaks_on_purpose() {
     let live = live();

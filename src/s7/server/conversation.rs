@@ -260,8 +260,8 @@ impl<'a, S: Stations> Conversation<'a, S> {
         let peer = witness.peer();
         let mut work = |station: &mut dyn Station| loop {
             let packet = &rest[..length];
-            if let Some(faulty) = faulty {
-                session.fail_next(faulty.failure());
+            if let Some(failure) = faulty.as_mut().and_then(|faulty| faulty.failure(session.requests())) {
+                session.fail_next(failure);
             }
             known = answers.count();
             connection = session.receive(packet, station, answers);

@@ -10,8 +10,8 @@
 //! | `seed=7` | other chances; without it 1 |
 //!
 //! Only answers of S7 are meant, also those that come by themselves; transport connects and disconnects as always. Answers of a
-//! connection stay in order. Chance is drawn from the seed and the number of the connection, so the same clients that ask the same in
-//! the same order meet the same faults.
+//! connection stay in order. Chance is drawn from the seed and the number of the connection, once for each request and once for each
+//! answer, so the same clients that ask the same in the same order meet the same faults, in however many packets they ask.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -156,6 +156,8 @@ enum Fate {
 pub(super) struct Faulty {
     faults: Faults,
     requests: Chance,
+    /// For how many requests was drawn.
+    drawn: u64,
     answers: Chance,
 }
 
@@ -165,12 +167,16 @@ impl Faulty {
         let mut seeds = Chance(faults.seed);
         let seed = seeds.next() ^ number;
         let mut seeds = Chance(seed);
-        Self { faults: faults.clone(), requests: Chance(seeds.next()), answers: Chance(seeds.next()) }
+        Self { faults: faults.clone(), requests: Chance(seeds.next()), drawn: 0, answers: Chance(seeds.next()) }
     }
 
-    /// How the request that has come is refused, if it is.
-    pub(super) fn failure(&mut self) -> Option<Failure> {
-        (self.requests.fraction() < self.faults.error).then_some(self.faults.failure)
+    /// How the request behind so many is refused, if it is; nothing where that was told before.
+    pub(super) fn failure(&mut self, requests: u64) -> Option<Option<Failure>> {
+        if requests < self.drawn {
+            return None;
+        }
+        self.drawn = requests + 1;
+        Some((self.requests.fraction() < self.faults.error).then_some(self.faults.failure))
     }
 
     /// Each answer draws as often, whatever is wanted.

@@ -97,6 +97,8 @@ pub struct Session {
     uploads: Uploads,
     subscriptions: Subscriptions,
     failure: Option<Failure>,
+    /// Requests to read or write so far, on this connection and those before it.
+    requests: u64,
 }
 
 /// What every answer needs.
@@ -134,6 +136,7 @@ impl Session {
             uploads: Uploads::default(),
             subscriptions: Subscriptions::default(),
             failure: None,
+            requests: 0,
         }
     }
 
@@ -152,6 +155,12 @@ impl Session {
     /// Refuses the next request to read or write; `None` takes that back.
     pub fn fail_next(&mut self, failure: Option<Failure>) {
         self.failure = failure;
+    }
+
+    /// How many requests to read or write there were, refused on purpose or not; a request in several pieces is one.
+    #[must_use]
+    pub fn requests(&self) -> u64 {
+        self.requests
     }
 
     /// Takes bytes as they came from the socket, in whatever pieces, and appends the answers to whole requests, in order.
@@ -213,7 +222,8 @@ impl Session {
             self.connection = Connection::Closed;
             return;
         }
-        *self = Self::new(self.settings.clone());
+        let (failure, requests) = (self.failure, self.requests);
+        *self = Self { failure, requests, ..Self::new(self.settings.clone()) };
         self.is_connected = true;
         // Rack and slot are in the last byte.
         self.slot = request.called.and_then(<[u8]>::last).map_or(0, |last| last & 0x1F);
@@ -281,10 +291,11 @@ impl Session {
         if !self.is_set_up {
             return exchange.refuse(ErrorCode::WRONG_SEQUENCE);
         }
-        if matches!(code, function::READ | function::WRITE)
-            && let Some(failure) = self.failure.take()
-        {
-            return failure.answer(code, rest, exchange);
+        if matches!(code, function::READ | function::WRITE) {
+            self.requests += 1;
+            if let Some(failure) = self.failure.take() {
+                return failure.answer(code, rest, exchange);
+            }
         }
         match code {
             function::READ => self.read_variables(rest, exchange),
