@@ -412,3 +412,19 @@ fn prometheus_reads_what_happened() {
     assert!(http(metrics, "GET / HTTP/1.1\r\n\r\n").0.starts_with("HTTP/1.1 404 "));
     assert!(http(metrics, "POST /metrics HTTP/1.1\r\n\r\n").0.starts_with("HTTP/1.1 405 "));
 }
+
+/// 16 places, and a scrape takes one of them at once.
+#[test]
+fn who_asks_for_metrics_and_says_nothing_delays_nobody() {
+    let live = live();
+    let options = WindowOptions { metrics: Some("127.0.0.1:0".to_owned()), ..WindowOptions::default() };
+    let (window, _) = window(&live, options);
+    let metrics = window.metrics_addresses()[0];
+    let silent: Vec<_> = (0..40).map(|_| bare(metrics)).collect();
+    let begin = Instant::now();
+    for _ in 0..5 {
+        assert!(http(metrics, "GET /metrics HTTP/1.1\r\n\r\n").0.starts_with("HTTP/1.1 200 "));
+    }
+    assert!(begin.elapsed() < Duration::from_millis(1500), "{:?}", begin.elapsed());
+    drop(silent);
+}

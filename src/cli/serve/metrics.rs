@@ -3,7 +3,7 @@
 //! Counters end in `_total`, times are seconds. Rates are for Prometheus to take: the real speed is
 //! `rate(opennck_simulated_seconds_total[1m])`, requests per second `rate(opennck_s7_answers_total[1m])`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::fmt::{Display, Write};
 use std::io;
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::Semaphore;
+use tokio::task::{AbortHandle, JoinSet};
 use tokio::time::{sleep, timeout};
 
 use super::live::Shared;
@@ -21,25 +21,32 @@ use crate::variables::Describe;
 /// The longest request.
 const LONGEST: usize = 8192;
 /// How long a request and its answer may take.
-const PATIENCE: Duration = Duration::from_secs(5);
+const PATIENCE: Duration = Duration::from_secs(2);
 /// How many may ask at once.
 const PLACES: usize = 16;
 
-/// Answers everybody who asks, until it is dropped.
+/// Answers everybody who asks, until it is dropped. Where all places are taken, whoever has asked for the longest time gives way: a
+/// scrape takes milliseconds, and those who connect and say nothing keep nobody from it.
 pub(super) async fn serve(listener: TcpListener, text: impl Fn() -> String + Send + Sync + 'static) {
-    let (text, places) = (Arc::new(text), Arc::new(Semaphore::new(PLACES)));
+    let text = Arc::new(text);
+    let (mut tasks, mut places) = (JoinSet::new(), VecDeque::<AbortHandle>::new());
     loop {
-        let Ok(place) = Arc::clone(&places).acquire_owned().await else { return };
         let Ok((mut stream, _)) = listener.accept().await else {
             sleep(Duration::from_millis(50)).await;
             continue;
         };
+        while tasks.try_join_next().is_some() {}
+        places.retain(|place| !place.is_finished());
+        if places.len() >= PLACES
+            && let Some(oldest) = places.pop_front()
+        {
+            oldest.abort();
+        }
         let text = Arc::clone(&text);
-        tokio::spawn(async move {
+        places.push_back(tasks.spawn(async move {
             // Who asks too slowly or goes away gets nothing.
             let _ = timeout(PATIENCE, answer(&mut stream, &*text)).await;
-            drop(place);
-        });
+        }));
     }
 }
 
