@@ -228,7 +228,6 @@ fn dates_go_on_over_the_ends_of_months_and_years() {
     assert_eq!((leap.month, leap.day), (2, 29));
     assert_eq!(next.later(366 * day).year, 2001);
     assert_eq!(hex(&DateAndTime::FIRST.bytes()), "90 01 01 00 00 00 00 02"); // a Monday
-    assert_eq!(DateAndTime::FIRST.later(u64::MAX).year, 2090);
 }
 
 const STOP: &str = "29 00 00 00 00 00 09 50 5F 50 52 4F 47 52 41 4D";

@@ -87,13 +87,13 @@ impl DateAndTime {
         seconds * 1000 + u64::from(self.millisecond)
     }
 
-    /// So many milliseconds later; 2089 is the last year.
+    /// So many milliseconds later. The two digits of a year say 1990 behind 2089, so that is what follows.
     #[must_use]
     pub fn later(self, milliseconds: u64) -> Self {
         let total = self.of_day().saturating_add(milliseconds);
         let mut date = Self { hour: 0, minute: 0, second: 0, millisecond: 0, ..self };
-        let mut days = (total / 86_400_000).min(36_600);
-        while days > 0 && date.year < 2090 {
+        let mut days = total / 86_400_000 % CENTURY;
+        while days > 0 {
             let left = u64::from(days_of(date.year, date.month) - date.day.min(days_of(date.year, date.month)));
             if days <= left {
                 date.day += u8::try_from(days).unwrap_or(0);
@@ -101,7 +101,11 @@ impl DateAndTime {
             }
             days -= left + 1;
             date.day = 1;
-            (date.year, date.month) = if date.month >= 12 { (date.year + 1, 1) } else { (date.year, date.month + 1) };
+            (date.year, date.month) = match (date.year, date.month) {
+                (2089.., 12..) => (1990, 1),
+                (year, 12..) => (year + 1, 1),
+                (year, month) => (year, month + 1),
+            };
         }
         let of_day = total % 86_400_000;
         let small = |number: u64| u8::try_from(number).unwrap_or(0);
@@ -112,6 +116,9 @@ impl DateAndTime {
         date
     }
 }
+
+/// Days from 1990 to 2089, of which 25 years are leap years: 1992, 1996 to 2088.
+const CENTURY: u64 = 100 * 365 + 25;
 
 fn is_leap(year: u16) -> bool {
     year.is_multiple_of(4) // 2000 is one; 2100 is beyond the end
@@ -132,4 +139,26 @@ fn bcd(number: u8) -> u8 {
 
 fn number(bcd: u8) -> Option<u8> {
     (bcd >> 4 < 10 && bcd & 0xF < 10).then_some((bcd >> 4) * 10 + (bcd & 0xF))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn behind_2089_comes_1990() {
+        let last = DateAndTime { year: 2089, month: 12, day: 31, hour: 23, minute: 59, second: 59, millisecond: 999 };
+        assert_eq!(last.bytes(), [0x89, 0x12, 0x31, 0x23, 0x59, 0x59, 0x99, 0x97]); // a Saturday
+        assert_eq!(last.later(1), DateAndTime::FIRST);
+        assert_eq!(DateAndTime::FIRST.bytes(), [0x90, 1, 1, 0, 0, 0, 0, 2]); // a Monday
+        // A century is 36,525 days: 2000 is a leap year.
+        assert_eq!(last.later(36_525 * 86_400_000), last);
+        assert_eq!(DateAndTime::FIRST.later(36_524 * 86_400_000 + 86_399_999), last);
+        let leap = DateAndTime { year: 2088, month: 2, day: 29, ..DateAndTime::FIRST };
+        assert_eq!(leap.later(86_400_000), DateAndTime { month: 3, day: 1, ..leap });
+        for milliseconds in [0, 1, 86_400_000, u64::MAX / 3, u64::MAX] {
+            let later = last.later(milliseconds);
+            assert_eq!(DateAndTime::parse(&later.bytes()), Some(later), "{milliseconds}");
+        }
+    }
 }
