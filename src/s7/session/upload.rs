@@ -67,8 +67,11 @@ impl Session {
         let Some(upload) = number(rest).and_then(|number| self.uploads.find(number)) else {
             return exchange.refuse(ErrorCode::WRONG_SEQUENCE);
         };
-        let mut pdu = Pdu::ack_data(exchange.answers, exchange.reference, exchange.budget);
         let left = &upload.content[upload.sent..];
+        if left.is_empty() {
+            return exchange.refuse(ErrorCode::WRONG_SEQUENCE); // the last piece said that it was the last
+        }
+        let mut pdu = Pdu::ack_data(exchange.answers, exchange.reference, exchange.budget);
         let piece = &left[..left.len().min(pdu.room().saturating_sub(6))];
         pdu.put(&[function::UPLOAD, u8::from(piece.len() < left.len())]);
         pdu.data();

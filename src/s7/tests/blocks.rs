@@ -102,6 +102,8 @@ fn a_data_block_is_uploaded_as_it_was_at_the_start() {
     assert_eq!(hex(&block[..12]), "70 70 01 01 05 0A 03 E8 00 00 08 48");
     assert_eq!(hex(&block[34..36]), "08 00");
     assert!(block[36..36 + 2048].iter().all(|byte| *byte == 0xA5));
+    // There is no piece behind the last one, and asking for it does not end the upload.
+    assert_eq!(client.job("1E 00 00 00 00 00 00 01", ""), "00 00 00 00 84 01");
     assert_eq!(client.job("1F 00 00 00 00 00 00 01", ""), "00 01 00 00 00 00 1F");
     assert_eq!(client.job("1F 00 00 00 00 00 00 01", ""), "00 00 00 00 84 01");
     assert_eq!(client.job("1E 00 00 00 00 00 00 01", ""), "00 00 00 00 84 01");

@@ -74,7 +74,7 @@ impl ErrorCode {
     pub const NOT_IMPLEMENTED: Self = Self(0x8104);
     /// No further upload at the same time.
     pub const NO_FURTHER_UPLOAD: Self = Self(0x8304);
-    /// Invalid sequence of services: an upload that nobody started.
+    /// Invalid sequence of services: an upload that nobody started, or of which nothing is left.
     pub const WRONG_SEQUENCE: Self = Self(0x8401);
     /// The function cannot be performed now.
     pub const CANNOT_BE_PERFORMED: Self = Self(0x8404);
