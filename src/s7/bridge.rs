@@ -198,11 +198,21 @@ impl Areas for Bridge<'_> {
         self.memory.read_bytes(area, start, into, self.names.profile).map_err(|_| self.refusal(area))
     }
 
-    fn may_write(&self, area: Area, start: u32, length: u32) -> Result<(), Refusal> {
-        // A window of the 828D ends in the middle of a block, so each byte is looked at; it is what is done on reading, too.
+    fn may_read(&self, area: Area, start: u32, length: u32) -> Result<(), Refusal> {
+        // A window of the 828D ends in the middle of a block, so each byte is looked at; it is what is done on reading, too. The end
+        // comes first: nearly always it is there that something is missing, and nobody looks at half a megabyte.
         let mut probe = [0; 1024];
-        let probe = usize::try_from(length).ok().and_then(|length| probe.get_mut(..length));
-        self.read(area, start, probe.ok_or(Refusal::OutOfRange)?)?;
+        let mut left = length;
+        while left > 0 {
+            let taken = left.min(1024);
+            left -= taken;
+            self.read(area, start.saturating_add(left), &mut probe[..taken as usize])?;
+        }
+        Ok(())
+    }
+
+    fn may_write(&self, area: Area, start: u32, length: u32) -> Result<(), Refusal> {
+        self.may_read(area, start, length)?;
         let Machinery { is_read_only, protected, .. } = self.machinery;
         let is_protected = is_read_only || protected.iter().any(|protected| protected.covers(area, start, length));
         if is_protected { Err(Refusal::NotAllowed) } else { Ok(()) }

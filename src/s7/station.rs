@@ -19,6 +19,12 @@ pub trait Areas {
     /// No such block, or it ends before the last byte.
     fn read(&self, area: Area, start: u32, into: &mut [u8]) -> Result<(), Refusal>;
 
+    /// Whether bytes could be read, however many they are.
+    ///
+    /// # Errors
+    /// As [`Areas::read`].
+    fn may_read(&self, area: Area, start: u32, length: u32) -> Result<(), Refusal>;
+
     /// Whether bytes may be written.
     ///
     /// # Errors

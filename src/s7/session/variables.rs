@@ -1,5 +1,6 @@
 //! Read and write variables. Each item succeeds or is refused by itself; what a request writes is judged first and then
-//! handed over whole. An answer that would be longer than the negotiated PDU is refused as a wrong frame, as a module does.
+//! handed over whole. An answer that would be longer than the negotiated PDU is refused as a wrong frame, as a module does; an item
+//! that reaches beyond its area makes no answer long, however much it asks for: as everywhere it is refused by itself, with `05`.
 
 use arrayvec::ArrayVec;
 
@@ -137,6 +138,10 @@ fn put_area(pdu: &mut Pdu<'_>, item: &AnyItem, station: &dyn Station) -> Result<
         return Err(Refusal::OutOfRange);
     }
     let length = item.length();
+    if length + 4 > pdu.room() {
+        // Whether it is there at all comes first, and only then that it does not fit.
+        station.may_read(item.area, item.byte, item.span())?;
+    }
     put_head(pdu, item.kind.answered_as(), length);
     let Some(space) = pdu.space(length) else {
         return Ok(()); // the answer is full

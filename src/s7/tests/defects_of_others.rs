@@ -3,7 +3,8 @@
 use super::{CONNECT, Client, bytes, hex, packet};
 use crate::s7::Connection;
 
-/// Ends snap7's server: an answer buffer of 4096 bytes on the stack.
+/// Ends snap7's server: an answer buffer of 4096 bytes on the stack. DB1000 has 2048 bytes: what reaches beyond is out of range, what
+/// is there and does not fit makes the whole a wrong frame.
 #[test]
 fn a_read_longer_than_any_pdu_is_refused() {
     let mut client = Client::ready(480);
@@ -14,13 +15,40 @@ fn a_read_longer_than_any_pdu_is_refused() {
         "06 3F FF 03 E8 84 00 00 00", // 16383 double words
         "0F FF FF 03 E8 84 00 00 00", // half a megabyte
     ] {
-        assert_eq!(client.read(&[item]), "00 00 00 00 85 00");
+        assert_eq!(client.read(&[item]), "00 02 00 04 00 00 04 01 05 00 00 00");
+    }
+    for item in ["02 08 00 03 E8 84 00 00 00", "06 02 00 03 E8 84 00 00 00"] {
+        assert_eq!(client.read(&[item]), "00 00 00 00 85 00"); // 2048 bytes, 512 double words: all of it
     }
     let each = "02 0F A0 03 E8 84 00 00 00"; // 20 x 4000
+    assert_eq!(client.read(&[each; 20]), format!("00 02 00 50 00 00 04 14{}", " 05 00 00 00".repeat(20)));
+    let each = "02 07 D0 03 E8 84 00 00 00"; // 20 x 2000
     assert_eq!(client.read(&[each; 20]), "00 00 00 00 85 00");
     let each = "02 00 DE 03 E8 84 00 00 00"; // 20 x 222
     assert_eq!(client.read(&[each; 20]), "00 00 00 00 85 00");
     assert_eq!(client.connection, Connection::Open);
+}
+
+/// One item that is no use does not cost the others their values, however long it says to be.
+#[test]
+fn an_item_out_of_range_is_refused_by_itself_however_long_it_is() {
+    let mut client = Client::ready(240);
+    let good = "02 00 01 03 E8 84 00 00 00";
+    for (wild, code) in [
+        ("02 FF FF 03 E8 84 00 00 00", "05"), // 65535 bytes of 2048
+        ("0F FF FF 03 E8 84 00 00 00", "05"), // half a megabyte
+        ("02 FF FF 00 63 84 00 00 00", "0A"), // of DB99, which there is not
+        ("02 FF FF 00 00 83 00 00 00", "05"), // flags
+        ("02 FF FF 00 00 83 FF FF F8", "05"),
+        ("1D FF FF 00 00 1D 00 00 00", "05"), // timers
+    ] {
+        let answer = client.read(&[good, wild, good]);
+        let expected = format!("00 02 00 0F 00 00 04 03 FF 04 00 08 A5 00 {code} 00 00 00 FF 04 00 08 A5");
+        assert_eq!(answer, expected, "{wild}");
+    }
+    let mut client = client.on_828d();
+    let answer = client.read(&[good, "02 FF FF 0E D8 84 00 00 00"]); // DB3800, which has gaps and no such end
+    assert_eq!(answer, "00 02 00 0A 00 00 04 02 FF 04 00 08 A5 00 05 00 00 00");
 }
 
 /// snap7's server answers 241 and 274 bytes at 240.
