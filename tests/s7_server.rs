@@ -454,7 +454,8 @@ fn collector(address: SocketAddr) -> TcpStream {
     stream
 }
 
-/// MD32000 of X, and R5; a velocity below zero is out of range, and is said to be before anything happens.
+/// MD32000 of X, and R5; a velocity below zero is out of range, and is said to be before anything happens. MD37100 takes any byte: it
+/// is at power on that the control looks at it and raises 10650.
 #[test]
 fn a_collector_writes_machine_data_and_r_parameters_and_is_told_what_is_not_taken() {
     let live = live();
@@ -468,6 +469,9 @@ fn a_collector_writes_machine_data_and_r_parameters_and_is_told_what_is_not_take
     let answer = ask(&mut stream, &write, &[value(-1.0), value(2.5), value(0.0)].concat());
     assert_eq!(answer, [0, 0, 5, 3, 5, 0xFF, 3]);
     let answer = ask(&mut stream, &[&[5, 1][..], &velocity].concat(), &value(9000.0));
+    assert_eq!(answer, [0, 0, 5, 1, 0xFF]);
+    let gantry_axis_type = [0x12, 8, 0x82, 0x62, 0x90, 0xEC, 0, 1, 0x1A, 1];
+    let answer = ask(&mut stream, &[&[5, 1][..], &gantry_axis_type].concat(), &[0, 9, 0, 1, 0xFF]);
     assert_eq!(answer, [0, 0, 5, 1, 0xFF]);
     let read = ask(&mut stream, &[&[4, 2][..], &velocity, &r5].concat(), &[]);
     let expected = [value(9000.0), value(2.5)].concat();
