@@ -135,3 +135,21 @@ fn a_password_comes_from_the_environment() {
     let output = serve(&["g1_example"]).env("OPENNCK_S7_PASSWORD", "too long for it").output().unwrap();
     assert!(String::from_utf8(output.stderr).unwrap().contains("1 to 8 characters"));
 }
+
+/// Whoever looks at the log of a control after `opennck s7` finds nothing that was not asked for.
+#[test]
+#[cfg(unix)]
+fn the_own_client_asks_nothing_that_is_refused() {
+    let served = Served::start(&["g1_example"]);
+    let host = format!("127.0.0.1:{}", served.port);
+    let s7 = |command, more: &[&str]| {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_opennck"));
+        program.args(["s7", command, &host]).args(more).output().expect("it was built")
+    };
+    // XF, axis 3, is no name that everybody has: the NCK tells it.
+    let read = String::from_utf8(s7("read", &["XF.feed_override"]).stdout).unwrap();
+    assert!(read.contains("DB33.DBB0") && read.contains("XF.feed_override"), "{read}");
+    assert_eq!(s7("info", &[]).status.code(), Some(0));
+    let log = String::from_utf8(served.end("-INT").stderr).unwrap();
+    assert!(log.contains("has come") && !log.contains("was refused"), "{log}");
+}

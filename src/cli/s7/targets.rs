@@ -7,7 +7,7 @@ use super::arguments::{Host, Names as Arguments};
 use super::problem;
 use crate::image::{Address, Location, Memory, Names, OverrideCoding, Part, Width};
 use crate::machine::Machine;
-use crate::s7::client::{Error, Memory as Place, Value, Variable};
+use crate::s7::client::{Client, Error, Memory as Place, NcVariable, Value, Variable};
 use crate::scenario::profile_named;
 use crate::source::{Node, Problem, Table};
 use crate::units::{AxisNumber, ChannelNumber};
@@ -116,19 +116,19 @@ impl Dictionary {
             return host.plc().await.map(|_| None);
         };
         let mut names = Names { profile: self.names.profile, ..Names::default() };
-        let axes = AxisNumber::all().map(|axis| format!("nck:N/$MN_AXCONF_MACHAX_NAME_TAB[{}]", axis.number()));
-        let channels = ChannelNumber::all().map(|channel| format!("nck:C{}/$MC_CHAN_NAME", channel.number()));
-        let variables: Vec<Variable> = axes.chain(channels).filter_map(|name| name.parse().ok()).collect();
-        let values = nck.read_all(&variables).await;
-        let mut told = values.into_iter().map(|value| match value {
-            Ok(Value::Text(name)) if !name.is_empty() => Some(name),
-            _ => None,
-        });
-        for axis in AxisNumber::all() {
-            names.axes[axis] = told.next().flatten();
+        // Which channels there are comes first (MD10010): a name of one that does not exist would be refused, and stand in the
+        // control's log.
+        let axes = AxisNumber::all().map(|axis| format!("N/$MN_AXCONF_MACHAX_NAME_TAB[{}]", axis.number()));
+        let mut values = read(&nck, axes.chain([format!("N/M/10010[1..{}]", ChannelNumber::all().count())])).await;
+        let mode_groups = values.pop().flatten();
+        for (axis, told) in AxisNumber::all().zip(values) {
+            names.axes[axis] = told.and_then(name);
         }
-        for channel in ChannelNumber::all() {
-            names.channels[channel] = told.next().flatten();
+        let channels: Vec<_> =
+            ChannelNumber::all().filter(|channel| may_exist(*channel, mode_groups.as_ref())).collect();
+        let values = read(&nck, channels.iter().map(|channel| format!("C{}/$MC_CHAN_NAME", channel.number()))).await;
+        for (channel, told) in channels.into_iter().zip(values) {
+            names.channels[channel] = told.and_then(name);
         }
         let is_told = names.axes.iter().any(|(_, name)| name.is_some());
         Ok(is_told.then_some(names))
@@ -171,6 +171,29 @@ impl Dictionary {
             }),
         }
     }
+}
+
+/// NC variables; none where the NCK does not have one.
+async fn read(nck: &Client, names: impl Iterator<Item = String>) -> Vec<Option<Value>> {
+    let variables: Vec<Variable> =
+        names.filter_map(|name| name.parse().ok().map(|variable: NcVariable| variable.into())).collect();
+    nck.read_all(&variables).await.into_iter().map(Result::ok).collect()
+}
+
+fn name(value: Value) -> Option<String> {
+    match value {
+        Value::Text(name) if !name.is_empty() => Some(name),
+        _ => None,
+    }
+}
+
+/// Whether a channel may exist: it is in a mode group, or the NCK does not tell which ones are.
+fn may_exist(channel: ChannelNumber, mode_groups: Option<&Value>) -> bool {
+    // How long a row is tells the answer alone.
+    let Some(Value::Bytes(bytes)) = mode_groups else { return true };
+    let row = bytes.len() / ChannelNumber::all().count();
+    let mode_group = bytes.chunks(row.max(1)).nth(usize::from(channel.number()) - 1);
+    channel == ChannelNumber::FIRST || mode_group.is_some_and(|row| row.iter().any(|byte| *byte != 0))
 }
 
 /// How many elements there are.
