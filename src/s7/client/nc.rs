@@ -6,6 +6,7 @@
 //! | `C/SMA/actToolBasePos[1..3]` | the same by its module, three rows |
 //! | `C2/State/chanStatus` | of channel 2; unit 1 where nothing is said |
 //! | `A1/M/32000:DOUBLE` | column 32000 of module M of axis 1, and its type |
+//! | `C/Parameter/rpa[6]` | R5: rows count from 1 |
 //! | `C/RP/1[5]` | without a type the bytes as they come |
 //! | `V/16#80/30:REAL` | a module by its number |
 //!
@@ -182,8 +183,9 @@ impl FromStr for NcVariable {
         let (Some(area), Some(unit)) = (area, unit) else {
             return Err(wrong(text, "an area N, B, C, A, T, V, H or M with a number from 1 to 31", "write C2/State/…"));
         };
-        let variable = match path.split_once('/').and_then(|(module, column)| numbered(area, module, column)) {
-            Some(variable) => variable,
+        let by_number = path.split_once('/').filter(|(_, column)| column.starts_with(|c: char| c.is_ascii_digit()));
+        let variable = match by_number {
+            Some((module, column)) => numbered(area, module, column, text)?,
             None => named(area, path, text)?,
         };
         Ok(variable.unit(unit).rows(first, count))
@@ -191,28 +193,43 @@ impl FromStr for NcVariable {
 }
 
 /// `M/32000:DOUBLE`.
-fn numbered(area: u8, module: &str, column: &str) -> Option<NcVariable> {
+fn numbered(area: u8, module: &str, column: &str, text: &str) -> Result<NcVariable, Error> {
     let (column, kind) = column.split_once(':').map_or((column, None), |(column, kind)| (column, Some(kind)));
-    let module = match module.strip_prefix("16#") {
-        Some(number) => u8::from_str_radix(number, 16).ok()?,
-        None => MODULES.iter().find(|(name, _)| *name == module)?.1,
+    let code = match module.strip_prefix("16#") {
+        Some(number) => u8::from_str_radix(number, 16).ok(),
+        None => MODULES.iter().find(|(name, _)| *name == module).map(|(_, code)| *code),
     };
-    let kind = match kind {
-        None => None,
-        Some("BYTE" | "BOOL") => Some(NcKind::Byte),
-        Some("WORD") => Some(NcKind::Word),
-        Some("LONG") => Some(NcKind::Long),
-        Some("ULONG") => Some(NcKind::UnsignedLong),
-        Some("DATE") => Some(NcKind::Date),
-        Some("REAL") => Some(NcKind::Real),
-        Some("DOUBLE") => Some(NcKind::Double),
-        Some(text) => {
-            Some(NcKind::Text(text.strip_prefix("TEXT")?.parse().ok().filter(|length| (1..=200).contains(length))?))
-        }
-    };
-    let column = column.parse().ok()?;
+    let module = code.ok_or_else(|| {
+        let names: Vec<_> = MODULES.iter().map(|(name, _)| *name).collect();
+        wrong(text, "a module with its column", format!("write C/RP/1, or 16#15 for RP; known are {}", names.join(" ")))
+    })?;
+    let column = column.parse();
+    let column = column.map_err(|_| wrong(text, "a column from 0 to 65535", "of machine data it is the number"))?;
+    let kind = kind.map(|kind| {
+        of_type(kind).ok_or_else(|| {
+            let types = "BYTE, WORD, LONG, ULONG, REAL, DOUBLE, DATE, or TEXT32 for texts of 1 to 200 bytes";
+            wrong(text, "a type behind the column", types)
+        })
+    });
     let item = NckItem { system: MeasuringSystem::Current, area, unit: 1, column, line: 1, module, count: 1 };
-    Some(NcVariable { item, kind })
+    Ok(NcVariable { item, kind: kind.transpose()? })
+}
+
+/// `DOUBLE`.
+fn of_type(text: &str) -> Option<NcKind> {
+    Some(match text {
+        "BYTE" | "BOOL" => NcKind::Byte,
+        "WORD" => NcKind::Word,
+        "LONG" => NcKind::Long,
+        "ULONG" => NcKind::UnsignedLong,
+        "DATE" => NcKind::Date,
+        "REAL" => NcKind::Real,
+        "DOUBLE" => NcKind::Double,
+        text => {
+            let length = text.strip_prefix("TEXT")?.parse().ok();
+            NcKind::Text(length.filter(|length| (1..=200).contains(length))?)
+        }
+    })
 }
 
 /// `MachineAxis/actToolBasePos` or `SMA/actToolBasePos`.

@@ -14,7 +14,7 @@ use super::values::{
     count_axes, empty, feedrate, flag, geometry_axis, machine_function, measuring_system, mode, number, of_axis,
     of_channel, only, program_status, seconds, zero,
 };
-use super::{Kind, NckArea, Shown, Variable, drives, module};
+use super::{Kind, NckArea, Shown, Variable, drives, module, r_parameter};
 use crate::image::ChannelToNck;
 use crate::variables::Alarms;
 
@@ -99,6 +99,8 @@ pub const CATALOGUE: &[Variable] = &[
     row!("C/State/oldProgNetTime",             Channel,   S,      0x012A, Double,    "T D C",   |v, c, l| zero(v, c, l)),
     row!("C/DIAGN/cycleTime",                  Channel,   DIAGN,  0x0009, Double,    "T D",     |v, c, l| zero(v, c, l)),
     row!("C/DIAGN/cuttingTime",                Channel,   DIAGN,  0x000A, Double,    "T D",     |v, c, l| zero(v, c, l)),
+    // R parameters; R0 is row 1. They alone of all rows can be written.
+    row!("C/Parameter/rpa",                    Channel,   RP,     0x0001, Double,    "D C",     |v, c, l| r_parameter(v, c, l).ok().map(|(_, _, value)| Shown::Number(value))),
     // The program.
     row!("C/ProgramInfo/msg",                  Channel,   SPARP,  0x0001, Text(128), "T F",     |v, c, l| empty(v, c, l)),
     row!("C/ProgramInfo/progName",             Channel,   SPARP,  0x0003, Text(32),  "T F",     |v, c, l| empty(v, c, l)),

@@ -185,9 +185,6 @@ pub fn read(view: &View<'_>, item: &NckItem, into: &mut Vec<u8>) -> Result<(), R
     for line in lines {
         let put = match variable {
             Some(variable) => put_variable(view, variable, item, line, into),
-            None if item.module == module::RP => r_parameter(view, item, line).map(|(_, _, value)| {
-                into.extend_from_slice(&value.to_le_bytes());
-            }),
             None => datum(view, item, line).map(|(_, datum)| datum.put(into)),
         };
         if let Err(refusal) = put {
@@ -279,11 +276,9 @@ fn datum<'a>(view: &View<'a>, item: &NckItem, line: u16) -> Result<(Place, Datum
 }
 
 /// The R parameter of a row: its channel, its number and its value.
-fn r_parameter(view: &View<'_>, item: &NckItem, line: u16) -> Result<(ChannelNumber, u16, f64), Refusal> {
-    let (2, 1, Some(control)) = (item.area, item.column, view.control) else {
-        return Err(Refusal::DoesNotExist);
-    };
-    let channel = values::channel_number(view, item.unit.max(1)).ok_or(Refusal::OutOfRange)?;
+fn r_parameter(view: &View<'_>, unit: u8, line: u16) -> Result<(ChannelNumber, u16, f64), Refusal> {
+    let control = view.control.ok_or(Refusal::DoesNotExist)?;
+    let channel = values::channel_number(view, unit).ok_or(Refusal::OutOfRange)?;
     let value = control.r_parameter(channel, line - 1).ok_or(Refusal::OutOfRange)?;
     Ok((channel, line - 1, value))
 }
@@ -294,7 +289,7 @@ fn r_parameter(view: &View<'_>, item: &NckItem, line: u16) -> Result<(ChannelNum
 /// There is no such variable or row, it cannot be written, or a value does not fit; nothing was appended then.
 pub fn write(view: &View<'_>, item: &NckItem, bytes: &[u8], into: &mut Vec<Command>) -> Result<(), Refusal> {
     let lines = lines(item)?;
-    if find(item).is_some() {
+    if find(item).is_some_and(|variable| variable.module != module::RP) {
         return Err(Refusal::NotAllowed); // the control shows it; nobody sets it
     }
     let start = into.len();
@@ -313,8 +308,8 @@ pub fn write(view: &View<'_>, item: &NckItem, bytes: &[u8], into: &mut Vec<Comma
 }
 
 fn write_row(view: &View<'_>, item: &NckItem, line: u16, bytes: &[u8]) -> Result<Command, Refusal> {
-    if item.module == module::RP {
-        let (channel, number, _) = r_parameter(view, item, line)?;
+    if find(item).is_some() {
+        let (channel, number, _) = r_parameter(view, item.unit.max(1), line)?;
         let value = data::number(bytes).ok_or(Refusal::TypeInconsistent)?;
         return Ok(Command::RParameter { channel, number, value });
     }
