@@ -21,8 +21,13 @@ struct Served {
 
 impl Served {
     fn start() -> Self {
+        Self::with(&[])
+    }
+
+    fn with(more: &[&str]) -> Self {
         let arguments = ["serve", "g1_example", "--plc-image", "recipes", "--s7", "127.0.0.1:0"];
-        let mut child = program(&arguments).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it was built");
+        let mut child =
+            program(&arguments).args(more).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it was built");
         let lines = BufReader::new(child.stdout.take().expect("it is piped")).lines();
         let mut ports = lines
             .map_while(Result::ok)
@@ -83,6 +88,58 @@ fn what_is_refused_ends_with_1_and_the_others_are_shown() {
     assert!(error.contains("DB999.DBB0: the object does not exist"), "{error}");
 }
 
+/// What is said of a refusal helps with this refusal: where the NCK is, how many rows there are.
+#[test]
+fn a_refused_nc_variable_is_told_what_to_do() {
+    let served = Served::start();
+    let at_the_plc = &["--nck-tsap", "0100:0102", "nck:C/MachineAxis/actToolBasePos[1]"][..];
+    for (arguments, said) in [
+        (
+            at_the_plc,
+            &["nck:C/MachineAxis/actToolBasePos[1]: the module does not have", "8104", "--nck-tsap 0400:0D04"][..],
+        ),
+        (
+            &["nck:C/MachineAxis/actToolBasePos[99]"],
+            &["actToolBasePos[99]: the address", "3 machine axes: rows 1 to 3"],
+        ),
+        (&["nck:N/AlarmList/textIndex[99]"], &["places for alarms: rows 1 to "]),
+        (&["nck:C/Parameter/rpa[60000]"], &["R5 is row 6"]),
+        (&["nck:C/ProgramInfo/block[9]"], &["count from 1"]),
+        (&["nck:A1/M/31999:DOUBLE"], &["nck:A1/M/31999:DOUBLE: ", "`opennck s7 nck`"]),
+    ] {
+        let output = served.s7("read", arguments);
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {error}");
+        assert!(said.iter().all(|said| error.contains(said)), "{arguments:?}: {error}");
+    }
+}
+
+#[test]
+fn a_wrong_password_ends_with_1_and_says_where_it_came_from() {
+    let served = Served::with(&["--password", "right"]);
+    let output = served.s7("read", &["MB0", "--password", "wrong"]);
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(error.contains("wrong password") && error.contains("check --password and OPENNCK_S7_PASSWORD"), "{error}");
+    served.text("read", &["MB0", "--password", "right"]);
+}
+
+#[test]
+fn nc_variables_are_shown_as_they_were_written() {
+    let served = Served::start();
+    let asked = [
+        "nck:C1/MachineAxis/actToolBasePos[1]",
+        "nck:C/SMA/actToolBasePos[1]",
+        "C/Parameter/rpa[6]",
+        "A1/M/32000:DOUBLE",
+    ];
+    let text = served.text("read", &asked);
+    let shown: Vec<&str> = rows(&text).iter().map(|row| row[0]).collect();
+    assert_eq!(shown, [asked[0], asked[1], "nck:C/Parameter/rpa[6]", "nck:A1/M/32000:DOUBLE"]);
+    served.text("write", &["nck:C/Parameter/rpa[6]=1.5"]);
+    assert_eq!(rows(&served.text("read", &["nck:C/RP/1:DOUBLE[6]"]))[0][2], "1.5");
+}
+
 #[test]
 fn it_writes_as_scenarios_do() {
     let served = Served::start();
@@ -105,6 +162,9 @@ fn unusable_input_ends_with_2_and_writes_nothing() {
         ("read", &["Z9.controller_enable"], ["Z9", "X"]),
         ("read", &["nck:C/SMA/actToolBasePo"], ["actToolBasePo", "did you mean"]),
         ("read", &["MB0", "--profile", "840"], ["840", "840d_sl"]),
+        ("read", &["nck:A1/M/99999:DOUBLE"], ["A1/M/99999:DOUBLE", "a column from 0 to 65535"]),
+        ("read", &["nck:A1/M/32000:FLOAT"], ["a type behind the column", "DOUBLE"]),
+        ("read", &["nck:A1/MD/32000"], ["a module with its column", "SMA"]),
         ("write", &["DB1000.DBB20=1", "DB1000.DBB21=256"], ["256", "-128 to 255"]),
         ("write", &["DB1000.DBB20=1", "DB1000.DBB21"], ["DB1000.DBB21", "ADDRESS=VALUE"]),
         ("write", &["DB1000.DBB20=1", "DB1000.DBW22=1.5"], ["whole number", ":REAL"]),
@@ -141,6 +201,10 @@ fn it_tells_what_a_module_is() {
     assert_eq!(served.s7("szl", &["0042"]).status.code(), Some(1));
     let catalogue = program(&["s7", "nck", "actToolBasePos"]).output().unwrap();
     assert!(String::from_utf8_lossy(&catalogue.stdout).contains("nck:C/MachineAxis/actToolBasePos"));
+    let catalogue = program(&["s7", "nck", "actTolBasePos"]).output().unwrap();
+    let error = String::from_utf8_lossy(&catalogue.stderr).into_owned();
+    assert_eq!(catalogue.status.code(), Some(1), "{error}");
+    assert!(error.contains("actTolBasePos") && error.contains("C/MachineAxis/actToolBasePos"), "{error}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use clap::ValueEnum;
 
+use super::failure::Failure;
 use crate::s7::client::{Client, ConnectionKind, Options, Tsaps, password};
 use crate::source::Problem;
 
@@ -73,7 +74,7 @@ impl Host {
         with_port(&self.host)
     }
 
-    pub(super) async fn plc(&self) -> Result<Client, Problem> {
+    pub(super) async fn plc(&self) -> Result<Client, Failure> {
         let kind = match self.connection {
             Kind::Pg => ConnectionKind::ProgrammingDevice,
             Kind::Op => ConnectionKind::OperatorPanel,
@@ -91,7 +92,7 @@ impl Host {
         self.connect(Options { tsaps, password: given.transpose()?, ..self.options() }).await
     }
 
-    pub(super) async fn nck(&self) -> Result<Client, Problem> {
+    pub(super) async fn nck(&self) -> Result<Client, Failure> {
         self.connect(Options { tsaps: self.nck_tsap, ..self.options() }).await
     }
 
@@ -100,8 +101,8 @@ impl Host {
         Options { pdu, items, timeout, ..Options::default() }
     }
 
-    async fn connect(&self, options: Options) -> Result<Client, Problem> {
-        Client::connect(&self.address()?, options).await.map_err(|error| super::problem(&error))
+    async fn connect(&self, options: Options) -> Result<Client, Failure> {
+        Ok(Client::connect(&self.address()?, options).await?)
     }
 }
 

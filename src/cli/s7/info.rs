@@ -1,13 +1,12 @@
 //! `opennck s7 info`: what a module tells of itself. What it does not tell is left out.
 
 use super::arguments::Host;
-use super::problem;
+use super::failure::Failure;
 use crate::cli::Format;
 use crate::cli::list::List;
 use crate::cli::output::Output;
 use crate::s7::CpuState;
 use crate::s7::client::{BlockKind, Client, Error, Value, Variable};
-use crate::source::Problem;
 
 /// Of how many data blocks the length is asked.
 const BLOCKS: usize = 200;
@@ -26,16 +25,16 @@ impl Rows {
     }
 }
 
-pub(super) async fn info(host: &Host, format: Format, output: &mut Output) -> Result<u8, Problem> {
+pub(super) async fn info(host: &Host, format: Format, output: &mut Output) -> Result<u8, Failure> {
     let mut rows = Rows(Vec::new());
     let plc = host.plc().await?;
     rows.add("host", host.address()?);
-    of_the_plc(&plc, &mut rows).await.map_err(|error| problem(&error))?;
+    of_the_plc(&plc, &mut rows).await?;
     drop(plc);
     // A PLC without an NCK beside it is all right, too.
     match host.nck().await {
-        Ok(nck) => of_the_nck(&nck, &mut rows).await.map_err(|error| problem(&error))?,
-        Err(problem) => rows.add("NCK", format!("none: {}", problem.what)),
+        Ok(nck) => of_the_nck(&nck, &mut rows).await?,
+        Err(failure) => rows.add("NCK", format!("none: {}", failure.problem.what)),
     }
     Ok(List { heads: &["what", "value"], rows: rows.0 }.print(format, output))
 }

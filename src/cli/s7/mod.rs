@@ -4,8 +4,11 @@
 //! could be reached.
 
 mod arguments;
+mod catalogue;
+mod failure;
 mod info;
 mod read;
+mod rows;
 mod sources;
 mod szl;
 mod targets;
@@ -16,10 +19,8 @@ use clap::Subcommand;
 use tokio::runtime::Builder;
 
 use super::Format;
-use super::list::List;
 use super::output::Output;
-use crate::s7::client::{Error, NcVariable, Variable};
-use crate::s7::nck::CATALOGUE;
+use crate::s7::client::Error;
 use crate::source::Problem;
 
 const ADDRESSES: &str = "Addresses:
@@ -106,7 +107,9 @@ pub(super) enum Command {
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
     },
-    /// Lists the NC variables that can be read by name.
+    /// Lists the NC variables that have a name; 1 at the end says that none was found.
+    ///
+    /// Machine data go by their number, with their type: nck:N/M/10000:TEXT32[1], nck:C/M/20000:TEXT32, nck:A1/M/32000:DOUBLE.
     Nck {
         /// Shows only variables in whose row this text occurs.
         filter: Option<String>,
@@ -119,7 +122,7 @@ pub(super) enum Command {
 /// The exit code.
 pub(super) fn run(command: &Command, output: &mut Output) -> u8 {
     if let Command::Nck { filter, format } = command {
-        return catalogue(filter.as_deref(), *format, output);
+        return catalogue::list(filter.as_deref(), *format, output);
     }
     let runtime = match Builder::new_current_thread().enable_all().build() {
         Ok(runtime) => runtime,
@@ -143,22 +146,10 @@ pub(super) fn run(command: &Command, output: &mut Output) -> u8 {
             Command::Nck { .. } => Ok(0),
         }
     });
-    done.unwrap_or_else(|problem| {
-        output.error(problem);
-        2
+    done.unwrap_or_else(|failure| {
+        output.error(failure.problem);
+        failure.code
     })
-}
-
-fn catalogue(filter: Option<&str>, format: Format, output: &mut Output) -> u8 {
-    let rows = CATALOGUE.iter().map(|row| {
-        let variable = NcVariable::of(row);
-        let (column, module) = (variable.item.column, variable.item.module);
-        let kind = Variable::Nc(variable).type_name();
-        vec![format!("nck:{}", row.name), kind, format!("{module:02X}"), column.to_string()]
-    });
-    let mut list = List { heads: &["variable", "type", "module", "column"], rows: rows.collect() };
-    list.retain_with(filter, output);
-    list.print(format, output)
 }
 
 /// An error of the client as the program tells it.

@@ -1,13 +1,13 @@
 //! `opennck s7 read`.
 
 use super::arguments::{Host, Names};
+use super::failure::Failure;
 use super::targets::{Dictionary, Target, cells};
-use super::{problem, sources};
+use super::{rows, sources};
 use crate::cli::Format;
 use crate::cli::list::List;
 use crate::cli::output::Output;
 use crate::s7::client::{Error, Value};
-use crate::source::Problem;
 
 pub(super) async fn read(
     host: &Host,
@@ -15,25 +15,35 @@ pub(super) async fn read(
     names: &Names,
     format: Format,
     output: &mut Output,
-) -> Result<u8, Problem> {
+) -> Result<u8, Failure> {
     let targets = Dictionary::open(names)?.targets(host, addresses).await?;
     let sources = sources::open(host, &targets).await?;
-    let values = sources::read(&sources, targets.len()).await.map_err(|error| problem(&error))?;
-    Ok(show(&targets, &values, format, output))
+    let values = sources::read(&sources, targets.len()).await?;
+    let cures = rows::told(&sources, &targets, &values).await;
+    Ok(show(&targets, &values, &cures, format, output))
 }
 
-/// Prints targets with their values; the exit code. What to do about a refusal is told once each.
-pub(super) fn show(targets: &[Target], values: &[Result<Value, Error>], format: Format, output: &mut Output) -> u8 {
+/// Prints targets with their values; the exit code. What to do about each refusal is told behind the list.
+pub(super) fn show(
+    targets: &[Target],
+    values: &[Result<Value, Error>],
+    cures: &[Option<String>],
+    format: Format,
+    output: &mut Output,
+) -> u8 {
     let row = |(target, value): (&Target, &Result<Value, Error>)| {
-        let [value, hex] = cells(&target.variable, value);
+        let [value, hex] = cells(target, value);
         vec![target.address(), target.symbol.clone(), target.variable.type_name(), value, hex]
     };
     let rows = targets.iter().zip(values).map(row).collect();
     let list = List { heads: &["address", "symbol", "type", "value", "hex"], rows };
     let code = list.print(format, output);
-    let refused: Vec<&Error> = values.iter().filter_map(|value| value.as_ref().err()).collect();
-    for error in &refused {
-        output.error(problem(error));
+    let mut is_refused = false;
+    for (target, (value, cure)) in targets.iter().zip(values.iter().zip(cures)) {
+        if let Err(error) = value {
+            is_refused = true;
+            output.error(target.problem(error, cure.clone()));
+        }
     }
-    if refused.is_empty() { code } else { code.max(1) }
+    if is_refused { code.max(1) } else { code }
 }

@@ -1,9 +1,9 @@
 //! Where values come from: the PLC, the NCK, or both, each with its own connection, because a control has them at two places.
 
 use super::arguments::Host;
+use super::failure::Failure;
 use super::targets::Target;
 use crate::s7::client::{Client, Error, Value, Variable};
-use crate::source::Problem;
 
 /// One module, and which of the targets are there.
 #[derive(Debug)]
@@ -14,10 +14,18 @@ pub(super) struct Source {
     pub(super) variables: Vec<Variable>,
 }
 
+impl Source {
+    pub(super) fn is_nck(&self) -> bool {
+        self.name == NCK
+    }
+}
+
+const NCK: &str = "NCK";
+
 /// Connects to whoever has one of the targets.
-pub(super) async fn open(host: &Host, targets: &[Target]) -> Result<Vec<Source>, Problem> {
+pub(super) async fn open(host: &Host, targets: &[Target]) -> Result<Vec<Source>, Failure> {
     let mut sources = Vec::new();
-    for (name, is_nck) in [("PLC", false), ("NCK", true)] {
+    for (name, is_nck) in [("PLC", false), (NCK, true)] {
         let of: Vec<usize> = (0..targets.len()).filter(|at| targets[*at].is_of_the_nck() == is_nck).collect();
         if of.is_empty() {
             continue;

@@ -1,23 +1,14 @@
 //! `opennck s7 szl`: a system state list, a record in a line: in hexadecimal, and what it means where that is known.
 
 use super::arguments::Host;
-use super::problem;
+use super::failure::Failure;
 use crate::cli::Format;
 use crate::cli::list::List;
 use crate::cli::output::Output;
-use crate::s7::client::Error;
-use crate::source::Problem;
 
-pub(super) async fn szl(host: &Host, id: u16, index: u16, format: Format, output: &mut Output) -> Result<u8, Problem> {
+pub(super) async fn szl(host: &Host, id: u16, index: u16, format: Format, output: &mut Output) -> Result<u8, Failure> {
     let plc = host.plc().await?;
-    let list = match plc.list(id, index).await {
-        Ok(list) => list,
-        Err(error @ Error::Rejected { .. }) => {
-            output.error(problem(&error));
-            return Ok(1);
-        }
-        Err(error) => return Err(problem(&error)),
-    };
+    let list = plc.list(id, index).await?;
     if format == Format::Table {
         let name = name(id);
         let name = if name.is_empty() { String::new() } else { format!(", {name}") };

@@ -4,7 +4,7 @@
 //! names: those of a machine, those that the NCK tells, or AX1, AX2…, CHAN1… as `opennck signals` lists them.
 
 use super::arguments::{Host, Names as Arguments};
-use super::problem;
+use super::failure::Failure;
 use crate::image::{Address, Location, Memory, Names, OverrideCoding, Part, Width};
 use crate::machine::Machine;
 use crate::s7::client::{Client, Error, Memory as Place, NcVariable, Value, Variable};
@@ -16,6 +16,8 @@ use crate::units::{AxisNumber, ChannelNumber};
 #[derive(Clone, Debug)]
 pub(super) struct Target {
     pub(super) variable: Variable,
+    /// As the list shows it: addresses as everywhere, NC variables as they were written.
+    shown: String,
     /// Empty where there is none.
     pub(super) symbol: String,
     /// Its place in the interface, if it lies there.
@@ -25,7 +27,19 @@ pub(super) struct Target {
 impl Target {
     /// Its address, as the list shows it.
     pub(super) fn address(&self) -> String {
-        self.variable.to_string()
+        self.shown.clone()
+    }
+
+    /// Why it has no value, without its name.
+    fn reason(&self, error: &Error) -> String {
+        let text = error.to_string();
+        let name = format!("{}: ", self.variable);
+        text.strip_prefix(&name).unwrap_or(&text).to_owned()
+    }
+
+    /// An error of it as the program tells it, with what to do about it.
+    pub(super) fn problem(&self, error: &Error, cure: Option<String>) -> Problem {
+        Problem::new(format!("{}: {}", self.shown, self.reason(error)), cure.unwrap_or_else(|| error.cure()))
     }
 
     pub(super) fn is_of_the_nck(&self) -> bool {
@@ -67,19 +81,19 @@ impl Dictionary {
     }
 
     /// Everything that was named. Where a symbol has a name that is not known the NCK is asked for its names.
-    pub(super) async fn targets(&mut self, host: &Host, texts: &[String]) -> Result<Vec<Target>, Problem> {
+    pub(super) async fn targets(&mut self, host: &Host, texts: &[String]) -> Result<Vec<Target>, Failure> {
         let all = |dictionary: &Self| texts.iter().map(|text| dictionary.target(text)).collect::<Result<Vec<_>, _>>();
         match all(self) {
             Err(first) if !self.is_known && texts.iter().any(|text| is_symbol(text)) => {
                 let Some(names) = self.names_of_the_nck(host).await? else {
                     let cure = format!("{}\n  the NCK does not tell its names: give --machine", first.cure);
-                    return Err(Problem { cure, ..first });
+                    return Err(Problem { cure, ..first }.into());
                 };
                 self.names = names;
                 self.is_known = true;
-                all(self)
+                Ok(all(self)?)
             }
-            targets => targets,
+            targets => Ok(targets?),
         }
     }
 
@@ -90,9 +104,15 @@ impl Dictionary {
             Some(Ok(location)) => self.of_location(text, location),
             // A block or a byte that a control does not have may be one of this host.
             other => match (text.parse::<Variable>(), other) {
-                (Ok(variable), _) => Ok(Target { variable, symbol: String::new(), location: None }),
+                (Ok(variable), _) => {
+                    let shown = match &variable {
+                        Variable::Nc(_) => format!("nck:{}", text.trim_start_matches("nck:")),
+                        Variable::Memory(_) => variable.to_string(),
+                    };
+                    Ok(Target { variable, shown, symbol: String::new(), location: None })
+                }
                 (Err(_), Some(Err(problem))) if is_symbol(text) => Err(problem),
-                (Err(error), _) => Err(problem(&error)),
+                (Err(error), _) => Err(super::problem(&error)),
             },
         }
     }
@@ -106,11 +126,12 @@ impl Dictionary {
         }
         let address = Address { format: Some(location.format), ..address };
         let symbol = self.names.symbol(location).unwrap_or_default();
-        Ok(Target { variable: Place::of(&address).into(), symbol, location: Some(location) })
+        let variable: Variable = Place::of(&address).into();
+        Ok(Target { shown: variable.to_string(), variable, symbol, location: Some(location) })
     }
 
     /// Names of axes (MD10000) and channels (MD20000) as the control has them; none where there is no NCK that tells them.
-    async fn names_of_the_nck(&self, host: &Host) -> Result<Option<Names>, Problem> {
+    async fn names_of_the_nck(&self, host: &Host) -> Result<Option<Names>, Failure> {
         let Ok(nck) = host.nck().await else {
             // Nobody at all is another thing than a PLC without an NCK.
             return host.plc().await.map(|_| None);
@@ -146,7 +167,7 @@ impl Dictionary {
         } else {
             Value::List(each)
         };
-        value.encode(&target.variable).map_err(|error| problem(&error))?;
+        value.encode(&target.variable).map_err(|error| super::problem(&error))?;
         Ok(value)
     }
 
@@ -247,14 +268,11 @@ fn of_bits(place: &Place, bits: u64) -> Value {
 }
 
 /// The cells of a value: as text, and in hexadecimal.
-pub(super) fn cells(variable: &Variable, value: &Result<Value, Error>) -> [String; 2] {
+pub(super) fn cells(target: &Target, value: &Result<Value, Error>) -> [String; 2] {
+    let variable = &target.variable;
     let value = match value {
         Ok(value) => value,
-        Err(error) => {
-            let text = error.to_string();
-            let name = format!("{variable}: ");
-            return [format!("refused: {}", text.strip_prefix(&name).unwrap_or(&text)), String::new()];
-        }
+        Err(error) => return [format!("refused: {}", target.reason(error)), String::new()],
     };
     let hex = match (variable, value) {
         // They are in hexadecimal already, or no bytes of their own.

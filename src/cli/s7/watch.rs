@@ -7,7 +7,7 @@ use tokio::sync::mpsc;
 use tokio::time::{Instant, MissedTickBehavior, interval};
 
 use super::arguments::{Host, Names};
-use super::problem;
+use super::failure::Failure;
 use super::sources::{self, Source};
 use super::targets::{Dictionary, Target, cells};
 use crate::cli::Format;
@@ -30,7 +30,7 @@ enum News {
     /// Something about a connection.
     Connection(String),
     /// Nothing more will come.
-    End(Problem),
+    End(Failure),
 }
 
 pub(super) async fn watch(
@@ -39,7 +39,7 @@ pub(super) async fn watch(
     names: &Names,
     how: How,
     output: &mut Output,
-) -> Result<u8, Problem> {
+) -> Result<u8, Failure> {
     let targets = Dictionary::open(names)?.targets(host, addresses).await?;
     let sources = sources::open(host, &targets).await?;
     let (to, mut news) = mpsc::channel(256);
@@ -62,7 +62,7 @@ pub(super) async fn watch(
         match came {
             Some(News::Value(at, value)) => screen.take(at, &value, output),
             Some(News::Connection(text)) => output.warning(text),
-            Some(News::End(problem)) => return Err(problem),
+            Some(News::End(failure)) => return Err(failure),
             None => return Ok(0),
         }
         if output.is_closed() {
@@ -77,7 +77,7 @@ async fn follow(source: Source, how: How, to: mpsc::Sender<News>) {
         let subscribed = source.client.subscribe(&source.variables, Mode::Cycle, how.every).await;
         let mut subscription = match subscribed {
             Ok(subscription) => subscription,
-            Err(error) => return drop(to.send(News::End(problem(&error))).await),
+            Err(error) => return drop(to.send(News::End(error.into())).await),
         };
         while let Some(update) = subscription.next().await {
             match update {
@@ -86,7 +86,7 @@ async fn follow(source: Source, how: How, to: mpsc::Sender<News>) {
                         let _ = to.send(News::Value(source.targets[at], value)).await;
                     }
                 }
-                Err(error) => return drop(to.send(News::End(problem(&error))).await),
+                Err(error) => return drop(to.send(News::End(error.into())).await),
             }
         }
         return;
@@ -157,7 +157,7 @@ impl<'a> Screen<'a> {
     /// Prints a value if it is another one than before.
     fn take(&mut self, at: usize, value: &Result<Value, Error>, output: &mut Output) {
         let target = &self.targets[at];
-        let cells = cells(&target.variable, value);
+        let cells = cells(target, value);
         if self.last[at].as_ref() == Some(&cells) {
             return;
         }

@@ -1,8 +1,10 @@
 //! `opennck s7 write`.
 
 use super::arguments::{Host, Names};
+use super::failure::Failure;
+use super::sources::Source;
 use super::targets::{Dictionary, Target};
-use super::{problem, read, sources};
+use super::{read, rows, sources};
 use crate::cli::Format;
 use crate::cli::output::Output;
 use crate::s7::client::{Error, Value, Variable};
@@ -14,7 +16,7 @@ pub(super) async fn write(
     names: &Names,
     format: Format,
     output: &mut Output,
-) -> Result<u8, Problem> {
+) -> Result<u8, Failure> {
     let split = writes.iter().map(|text| {
         text.split_once('=').map(|(address, value)| (address.to_owned(), value)).ok_or_else(|| {
             Problem::new(format!("expected ADDRESS=VALUE, found `{text}`"), "write it as DB31.DBX29.4=1")
@@ -25,18 +27,19 @@ pub(super) async fn write(
     let targets = dictionary.targets(host, &addresses).await?;
     let values = targets.iter().zip(&texts).map(|(target, text)| dictionary.value(target, text));
     let values = values.collect::<Result<Vec<Value>, _>>()?;
-    let results = send(host, &targets, &values).await?;
+    // Whoever cannot be reached is found out before anything is written.
+    let sources = sources::open(host, &targets).await?;
+    let results = send(&sources, &targets, &values).await;
     let lost = results.iter().find_map(|result| result.as_ref().err().filter(|error| error.is_of_the_connection()));
     if let Some(error) = lost {
-        return Err(problem(error));
+        return Err(error.into());
     }
     let shown: Vec<_> = values.into_iter().zip(results).map(|(value, result)| result.map(|()| value)).collect();
-    Ok(read::show(&targets, &shown, format, output))
+    let cures = rows::told(&sources, &targets, &shown).await;
+    Ok(read::show(&targets, &shown, &cures, format, output))
 }
 
-async fn send(host: &Host, targets: &[Target], values: &[Value]) -> Result<Vec<Result<(), Error>>, Problem> {
-    // Whoever cannot be reached is found out before anything is written.
-    let sources = sources::open(host, targets).await?;
+async fn send(sources: &[Source], targets: &[Target], values: &[Value]) -> Vec<Result<(), Error>> {
     let mut results = vec![Ok(()); targets.len()];
     for source in sources {
         let of = |at: &usize| (targets[*at].variable.clone(), values[*at].clone());
@@ -45,5 +48,5 @@ async fn send(host: &Host, targets: &[Target], values: &[Value]) -> Result<Vec<R
             results[*at] = result;
         }
     }
-    Ok(results)
+    results
 }

@@ -95,7 +95,13 @@ impl Error {
                 place >> 5,
                 place & 0x1F
             ),
+            Self::Refused { what, code } if is_of_the_nck(what) => cure_of_nc_code(*code).to_owned(),
             Self::Refused { code, .. } => cure_of_code(*code).to_owned(),
+            Self::Rejected { what, error: ErrorCode::NOT_IMPLEMENTED } if is_of_the_nck(what) => {
+                "what was called has no NC variables: the NCK is at TSAP 0D04 (slot 4) of an 840D sl or 828D, at 0103 \
+                (slot 3) of an 840D powerline; say --nck-tsap 0400:0D04"
+                    .to_owned()
+            }
             Self::Rejected { error, .. } => cure_of_error(*error).to_owned(),
             Self::TimedOut { sent: true, .. } => {
                 "it may have been done: read before you repeat it, or allow more time".to_owned()
@@ -145,6 +151,11 @@ impl fmt::Display for Error {
     }
 }
 
+/// Whether NC variables were asked for, which are written so.
+fn is_of_the_nck(what: &str) -> bool {
+    what.starts_with("nck:")
+}
+
 /// Return codes of items.
 fn words_of_code(code: u8) -> &'static str {
     match code {
@@ -164,8 +175,20 @@ fn cure_of_code(code: u8) -> &'static str {
         0x03 => "the server allows reading only, or the value cannot be set",
         0x05 => "`opennck s7 info` lists the blocks and how long they are",
         0x06 | 0x07 => "read it as bytes (DBB)",
-        0x0A => "`opennck s7 info` lists the blocks; NC variables need the NCK's TSAP",
+        0x0A => "`opennck s7 info` lists the blocks",
         _ => "see the manual of the module",
+    }
+}
+
+fn cure_of_nc_code(code: u8) -> &'static str {
+    match code {
+        0x03 => "the server allows reading only, or the NCK alone sets it",
+        0x05 => "there is no such row or unit: both count from 1, so [1] is the first axis, and R5 is row 6",
+        0x06 | 0x07 => "give its type behind the column, nck:A1/M/32000:DOUBLE, or none for the bytes as they come",
+        0x0A => {
+            "this NCK does not have it: `opennck s7 nck` lists names, machine data go by number (nck:A1/M/32000:DOUBLE)"
+        }
+        _ => "see the manual of the control",
     }
 }
 
@@ -195,8 +218,11 @@ fn words_of_error(error: ErrorCode) -> &'static str {
 
 fn cure_of_error(error: ErrorCode) -> &'static str {
     match error {
-        ErrorCode::NOT_IMPLEMENTED => "NC variables are with the NCK, not with the PLC: use its TSAP",
+        ErrorCode::NOT_IMPLEMENTED => {
+            "what was called does not have this function: the PLC of a control is in slot 2, its NCK in slot 4 (3 on powerline)"
+        }
         ErrorCode::PROTECTED => "give the password",
+        ErrorCode::WRONG_PASSWORD => "check --password and OPENNCK_S7_PASSWORD: capitals count",
         ErrorCode::WRONG_LIST | ErrorCode::WRONG_INDEX => "list 0000 tells which lists there are",
         _ => "see the manual of the module",
     }

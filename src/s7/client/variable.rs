@@ -136,7 +136,7 @@ impl FromStr for Variable {
         };
         let address: Address = address.parse().map_err(|problem: <Address as FromStr>::Err| Error::Input {
             what: if problem.what.contains(text) { problem.what } else { format!("{} in `{text}`", problem.what) },
-            cure: problem.cure + ", DB31.DBB0..10 or nck:C/MachineAxis/actToolBasePos[1]",
+            cure: problem.cure + "\n  several: DB31.DBB0..10; an NC variable: nck:C/MachineAxis/actToolBasePos[1]",
         })?;
         let mut memory = Memory::of(&address);
         if let Some(last) = last {

@@ -1,0 +1,40 @@
+//! Why a command has not done what it was called for, and with which exit code it ends.
+
+use super::problem;
+use crate::s7::client::Error;
+use crate::source::Problem;
+
+/// A problem, and the exit code.
+#[derive(Debug)]
+pub(super) struct Failure {
+    pub(super) problem: Problem,
+    pub(super) code: u8,
+}
+
+impl From<Problem> for Failure {
+    fn from(problem: Problem) -> Self {
+        Self { problem, code: 2 }
+    }
+}
+
+impl From<&Error> for Failure {
+    /// Whoever was reached and said no ends it with 1.
+    fn from(error: &Error) -> Self {
+        let code = match error {
+            Error::Refused { .. } | Error::Rejected { .. } => 1,
+            Error::Input { .. }
+            | Error::Unreachable { .. }
+            | Error::NotAccepted { .. }
+            | Error::TimedOut { .. }
+            | Error::Lost { .. }
+            | Error::Unexpected { .. } => 2,
+        };
+        Self { problem: problem(error), code }
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::from(&error)
+    }
+}
