@@ -30,6 +30,7 @@ VERSION = 1
 
 # The header.
 GENERATION = 16
+FILE_BYTES = 24
 SECTIONS = 40
 SECTION_TABLE = 48
 SECTION_BYTES = 56
@@ -50,12 +51,16 @@ POWER = 536
 # STATE.
 ENDED, RUN, STOP = 0, 1, 2
 
-# A slot begins with 64 bytes of its own; the image follows.
-HEAD = 64
+# The header has one page; a slot begins with 64 bytes of its own, and the image follows.
+PAGE, HEAD = 4096, 64
 
 WRITERS = {1: "PLC", 2: "NCK", 3: "HMI", 4: "machine"}
 
 ADDRESS = re.compile(r"(?:DB(\d+)\.DB([XBWD])|([IQMTC])([BWD]?))(\d+)(?:\.([0-7]))?$")
+
+
+class NotYet(Exception):
+    """Why there is nothing to begin with yet."""
 
 
 class Section:
@@ -63,9 +68,11 @@ class Section:
 
     def __init__(self, entry):
         kind, self.number, self.first, self.length, self.offset, writer, name = struct.unpack_from("<8s5Q32s", entry)
-        self.kind = kind.rstrip(b"\0").decode()
-        self.writer = WRITERS[writer]
-        self.name = name.rstrip(b"\0").decode()
+        self.kind = kind.rstrip(b"\0").decode(errors="replace")
+        self.writer = WRITERS.get(writer)
+        self.name = name.rstrip(b"\0").decode(errors="replace")
+        if self.kind not in ("DB", "I", "Q", "M", "T", "C") or self.writer is None:
+            raise NotYet(f"its table of sections is not whole: {self.kind!r} {self.number}, writer {writer}")
 
 
 class Step:
@@ -95,49 +102,84 @@ class Step:
             self.image[offset] &= ~(1 << bit) & 0xFF
 
 
+def following(number):
+    """The number after one, whatever the file says; 0 is none."""
+    return number + 1 & 0xFFFF_FFFF_FFFF_FFFF or 1
+
+
 class Image:
-    """The file. `wait` is how many seconds to wait for an NC that serves it."""
+    """The file. `wait` is how many seconds to wait for an NC that serves it.
+
+    Make it when the program is ready: an NC in lock-step waits for the first answer from then on, as long as for any other.
+    """
 
     def __init__(self, path, wait=10.0):
         if sys.byteorder != "little":
             raise OSError("the words of the file are little-endian; this computer's are not")
         end = time.monotonic() + wait
-        while not self._open(path):
-            if time.monotonic() > end:
-                raise TimeoutError(f"no NC serves {path}")
+        while True:
+            try:
+                self._open(path)
+                return
+            except NotYet as reason:
+                if time.monotonic() > end:
+                    raise TimeoutError(f"no NC serves {path}: {reason}") from None
             time.sleep(0.01)
 
     def _open(self, path):
         try:
-            if os.path.getsize(path) < 4096:
-                return False
             with open(path, "r+b") as file:
-                self.map = mmap.mmap(file.fileno(), 0)
+                size = os.fstat(file.fileno()).st_size
+                if size < PAGE:
+                    raise NotYet(f"it has {size} bytes, and an image has more")
+                self.map = mmap.mmap(file.fileno(), size // PAGE * PAGE)
         except FileNotFoundError:
-            return False
+            raise NotYet("there is no such file") from None
         self.bytes = memoryview(self.map)
         self.words = self.bytes.cast("Q")
+        try:
+            self._begin(path)
+        except BaseException:
+            self.close()
+            raise
+
+    def _begin(self, path):
+        """Reads the header. What an NC has not written to its end, or another one begins to write meanwhile, counts as not there."""
         self.generation = self.word(GENERATION)
         head = bytes(self.bytes[:16])
-        if self.word(STATE) == ENDED or head[:8] != MAGIC:
-            self.close()
-            return False
+        if head[:8] != MAGIC:
+            raise NotYet("it is no image of the interface")
         if head[8:16] != struct.pack("<Q", VERSION):
             raise ValueError(f"{path} has another version than {VERSION}")
+        if self.word(STATE) == ENDED:
+            raise NotYet("its NC has ended, or is about to begin")
         self.image_bytes, self._slots = self.word(IMAGE_BYTES), self.word(SLOTS)
         self._nc_slots, self._nc_slot_bytes = self.word(NC_SLOTS), self.word(NC_SLOT_BYTES)
         self._plc_slots, self._plc_slot_bytes = self.word(PLC_SLOTS), self.word(PLC_SLOT_BYTES)
-        table, size = self.word(SECTION_TABLE), self.word(SECTION_BYTES)
-        entries = (self.bytes[table + size * n : table + size * (n + 1)] for n in range(self.word(SECTIONS)))
-        self.sections = [Section(entry) for entry in entries]
+        table, size, count = self.word(SECTION_TABLE), self.word(SECTION_BYTES), self.word(SECTIONS)
+        starts_and_sizes = (self._nc_slots, self._nc_slot_bytes, self._plc_slots, self._plc_slot_bytes)
+        places = (
+            all(number % 8 == 0 for number in starts_and_sizes)
+            and PAGE <= table <= table + size * count <= self._nc_slots
+            and size >= 80
+            and 1 <= self._slots <= 1024
+            and self._nc_slot_bytes >= HEAD + self.image_bytes + 8
+            and self._plc_slot_bytes >= HEAD + 2 * self.image_bytes + 8
+            and self._nc_slots + self._slots * self._nc_slot_bytes <= self._plc_slots
+            and self._plc_slots + self._slots * self._plc_slot_bytes <= self.word(FILE_BYTES) <= len(self.bytes)
+        )
+        if not places:
+            raise NotYet("its header is not whole")
+        entries = bytes(self.bytes[table : table + size * count])
+        self.sections = [Section(entries[size * n : size * (n + 1)]) for n in range(count)]
+        if any(section.offset + section.length > self.image_bytes for section in self.sections):
+            raise NotYet("its table of sections is not whole: one ends beyond the image")
         self._places = {}
-        self._newest = self._starts = 0
-        self._answered = None
-        if not self.is_served():  # another NC has begun meanwhile
-            self.close()
-            return False
-        self.store(PLC_STARTS, self.word(PLC_STARTS) + 1)
-        return True
+        self._newest = 0
+        self._starts = self._answered = None
+        if not self.is_served():
+            raise NotYet("another NC begins with it")
+        self.store(PLC_STARTS, following(self.word(PLC_STARTS)))
 
     def close(self):
         self.words.release()
@@ -226,7 +268,7 @@ class Image:
         """Publishes what the PLC made of a step. Whoever changed a bit wins it; what stayed as it was is nobody's write."""
         if not self.is_served():
             return  # the slots may be another NC's
-        number = self.word(NEWEST_ANSWER) + 1
+        number = following(self.word(NEWEST_ANSWER))
         size = self._plc_slot_bytes
         start = self._plc_slots + number % self._slots * size
         head = struct.pack("<QQ", number, step.number).ljust(HEAD, b"\0")
@@ -241,4 +283,4 @@ class Image:
 
     def power_off_and_on(self):
         """Switches the control off and on, which is what alarm 2000 asks for."""
-        self.store(POWER, self.word(POWER) + 1)
+        self.store(POWER, following(self.word(POWER)))
