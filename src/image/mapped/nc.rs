@@ -121,17 +121,18 @@ impl Geometry {
 }
 
 impl MappedImage {
-    /// Creates the file, or goes on with one that an NC left behind.
+    /// Creates the file, or goes on with one that an NC left behind. The memory is shown, with the PLC in STOP until
+    /// [`state`](Self::state) says otherwise.
     ///
     /// # Errors
     /// The file cannot be opened, is something else than such an image, is in use by another NC, or finds no room.
     pub fn create(path: &Path, memory: &Memory, names: &Names, rules: Rules) -> Result<Self, Problem> {
         let layout = Layout::of(memory, names)?;
         let geometry = Geometry::new(layout.sections.len(), layout.length);
-        let file = open(path)?;
-        let words = prepare(&file, geometry.file_bytes)
-            .and_then(|()| Words::map(&file, geometry.file_bytes))
-            .map_err(|error| at(path, format!("cannot be made {} bytes long: {error}", geometry.file_bytes), ROOM))?;
+        let (file, is_new) = open(path, geometry.file_bytes)?;
+        let unmade = |error| at(path, format!("cannot be made {} bytes long: {error}", geometry.file_bytes), ROOM);
+        prepare(&file, geometry.file_bytes, is_new).map_err(unmade)?;
+        let words = Words::map(&file, geometry.file_bytes).map_err(unmade)?;
         // From here on, those who have it mapped know that it is not valid.
         words.store(header::STATE, 0);
         words.store(header::GENERATION, next(words.load(header::GENERATION)));
@@ -144,7 +145,6 @@ impl MappedImage {
             Profile::Sinumerik828d => 828,
         };
         for (offset, value) in [
-            (header::VERSION, VERSION),
             (header::FILE_BYTES, geometry.file_bytes as u64),
             (header::PROFILE, profile),
             (header::SECTIONS, layout.sections.len() as u64),
@@ -163,7 +163,6 @@ impl MappedImage {
         ] {
             words.store(offset, value);
         }
-        words.write(header::MAGIC, &MAGIC);
         let (newest, seen) = (words.load(header::NEWEST_STEP), words.load(header::NEWEST_ANSWER));
         // Nobody has counted so far: it was written by a stranger, and numbers would come to their end.
         let newest = if newest > u64::MAX / 2 { 0 } else { newest };
@@ -292,8 +291,9 @@ fn at(path: &Path, what: impl Into<String>, cure: &str) -> Problem {
     Place::file(&path.display().to_string()).problem(what, cure)
 }
 
-/// Opens the file alone, and refuses what is not ours before anything is written.
-fn open(path: &Path) -> Result<File, Problem> {
+/// Opens the file alone, and refuses what is not ours before anything is written. Says whether it is a new one: empty, or nothing but
+/// zeros and no longer than it becomes, which is what an end in the middle of making it leaves.
+fn open(path: &Path, length: usize) -> Result<(File, bool), Problem> {
     if let Ok(found) = std::fs::metadata(path)
         && !found.is_file()
     {
@@ -316,8 +316,14 @@ fn open(path: &Path) -> Result<File, Problem> {
     let head = header::VERSION + WORD;
     Read::by_ref(&mut file).take(head as u64).read_to_end(&mut found).map_err(|error| unusable(&error))?;
     let version = field(&found, header::VERSION);
-    if found.is_empty() || found.starts_with(&MAGIC) && version == VERSION {
-        return Ok(file);
+    if found.starts_with(&MAGIC) && version == VERSION {
+        return Ok((file, false));
+    }
+    if found.iter().all(|byte| *byte == 0) {
+        Read::by_ref(&mut file).take(length as u64).read_to_end(&mut found).map_err(|error| unusable(&error))?;
+        if found.len() <= length && found.iter().all(|byte| *byte == 0) {
+            return Ok((file, true));
+        }
     }
     let what = if found.starts_with(&MAGIC) {
         format!("expected an image of version {VERSION}, found version {version}")
@@ -328,11 +334,14 @@ fn open(path: &Path) -> Result<File, Problem> {
 }
 
 /// Makes the file long enough, with room on the disk: a page that finds none would end the process later. It never becomes
-/// shorter, for somebody may still have it mapped.
-fn prepare(mut file: &File, length: usize) -> std::io::Result<()> {
+/// shorter, for somebody may still have it mapped. A new one is an image from one moment to the next.
+fn prepare(mut file: &File, length: usize, is_new: bool) -> std::io::Result<()> {
     let end = file.seek(SeekFrom::End(0))?;
     let missing = (length as u64).saturating_sub(end);
-    let written = file.write_all(&vec![0; usize::try_from(missing).unwrap_or(0)]);
+    let mut written = file.write_all(&vec![0; usize::try_from(missing).unwrap_or(0)]);
+    if written.is_ok() && is_new {
+        written = file.rewind().and_then(|()| file.write_all(&[MAGIC, VERSION.to_le_bytes()].concat()));
+    }
     if written.is_err() {
         // Left as it was found: a new one empty.
         let _ = file.set_len(end);

@@ -57,13 +57,13 @@ impl PlcImage {
             if words.load(header::GENERATION) != generation {
                 continue;
             }
-            let (geometry, sections) = read.ok_or_else(foreign)?;
-            if state == State::Ended || self::state(&words) == State::Ended {
-                return Err(at(
-                    "expected an image that an NC serves, found one that it left".into(),
-                    "start the NC first",
-                ));
+            let is_left = state == State::Ended || self::state(&words) == State::Ended;
+            // One that is being made has no tables yet.
+            if is_left && is_image(&words) {
+                let what = "expected an image that an NC serves, found one that it left, or is about to make";
+                return Err(at(what.into(), "start the NC first"));
             }
+            let (geometry, sections) = read.ok_or_else(foreign)?;
             words.store(header::PLC_STARTS, next(words.load(header::PLC_STARTS)));
             return Ok(Self {
                 sections,
@@ -174,11 +174,15 @@ fn state(words: &Words) -> State {
     }
 }
 
+fn is_image(words: &Words) -> bool {
+    let mut magic = [0; MAGIC.len()];
+    words.read(header::MAGIC, &mut magic);
+    magic == MAGIC && words.load(header::VERSION) == VERSION
+}
+
 /// What the NC said once; `None` where it is no image of this version, or one that goes beyond the file.
 fn read(words: &Words, length: usize) -> Option<(Geometry, Vec<Section>)> {
     let number = |offset| usize::try_from(words.load(offset)).unwrap_or(usize::MAX);
-    let mut magic = [0; MAGIC.len()];
-    words.read(header::MAGIC, &mut magic);
     let geometry = Geometry {
         image_bytes: number(header::IMAGE_BYTES),
         nc_slots: number(header::NC_SLOTS),
@@ -188,7 +192,7 @@ fn read(words: &Words, length: usize) -> Option<(Geometry, Vec<Section>)> {
         slots: number(header::SLOTS),
         file_bytes: number(header::FILE_BYTES),
     };
-    let is_whole = magic == MAGIC && words.load(header::VERSION) == VERSION && geometry.is_possible(length);
+    let is_whole = is_image(words) && geometry.is_possible(length);
     if !is_whole || number(header::SECTION_BYTES) != section::BYTES || number(header::SECTION_TABLE) != header::END {
         return None;
     }

@@ -172,16 +172,45 @@ fn an_answer_from_before_the_start_is_not_taken() {
     assert_eq!(nc.look(least), Look::Answer(least));
 }
 
+fn length_of_an_image() -> u64 {
+    let file = File::new("length");
+    let _nc = create(&file, &Memory::new());
+    fs::metadata(&file.0).unwrap().len()
+}
+
+#[test]
+fn zeros_of_a_start_that_was_broken_off_are_a_new_file() {
+    let file = File::new("zeros");
+    let length = length_of_an_image();
+    for left in [0, 1, 8, 16, 64, 4096, length - 1, length] {
+        let _ = fs::remove_file(&file.0);
+        fs::write(&file.0, vec![0; usize::try_from(left).unwrap()]).unwrap();
+        assert!(PlcImage::open(&file.0).is_err(), "{left}");
+        let (mut nc, mut plc) = both(&file, &Memory::new());
+        assert_eq!(plc.next_step(), Some(1), "{left}");
+        plc.answer();
+        assert_eq!((nc.look(1), fs::metadata(&file.0).unwrap().len()), (Look::Answer(1), length), "{left}");
+    }
+    // Broken off when it was an image already, but without tables: none to the PLC, and an old one to the next NC.
+    fs::write(&file.0, [&MAGIC[..], &1_u64.to_le_bytes(), &[0; 8000]].concat()).unwrap();
+    let problem = PlcImage::open(&file.0).unwrap_err();
+    assert!(problem.what.contains("about to make"), "{problem}");
+    assert_eq!(both(&file, &Memory::new()).1.next_step(), Some(1));
+}
+
 #[test]
 fn what_was_there_and_is_no_image_stays_as_it_was() {
     let file = File::new("foreign");
     let other = [&MAGIC[..], &2_u64.to_le_bytes()].concat();
-    for (content, said) in [(&b"a letter"[..], "something else"), (&[0; 64], "something else"), (&other, "version 2")] {
+    let length = usize::try_from(length_of_an_image()).unwrap();
+    let (zeros, end) = (vec![0; length + 1], [vec![0; length - 1], vec![1]].concat());
+    let contents = [(&b"a letter"[..], "something else"), (&zeros, "something else"), (&end, "something else")];
+    for (content, said) in contents.into_iter().chain([(&other[..], "version 2")]) {
         fs::write(&file.0, content).unwrap();
         let problem = MappedImage::create(&file.0, &Memory::new(), &names(), RULES).unwrap_err();
         assert!(problem.what.contains(said) && problem.place.is_some(), "{problem}");
         assert!(PlcImage::open(&file.0).is_err());
-        assert_eq!(fs::read(&file.0).unwrap(), content);
+        assert!(fs::read(&file.0).unwrap() == content, "{said}");
     }
     let folder = MappedImage::create(&std::env::temp_dir(), &Memory::new(), &names(), RULES).unwrap_err();
     assert!(folder.what.contains("expected a file"), "{folder}");
