@@ -4,20 +4,24 @@
 #![expect(clippy::disallowed_methods, reason = "another process works in real time")]
 
 use std::fs;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use opennck::cli::serve::{Exchange, Keeper, Live, MappedPlc, Speed};
+use opennck::cli::serve::{Exchange, Keeper, Live, LiveOptions, MappedPlc, Speed};
 use opennck::image::mapped::{Look, MappedImage, PlcImage, Rules, State, Step};
 use opennck::image::{Area, Memory, Names};
-use opennck::machine::Machine;
+use opennck::machine::{self, Machine};
 use opennck::plc::{PlcProgram, gantry_start};
 use opennck::scenario::{Failure, Session};
 use opennck::units::Time;
 use opennck::variables::AlarmNumber;
+use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE, S7Client};
 
 /// Longer than any computer sleeps in between.
 const LONG: Duration = Duration::from_secs(60);
@@ -27,7 +31,11 @@ struct File(PathBuf);
 
 impl File {
     fn new(name: &str) -> Self {
-        let file = Self(std::env::temp_dir().join(format!("opennck-{}-{name}.image", std::process::id())));
+        Self::called(&format!("{name}.image"))
+    }
+
+    fn called(name: &str) -> Self {
+        let file = Self(std::env::temp_dir().join(format!("opennck-{}-{name}", std::process::id())));
         let _ = fs::remove_file(&file.0);
         file
     }
@@ -122,6 +130,7 @@ fn hammer(file: &File, answers: u64, start: impl FnOnce()) {
     let mut memory = Memory::new();
     let rules = Rules { lock_step: false, time_out: Time::ZERO };
     let mut nc = MappedImage::create(&file.0, &memory, &Names::default(), rules).unwrap();
+    nc.state(State::Run);
     start();
     let (begin, mut taken, mut cycle) = (Instant::now(), 0, 0_u64);
     while taken < answers {
@@ -188,8 +197,64 @@ with Image(sys.argv[1]) as image:
     assert!(other.unwrap().wait().unwrap().success(), "it saw half a step");
 }
 
+#[test]
+fn a_process_in_python_waits_until_the_header_is_whole_and_says_what_is_missing() {
+    const SCRIPT: &str = "
+import sys
+from opennck_image import Image
+for line in sys.stdin:
+    try:
+        with Image(sys.argv[1], wait=float(line)) as image:
+            print(image.find('DB31.DBX101.4'), flush=True)
+    except TimeoutError as error:
+        print(error, flush=True)
+";
+    let Some(mut python) = python() else { return };
+    let file = File::new("half");
+    let rules = Rules { lock_step: false, time_out: Time::ZERO };
+    let nc = MappedImage::create(&file.0, &Memory::new(), &Names::default(), rules).unwrap();
+    let whole = fs::read(&file.0).unwrap();
+    let wanted = PlcImage::open(&file.0).unwrap().offset(Area::DataBlock(31), 101).unwrap();
+    let python = python.args(["-c", SCRIPT, file.text()]).stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = python.spawn().unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    // A table of sections that ends after its third entry, one with writer 9, one of a larger image; sizes that do not fit.
+    for (place, content, said) in [
+        (4096 + 3 * 80, &[0; 800][..], "its table of sections is not whole"),
+        (4096 + 40, &[9], "its table of sections is not whole"),
+        (4096 + 24, &[0xFF; 4], "its table of sections is not whole"),
+        (4096, &[0xFF; 8], "its table of sections is not whole"),
+        (24, &[0xFF; 6], "its header is not whole"),
+        (40, &[0xFF; 8], "its header is not whole"),
+        (72, &[0], "its header is not whole"),
+        (0, &[0; 8], "it is no image"),
+        (256, &[0], "its NC has ended, or is about to begin"),
+    ] {
+        let write = |bytes: &[u8]| {
+            let mut file = fs::File::options().write(true).open(&file.0).unwrap();
+            file.seek(SeekFrom::Start(u64::try_from(place).unwrap())).unwrap();
+            file.write_all(bytes).unwrap();
+        };
+        write(content);
+        writeln!(stdin, "0").unwrap();
+        let error = lines.next().unwrap().unwrap();
+        assert!(error.starts_with(&format!("no NC serves {}: {said}", file.text())), "{place}: {error}");
+        writeln!(stdin, "60").unwrap();
+        std::thread::sleep(Duration::from_millis(30));
+        write(&whole[place..place + content.len()]);
+        assert_eq!(lines.next().unwrap().unwrap(), format!("({wanted}, 1, 4)"), "{place}");
+    }
+    drop(stdin);
+    assert!(child.wait().unwrap().success());
+    drop(nc);
+}
+
 /// `opennck serve` until it is dropped.
-struct Served(Child);
+struct Served {
+    child: Child,
+    head: Vec<String>,
+}
 
 impl Served {
     fn start(arguments: &[&str]) -> Self {
@@ -197,30 +262,158 @@ impl Served {
         command.arg("serve").args(arguments).args(["--s7", "127.0.0.1:0"]);
         let mut child = command.stdout(Stdio::piped()).spawn().expect("the program was built");
         let mut lines = BufReader::new(child.stdout.take().expect("it is piped")).lines();
-        assert!(lines.any(|line| line.expect("text").contains("Ctrl-C ends")), "it serves");
-        Self(child)
+        let mut head = Vec::new();
+        while !head.iter().any(|line: &String| line.contains("Ctrl-C ends")) {
+            head.push(lines.next().expect("it serves").expect("text"));
+        }
+        Self { child, head }
+    }
+
+    /// The port that a line of its head names.
+    fn port(&self, of: &str) -> u16 {
+        let line = self.head.iter().find_map(|line| line.strip_prefix(of)).expect("it says its port");
+        let port = line.strip_prefix("127.0.0.1:").and_then(|rest| rest.split([':', '/']).next());
+        port.and_then(|port| port.parse().ok()).expect("a number")
+    }
+
+    fn client(&self) -> S7Client {
+        let mut client = S7Client::new();
+        client.set_connection_port(self.port("S7 on ")).expect("it is not connected yet");
+        client.connect_rack_slot("127.0.0.1", 0, 2).expect("the server is there");
+        client
+    }
+
+    fn metrics(&self) -> String {
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port("metrics on http://"))).expect("it is there");
+        stream.write_all(b"GET /metrics HTTP/1.1\r\nHost: a\r\n\r\n").expect("it is connected");
+        let mut text = String::new();
+        stream.read_to_string(&mut text).expect("text");
+        text
+    }
+
+    /// Ends it by a signal; it has ended well, and soon.
+    #[track_caller]
+    fn end(mut self) {
+        let killed = Command::new("kill").arg(self.child.id().to_string()).status().expect("there is a kill");
+        assert!(killed.success());
+        let begin = Instant::now();
+        assert_eq!(self.child.wait().expect("it ends").code(), Some(0));
+        assert!(begin.elapsed() < Duration::from_secs(20), "{:?}", begin.elapsed());
     }
 }
 
 impl Drop for Served {
     fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
+        let _ = self.child.kill();
+        let _ = self.child.wait();
     }
 }
 
-#[test]
-fn the_worked_example_runs_with_a_plc_in_python() {
-    let Some(mut python) = python() else { return };
-    let file = File::new("example");
-    let _served =
-        Served::start(&["g1_example", "--image", file.text(), "--lock-step", "--speed", "50", "--plc-timeout", "1min"]);
-    let output = python.args(["worked_example.py", file.text()]).output().unwrap();
+/// When the PLC process comes.
+enum Comes {
+    /// Before there is a file.
+    Before,
+    /// So long after the server.
+    After(Duration),
+    /// It is there already, with another server that served the file.
+    WithAnother,
+}
+
+const SCENARIO: &str = r#"
+title = "somebody watches the gantry"
+machine = "g1_example"
+watch = ["DB31.DBB101", "MB100", "X.position"]
+[[step]]
+run = "1s"
+[[step]]
+note = "the flag is of one cycle"
+set = { "MB100" = 7 }
+[[step]]
+wait = "X.gantry_grouping_is_synchronized"
+within = "100s"
+"#;
+
+/// The worked example with a PLC in Python in lock-step, while a scripted operator writes; gives the trace.
+fn traced_worked_example(mut python: Command, name: &str, comes: &Comes) -> String {
+    const AGAIN: &str = "import worked_example\nwhile worked_example.main(): pass";
+    let file = File::new(name);
+    let (scenario, trace) = (File::called(&format!("{name}.toml")), File::called(&format!("{name}.jsonl")));
+    fs::write(&scenario.0, SCENARIO).unwrap();
+    let mut plc = python.args(["-c", AGAIN, file.text()]).stdout(Stdio::piped()).stderr(Stdio::null());
+    let lock_step = ["--image", file.text(), "--lock-step", "--plc-timeout", "1min"];
+    let mut there = None;
+    match comes {
+        Comes::Before => there = Some(plc.spawn().unwrap()),
+        Comes::After(_) => {}
+        Comes::WithAnother => {
+            let mut other = Served::start(&[&["g1_example"], &lock_step[..]].concat());
+            there = Some(plc.spawn().unwrap());
+            let newest_answer = || fs::read(&file.0).is_ok_and(|bytes| bytes[520] > 3);
+            wait("the process answers the other server", newest_answer);
+            other.child.kill().unwrap(); // without a farewell: its file still says that it runs
+            other.child.wait().unwrap();
+        }
+    }
+    let with = ["--scenario", scenario.text(), "--trace", trace.text(), "--speed", "1000"];
+    let served = Served::start(&[&lock_step[..], &with].concat());
+    if let Comes::After(late) = comes {
+        std::thread::sleep(*late);
+        plc = plc.stderr(Stdio::inherit());
+    }
+    let output = there.unwrap_or_else(|| plc.spawn().unwrap()).wait_with_output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
-    assert!(output.status.success(), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{said}");
     // EX-03 and EX-05 of the manual: 101.4 with 10654, then 101.5.
     assert!(said.contains("ready to start: DB31.DBB101 = 11010000"), "{said}");
     assert!(said.contains("synchronised:   DB31.DBB101 = 11100000"), "{said}");
+    served.end();
+    fs::read_to_string(&trace.0).unwrap()
+}
+
+#[cfg(unix)]
+#[test]
+fn the_worked_example_with_a_plc_in_python_has_the_same_trace_whenever_the_process_comes() {
+    let run = |name, comes| Some(traced_worked_example(python()?, name, &comes));
+    let Some(first) = run("before", Comes::Before) else { return };
+    assert!(first.contains("the flag is of one cycle"), "{first}");
+    for (name, comes) in [("late", Comes::After(Duration::from_millis(700))), ("attached", Comes::WithAnother)] {
+        let again = run(name, comes).unwrap();
+        let differs = first.lines().zip(again.lines()).find(|(first, again)| first != again);
+        assert!(first == again, "{name}: {differs:?}, {} bytes, then {}", first.len(), again.len());
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn until_a_plc_process_comes_the_machine_is_as_it_was_switched_on() {
+    let file = File::new("held");
+    let lock_step = ["g1_example", "--image", file.text(), "--lock-step", "--plc-timeout", "1min"];
+    let served = Served::start(&[&lock_step[..], &["--metrics", "0"]].concat());
+    let said = format!("the first step waits for a PLC process that opens {}, for example", file.text());
+    assert_eq!(served.head.iter().filter(|line| **line == said).count(), 1, "{:?}", served.head);
+    let mut client = served.client();
+    let mut flag = [0xFF];
+    client.read_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &mut flag).unwrap();
+    client.write_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &[0xAB]).unwrap();
+    let nc_ready = |client: &mut S7Client| client.read_bit(S7_AREA_DB, 10, 108, 7).unwrap();
+    assert!(!nc_ready(&mut client) && flag == [0]);
+    let metrics = served.metrics();
+    assert!(metrics.contains("\nopennck_steps_total 0\n"), "{metrics}");
+    let process = soft_plc(&file.0, start_gantry);
+    wait("what was written acts, and the control runs up", || {
+        client.read_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &mut flag).unwrap();
+        flag == [0xAB] && nc_ready(&mut client)
+    });
+    served.end();
+    process.join().unwrap();
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_it_while_it_waits_for_a_process_and_its_trace_has_no_cycle() {
+    let (file, trace) = (File::new("never"), File::called("never.jsonl"));
+    Served::start(&["g1_example", "--image", file.text(), "--lock-step", "--trace", trace.text()]).end();
+    assert_eq!(fs::read_to_string(&trace.0).unwrap(), "");
 }
 
 /// Waits until something is so.
@@ -266,7 +459,7 @@ fn a_silent_plc_raises_2000_and_another_one_restarts_the_plc() {
 #[test]
 fn a_signal_ends_it_while_a_scan_waits_for_a_process_that_has_gone() {
     let file = File::new("gone");
-    let mut served = Served::start(&["g1_example", "--image", file.text(), "--lock-step", "--plc-timeout", "60min"]);
+    let served = Served::start(&["g1_example", "--image", file.text(), "--lock-step", "--plc-timeout", "60min"]);
     let mut scans = 0;
     let process = soft_plc(&file.0, move |_| {
         scans += 1;
@@ -274,9 +467,33 @@ fn a_signal_ends_it_while_a_scan_waits_for_a_process_that_has_gone() {
     });
     process.join().unwrap();
     std::thread::sleep(Duration::from_millis(500)); // the scan waits, and the status line has been drawn
-    let killed = Command::new("kill").arg(served.0.id().to_string()).status().unwrap();
-    assert!(killed.success());
-    let begin = Instant::now();
-    assert_eq!(served.0.wait().unwrap().code(), Some(0));
-    assert!(begin.elapsed() < Duration::from_secs(20), "{:?}", begin.elapsed());
+    served.end();
+}
+
+#[test]
+fn in_lock_step_each_cycle_has_its_scan_from_the_first_on_also_after_stop_and_start_of_the_plc() {
+    let file = File::new("stopped");
+    let machine = Machine::open("g1_example").unwrap();
+    let mapped = MappedPlc::create(&file.0, &machine, Exchange { lock_step: true, time_out: LONG }).unwrap();
+    let options = LiveOptions { is_held: true, ..LiveOptions::default() };
+    let start = |machine| Live::start_with(machine, Speed::default(), options);
+    let (live, _keeper) = Keeper::start(machine, mapped, start);
+    std::thread::sleep(Duration::from_millis(50));
+    assert!(live.is_held() && live.with(|machine| machine.cycle()) == 0);
+    let scans = Arc::new(AtomicU64::new(0));
+    let counted = Arc::clone(&scans);
+    let _process = soft_plc(&file.0, move |plc| {
+        counted.fetch_add(1, Ordering::Relaxed);
+        start_gantry(plc)
+    });
+    let scans_and_cycles = || live.with(|machine| (scans.load(Ordering::Relaxed), machine.cycle()));
+    wait("some scans", || scans_and_cycles().0 > 20);
+    let (scans, cycles) = scans_and_cycles();
+    assert_eq!(scans, cycles);
+    live.with(|machine| machine.queue(machine::Command::PlcStop)).unwrap();
+    wait("the PLC stops", || live.with(|machine| machine.is_plc_stopped()));
+    let stopped = scans_and_cycles().0;
+    live.with(|machine| machine.queue(machine::Command::PlcRun)).unwrap();
+    wait("it scans again", || scans_and_cycles().0 > stopped + 20);
+    assert!(live.with(|machine| machine.plc_fault().is_none() && !machine.is_plc_stopped()));
 }

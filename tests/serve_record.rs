@@ -40,7 +40,7 @@ impl Recorded {
         let live = Live::start_with(
             machine,
             speed.parse().expect("a speed"),
-            LiveOptions { recording, trace: Some(Watch::default()), operator: None },
+            LiveOptions { recording, trace: Some(Watch::default()), ..LiveOptions::default() },
         );
         let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default()).expect("some port is free");
         Self { live, window, path }

@@ -34,10 +34,14 @@ pub(crate) struct Arguments {
     /// The PLC program is in another process, which maps this file; the file is created where it does not exist.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["plc", "record"])]
     pub(super) image: Option<PathBuf>,
-    /// With --image: each scan waits for the answer of the PLC process.
+    /// With --image: each scan waits for the answer of the PLC process, and the first step for a process that opens the file.
+    ///
+    /// So the same PLC program gives the same trace, to the byte, whenever it is started. What clients write until then acts at the
+    /// edge of the first step.
     #[arg(long, requires = "image")]
     pub(super) lock_step: bool,
-    /// With --image: how long the PLC process may be silent before the PLC counts as stopped, alarm 2000.
+    /// With --image: how long the PLC process may be silent before the PLC counts as stopped, alarm 2000; in lock-step from when it has
+    /// opened the file, else from its first answer.
     #[arg(long, value_name = "TIME", requires = "image", default_value = "1s", value_parser = duration)]
     pub(super) plc_timeout: Duration,
     /// Memory of the PLC beside the interface: a file (*.toml), or a name in `plc_images` here or above.

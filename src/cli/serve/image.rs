@@ -3,10 +3,13 @@
 //! [`MappedPlc`] is that program as the machine sees it. A scan publishes the memory and takes what the other process made of it: in
 //! lock-step the answer to this very scan, else the newest that there is. While a scan waits in lock-step nobody else sees the
 //! machine, for it is in the middle of a step; the time-out bounds that. A process that is silent for longer is a PLC without a sign
-//! of life: the PLC stops, alarm 2000. The monitoring begins with the first answer, so that the process may be started later.
+//! of life: the PLC stops, alarm 2000. So that the process may be started later, the monitoring begins with its first answer, and in
+//! lock-step when it has opened the file, which is also when scans begin to wait. A run is the same to the byte where that is before
+//! the first step: a machine that is held ([`LiveOptions::is_held`](super::LiveOptions)) begins then.
 //!
-//! [`Keeper`] keeps the file alive while no scan does: it says RUN and STOP, shows the memory in STOP, restarts the PLC when a new
-//! process comes after a fault (alarm 2000 stays, as on a control, until power off and on), and switches power on request.
+//! [`Keeper`] keeps the file alive while no scan does: it lets a machine that is held begin, says RUN and STOP, shows the memory in
+//! STOP, restarts the PLC when a new process comes after a fault (alarm 2000 stays, as on a control, until power off and on), and
+//! switches power on request.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,6 +35,8 @@ const FAREWELL: Duration = Duration::from_millis(100);
 const AWAKE: Duration = Duration::from_micros(20);
 /// So short it sleeps then.
 const NAP: Duration = Duration::from_micros(20);
+/// What another process does is said so often at most: first, and where it goes on and on.
+const PAUSES: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(64)];
 
 /// How answers are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,12 +54,12 @@ pub struct MappedPlc {
     exchange: Exchange,
     /// Answers to earlier steps are from before the start.
     least: u64,
-    /// The process has answered since it was found silent.
+    /// A process has answered since one was found silent; in lock-step it is enough that it has opened the file.
     is_watched: bool,
     silent: Duration,
     last_scan: Instant,
     refusal: Option<Refusal>,
-    /// How often a process had opened the file when this was created.
+    /// How often a process had opened the file when this was created, or one was found silent.
     plc_starts: u64,
     /// Nobody waits for the process any more.
     ends: Arc<AtomicBool>,
@@ -83,8 +88,8 @@ impl MappedPlc {
         })
     }
 
-    /// Waits until a process has opened the file. In lock-step it then answers from the first scan on, and the same program gives
-    /// the same trace in every run.
+    /// Waits until a process has opened the file, for a machine without a [`Keeper`]. In lock-step it then answers from the first scan
+    /// on, and the same program gives the same trace in every run.
     ///
     /// # Errors
     /// Nobody came in time.
@@ -99,7 +104,6 @@ impl MappedPlc {
             }
             std::thread::sleep(Duration::from_millis(1));
         }
-        self.is_watched = true;
         Ok(())
     }
 
@@ -128,7 +132,7 @@ impl MappedPlc {
     /// Publishes a step and waits for its answer.
     fn take_answer(&mut self, step: Step, io: &mut PlcIo<'_>) -> Result<(), PlcFault> {
         let mut image = lock(&self.image);
-        let mut number = image.publish(io, step, true);
+        let mut number = publish(&mut image, io, step, true);
         let start = Instant::now();
         loop {
             match image.look(number) {
@@ -137,7 +141,7 @@ impl MappedPlc {
                     return Ok(());
                 }
                 // An answer to a step from before the start: now that it was seen, the PLC goes on with a step that says so.
-                Look::Refused(Refusal::Step) => number = image.publish(io, step, true),
+                Look::Refused(Refusal::Step) => number = publish(&mut image, io, step, true),
                 Look::Refused(refusal) => self.refusal = Some(refusal),
                 Look::Nothing => {}
             }
@@ -179,19 +183,24 @@ impl PlcProgram for MappedPlc {
     }
 
     fn scan(&mut self, io: &mut PlcIo<'_>) -> Result<(), PlcFault> {
+        let lock_step = self.exchange.lock_step;
+        if lock_step && !self.is_watched {
+            self.is_watched = lock(&self.image).plc_starts() != self.plc_starts;
+        }
         let mut taken = Ok(());
-        if !(self.exchange.lock_step && self.is_watched) {
+        if !(lock_step && self.is_watched) {
             taken = self.take_newest(io);
         }
         self.last_scan = Instant::now();
         let step = Step { cycle: io.cycle, time: io.time, since_last: io.cycle_time };
-        if self.exchange.lock_step && self.is_watched && taken.is_ok() {
+        if lock_step && self.is_watched && taken.is_ok() {
             taken = self.take_answer(step, io);
         } else {
-            lock(&self.image).publish(io, step, false);
+            publish(&mut lock(&self.image), io, step, false);
         }
         if taken.is_err() {
             self.is_watched = false;
+            self.plc_starts = lock(&self.image).plc_starts();
         }
         taken
     }
@@ -227,15 +236,17 @@ pub struct Keeper {
 }
 
 impl Keeper {
-    /// Gives a machine its program in another process, starts the machine, and keeps the file.
+    /// Gives a machine its program in another process, starts the machine, and keeps the file. A machine that is held begins when a
+    /// process has opened the file since it was created.
     #[must_use]
     pub fn start(mut machine: Machine, plc: MappedPlc, start: impl FnOnce(Machine) -> Live) -> (Live, Self) {
         let (image, ends) = (Arc::clone(&plc.image), Arc::clone(&plc.ends));
+        let starts = plc.plc_starts;
         machine.load_program(Box::new(plc));
         let live = start(machine);
         let shared = live.shared();
         let (end, ended) = mpsc::channel();
-        let thread = std::thread::spawn(move || keep(&shared, &image, &ended));
+        let thread = std::thread::spawn(move || keep(&shared, &image, starts, &ended));
         (live, Self { ends, end: Some(end), thread: Some(thread) })
     }
 }
@@ -257,10 +268,10 @@ impl Drop for Keeper {
     }
 }
 
-fn keep(shared: &Shared, image: &Mutex<MappedImage>, ended: &mpsc::Receiver<()>) {
-    let mut starts = lock(image).plc_starts();
+fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mpsc::Receiver<()>) {
     let mut powers = lock(image).power_requests();
     let mut was_stopped = false;
+    let (mut opened, mut switched) = (Said::default(), Said::default());
     while ended.recv_timeout(KEEP) == Err(RecvTimeoutError::Timeout) {
         let mut lines = Vec::new();
         let mut clocked = shared.lend();
@@ -268,7 +279,8 @@ fn keep(shared: &Shared, image: &Mutex<MappedImage>, ended: &mpsc::Receiver<()>)
         let mut image = lock(image);
         let is_stopped = machine.is_plc_stopped();
         image.cycle_time(machine.cycle_time());
-        image.state(if is_stopped { State::Stop } else { State::Run });
+        // Before its first scan the PLC is not in RUN: a process that answered then would have a scan more than in another run.
+        image.state(if is_stopped || !image.has_started() { State::Stop } else { State::Run });
         if is_stopped {
             show(&mut image, machine);
         }
@@ -277,25 +289,64 @@ fn keep(shared: &Shared, image: &Mutex<MappedImage>, ended: &mpsc::Receiver<()>)
         }
         if image.plc_starts() != starts {
             starts = image.plc_starts();
-            lines.push("a PLC process has opened the image".to_owned());
-            if machine.plc_fault().is_some() {
+            opened.times += 1;
+            shared.begin();
+            if machine.plc_fault().is_some() && !machine.queued().contains(&Command::PlcRun) {
                 lines.push("the PLC restarts; alarm 2000 stays until power off and on".to_owned());
                 let _ = machine.queue(Command::PlcRun); // it has no parameter that could be wrong
             }
         }
         if image.power_requests() != powers {
             powers = image.power_requests();
-            lines.push("the PLC process switches power off and on".to_owned());
-            let _ = machine.queue(Command::PowerOn);
+            switched.times += 1;
+            // Once a step, however often it is asked for.
+            if !machine.queued().contains(&Command::PowerOn) {
+                let _ = machine.queue(Command::PowerOn);
+            }
         }
         was_stopped = is_stopped;
         drop(image);
         drop(clocked);
         // Nobody waits for the machine while a terminal waits for its reader.
-        for line in lines {
+        let now = Instant::now();
+        let opened = opened.line("a PLC process has opened the image", now);
+        let switched = switched.line("the PLC process switches power off and on", now);
+        for line in opened.into_iter().chain(lines).chain(switched) {
             tracing::info!("{line}");
         }
     }
+}
+
+/// Something that another process may do as often as it likes, and garbage in its words does all the time.
+#[derive(Debug, Default)]
+struct Said {
+    /// How often it happened since it was said last.
+    times: u64,
+    last: Option<Instant>,
+    /// How long it is not said again.
+    pause: Duration,
+}
+
+impl Said {
+    /// What to say of it now: at once where it is rare, ever more rarely where it goes on.
+    fn line(&mut self, what: &str, now: Instant) -> Option<String> {
+        let since = self.last.map(|last| now.saturating_duration_since(last));
+        if self.times == 0 || since.is_some_and(|since| since < self.pause) {
+            return None;
+        }
+        let times = std::mem::take(&mut self.times);
+        let [shortest, longest] = PAUSES;
+        self.pause = if times == 1 { shortest } else { (2 * self.pause).min(longest) };
+        self.last = Some(now);
+        Some(if times == 1 { what.to_owned() } else { format!("{what}, {times} times") })
+    }
+}
+
+/// Publishes a step of the PLC in RUN. It says so after the step is there: until then the newest one is of before the start.
+fn publish(image: &mut MappedImage, io: &PlcIo<'_>, step: Step, waits: bool) -> u64 {
+    let number = image.publish(io, step, waits);
+    image.state(State::Run);
+    number
 }
 
 /// Shows the memory while no scan does.
@@ -306,4 +357,30 @@ fn show(image: &mut MappedImage, machine: &Machine) {
 
 fn lock(image: &Mutex<MappedImage>) -> MutexGuard<'_, MappedImage> {
     image.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_happens_all_the_time_is_said_ever_more_rarely_and_with_how_often() {
+        let begin = Instant::now();
+        let mut said = Said::default();
+        let lines: Vec<_> = (0..=700_u64)
+            .filter_map(|look| {
+                said.times += 1;
+                let after = 10 * look;
+                Some((after, said.line("power off and on", begin + Duration::from_millis(after))?))
+            })
+            .collect();
+        // Every 10 ms: at once, after a second, after 2 s more, after 4 s more.
+        let wanted = [(0, ""), (1000, ", 100 times"), (3000, ", 200 times"), (7000, ", 400 times")];
+        assert_eq!(lines, wanted.map(|(after, times)| (after, format!("power off and on{times}"))));
+        // Once after a long time is as the first time.
+        said.times = 1;
+        let later = begin + 2 * PAUSES[1];
+        assert_eq!(said.line("opened", later).as_deref(), Some("opened"));
+        assert_eq!(said.line("opened", later + PAUSES[0]), None);
+    }
 }

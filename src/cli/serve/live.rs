@@ -5,7 +5,7 @@
 //! next one was due is an overrun and is made up for at once. Who is late by more than [`GIVE_UP`] lets the time go: a computer that
 //! slept does not rush.
 
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError, TryRecvError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread::JoinHandle;
@@ -29,6 +29,8 @@ use crate::variables::{Describe, RaisedAlarm};
 pub const GIVE_UP: Duration = Duration::from_millis(500);
 /// A computer wakes nobody more exactly than this.
 const EXACT: Duration = Duration::from_millis(1);
+/// How often a machine that is held looks whether it may begin.
+const HELD: Duration = Duration::from_millis(1);
 /// How often the lock is tried by whoever does not wait for it.
 const SOON: u32 = 40;
 /// How often the stepping thread lets others go first, at most.
@@ -108,6 +110,8 @@ pub(super) struct Shared {
     worst: AtomicU64,
     lost: AtomicU64,
     speed: Speed,
+    /// It takes no step yet.
+    is_held: AtomicBool,
 }
 
 /// A machine with the clock of its CPU, and what is kept of what happens to it.
@@ -131,6 +135,8 @@ pub struct LiveOptions {
     pub trace: Option<Watch>,
     /// Acts on it, for a machine that has not run yet.
     pub operator: Option<Operator>,
+    /// It is looked at as it was switched on, and takes its first step after [`Live::begin`].
+    pub is_held: bool,
 }
 
 /// What was kept of a machine that has ended.
@@ -151,7 +157,8 @@ impl Ended {
 }
 
 impl Clocked {
-    fn new(machine: Machine, LiveOptions { recording, trace, operator }: LiveOptions) -> Self {
+    fn new(machine: Machine, options: LiveOptions) -> Self {
+        let LiveOptions { recording, trace, operator, is_held: _ } = options;
         let trace = trace.map(|watch| {
             let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle());
             trace.watch_values(&watch, machine.cycle(), machine.variables());
@@ -243,6 +250,7 @@ impl Live {
     /// Starts a machine with what goes with it.
     #[must_use]
     pub fn start_with(machine: Machine, speed: Speed, options: LiveOptions) -> Self {
+        let is_held = AtomicBool::new(options.is_held);
         let clocked = Clocked::new(machine, options);
         let cycle = clocked.machine.cycle();
         let shared = Arc::new(Shared {
@@ -257,11 +265,30 @@ impl Live {
             worst: AtomicU64::new(0),
             lost: AtomicU64::new(0),
             speed,
+            is_held,
         });
         let (end, ended) = mpsc::channel();
         let stepped = Arc::clone(&shared);
         let thread = std::thread::spawn(move || stepped.run(speed, &ended));
         Self { shared, end: Some(end), thread: Some(thread) }
+    }
+
+    /// A machine that is held takes its first step; its schedule begins now.
+    pub fn begin(&self) {
+        self.shared.begin();
+    }
+
+    /// Whether it takes no step yet.
+    #[must_use]
+    pub fn is_held(&self) -> bool {
+        self.shared.is_held()
+    }
+
+    /// The step that is being taken is the last one.
+    pub(super) fn finish(&self) {
+        if let Some(end) = &self.end {
+            let _ = end.send(());
+        }
     }
 
     /// Looks at the machine between two steps, or queues commands.
@@ -338,6 +365,14 @@ impl Shared {
         Pace { overruns: overruns.load(Ordering::Relaxed), worst: nanos(worst), lost: nanos(lost) }
     }
 
+    pub(super) fn begin(&self) {
+        self.is_held.store(false, Ordering::Release);
+    }
+
+    pub(super) fn is_held(&self) -> bool {
+        self.is_held.load(Ordering::Acquire)
+    }
+
     /// How many times real time is wanted.
     pub(super) fn speed(&self) -> Speed {
         self.speed
@@ -380,6 +415,11 @@ impl Shared {
     }
 
     fn run(&self, speed: Speed, ended: &mpsc::Receiver<()>) {
+        while self.is_held() {
+            if ended.recv_timeout(HELD) != Err(RecvTimeoutError::Timeout) {
+                return;
+            }
+        }
         let mut begin = Instant::now();
         let mut simulated = 0_u128; // nanoseconds since then
         let mut alarms = Vec::new();

@@ -169,7 +169,8 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     // Last of the files: one that has begun would be in the way of the next try.
     let recording = arguments.record.as_deref().map(|path| record::of(path, &opened)).transpose()?;
     let Opened { machine, operator, watch, path, .. } = opened;
-    let options = LiveOptions { recording, trace: trace.is_some().then_some(watch), operator };
+    let is_held = arguments.lock_step;
+    let options = LiveOptions { recording, trace: trace.is_some().then_some(watch), operator, is_held };
     let start = |machine| Live::start_with(machine, arguments.speed, options);
     let (live, keeper) = match mapped {
         Some(mapped) => {
@@ -206,11 +207,23 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     for address in window.metrics_addresses() {
         head += &format!("metrics on http://{address}/metrics\n");
     }
+    if let Some(file) = arguments.image.as_deref().filter(|_| arguments.lock_step) {
+        head += &waiting(file);
+    }
     if let Some(faults) = &arguments.s7_fault {
         head += &format!("faults on purpose: {faults}\n");
     }
     head += "Ctrl-C ends\n";
     Ok(Served { window, keeper, live, status, head, trace })
+}
+
+/// What the first step waits for.
+fn waiting(image: &Path) -> String {
+    let image = image.display();
+    format!(
+        "the first step waits for a PLC process that opens {image}, for example\n  \
+        python3 examples/python_plc/worked_example.py {image}\n"
+    )
 }
 
 fn status_line() -> ProgressBar {
@@ -252,6 +265,8 @@ fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result
             }
         }
     });
+    // In this order the scan that waits is the last one, whenever the signal came.
+    live.finish();
     if let Some(keeper) = keeper {
         keeper.let_go();
     }
@@ -297,6 +312,9 @@ impl<'a> Status<'a> {
     }
 
     fn line(&mut self, wanted: Speed) -> String {
+        if self.live.is_held() {
+            return format!("step 0  waits for a PLC process to open the image  clients {}", self.window.clients());
+        }
         let looked = self.live.with_soon(|machine| {
             let name = |number| machine.alarm_name(number);
             let alarms: Vec<_> = machine.variables().alarms.iter().map(|alarm| name(alarm.number)).collect();

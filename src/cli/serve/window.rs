@@ -226,6 +226,10 @@ impl Stations for Lender {
     }
 
     async fn taken_up(&self, step: u64) {
+        // A machine that is held takes it up in its first step, whenever that is.
+        if self.shared.is_held() {
+            return;
+        }
         let _ = self.shared.cycle.subscribe().wait_for(|cycle| *cycle >= step).await;
     }
 }

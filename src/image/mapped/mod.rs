@@ -13,6 +13,14 @@
 //! the rest (Python on ARM). A word is loaded and stored in one piece: in C as `_Atomic uint64_t`, in Python through
 //! `memoryview(…).cast("Q")`.
 //!
+//! # How they begin
+//!
+//! The NC stores 0 as `STATE` and another `GENERATION`, says how everything lies, shows the memory as it was switched on in slot 1 or whichever
+//! is next, and stores 2 as `STATE`. The PLC reads the header while `STATE` is not 0, sees that `GENERATION` is still the same, and adds 1
+//! to `PLC_STARTS` when it is ready; so it does after each other `GENERATION`, whether its process is new or was there already. It waits
+//! for 1 as `STATE`, which the NC stores after the step of its first scan. In lock-step the NC takes no step before another number stands in
+//! `PLC_STARTS` than when it began: cycles count from there, and nothing depends on who came first, or when.
+//!
 //! # Who wins
 //!
 //! An answer carries the image before and after. The NC takes the bits that differ, where the section is the PLC's; so what an S7 client
@@ -40,13 +48,13 @@
 //! | 96 | 8 | `PLC_SLOTS` | where the PLC's first slot begins in the file |
 //! | 104 | 8 | `PLC_SLOT_BYTES` | bytes of each of them |
 //! | 112 | 8 | `NC_CYCLE_TIME` | interpolation cycle in nanoseconds |
-//! | 120 | 8 | `LOCK_STEP` | 1: each step waits for its answer; 0: the NC takes the newest answer there is |
+//! | 120 | 8 | `LOCK_STEP` | 1: each step waits for its answer, the first one for a PLC, too; 0: the NC takes the newest answer there is |
 //! | 128 | 8 | `TIME_OUT` | for how many nanoseconds the PLC may be silent |
 //! | 136 | 8 | `PROCESS` | process number of the NC |
-//! | 256 | 8 | `STATE` | of the NC: 0 it has ended, 1 the PLC is in RUN, 2 the PLC is in STOP and nothing is taken |
+//! | 256 | 8 | `STATE` | of the NC: 0 it has ended, 1 the PLC is in RUN, 2 the PLC is in STOP, or before its first scan: nothing is taken |
 //! | 264 | 8 | `NEWEST_STEP` | the NC's newest slot that is whole; 0: none yet |
 //! | 272 | 8 | `REQUEST` | the step whose answer the NC waits for; 0: none |
-//! | 512 | 8 | `PLC_STARTS` | the PLC adds 1 when it has opened the file |
+//! | 512 | 8 | `PLC_STARTS` | the PLC adds 1 when it has read the header, and is ready |
 //! | 520 | 8 | `NEWEST_ANSWER` | the PLC's newest slot that is whole; a PLC goes on from what it finds |
 //! | 528 | 8 | `ACKNOWLEDGE` | the step that the newest answer answers |
 //! | 536 | 8 | `POWER` | the PLC adds 1 to switch the control off and on |

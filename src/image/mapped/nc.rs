@@ -179,7 +179,7 @@ impl MappedImage {
         };
         let first = Step { cycle: 0, time: Time::ZERO, since_last: Time::ZERO };
         image.publish(memory, first, false);
-        image.state(State::Run);
+        image.state(State::Stop);
         Ok(image)
     }
 
@@ -208,6 +208,12 @@ impl MappedImage {
     pub fn start(&mut self) -> u64 {
         self.starts += 1;
         next(self.newest)
+    }
+
+    /// Whether the PLC has been started.
+    #[must_use]
+    pub fn has_started(&self) -> bool {
+        self.starts > 0
     }
 
     /// Publishes a step, and says whether the NC waits for its answer; gives its number.

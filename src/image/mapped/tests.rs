@@ -230,6 +230,8 @@ fn one_file_is_served_by_one_nc_at_a_time_and_numbers_go_on() {
     let mut plc = PlcImage::open(&file.0).unwrap();
     plc.next_step().unwrap();
     plc.answer();
+    assert_eq!((plc.state(), first.has_started()), (State::Stop, false));
+    first.state(State::Run);
     assert_eq!(plc.state(), State::Run);
     drop(first);
     assert_eq!(plc.state(), State::Ended);
@@ -241,7 +243,7 @@ fn one_file_is_served_by_one_nc_at_a_time_and_numbers_go_on() {
     assert_eq!(plc.state(), State::Ended, "it must read the header again");
     assert_eq!(second.look(0), Look::Nothing, "an answer to the first NC is none to the second");
     assert!(second.publish(&memory, step(1), false) > number);
-    assert_eq!(PlcImage::open(&file.0).unwrap().state(), State::Run);
+    assert_eq!(PlcImage::open(&file.0).unwrap().state(), State::Stop);
 }
 
 #[test]
