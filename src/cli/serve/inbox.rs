@@ -10,6 +10,9 @@ use crate::machine::Command;
 use crate::s7;
 use crate::source::Problem;
 
+/// From so many orders on, clients wait a while with each.
+const MANY: usize = 1000;
+
 /// What a request asked for, in order.
 #[derive(Debug)]
 pub(super) struct Order {
@@ -40,6 +43,11 @@ impl Inbox {
         let mut waiting = self.lock();
         waiting.orders.push(order);
         waiting.cycle
+    }
+
+    /// Whether many orders wait.
+    pub(super) fn is_full(&self) -> bool {
+        self.lock().orders.len() >= MANY
     }
 
     /// All orders, for the edge of this cycle; what comes from now on waits for the next.

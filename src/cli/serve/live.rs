@@ -250,14 +250,14 @@ impl Live {
     /// Starts a machine with what goes with it.
     #[must_use]
     pub fn start_with(machine: Machine, speed: Speed, options: LiveOptions) -> Self {
-        let is_held = AtomicBool::new(options.is_held);
+        let is_held = options.is_held;
         let clocked = Clocked::new(machine, options);
         let cycle = clocked.machine.cycle();
         let shared = Arc::new(Shared {
             view: View::new(clocked.seen()),
             inbox: Inbox::new(cycle + 1),
-            // Cheap beside a cycle in real time; faster, few of so many steps are looked at.
-            is_shown: speed <= Speed::default(),
+            // Cheap beside a cycle in real time, and beside one that waits for a process; else few of so many steps are looked at.
+            is_shown: speed <= Speed::default() || is_held,
             cycle: watch::Sender::new(cycle),
             clocked: Mutex::new(clocked),
             waiting: AtomicUsize::new(0),
@@ -265,7 +265,7 @@ impl Live {
             worst: AtomicU64::new(0),
             lost: AtomicU64::new(0),
             speed,
-            is_held,
+            is_held: AtomicBool::new(is_held),
         });
         let (end, ended) = mpsc::channel();
         let stepped = Arc::clone(&shared);

@@ -226,8 +226,8 @@ impl Stations for Lender {
     }
 
     async fn taken_up(&self, step: u64) {
-        // A machine that is held takes it up in its first step, whenever that is.
-        if self.shared.is_held() {
+        // A machine that is held takes it up in its first step, whenever that is; who writes without end waits all the same.
+        if self.shared.is_held() && !self.shared.inbox.is_full() {
             return;
         }
         let _ = self.shared.cycle.subscribe().wait_for(|cycle| *cycle >= step).await;
