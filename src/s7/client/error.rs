@@ -3,6 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
+use crate::s7::wire::codes;
 use crate::s7::wire::header::ErrorCode;
 
 /// Why a client has no answer, or not the one that was hoped for.
@@ -136,8 +137,10 @@ impl fmt::Display for Error {
             Self::Input { what, .. } => f.write_str(what),
             Self::Unreachable { host, cause } => write!(f, "{host} cannot be reached: {cause}"),
             Self::NotAccepted { host, cause, .. } => write!(f, "{host} does not take the connection: {cause}"),
-            Self::Refused { what, code } => write!(f, "{what}: {} (return code {code:02X})", words_of_code(*code)),
-            Self::Rejected { what, error } => write!(f, "{what}: {} (error {:04X})", words_of_error(*error), error.0),
+            Self::Refused { what, code } => write!(f, "{what}: {} (return code {code:02X})", codes::of_item(*code)),
+            Self::Rejected { what, error } => {
+                write!(f, "{what}: {} (error {:04X})", codes::of_request(*error), error.0)
+            }
             Self::TimedOut { what, after, sent } => {
                 let sent = if *sent { "" } else { "; it was not sent" };
                 write!(f, "{what}: no answer within {} s{sent}", after.as_secs_f64())
@@ -156,20 +159,7 @@ fn is_of_the_nck(what: &str) -> bool {
     what.starts_with("nck:")
 }
 
-/// Return codes of items.
-fn words_of_code(code: u8) -> &'static str {
-    match code {
-        0x00 => "nothing came",
-        0x01 => "the hardware has a fault",
-        0x03 => "access is not allowed",
-        0x05 => "the address is out of range",
-        0x06 => "the data type is not supported",
-        0x07 => "data type or length do not match",
-        0x0A => "the object does not exist",
-        _ => "refused",
-    }
-}
-
+/// By the return code of an item.
 fn cure_of_code(code: u8) -> &'static str {
     match code {
         0x03 => "the server allows reading only, or the value cannot be set",
@@ -192,30 +182,7 @@ fn cure_of_nc_code(code: u8) -> &'static str {
     }
 }
 
-/// Errors of whole requests.
-fn words_of_error(error: ErrorCode) -> &'static str {
-    match error {
-        ErrorCode::NOT_IMPLEMENTED => "the module does not have this service",
-        ErrorCode::NO_FURTHER_UPLOAD => "too many uploads at the same time",
-        ErrorCode::WRONG_SEQUENCE => "not in this order",
-        ErrorCode::CANNOT_BE_PERFORMED => "it cannot be done now",
-        ErrorCode::WRONG_FRAME => "the lengths do not fit, or the answer would be longer than a PDU",
-        ErrorCode::BLOCK_NAME => "no name of a block",
-        ErrorCode::FUNCTION_PARAMETERS => "wrong parameters",
-        ErrorCode::BLOCK_NOT_FOUND => "there is no such block",
-        ErrorCode::NO_BLOCK => "there is no block of this type",
-        ErrorCode::PROTECTED => "not permitted at this protection level",
-        ErrorCode::WRONG_LIST => "there is no such list",
-        ErrorCode::WRONG_INDEX => "the list has no such index",
-        ErrorCode::TOO_MANY => "too many subscriptions",
-        ErrorCode::NOT_SUPPORTED => "the module does not support it",
-        ErrorCode::WRONG_PASSWORD => "wrong password",
-        ErrorCode::NO_PASSWORD => "there is no password to give",
-        ErrorCode::WRONG_TIME => "no valid date and time",
-        ErrorCode(_) => "refused",
-    }
-}
-
+/// By the error of a whole request.
 fn cure_of_error(error: ErrorCode) -> &'static str {
     match error {
         ErrorCode::NOT_IMPLEMENTED => {

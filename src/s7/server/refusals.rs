@@ -3,9 +3,10 @@
 use std::fmt::{self, Write};
 
 use crate::image::Area;
+use crate::s7::wire::codes;
 use crate::s7::wire::cotp::Tpdu;
 use crate::s7::wire::data::{SUCCESS, Type, Values};
-use crate::s7::wire::header::{Message, function, kind};
+use crate::s7::wire::header::{ErrorCode, Message, function, kind};
 use crate::s7::wire::items::{Item, Items, NckItem};
 use crate::s7::wire::tpkt::{self, Packet};
 use crate::s7::wire::user_data::{self, Received, group};
@@ -34,28 +35,8 @@ impl Refused {
     #[must_use]
     pub const fn meaning(self) -> &'static str {
         match self {
-            Self::Item(0x03) => "access is not allowed",
-            Self::Item(0x05) => "the address is out of range",
-            Self::Item(0x06) => "the data type is not supported",
-            Self::Item(0x07) => "data type or length do not match",
-            Self::Item(0x0A) => "the object does not exist",
-            Self::Request(0x8104) => "the function is not there",
-            Self::Request(0x8304) => "another upload is going on",
-            Self::Request(0x8401) => "not in this sequence",
-            Self::Request(0x8404) => "it cannot be done now",
-            Self::Request(0x8500) => "wrong frame, or the answer would be too long",
-            Self::Request(0xD201) => "the name of the block is none",
-            Self::Request(0xD202) => "wrong parameters",
-            Self::Request(0xD209 | 0xD20E) => "there is no such block",
-            Self::Request(0xD241) => "it is protected",
-            Self::Request(0xD401) => "there is no such list",
-            Self::Request(0xD402) => "there is no such index",
-            Self::Request(0xD404) => "too many are logged on",
-            Self::Request(0xD405) => "the service is not supported",
-            Self::Request(0xD602) => "wrong password",
-            Self::Request(0xD605) => "there is no password",
-            Self::Request(0xDC01) => "wrong date or time",
-            Self::Item(_) | Self::Request(_) => "an error",
+            Self::Item(code) => codes::of_item(code),
+            Self::Request(error) => codes::of_request(ErrorCode(error)),
         }
     }
 }

@@ -9,11 +9,13 @@
 //! | items: what is meant | `items` | | `12`, length, syntax identifier |
 //! | data: its value | `data` | | return code, transport size, length |
 //! | user data: everything that is no variable | `user_data` | | `00 01 12` |
+//! | codes and errors, in words | `codes` | | |
 //! | the client's direction: what it asks, what it is answered | `requests`, `replies` | | |
 //!
 //! Every function here is total: any bytes give a value or a refusal, none gives a panic, and nothing is allocated for a
 //! length field that the bytes received do not cover. Numbers are big-endian on the wire unless a line says otherwise.
 
+pub mod codes;
 pub mod cotp;
 pub mod data;
 pub mod date_and_time;
