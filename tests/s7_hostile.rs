@@ -3,6 +3,7 @@
 #![cfg(all(feature = "cli", feature = "s7"))]
 #![expect(clippy::disallowed_methods, reason = "a live machine is watched in real time")]
 
+mod common;
 #[path = "../fuzz/src/conversation.rs"]
 #[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
 mod conversation;
@@ -17,6 +18,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use common::client;
 use hostile::{Act, Conversation};
 use opennck::cli::serve::{Limits, Live, Window};
 use opennck::image::Preset;
@@ -58,12 +60,12 @@ fn a_session_answers_each_or_ends_it() {
 fn a_good_client_is_served_after_each() {
     let (_live, window) = open();
     let address = window.addresses()[0];
-    let mut old = good_client(address);
+    let mut old = client(address);
     for conversation in hostile::conversations() {
         let begin = Instant::now();
         tell(&conversation, address);
         serve(&mut old, &conversation.name);
-        serve(&mut good_client(address), &conversation.name);
+        serve(&mut client(address), &conversation.name);
         let time = begin.elapsed();
         assert!(time < Duration::from_secs(10), "{} held it up for {time:?}", conversation.name);
     }
@@ -90,7 +92,7 @@ fn a_good_client_is_served_amid_all_of_them() {
         });
         let sides: Vec<_> = sides.collect();
         let good = scope.spawn(|| {
-            let mut client = good_client(address);
+            let mut client = client(address);
             while !is_over.load(Ordering::Relaxed) {
                 serve(&mut client, "some of them");
             }
@@ -110,14 +112,6 @@ fn open() -> (Live, Window) {
     let live = Live::start(machine, "5".parse().expect("a speed"));
     let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default()).expect("some port is free");
     (live, window)
-}
-
-fn good_client(address: SocketAddr) -> S7Client {
-    let mut client = S7Client::new();
-    client.set_connection_port(address.port()).expect("it is not connected yet");
-    client.set_timeout(5000, 5000, 5000).expect("it is not connected yet");
-    client.connect_rack_slot(&address.ip().to_string(), 0, 2).expect("the server is there");
-    client
 }
 
 /// DB 1001 of the image `recipes`, which nobody writes: `8C 00 FF` again and again.

@@ -2,18 +2,16 @@
 //! nobody. How fast that goes is measured by `benches/s7`.
 #![cfg(all(feature = "cli", feature = "s7"))]
 
+mod common;
+
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
 
+use common::{CONNECT, bare, packet, setup};
 use opennck::cli::serve::{Limits, Live, Speed, Window};
 use opennck::machine::Machine;
 
-/// The connection request of most clients.
-const CONNECT: [u8; 22] = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
-/// Setup communication: one job, a PDU of 240 bytes.
-const SETUP: [u8; 25] = [3, 0, 0, 25, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 1, 0, 8, 0, 0, 0xF0, 0, 0, 1, 0, 1, 0, 240];
 /// Clients that are held.
 const MANY: usize = 1000;
 
@@ -39,23 +37,15 @@ fn served(speed: &str) -> (Live, Window, SocketAddr) {
     (live, window, address)
 }
 
+/// Connected, with a PDU of 240 bytes.
 fn client(address: SocketAddr) -> TcpStream {
-    let mut stream = TcpStream::connect(address).expect("the server is there");
+    let mut stream = bare(address);
     stream.set_nodelay(true).expect("it is a socket");
-    stream.set_read_timeout(Some(Duration::from_secs(20))).expect("it is a time");
-    stream.write_all(&CONNECT).expect("it is taken");
-    packet(&mut stream);
-    stream.write_all(&SETUP).expect("it is taken");
-    packet(&mut stream);
+    for said in [&CONNECT[..], &setup(240)] {
+        stream.write_all(said).expect("it is taken");
+        packet(&mut stream);
+    }
     stream
-}
-
-fn packet(stream: &mut TcpStream) -> Vec<u8> {
-    let mut packet = vec![0; 4];
-    stream.read_exact(&mut packet).expect("a packet comes");
-    packet.resize(usize::from(u16::from_be_bytes([packet[2], packet[3]])), 0);
-    stream.read_exact(&mut packet[4..]).expect("its rest comes");
-    packet
 }
 
 /// Bytes that this process has in memory, where the system tells.

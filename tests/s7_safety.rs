@@ -4,23 +4,23 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![expect(clippy::disallowed_methods, reason = "a live machine is watched in real time")]
 
+mod common;
+
 use std::io::{Read, Write};
-use std::net::{Shutdown, SocketAddr, TcpStream};
+use std::net::{Shutdown, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+use common::{CONNECT, bare, client, next, setup};
 use opennck::cli::serve::{Live, Speed, Terms, Window, WindowOptions};
 use opennck::image::{Area, Profile};
 use opennck::machine::{Machine, OpenOptions};
 use opennck::s7::{Protected, Protection, Settings};
 use prometheus_parse::{Scrape, Value};
-use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE, S7Client};
+use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE};
 
-/// The connection request of most clients.
-const CONNECT: [u8; 22] = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
-/// Setup communication: one job, a PDU of 480 bytes.
-const SETUP: [u8; 25] = [3, 0, 0, 25, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 1, 0, 8, 0, 0, 0xF0, 0, 0, 1, 0, 1, 1, 0xE0];
+const SETUP: [u8; 25] = setup(480);
 
 /// Read MB0, with a reference.
 fn read(reference: u8) -> Vec<u8> {
@@ -52,30 +52,6 @@ fn faults(text: &str) -> WindowOptions {
 
 fn terms(terms: Terms) -> WindowOptions {
     WindowOptions { terms, ..WindowOptions::default() }
-}
-
-fn client(address: SocketAddr) -> S7Client {
-    let mut client = S7Client::new();
-    client.set_connection_port(address.port()).expect("it is not connected yet");
-    client.set_timeout(5000, 5000, 5000).expect("it is not connected yet");
-    client.connect_rack_slot(&address.ip().to_string(), 0, 2).expect("the server is there");
-    client
-}
-
-fn bare(address: SocketAddr) -> TcpStream {
-    let stream = TcpStream::connect(address).expect("the server is there");
-    stream.set_read_timeout(Some(Duration::from_secs(10))).expect("it is a time");
-    stream
-}
-
-/// The next packet; nothing when the connection has ended.
-fn next(stream: &mut TcpStream) -> Option<Vec<u8>> {
-    let mut head = [0; 4];
-    stream.read_exact(&mut head).ok()?;
-    let mut packet = vec![0; usize::from(u16::from_be_bytes([head[2], head[3]]))];
-    packet[..4].copy_from_slice(&head);
-    stream.read_exact(&mut packet[4..]).ok()?;
-    Some(packet)
 }
 
 /// A new file in the target directory.

@@ -3,20 +3,21 @@
 #![cfg(all(feature = "cli", feature = "s7"))]
 #![expect(clippy::disallowed_methods, reason = "a live machine is watched in real time")]
 
+mod common;
+
 use std::io::{Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use common::{CONNECT, bare, client, packet, setup};
 use opennck::cli::serve::{Limits, Live, Speed, Window};
 use opennck::machine::Machine;
 use opennck::plc::{self, PlcIo, Programs};
-use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE, S7Client};
+use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE};
 
-/// The connection request of most clients.
-const CONNECT: [u8; 22] = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
-/// Setup communication: one job, a PDU of 480 bytes.
-const SETUP: [u8; 25] = [3, 0, 0, 25, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 1, 0, 8, 0, 0, 0xF0, 0, 0, 1, 0, 1, 1, 0xE0];
+const SETUP: [u8; 25] = setup(480);
+
 /// Read one byte: MB0.
 const READ: [u8; 31] =
     [3, 0, 0, 31, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 2, 0, 14, 0, 0, 4, 1, 0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 0];
@@ -35,20 +36,6 @@ fn window(live: &Live, limits: Limits) -> (Window, SocketAddr) {
     (window, address)
 }
 
-fn client(address: SocketAddr) -> S7Client {
-    let mut client = S7Client::new();
-    client.set_connection_port(address.port()).expect("it is not connected yet");
-    client.set_timeout(5000, 5000, 5000).expect("it is not connected yet");
-    client.connect_rack_slot(&address.ip().to_string(), 0, 2).expect("the server is there");
-    client
-}
-
-fn bare(address: SocketAddr) -> TcpStream {
-    let stream = TcpStream::connect(address).expect("the server is there");
-    stream.set_read_timeout(Some(Duration::from_secs(10))).expect("it is a time");
-    stream
-}
-
 /// Waits until something is true, at most ten seconds.
 #[track_caller]
 fn wait(what: &str, mut is_true: impl FnMut() -> bool) {
@@ -57,15 +44,6 @@ fn wait(what: &str, mut is_true: impl FnMut() -> bool) {
         assert!(begin.elapsed() < Duration::from_secs(10), "{what} did not come");
         std::thread::sleep(Duration::from_millis(5));
     }
-}
-
-fn read_packet(stream: &mut TcpStream) -> Vec<u8> {
-    let mut head = [0; 4];
-    stream.read_exact(&mut head).expect("a packet comes");
-    let mut packet = vec![0; usize::from(u16::from_be_bytes([head[2], head[3]]))];
-    packet[..4].copy_from_slice(&head);
-    stream.read_exact(&mut packet[4..]).expect("its rest comes");
-    packet
 }
 
 fn is_any_set(bytes: &[u8]) -> bool {
@@ -146,10 +124,10 @@ fn reads_that_came_together_see_one_step() {
     let (_window, address) = window(&live, Limits::default());
     let mut stream = bare(address);
     stream.write_all(&[&CONNECT[..], &SETUP].concat()).unwrap();
-    let _answers = (read_packet(&mut stream), read_packet(&mut stream));
+    let _answers = (packet(&mut stream), packet(&mut stream));
     for _ in 0..10 {
         stream.write_all(&READ.repeat(30)).unwrap(); // 930 bytes: one segment
-        let answers: Vec<_> = (0..30).map(|_| read_packet(&mut stream).pop()).collect();
+        let answers: Vec<_> = (0..30).map(|_| packet(&mut stream).pop()).collect();
         assert!(answers.iter().all(|value| *value == answers[0]), "{answers:?}");
     }
 }
@@ -334,21 +312,21 @@ fn values_come_in_cycles() {
     let live = live();
     let (_window, address) = window(&live, Limits { idle: Duration::from_millis(300), ..Limits::default() });
     let mut panel = bare(address);
-    let mut packet = |request: &[u8]| {
+    let mut ask = |request: &[u8]| {
         panel.write_all(request).unwrap();
-        read_packet(&mut panel)
+        packet(&mut panel)
     };
-    packet(&CONNECT);
-    packet(&SETUP);
+    ask(&CONNECT);
+    ask(&SETUP);
     let mut subscribe =
         vec![3, 0, 0, 45, 2, 0xF0, 0x80, 0x32, 7, 0, 0, 0, 9, 0, 8, 0, 20, 0, 1, 0x12, 4, 0x11, 0x42, 1, 0];
     subscribe.extend([0xFF, 9, 0, 16, 0, 1, 0, 1, 0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 0]);
-    let answer = packet(&subscribe);
+    let answer = ask(&subscribe);
     assert_eq!(answer[answer.len() - 5..answer.len() - 1], [0xFF, 4, 0, 8], "{answer:02X?}");
     for value in [1, 2] {
         client(address).write_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &[value]).unwrap();
         let begin = Instant::now();
-        while read_packet(&mut panel).last() != Some(&value) {
+        while packet(&mut panel).last() != Some(&value) {
             assert!(begin.elapsed() < Duration::from_secs(10));
         }
     }
@@ -361,7 +339,7 @@ fn silence_is_not_served_for_ever() {
     let (window, address) = window(&live, Limits { idle: Duration::from_millis(200), ..Limits::default() });
     let mut stream = bare(address);
     stream.write_all(&CONNECT).unwrap();
-    read_packet(&mut stream);
+    packet(&mut stream);
     let empty = [3, 0, 0, 7, 2, 0xF0, 0]; // data without data, which collectors send
     wait("the end", || stream.write_all(&empty).is_err() || window.clients() == 0);
 }
@@ -441,7 +419,7 @@ fn ask(stream: &mut TcpStream, parameter: &[u8], data: &[u8]) -> Vec<u8> {
     let [total, p, d] = [17 + parameter.len() + data.len(), parameter.len(), data.len()].map(length);
     let head = [3, 0, total[0], total[1], 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 1, p[0], p[1], d[0], d[1]];
     stream.write_all(&[&head, parameter, data].concat()).expect("it goes out");
-    read_packet(stream)[17..].to_vec()
+    packet(stream)[17..].to_vec()
 }
 
 fn collector(address: SocketAddr) -> TcpStream {
@@ -449,7 +427,7 @@ fn collector(address: SocketAddr) -> TcpStream {
     let mut connect = CONNECT;
     connect[20..].copy_from_slice(&[0x0D, 4]);
     stream.write_all(&connect).expect("it goes out");
-    read_packet(&mut stream);
+    packet(&mut stream);
     ask(&mut stream, &[0xF0, 0, 0, 1, 0, 1, 3, 0xC0], &[]);
     stream
 }
@@ -502,7 +480,7 @@ fn stop_and_cold_restart_stand_in_the_diagnostic_buffer_and_flags_begin_anew() {
     let list = [0xFF, 9, 0, 4, 0, 0xA0, 0, 0];
     let head = [3, 0, 0, 33, 2, 0xF0, 0x80, 0x32, 7, 0, 0, 0, 1, 0, 8, 0, 8, 0, 1, 0x12, 4, 0x11, 0x44, 1, 0];
     stream.write_all(&[&head[..], &list].concat()).expect("it goes out");
-    let answer = read_packet(&mut stream);
+    let answer = packet(&mut stream);
     let events: Vec<u16> =
         answer[41..].chunks_exact(20).map(|entry| u16::from_be_bytes([entry[0], entry[1]])).collect();
     assert_eq!(events, [0x4302, 0x4301, 0x1385, 0x4304, 0x4302, 0x4301, 0x4300]);
