@@ -1,0 +1,230 @@
+//! The same with the program itself: a scenario in real time, ends without warning, and what its doors say.
+
+use std::fs;
+use std::io::{BufRead, BufReader, Lines};
+use std::net::{SocketAddr, TcpListener};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStderr, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use opennck::scenario::Scenario;
+
+use super::panel::{Bare, DB, FLAGS, Item};
+
+/// `opennck serve` on any free port.
+struct Program {
+    child: Child,
+    log: Lines<BufReader<ChildStderr>>,
+    port: u16,
+}
+
+impl Program {
+    /// Starts it in a folder of its own, which is empty before.
+    fn start(folder: &Path, arguments: &[&str]) -> Self {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_opennck"));
+        program.arg("serve").args(arguments).current_dir(folder);
+        Self::started(program)
+    }
+
+    fn started(mut program: Command) -> Self {
+        program.args(["--s7", "127.0.0.1:0"]).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = program.spawn().expect("the program was built");
+        let mut head = BufReader::new(child.stdout.take().expect("it is piped")).lines();
+        let port = head.find_map(|line| line.ok()?.split_once("S7 on 127.0.0.1:")?.1.split(':').next()?.parse().ok());
+        // Its output has no reader from here on.
+        let log = BufReader::new(child.stderr.take().expect("it is piped")).lines();
+        Self { child, log, port: port.expect("it says its port") }
+    }
+
+    fn address(&self) -> SocketAddr {
+        SocketAddr::from(([127, 0, 0, 1], self.port))
+    }
+
+    /// Waits for a line of its log.
+    #[track_caller]
+    fn says(&mut self, what: &str) -> String {
+        let line = self.log.find(|line| line.as_ref().is_ok_and(|line| line.contains(what)));
+        line.unwrap_or_else(|| panic!("it did not say: {what}")).expect("text")
+    }
+
+    fn end(&mut self, signal: &str) -> Option<i32> {
+        let id = self.child.id().to_string();
+        assert!(Command::new("kill").args([signal, &id]).status().expect("there is a kill").success());
+        self.child.wait().expect("it ends").code()
+    }
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("there is space");
+    folder
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_opennck")).args(arguments).current_dir(folder).output().expect("it was built")
+}
+
+fn project(path: &str) -> String {
+    format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+#[cfg(unix)]
+fn a_scenario_acts_in_real_time_as_it_runs_and_is_recorded() {
+    let folder = folder("acts");
+    let scenario = project("golden/worked_example/gantry_references_and_synchronises.toml");
+    let arguments = ["--scenario", &scenario, "--speed", "50", "--record", "again.toml", "--trace", "live.jsonl"];
+    let mut program = Program::start(&folder, &arguments);
+    let mut client = Bare::connect(program.address());
+    program.says("the scenario is over, all of it held");
+    // It is still served, and what clients write then is recorded, too.
+    assert_eq!(client.write(&[Item::bytes((FLAGS, 0), 77, &[7])]), [0xFF]);
+    assert_eq!(program.end("-TERM"), Some(0));
+    let live = fs::read_to_string(folder.join("live.jsonl")).unwrap();
+    let recording = fs::read_to_string(folder.join("again.toml")).unwrap();
+    for said in ["# 0.002 s: the scenario", "note = \"JOG with machine function REF\"", "MB77", "plc = \"enable_all\""]
+    {
+        assert!(recording.contains(said), "no {said} in\n{recording}");
+    }
+    for (scenario, trace) in [(scenario.as_str(), "run.jsonl"), ("again.toml", "again.jsonl")] {
+        let output = run(&folder, &["run", scenario, "--trace", trace]);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    assert!(live == fs::read_to_string(folder.join("again.jsonl")).unwrap());
+    // As fast as it can is the same as in real time, up to its end.
+    let alone = fs::read_to_string(folder.join("run.jsonl")).unwrap();
+    assert!(live.starts_with(&alone), "{} bytes, then {}", alone.len(), live.len());
+}
+
+#[test]
+#[cfg(unix)]
+fn a_scenario_brings_its_plant_profile_and_image_into_the_recording() {
+    let folder = folder("brings");
+    let scenario = "machine = \"g1_example\"\nplc_image = \"image.toml\"\nprofile = \"828d\"\nwatch = [\"Y.slide\", \"Y.*\"]\n\
+        [plant.Y]\nstart = 12.5\n[[step]]\nset = { MW90 = 5 }\n[[step]]\nrun = \"1s\"\n\
+        [[step]]\nexpect = \"Y.position > 1000\"\n[[step]]\nset = { \"M0.0\" = 1 }\n";
+    fs::write(folder.join("mine.toml"), scenario).unwrap();
+    fs::copy(project("plc_images/recipes.toml"), folder.join("image.toml")).unwrap();
+    let arguments = ["--scenario", "mine.toml", "--speed", "20", "--record", "again.toml", "--trace", "live.jsonl"];
+    let mut program = Program::start(&folder, &arguments);
+    // The step that fails ends it, and is said; serving goes on.
+    let line = program.says("the scenario failed");
+    assert!(line.contains("mine.toml:12") && line.contains("Y.position > 1000"), "{line}");
+    drop(Bare::connect(program.address()));
+    assert_eq!(program.end("-INT"), Some(0));
+    let output = run(&folder, &["run", "again.toml", "--trace", "again.jsonl"]);
+    let recording = fs::read_to_string(folder.join("again.toml")).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}{recording}", String::from_utf8_lossy(&output.stderr));
+    let live = fs::read_to_string(folder.join("live.jsonl")).unwrap();
+    assert!(live.contains("\"symbol\":\"Y.slide\",\"value\":12.5"), "{live}");
+    assert!(live == fs::read_to_string(folder.join("again.jsonl")).unwrap(), "{recording}");
+    for said in ["profile = \"828d\"", "plc_image = \"image.toml\"", "plant = { \"Y\" = { \"start\" = 12.5 } }"] {
+        assert!(recording.contains(said), "no {said} in\n{recording}");
+    }
+    assert!(!recording.contains("M0.0"), "what stands behind a failed step is not done:\n{recording}");
+}
+
+#[test]
+#[cfg(unix)]
+fn an_end_without_warning_loses_a_second_at_most() {
+    let folder = folder("killed");
+    let mut program = Program::start(&folder, &["g1_example", "--record", "killed.toml"]);
+    let mut client = Bare::connect(program.address());
+    assert_eq!(client.write(&[Item::bytes((FLAGS, 0), 1, &[11])]), [0xFF]);
+    let text = || fs::read_to_string(folder.join("killed.toml")).unwrap();
+    let cycles = |text: &str| -> u64 {
+        let run = |line: &str| line.strip_prefix("run = \"")?.strip_suffix("cycles\"")?.parse::<u64>().ok();
+        text.lines().filter_map(run).sum()
+    };
+    // It is brought to the disk again and again, not only at the end.
+    let begin = Instant::now();
+    while cycles(&text()) < 700 {
+        assert!(begin.elapsed() < Duration::from_secs(30), "{}", text());
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    program.end("-KILL");
+    let text = text();
+    assert!(text.contains("\"MB1\" = 11"), "{text}");
+    assert_eq!(run(&folder, &["run", "killed.toml"]).status.code(), Some(0));
+}
+
+#[test]
+#[cfg(unix)]
+fn a_full_disk_ends_the_recording_and_not_the_machine() {
+    let folder = folder("full");
+    let mut shell = Command::new("sh");
+    // A file may have 4096 bytes, and who writes more is told so.
+    let line = "trap '' XFSZ; ulimit -f 8; exec \"$0\" serve g1_example --record full.toml \"$@\"";
+    shell.args(["-c", line, env!("CARGO_BIN_EXE_opennck")]).current_dir(&folder);
+    let mut program = Program::started(shell);
+    let mut client = Bare::connect(program.address());
+    for round in 0..200 {
+        assert_eq!(client.write(&[Item::bytes((FLAGS, 0), 1, &[round, 2, 3, 4, 5, 6, 7, 8])]), [0xFF]);
+    }
+    let line = program.says("the recording ends");
+    assert!(line.contains("full.toml cannot be written"), "{line}");
+    assert_eq!(client.write(&[Item::bytes((FLAGS, 0), 1, &[9])]), [0xFF]);
+    assert_eq!(program.end("-TERM"), Some(0));
+    let text = fs::read_to_string(folder.join("full.toml")).unwrap();
+    assert!(text.len() <= 4096 && Scenario::parse(&text, Path::new("full.toml")).is_ok(), "{text}");
+}
+
+#[test]
+fn the_doors_of_a_recording_say_what_is_wrong() {
+    let folder = folder("doors");
+    fs::write(folder.join("old.toml"), "mine").unwrap();
+    fs::write(folder.join("wrong.toml"), "machine = \"g1_example\"\n[[step]]\nsett = { \"M0.0\" = 1 }\n").unwrap();
+    let taken = TcpListener::bind("127.0.0.1:0").unwrap();
+    let taken = taken.local_addr().unwrap().to_string();
+    for (arguments, said) in [
+        (vec!["g1_example", "--record", "old.toml"], ["old.toml: expected a new file", "replaces nothing"]),
+        (vec!["g1_example", "--record", "none/new.toml"], ["none/new.toml", "check the path"]),
+        (vec!["g1_example", "--record", "new.toml", "--s7", &taken], ["one in use", "--s7"]),
+        (vec!["--scenario", "wrong.toml"], ["wrong.toml:3", "`sett`"]),
+        (vec!["--scenario", "none.toml"], ["none.toml", "cannot be read"]),
+        (vec![], ["<MACHINE>", "required"]),
+        (vec!["g1_example", "--record", "new.toml", "--image", "new.image"], ["--record", "--image"]),
+    ] {
+        let output = run(&folder, &[&["serve"], arguments.as_slice()].concat());
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+        assert!(said.iter().all(|said| error.contains(said)), "{arguments:?}: {error}");
+    }
+    assert_eq!(fs::read(folder.join("old.toml")).unwrap(), b"mine");
+    assert!(!folder.join("new.toml").exists(), "it is in the way of the next try");
+}
+
+/// The commands of the README, as they stand there.
+#[test]
+#[cfg(unix)]
+fn the_session_of_the_readme_is_recorded_and_runs_again() {
+    let folder = folder("readme");
+    let readme = fs::read_to_string(project("README.md")).unwrap();
+    let block = readme.split("```sh\n").find(|block| block.contains("--record")).unwrap().split("```").next().unwrap();
+    let mut lines = block.lines().map(|line| line.split_whitespace().skip(1).collect::<Vec<_>>());
+    let (serve, again) = (lines.next().unwrap(), lines.next().unwrap());
+    let mut program = Program::start(&folder, &serve[1..]);
+    let mut client = Bare::connect(program.address());
+    assert_eq!(client.write(&[Item::bit((DB, 32), 4, 7, true)]), [0xFF]);
+    assert_eq!(program.end("-INT"), Some(0));
+    let output = run(&folder, &again);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("Y.traversing_key_plus"));
+}
+
+/// A step takes two seconds then, and a thousandth of that: who asks is answered, and it ends at once.
+#[test]
+#[cfg(unix)]
+fn the_slowest_and_the_fastest_machine_answer_and_end() {
+    for speed in ["0.001", "1000"] {
+        let folder = folder("speeds");
+        let mut program = Program::start(&folder, &["g1_example", "--speed", speed, "--record", "speed.toml"]);
+        let mut client = Bare::connect(program.address());
+        assert_eq!(client.write(&[Item::bytes((FLAGS, 0), 1, &[1])]), [0xFF]);
+        let begin = Instant::now();
+        assert_eq!(program.end("-TERM"), Some(0));
+        assert!(begin.elapsed() < Duration::from_secs(10));
+        assert_eq!(run(&folder, &["run", "speed.toml"]).status.code(), Some(0));
+    }
+}
