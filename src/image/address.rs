@@ -28,6 +28,12 @@ pub enum Area {
 }
 
 impl Area {
+    /// The area of a letter: `I`, `Q`, `M`, `T` or `C`.
+    pub(super) fn of_letter(letter: &str) -> Option<Self> {
+        let areas = [Self::Inputs, Self::Outputs, Self::Flags, Self::Timers, Self::Counters];
+        areas.into_iter().zip(["I", "Q", "M", "T", "C"]).find(|(_, known)| *known == letter).map(|(area, _)| area)
+    }
+
     /// Where its bytes lie; of a data block, those of a plain one.
     #[must_use]
     pub fn plain_part(self) -> Part {
@@ -161,15 +167,7 @@ fn area(text: &str) -> Option<(Area, &str)> {
         return Some((Area::DataBlock(rest[..end].parse().ok()?), &rest[end..]));
     }
     let (area, rest) = text.split_at_checked(1)?;
-    let area = match area {
-        "I" => Area::Inputs,
-        "Q" => Area::Outputs,
-        "M" => Area::Flags,
-        "T" => Area::Timers,
-        "C" => Area::Counters,
-        _ => return None,
-    };
-    Some((area, rest))
+    Some((Area::of_letter(area)?, rest))
 }
 
 /// Byte and width of an element after its letter: X, B, W or D.

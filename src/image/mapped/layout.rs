@@ -210,12 +210,7 @@ pub(super) fn parse(bytes: &[u8], image_bytes: usize) -> Option<Section> {
     };
     let area = match text(section::KIND..section::KIND + 8)? {
         "DB" => Area::DataBlock(u16::try_from(number(section::NUMBER)).ok()?),
-        "I" => Area::Inputs,
-        "Q" => Area::Outputs,
-        "M" => Area::Flags,
-        "T" => Area::Timers,
-        "C" => Area::Counters,
-        _ => return None,
+        letter => Area::of_letter(letter)?,
     };
     let (writer, _) = *SOURCES.iter().find(|(_, code)| *code == number(section::WRITER))?;
     let small = |offset| u32::try_from(number(offset)).ok();

@@ -56,43 +56,43 @@ impl std::fmt::Debug for View<'_> {
 }
 
 /// Modules by their number on the wire.
-pub(crate) mod module {
+mod module {
     /// System data.
-    pub(crate) const Y: u8 = 0x10;
+    pub(super) const Y: u8 = 0x10;
     /// R parameters.
-    pub(crate) const RP: u8 = 0x15;
+    pub(super) const RP: u8 = 0x15;
     /// Machine data; of drives on the powerline.
-    pub(crate) const M: u8 = 0x1A;
+    pub(super) const M: u8 = 0x1A;
     /// Diagnosis.
-    pub(crate) const DIAGN: u8 = 0x3B;
+    pub(super) const DIAGN: u8 = 0x3B;
     /// Alarms by their time, as they come.
-    pub(crate) const SALAC: u8 = 0x54;
+    pub(super) const SALAC: u8 = 0x54;
     /// Geometry axes, more of them.
-    pub(crate) const SEGA: u8 = 0x70;
+    pub(super) const SEGA: u8 = 0x70;
     /// Machine axes, more of them.
-    pub(crate) const SEMA: u8 = 0x71;
+    pub(super) const SEMA: u8 = 0x71;
     /// Spindles.
-    pub(crate) const SSP: u8 = 0x72;
+    pub(super) const SSP: u8 = 0x72;
     /// Geometry axes.
-    pub(crate) const SGA: u8 = 0x73;
+    pub(super) const SGA: u8 = 0x73;
     /// Machine axes.
-    pub(crate) const SMA: u8 = 0x74;
+    pub(super) const SMA: u8 = 0x74;
     /// Alarms, the last one first.
-    pub(crate) const SALAL: u8 = 0x75;
+    pub(super) const SALAL: u8 = 0x75;
     /// Alarms, that of the highest priority first.
-    pub(crate) const SALAP: u8 = 0x76;
+    pub(super) const SALAP: u8 = 0x76;
     /// Alarms by their time.
-    pub(crate) const SALA: u8 = 0x77;
+    pub(super) const SALA: u8 = 0x77;
     /// The program pointer.
-    pub(crate) const SPARPP: u8 = 0x7A;
+    pub(super) const SPARPP: u8 = 0x7A;
     /// The program.
-    pub(crate) const SPARP: u8 = 0x7D;
+    pub(super) const SPARP: u8 = 0x7D;
     /// How the program is influenced.
-    pub(crate) const SINF: u8 = 0x7E;
+    pub(super) const SINF: u8 = 0x7E;
     /// States.
-    pub(crate) const S: u8 = 0x7F;
+    pub(super) const S: u8 = 0x7F;
     /// Parameters of SINAMICS drives.
-    pub(crate) const DRIVE: u8 = 0x82;
+    pub(super) const DRIVE: u8 = 0x82;
 }
 
 /// Areas by their number on the wire.

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use super::{CONNECT, Client, bytes, packet};
+use super::{CONNECT, Client, bytes, changed, packet};
 use crate::s7::wire::cotp::Tpdu;
 use crate::s7::wire::data::Values;
 use crate::s7::wire::date_and_time::DateAndTime;
@@ -51,17 +51,7 @@ fn nearly_right() -> impl Strategy<Value = Vec<u8>> {
         "32 01 00 00 00 05 00 14 00 00 28 00 00 00 00 00 00 FD 00 00 09 50 5F 50 52 4F 47 52 41 4D",
     ];
     let template = (0..templates.len()).prop_map(move |at| bytes(templates[at]));
-    let changes = proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..4);
-    (template, changes, any::<prop::sample::Index>(), any::<bool>()).prop_map(|(mut pdu, changes, end, cut)| {
-        for (at, value) in changes {
-            let at = at.index(pdu.len());
-            pdu[at] = value;
-        }
-        if cut {
-            pdu.truncate(end.index(pdu.len()));
-        }
-        pdu
-    })
+    changed(template)
 }
 
 proptest! {

@@ -11,6 +11,9 @@ mod nc_variables;
 mod transport;
 mod variables;
 
+use proptest::prelude::*;
+use proptest::sample::Index;
+
 use super::station::{CpuState, Diagnosis, Protection};
 use super::{Answers, Bridge, Command, Connection, DateAndTime, Directory, Machinery, Session, Settings};
 use crate::image::{Bytes, DataBlock, Memory, Names, Profile};
@@ -22,7 +25,7 @@ use crate::variables::Variables;
 const CONNECT: &str = "03 00 00 16 11 E0 00 00 00 01 00 C0 01 0A C1 02 01 00 C2 02 01 02";
 
 /// Bytes in hexadecimal.
-fn bytes(hex: &str) -> Vec<u8> {
+pub(super) fn bytes(hex: &str) -> Vec<u8> {
     hex.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect()
 }
 
@@ -31,9 +34,24 @@ fn hex(bytes: &[u8]) -> String {
 }
 
 /// A packet with data: TPKT and DT before an S7 PDU.
-fn packet(pdu: &[u8]) -> Vec<u8> {
+pub(super) fn packet(pdu: &[u8]) -> Vec<u8> {
     let length = u16::try_from(pdu.len() + 7).unwrap().to_be_bytes();
     [&[3, 0, length[0], length[1], 2, 0xF0, 0x80], pdu].concat()
+}
+
+/// A PDU with some of its bytes changed, and sometimes without its end.
+pub(super) fn changed(pdu: impl Strategy<Value = Vec<u8>>) -> impl Strategy<Value = Vec<u8>> {
+    let changes = proptest::collection::vec((any::<Index>(), any::<u8>()), 0..4);
+    (pdu, changes, any::<Index>(), any::<bool>()).prop_map(|(mut pdu, changes, end, cut)| {
+        for (at, value) in changes {
+            let at = at.index(pdu.len());
+            pdu[at] = value;
+        }
+        if cut {
+            pdu.truncate(end.index(pdu.len()));
+        }
+        pdu
+    })
 }
 
 /// A client and everything that it talks to.

@@ -6,6 +6,7 @@ use tokio::runtime::Builder;
 use super::*;
 use crate::s7::client::conversation::Conversation;
 use crate::s7::client::{BlockKind, Mode, Value};
+use crate::s7::tests::{bytes, changed, packet};
 use crate::s7::wire::cotp::ConnectionConfirm;
 use crate::s7::wire::replies::{DataItems, Setup, UserData, upload_begun, upload_piece};
 
@@ -25,20 +26,7 @@ fn nearly_right() -> impl Strategy<Value = Vec<u8>> {
         "32 03 00 00 00 03 00 10 00 00 00 00 1D 00 01 00 00 00 00 01 07 30 30 30 30 32 32 30",
         "32 03 00 00 00 03 00 02 00 08 00 00 1E 00 00 04 00 FB 01 02 03 04",
     ];
-    let bytes = |hex: &str| hex.split(' ').map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect::<Vec<_>>();
-    let template = (0..templates.len()).prop_map(move |at| bytes(templates[at]));
-    let changes = proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..4);
-    (template, changes, any::<prop::sample::Index>(), any::<bool>()).prop_map(|(mut pdu, changes, end, cut)| {
-        for (at, value) in changes {
-            let at = at.index(pdu.len());
-            pdu[at] = value;
-        }
-        if cut {
-            pdu.truncate(end.index(pdu.len()));
-        }
-        let length = u16::try_from(pdu.len() + 7).unwrap().to_be_bytes();
-        [&[3, 0, length[0], length[1], 2, 0xF0, 0x80], &pdu[..]].concat()
-    })
+    changed((0..templates.len()).prop_map(move |at| bytes(templates[at]))).prop_map(|pdu| packet(&pdu))
 }
 
 proptest! {
