@@ -64,6 +64,7 @@ impl FromStr for Faults {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let mut faults = Self::default();
+        let mut has_code = false;
         for part in text.split(',') {
             let (name, value) = part.split_once('=').unwrap_or((part, ""));
             match name.trim() {
@@ -71,7 +72,7 @@ impl FromStr for Faults {
                 "drop" => faults.drop = chance(value)?,
                 "close" => faults.close = chance(value)?,
                 "error" => faults.error = chance(value)?,
-                "code" => faults.failure = code(value)?,
+                "code" => (faults.failure, has_code) = (code(value)?, true),
                 "seed" => faults.seed = value.parse().map_err(|_| format!("expected a whole number, found {part}"))?,
                 _ => {
                     return Err(format!(
@@ -79,6 +80,11 @@ impl FromStr for Faults {
                     ));
                 }
             }
+        }
+        if has_code && faults.error == 0.0 {
+            return Err(format!(
+                "expected error= beside code=, found {text}: add error=1% for one request in a hundred"
+            ));
         }
         if faults.delay.end() < faults.delay.start() || *faults.delay.end() > LONGEST {
             return Err(format!("expected a delay of at most a minute, the shorter one first, found {text}"));
