@@ -30,7 +30,10 @@ impl Urgency {
         if self.breathless > BREATHLESS {
             *self = Self { is_urgent: false, breathless: 0 };
             system::calm_down();
-            tracing::info!("cycles take longer than they last: the machine is not urgent any more");
+            tracing::warn!(
+                "this computer does not keep up: {BREATHLESS} cycles one after another took longer than they last, so the machine \
+                 goes before other programs no more; close some, or take a smaller --speed"
+            );
         }
     }
 }

@@ -388,7 +388,7 @@ impl std::fmt::Display for End {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Left => "has left",
-            Self::Closed => "was disconnected: it asked for that, or sent what is no S7 communication",
+            Self::Closed => "was disconnected: what it sent is no S7 communication",
             Self::Idle => "was disconnected: it asked nothing for too long",
             Self::Slow => "was disconnected: it did not take its answers",
             Self::Server => "was disconnected: the server ends",

@@ -13,7 +13,9 @@ use super::capture::Recording;
 use super::conversation::End;
 use super::counters::Counters;
 use super::refusals::{asked, refusals, written};
+use crate::s7::wire::cotp::Tpdu;
 use crate::s7::wire::pdu::Answers;
+use crate::s7::wire::tpkt::{self, Packet};
 
 /// How many refused requests of one connection are logged.
 const REFUSALS: u32 = 20;
@@ -28,6 +30,7 @@ pub(super) struct Witness<'a> {
     peer: SocketAddr,
     recording: Option<Recording<'a>>,
     refusals: u32,
+    farewell: Option<String>,
 }
 
 impl<'a> Witness<'a> {
@@ -38,7 +41,7 @@ impl<'a> Witness<'a> {
         recording: Option<Recording<'a>>,
     ) -> Self {
         flood.log(|| tracing::info!("{peer} has come"));
-        Self { counters, flood, peer, recording, refusals: 0 }
+        Self { counters, flood, peer, recording, refusals: 0, farewell: None }
     }
 
     /// Whose conversation it is.
@@ -65,6 +68,7 @@ impl<'a> Witness<'a> {
             }
         }
         for answer in answers.since(known) {
+            self.farewell = farewell(packet, answer).or(self.farewell.take());
             refusals(answer, |item, refused| {
                 self.counters.refused(refused);
                 if self.refusals < REFUSALS && tracing::enabled!(tracing::Level::INFO) {
@@ -111,7 +115,30 @@ impl<'a> Witness<'a> {
         if let (End::Left, Some(recording)) = (end, &mut self.recording) {
             recording.left();
         }
-        self.flood.log(|| tracing::info!("{} {end}", self.peer));
+        let farewell = self.farewell.take().filter(|_| end == End::Closed);
+        self.flood.log(|| match farewell {
+            Some(farewell) => tracing::info!("{} {farewell}", self.peer),
+            None => tracing::info!("{} {end}", self.peer),
+        });
+    }
+}
+
+/// What to say of a connection that ends with this answer; nothing of another one.
+fn farewell(packet: &[u8], answer: &[u8]) -> Option<String> {
+    let tpdu = |packet| match tpkt::split(packet) {
+        Packet::Whole { content, .. } => Tpdu::parse(content),
+        Packet::Incomplete | Packet::Wrong => Tpdu::Malformed,
+    };
+    match (tpdu(packet), tpdu(answer)) {
+        (Tpdu::ConnectionRequest(request), Tpdu::DisconnectRequest { .. }) => Some(match request.called {
+            Some(&[kind, place]) => {
+                let (rack, slot) = (place >> 5, place & 0x1F);
+                format!("was refused: there is no module at TSAP {kind:02X}{place:02X} (rack {rack}, slot {slot})")
+            }
+            _ => "was refused: it names no TSAP of a module".to_owned(),
+        }),
+        (Tpdu::DisconnectRequest { .. }, _) => Some("has left, and said so".to_owned()),
+        _ => None,
     }
 }
 
