@@ -1,8 +1,8 @@
 //! `opennck serve` as its users call it: it says where it can be reached, and ends with 0 when it is asked to.
 #![cfg(all(feature = "cli", feature = "s7"))]
 
-use std::io::{BufRead, BufReader};
-use std::net::TcpListener;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 
@@ -79,6 +79,7 @@ fn a_closed_door_ends_it_with_cause_and_cure() {
         (["g1_example", "--allow", "10.0.0.0/33"], ["10.0.0.0/33", "192.168.0.0/24"]),
         (["g1_example", "--profile", "840d"], ["840d", "828d"]),
         (["g1_example", "--s7-fault", "drop=2"], ["drop", "1/100"]),
+        (["g1_example", "--s7-fault", "code=8104"], ["error= beside code=", "code=8104: add error=1%"]),
         (["g1_example", "--s7=127.0.0.1:0", "--pcap=no_such/a.pcap"], ["no_such/a.pcap", "a folder that is there"]),
         (["g1_example", "--protect", "DB99"], ["--protect DB99", "DB1000.DBB0..99"]),
         (["g1_example", "--password", "too long for it"], ["--password", "1 to 8 characters"]),
@@ -152,4 +153,47 @@ fn the_own_client_asks_nothing_that_is_refused() {
     assert_eq!(s7("info", &[]).status.code(), Some(0));
     let log = String::from_utf8(served.end("-INT").stderr).unwrap();
     assert!(log.contains("has come") && !log.contains("was refused"), "{log}");
+}
+
+/// Who called a slot that is not there is not told to have asked for the end.
+#[test]
+#[cfg(unix)]
+fn the_log_tells_a_refused_slot_from_who_sends_something_else() {
+    let served = Served::start(&["g1_example", "--strict-slots"]);
+    let call = |bytes: &[u8]| {
+        let mut stream = TcpStream::connect(("127.0.0.1", served.port)).unwrap();
+        stream.write_all(bytes).unwrap();
+        let _ = stream.read_to_end(&mut Vec::new()); // until the server ends it
+    };
+    let connect = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 0x09];
+    call(&connect);
+    call(b"GET / HTTP/1.1");
+    let log = String::from_utf8(served.end("-INT").stderr).unwrap();
+    for line in [
+        "was refused: there is no module at TSAP 0109 (rack 0, slot 9)",
+        "was disconnected: what it sent is no S7 communication",
+    ] {
+        assert!(log.lines().any(|found| found.ends_with(line)), "{line}: {log}");
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn it_says_what_it_serves_and_on_which_terms() {
+    let served = Served::start(&["g1_example", "--profile=828d", "--password=abc", "--pdu=480", "--protect=MB0"]);
+    let head = served.head.join("\n");
+    for said in [
+        "profile 828d, no PLC image",
+        "but for what --protect names, protection level 2 with a password, PDU up to 480 bytes",
+    ] {
+        assert!(head.contains(said), "{said}: {head}");
+    }
+    served.end("-INT");
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("banner.image");
+    let image = ["g1_example", "--plc-image", "recipes", "--image", file.to_str().unwrap(), "--lock-step"];
+    let served = Served::start(&image);
+    for said in ["profile 840d_sl, PLC image ", "recipes.toml, image file ", "banner.image (lock-step, time-out 1s)"] {
+        assert!(served.head[1].contains(said), "{said}: {:?}", served.head);
+    }
+    served.end("-INT");
 }

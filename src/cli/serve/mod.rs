@@ -16,6 +16,7 @@
 #![expect(clippy::disallowed_methods, reason = "real time is what it is for")]
 
 mod arguments;
+mod banner;
 mod diagnosis;
 mod handles;
 mod identity;
@@ -145,21 +146,14 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let opened = Opened::open(arguments, programs, output)?;
     let machine = &opened.machine;
     let window = arguments.window(machine)?;
-    let plc = opened.plc.as_ref().map_or_else(
-        || match &arguments.image {
-            Some(file) => format!("PLC program in another process, by {}", file.display()),
-            None => "no PLC program: clients write the PLC's side".to_owned(),
-        },
-        |name| format!("PLC program {name}"),
-    );
     if let (Some(_), Some(name)) = (&arguments.image, &opened.plc) {
         return Err(Problem::new(
             format!("expected one PLC program, found {name} of the scenario and --image"),
             "remove `plc` from the scenario: the PLC process is the program",
         ));
     }
-    let axes: Vec<_> = machine.names().axes.iter().filter_map(|(_, name)| name.clone()).collect();
-    let cycle = machine.cycle_time().seconds() * 1000.0;
+    let terms = window.terms.clone();
+    let mut head = banner::machine(&opened, arguments);
     let status = status_line();
     // A program that has a log of its own keeps it.
     let _ = tracing::subscriber::set_global_default(log::Log { status: status.clone(), writes: arguments.log_writes });
@@ -168,7 +162,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let trace = arguments.trace.as_deref().map(|path| Kept::open(path, arguments)).transpose()?;
     // Last of the files: one that has begun would be in the way of the next try.
     let recording = arguments.record.as_deref().map(|path| record::of(path, &opened)).transpose()?;
-    let Opened { machine, operator, watch, path, .. } = opened;
+    let Opened { machine, operator, watch, .. } = opened;
     let is_held = arguments.lock_step;
     let options = LiveOptions { recording, trace: trace.is_some().then_some(watch), operator, is_held };
     let start = |machine| Live::start_with(machine, arguments.speed, options);
@@ -193,17 +187,10 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
             return Err(problem);
         }
     };
-    let mut head = format!("{}: axes {}, a cycle of {cycle} ms, {plc}\n", path.display(), axes.join(", "));
-    if let Some(scenario) = &arguments.scenario {
-        head += &format!("scenario {}\n", scenario.display());
-    }
     if let Some(warning) = arguments.warning(window.addresses()) {
         output.warning(warning);
     }
-    let rights = if arguments.read_only { "read only" } else { "read and write" };
-    for address in window.addresses() {
-        head += &format!("S7 on {address}: rack 0, slot 2, {rights}\n");
-    }
+    head += &banner::doors(window.addresses(), arguments, &terms);
     for address in window.metrics_addresses() {
         head += &format!("metrics on http://{address}/metrics\n");
     }
