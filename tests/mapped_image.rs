@@ -454,12 +454,13 @@ fn a_silent_plc_raises_2000_and_another_one_restarts_the_plc() {
     }
 }
 
-/// The machine is in the middle of a scan then, and everybody waits for it.
+/// The machine is in the middle of a scan then.
 #[cfg(unix)]
 #[test]
-fn a_signal_ends_it_while_a_scan_waits_for_a_process_that_has_gone() {
+fn while_a_scan_waits_for_a_process_that_has_gone_clients_are_served_and_a_signal_ends_it() {
     let file = File::new("gone");
-    let served = Served::start(&["g1_example", "--image", file.text(), "--lock-step", "--plc-timeout", "60min"]);
+    let lock_step = ["g1_example", "--image", file.text(), "--lock-step", "--plc-timeout", "60min", "--speed", "2"];
+    let served = Served::start(&lock_step);
     let mut scans = 0;
     let process = soft_plc(&file.0, move |_| {
         scans += 1;
@@ -467,6 +468,8 @@ fn a_signal_ends_it_while_a_scan_waits_for_a_process_that_has_gone() {
     });
     process.join().unwrap();
     std::thread::sleep(Duration::from_millis(500)); // the scan waits, and the status line has been drawn
+    let flags = served.client().read_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &mut [0; 10]);
+    assert!(flags.is_ok(), "clients see the last step meanwhile: {flags:?}");
     served.end();
 }
 

@@ -1,8 +1,8 @@
 //! `--image FILE`: the PLC program runs in another process, which sees the interface as a mapped file.
 //!
 //! [`MappedPlc`] is that program as the machine sees it. A scan publishes the memory and takes what the other process made of it: in
-//! lock-step the answer to this very scan, else the newest that there is. While a scan waits in lock-step nobody else sees the
-//! machine, for it is in the middle of a step; the time-out bounds that. A process that is silent for longer is a PLC without a sign
+//! lock-step the answer to this very scan, else the newest that there is. While a scan waits in lock-step the machine is in the middle
+//! of a step, and clients see the one before; the time-out bounds that. A process that is silent for longer is a PLC without a sign
 //! of life: the PLC stops, alarm 2000. So that the process may be started later, the monitoring begins with its first answer, and in
 //! lock-step when it has opened the file, which is also when scans begin to wait. A run is the same to the byte where that is before
 //! the first step: a machine that is held ([`LiveOptions::is_held`](super::LiveOptions)) begins then.

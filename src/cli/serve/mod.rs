@@ -252,8 +252,10 @@ fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result
             }
         }
     });
-    // In this order the scan that waits is the last one, whenever the signal came.
-    live.finish();
+    if arguments.lock_step {
+        // Before it need not wait any more: so the scan that waits is the last one, whenever the signal came.
+        live.finish();
+    }
     if let Some(keeper) = keeper {
         keeper.let_go();
     }
