@@ -17,6 +17,7 @@ use super::diagnosis::Buffer;
 use super::inbox::{self, Inbox, Order};
 use super::record::Recording;
 use super::seen::{Seen, View};
+use super::speed::Speed;
 use super::urgency::Urgency;
 use crate::machine::Machine;
 use crate::s7::DateAndTime;
@@ -38,40 +39,6 @@ const COURTESY: u32 = 100;
 
 /// How often who wants the machine lets others go first before it waits in a queue.
 const PATIENCE: u32 = 20;
-
-/// How many times real time, in thousandths.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Speed(u32);
-
-impl Default for Speed {
-    fn default() -> Self {
-        Self(1000)
-    }
-}
-
-impl Speed {
-    /// How long so many nanoseconds of the machine take.
-    fn real(self, simulated: u128) -> Duration {
-        Duration::from_nanos(u64::try_from(simulated * 1000 / u128::from(self.0)).unwrap_or(u64::MAX))
-    }
-}
-
-impl std::str::FromStr for Speed {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let number = text.parse::<f64>().ok().filter(|number| (0.001..=1000.0).contains(number));
-        let number = number.ok_or("expected a number from 0.001 to 1000, where 1 is real time")?;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is from 1 to 1,000,000")]
-        Ok(Self((number * 1000.0).round() as u32))
-    }
-}
-
-impl std::fmt::Display for Speed {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}", f64::from(self.0) / 1000.0)
-    }
-}
 
 /// A machine that runs in real time until it is dropped.
 #[derive(Debug)]

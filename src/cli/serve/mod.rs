@@ -30,6 +30,7 @@ mod panel;
 mod protect;
 mod record;
 mod seen;
+mod speed;
 mod terms;
 mod urgency;
 mod window;
@@ -38,8 +39,9 @@ pub use crate::s7::server::{Counter, Counters, Faults, Limits, Network, Refused}
 pub(super) use arguments::Arguments;
 pub use identity::OwnIdentity;
 pub use image::{Exchange, Keeper, MappedPlc};
-pub use live::{Ended, GIVE_UP, Live, LiveOptions, Pace, Speed};
+pub use live::{Ended, GIVE_UP, Live, LiveOptions, Pace};
 pub use record::Recording;
+pub use speed::Speed;
 pub use terms::Terms;
 pub use window::{Window, WindowOptions};
 

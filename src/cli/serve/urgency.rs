@@ -5,7 +5,7 @@
 //! It needs some microseconds of each cycle. Where it needs all the time it must not go before anybody: not at more than real time,
 //! and not when cycles take longer than they last.
 
-use super::live::Speed;
+use super::speed::Speed;
 
 /// After so many cycles without a pause others are as urgent again.
 const BREATHLESS: u32 = 50;
