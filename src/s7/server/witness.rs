@@ -68,7 +68,7 @@ impl<'a> Witness<'a> {
             }
         }
         for answer in answers.since(known) {
-            self.farewell = farewell(packet, answer).or(self.farewell.take());
+            self.farewell = farewell(packet, answer).or_else(|| self.farewell.take());
             refusals(answer, |item, refused| {
                 self.counters.refused(refused);
                 if self.refusals < REFUSALS && tracing::enabled!(tracing::Level::INFO) {
