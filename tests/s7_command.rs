@@ -73,9 +73,9 @@ fn it_reads_addresses_symbols_and_nc_variables() {
     assert_eq!(rows[4][..2], ["nck:N/Y/maxnumAlarms", "WORD"]);
     let json: serde_json::Value =
         serde_json::from_str(&served.text("read", &["DB1000.DBW2", "--format", "json"])).expect("it is JSON");
-    assert_eq!(json[0]["value"], "250");
+    assert_eq!((&json[0]["value"], &json[0]["hex"]), (&250.into(), &"00 FA".into()));
     let csv = served.text("read", &["DB1000.DBW2", "--format", "csv"]);
-    assert_eq!(csv, "address,symbol,type,value,hex\nDB1000.DBW2,,WORD,250,00 FA\n");
+    assert_eq!(csv, "address,symbol,type,value,hex,meaning\nDB1000.DBW2,,WORD,250,00 FA,\n");
 }
 
 #[test]
@@ -86,6 +86,31 @@ fn what_is_refused_ends_with_1_and_the_others_are_shown() {
     assert_eq!(output.status.code(), Some(1), "{error}");
     assert!(out.contains("250") && out.contains("refused: the object does not exist (return code 0A)"), "{out}");
     assert!(error.contains("DB999.DBB0: the object does not exist"), "{error}");
+}
+
+/// Numbers are numbers and bits are true or false; whoever has text in a number compares it wrongly.
+#[test]
+fn json_has_numbers_and_booleans() {
+    let served = Served::start();
+    let asked =
+        ["DB1000.DBD4:REAL", "DB1001.DBB0..3", "DB31.DBX0.0", "nck:C/MachineAxis/name[1..2]", "nck:N/Y/maxnumAlarms"];
+    let json: serde_json::Value =
+        serde_json::from_str(&served.text("read", &[&asked[..], &["--format", "json"]].concat())).expect("it is JSON");
+    let values: Vec<_> = json.as_array().unwrap().iter().map(|row| row["value"].clone()).collect();
+    assert_eq!(values[..4], serde_json::json!([1.5, [0x8C, 0, 0xFF, 0x8C], false, ["X", "Y"]]).as_array().unwrap()[..]);
+    assert!(values[4].is_u64(), "{values:?}");
+}
+
+/// DB31 is of the axis that the machine calls X; 26 is position 19 in Gray code, 100 % (MD12010).
+#[test]
+fn addresses_have_the_names_and_the_meaning_that_the_control_gives_them() {
+    let served = Served::start();
+    let text = served.text("read", &["DB31.DBB0", "DB33.DBX101.6", "DB10.DBX106.1"]);
+    let lines: Vec<&str> = text.lines().skip(1).collect();
+    assert!(lines[0].contains(" X.feed_override ") && lines[0].contains("  100 %. Feed override: "), "{text}");
+    assert!(lines[1].contains(" XF.gantry_leading_axis ") && lines[1].contains("Gantry leading axis: 1 on"), "{text}");
+    let text = served.text("read", &["AX1.feed_override"]);
+    assert!(text.contains("AX1.feed_override"), "{text}"); // who writes AX1 is shown AX1
 }
 
 /// What is said of a refusal helps with this refusal: where the NCK is, how many rows there are.
@@ -150,7 +175,7 @@ fn it_writes_as_scenarios_do() {
     let rows = rows(&text);
     assert_eq!(rows[0][2..], ["D0", "08", "3F", "C0", "00", "00", "01", "02", "03"]);
     // 100 % is position 19 of the switch, 19 ^ 19 >> 1 = 26 in Gray code (MD12000).
-    assert_eq!(rows[1][3..], ["26", "1A"]);
+    assert_eq!(rows[1][3..7], ["26", "1A", "100", "%."]);
 }
 
 #[test]
@@ -223,6 +248,20 @@ fn watching_prints_a_line_for_each_change_and_ends_with_0() {
         assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
         assert_eq!(child.wait().unwrap().code(), Some(0));
     }
+}
+
+/// As behind `| head -1`: nothing changes, nothing is printed, and it ends when nobody reads.
+#[test]
+#[cfg(target_os = "linux")]
+fn watching_ends_when_nobody_reads() {
+    let served = Served::start();
+    let mut child = program(&["s7", "watch", &served.host, "MB1"]).stdout(Stdio::piped()).spawn().unwrap();
+    let mut first = String::new();
+    let mut lines = BufReader::new(child.stdout.take().unwrap());
+    lines.read_line(&mut first).unwrap();
+    drop(lines);
+    assert!(first.contains("MB1"), "{first}");
+    assert_eq!(child.wait().unwrap().code(), Some(0));
 }
 
 /// Each line of the README that calls `opennck s7`, on a port that is free here.

@@ -4,18 +4,35 @@ use super::Format;
 use super::output::Output;
 use crate::source::Problem;
 
-/// Rows under heads; every row has as many texts as there are heads.
-pub(super) struct List {
-    pub(super) heads: &'static [&'static str],
-    pub(super) rows: Vec<Vec<String>>,
+/// What stands in a row under a head.
+pub(super) trait Cell {
+    /// As people read it.
+    fn text(&self) -> &str;
+
+    /// As programs read it.
+    fn json(&self) -> serde_json::Value {
+        self.text().into()
+    }
 }
 
-impl List {
+impl Cell for String {
+    fn text(&self) -> &str {
+        self
+    }
+}
+
+/// Rows under heads; every row has as many cells as there are heads.
+pub(super) struct List<C = String> {
+    pub(super) heads: &'static [&'static str],
+    pub(super) rows: Vec<Vec<C>>,
+}
+
+impl<C: Cell> List<C> {
     /// Keeps the rows in which a text occurs, whatever its case; warns where none is left.
     pub(super) fn retain_with(&mut self, filter: Option<&str>, output: &mut Output) {
         let Some(filter) = filter else { return };
         let wanted = filter.to_lowercase();
-        self.rows.retain(|row| row.iter().any(|text| text.to_lowercase().contains(&wanted)));
+        self.rows.retain(|row| row.iter().any(|cell| cell.text().to_lowercase().contains(&wanted)));
         if self.rows.is_empty() {
             output.warning(format!("no row contains `{filter}`; without a filter all are listed"));
         }
@@ -48,7 +65,7 @@ impl List {
                 let mut writer = csv::Writer::from_writer(Vec::new());
                 writer.write_record(self.heads).map_err(|error| failed(error.to_string()))?;
                 for row in &self.rows {
-                    writer.write_record(row).map_err(|error| failed(error.to_string()))?;
+                    writer.write_record(row.iter().map(Cell::text)).map_err(|error| failed(error.to_string()))?;
                 }
                 let bytes = writer.into_inner().map_err(|error| failed(error.to_string()))?;
                 String::from_utf8(bytes).map_err(|error| failed(error.to_string()))
@@ -57,17 +74,18 @@ impl List {
     }
 
     fn objects(&self) -> Vec<serde_json::Map<String, serde_json::Value>> {
-        let object = |row: &Vec<String>| {
-            self.heads.iter().zip(row).map(|(head, text)| ((*head).to_owned(), text.as_str().into())).collect()
-        };
+        let object =
+            |row: &Vec<C>| self.heads.iter().zip(row).map(|(head, cell)| ((*head).to_owned(), cell.json())).collect();
         self.rows.iter().map(object).collect()
     }
 
     /// Columns as wide as their longest text; the last one is not padded.
     fn table(&self) -> String {
-        let heads: Vec<String> = self.heads.iter().map(|head| (*head).to_owned()).collect();
-        let lines = || std::iter::once(&heads).chain(&self.rows);
-        let widths: Vec<usize> = (0..heads.len())
+        let lines = || {
+            let cells = self.rows.iter().map(|row| row.iter().map(Cell::text).collect());
+            std::iter::once(self.heads.to_vec()).chain(cells)
+        };
+        let widths: Vec<usize> = (0..self.heads.len())
             .map(|column| lines().map(|line| line[column].chars().count()).max().unwrap_or(0))
             .collect();
         let mut text = String::new();

@@ -55,7 +55,7 @@ pub use db21::{ChannelFromNck, ChannelHmi, ChannelToNck};
 pub use db31::{AxisFromNck, AxisToNck};
 pub use location::{Location, Part, Profile};
 pub use memory::{Blocks, DataBlock, Memory, Parts};
-pub use names::Names;
+pub use names::{Names, meaning};
 pub use override_switch::{OverrideCoding, override_code};
 pub use parts::{FromNck, Hmi, Plain, ToNck};
 pub use preset::Preset;

@@ -164,11 +164,7 @@ impl Names {
     /// The symbol of a place, `X.controller_enable`, if exactly one signal lies there and its owner has a name.
     #[must_use]
     pub fn symbol(&self, location: Location) -> Option<String> {
-        let exact = |(number, signal): &(u8, &Signal)| {
-            let place = |l: Location| (l.part, l.offset, l.bit, l.width);
-            signal.location(*number).map(place) == Some(place(location))
-        };
-        let (number, signal) = touching(location).find(exact)?;
+        let (number, signal) = exactly(location)?;
         let (owner, ..) = self.owners().find(|(_, block, other)| (*block, *other) == (signal.block, number))?;
         Some(format!("{owner}.{}", signal.name))
     }
@@ -178,6 +174,20 @@ impl Names {
     pub fn writer(&self, location: Location) -> Option<Writer> {
         touching(location).next().map(|(_, signal)| signal.writer)
     }
+}
+
+/// What the signal means that fills a place, with its 1 and 0.
+#[must_use]
+pub fn meaning(location: Location) -> Option<&'static str> {
+    exactly(location).map(|(_, signal)| signal.doc)
+}
+
+/// The signal that fills a place, with the number of its block.
+fn exactly(location: Location) -> Option<(u8, &'static Signal)> {
+    touching(location).find(|(number, signal)| {
+        let place = |l: Location| (l.part, l.offset, l.bit, l.width);
+        signal.location(*number).map(place) == Some(place(location))
+    })
 }
 
 fn described(block: Block, number: u8) -> String {

@@ -51,6 +51,13 @@ impl OverrideCoding {
         }
     }
 
+    /// The per cent of a code at a place; `None` if no override lies there, or the code is of no position.
+    #[must_use]
+    pub fn percent(self, location: Location, code: u8) -> Option<u16> {
+        let gray = self.at(location)?;
+        (0..=200).find(|percent| override_code(*percent, gray) == Some(code))
+    }
+
     /// The percentages that have a code.
     pub(super) fn known(gray: bool) -> String {
         if gray { POSITIONS.map(|percent| percent.to_string()).join(", ") } else { "0 to 200".to_owned() }

@@ -11,6 +11,8 @@ use crate::source::Problem;
 
 /// The port of S7 communication.
 const PORT: u16 = 102;
+/// How long an answer may take that is not needed.
+const SOON: Duration = Duration::from_secs(1);
 
 /// Whom to call, and how.
 #[derive(Debug, clap::Args)]
@@ -94,6 +96,12 @@ impl Host {
 
     pub(super) async fn nck(&self) -> Result<Client, Failure> {
         self.connect(Options { tsaps: self.nck_tsap, ..self.options() }).await
+    }
+
+    /// The NCK, where it is asked for more than was wanted: what does not answer soon need not be waited for.
+    pub(super) async fn nck_soon(&self) -> Result<Client, Failure> {
+        let timeout = self.timeout.min(SOON);
+        self.connect(Options { tsaps: self.nck_tsap, timeout, ..self.options() }).await
     }
 
     fn options(&self) -> Options {

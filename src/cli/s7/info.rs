@@ -7,6 +7,8 @@ use crate::cli::list::List;
 use crate::cli::output::Output;
 use crate::s7::CpuState;
 use crate::s7::client::{BlockKind, Client, Error, Value, Variable};
+use crate::sinumerik::{ALARMS_NOT_RAISED, Alarm};
+use crate::variables::AlarmNumber;
 
 /// Of how many data blocks the length is asked.
 const BLOCKS: usize = 200;
@@ -130,12 +132,40 @@ async fn of_the_nck(nck: &Client, rows: &mut Rows) -> Result<(), Error> {
     };
     rows.add("mode", of(word(0), &["JOG", "MDA", "AUTOMATIC"]).unwrap_or_default());
     rows.add("channel", of(word(1), &["reset", "active", "interrupted"]).unwrap_or_default());
-    let alarms = word(2).unwrap_or(0);
-    let numbers = (1..=alarms.min(ALARMS)).map(|row| format!("N/AlarmList/textIndex[{row}]"));
-    let numbers = read(nck, numbers).await?;
-    let numbers: Vec<String> = numbers.into_iter().flatten().map(|number| number.to_string()).collect();
-    rows.add("alarms", if alarms == 0 { "none".to_owned() } else { format!("{alarms}: {}", numbers.join(" ")) });
+    of_alarms(nck, word(2).unwrap_or(0), rows).await
+}
+
+/// Their numbers, and each with its text where this program knows it, as the control has it.
+async fn of_alarms(nck: &Client, count: u16, rows: &mut Rows) -> Result<(), Error> {
+    if count == 0 {
+        rows.add("alarms", "none");
+        return Ok(());
+    }
+    let shown = 1..=count.min(ALARMS);
+    let numbers = read(nck, shown.clone().map(|row| format!("N/AlarmList/textIndex[{row}]"))).await?;
+    let fill = |row| (1..=4).map(move |fill| format!("N/AlarmList/fillText{fill}[{row}]"));
+    let fills = read(nck, shown.flat_map(fill)).await?;
+    let texts: Vec<String> = numbers.iter().flatten().map(ToString::to_string).collect();
+    rows.add("alarms", format!("{count}: {}", texts.join(" ")));
+    for (number, fills) in numbers.iter().zip(fills.chunks(4)) {
+        if let Some(Value::DoubleInt(number)) = number {
+            let number = AlarmNumber(number.cast_unsigned());
+            rows.add(&format!("alarm {}", Alarm::name(number)), text(number, fills));
+        }
+    }
     Ok(())
+}
+
+/// The text of an alarm; `%1` to `%4` are texts whose first letter says what they are.
+fn text(number: AlarmNumber, fills: &[Option<Value>]) -> String {
+    let known = Alarm::find(number).or_else(|| ALARMS_NOT_RAISED.iter().find(|alarm| alarm.number == number));
+    let mut text = known.map_or_else(String::new, |alarm| alarm.text.to_owned());
+    for (index, fill) in (1..).zip(fills) {
+        let fill = fill.as_ref().map(ToString::to_string).unwrap_or_default();
+        let fill = fill.strip_prefix(['A', 'K', 'S']).unwrap_or(&fill);
+        text = text.replace(&format!("%{index}"), fill);
+    }
+    text
 }
 
 /// NC variables by name; none where the NCK does not have one.

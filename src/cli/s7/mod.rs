@@ -5,6 +5,7 @@
 
 mod arguments;
 mod catalogue;
+mod cells;
 mod failure;
 mod info;
 mod read;

@@ -1,8 +1,9 @@
 //! `opennck s7 read`.
 
 use super::arguments::{Host, Names};
+use super::cells::{Cell, cells, meant};
 use super::failure::Failure;
-use super::targets::{Dictionary, Target, cells};
+use super::targets::{Dictionary, Target};
 use super::{rows, sources};
 use crate::cli::Format;
 use crate::cli::list::List;
@@ -32,11 +33,13 @@ pub(super) fn show(
     output: &mut Output,
 ) -> u8 {
     let row = |(target, value): (&Target, &Result<Value, Error>)| {
-        let [value, hex] = cells(target, value);
-        vec![target.address(), target.symbol.clone(), target.variable.type_name(), value, hex]
+        let [shown, hex] = cells(target, value);
+        let text = |text: String| Cell::from(text);
+        let (address, kind) = (text(target.address()), text(target.variable.type_name()));
+        vec![address, text(target.symbol.clone()), kind, shown, hex, text(meant(target, value))]
     };
     let rows = targets.iter().zip(values).map(row).collect();
-    let list = List { heads: &["address", "symbol", "type", "value", "hex"], rows };
+    let list = List { heads: &["address", "symbol", "type", "value", "hex", "meaning"], rows };
     let code = list.print(format, output);
     let mut is_refused = false;
     for (target, (value, cure)) in targets.iter().zip(values.iter().zip(cures)) {

@@ -21,7 +21,9 @@ pub(super) struct Target {
     /// Empty where there is none.
     pub(super) symbol: String,
     /// Its place in the interface, if it lies there.
-    location: Option<Location>,
+    pub(super) location: Option<Location>,
+    /// How overrides are coded there.
+    pub(super) coding: OverrideCoding,
 }
 
 impl Target {
@@ -31,7 +33,7 @@ impl Target {
     }
 
     /// Why it has no value, without its name.
-    fn reason(&self, error: &Error) -> String {
+    pub(super) fn reason(&self, error: &Error) -> String {
         let text = error.to_string();
         let name = format!("{}: ", self.variable);
         text.strip_prefix(&name).unwrap_or(&text).to_owned()
@@ -40,6 +42,11 @@ impl Target {
     /// An error of it as the program tells it, with what to do about it.
     pub(super) fn problem(&self, error: &Error, cure: Option<String>) -> Problem {
         Problem::new(format!("{}: {}", self.shown, self.reason(error)), cure.unwrap_or_else(|| error.cure()))
+    }
+
+    /// Whether its symbol begins with an axis or a channel, which the NCK may call otherwise.
+    fn has_an_owner(&self) -> bool {
+        ["AX", "CHAN"].iter().any(|owner| self.symbol.starts_with(owner))
     }
 
     pub(super) fn is_of_the_nck(&self) -> bool {
@@ -93,6 +100,15 @@ impl Dictionary {
                 self.is_known = true;
                 Ok(all(self)?)
             }
+            Ok(targets) if !self.is_known && targets.iter().any(Target::has_an_owner) => {
+                let Ok(nck) = host.nck_soon().await else { return Ok(targets) };
+                let Some(names) = self.ask_names(&nck).await else { return Ok(targets) };
+                let before = std::mem::replace(&mut self.names, names);
+                Ok(all(self).unwrap_or_else(|_| {
+                    self.names = before; // who wrote AX1 means AX1
+                    targets
+                }))
+            }
             targets => Ok(targets?),
         }
     }
@@ -109,7 +125,7 @@ impl Dictionary {
                         Variable::Nc(_) => format!("nck:{}", text.trim_start_matches("nck:")),
                         Variable::Memory(_) => variable.to_string(),
                     };
-                    Ok(Target { variable, shown, symbol: String::new(), location: None })
+                    Ok(Target { variable, shown, symbol: String::new(), location: None, coding: self.coding })
                 }
                 (Err(_), Some(Err(problem))) if is_symbol(text) => Err(problem),
                 (Err(error), _) => Err(super::problem(&error)),
@@ -127,7 +143,7 @@ impl Dictionary {
         let address = Address { format: Some(location.format), ..address };
         let symbol = self.names.symbol(location).unwrap_or_default();
         let variable: Variable = Place::of(&address).into();
-        Ok(Target { shown: variable.to_string(), variable, symbol, location: Some(location) })
+        Ok(Target { shown: variable.to_string(), variable, symbol, location: Some(location), coding: self.coding })
     }
 
     /// Names of axes (MD10000) and channels (MD20000) as the control has them; none where there is no NCK that tells them.
@@ -136,23 +152,27 @@ impl Dictionary {
             // Nobody at all is another thing than a PLC without an NCK.
             return host.plc().await.map(|_| None);
         };
+        Ok(self.ask_names(&nck).await)
+    }
+
+    async fn ask_names(&self, nck: &Client) -> Option<Names> {
         let mut names = Names { profile: self.names.profile, ..Names::default() };
         // Which channels there are comes first (MD10010): a name of one that does not exist would be refused, and stand in the
         // control's log.
         let axes = AxisNumber::all().map(|axis| format!("N/$MN_AXCONF_MACHAX_NAME_TAB[{}]", axis.number()));
-        let mut values = read(&nck, axes.chain([format!("N/M/10010[1..{}]", ChannelNumber::all().count())])).await;
+        let mut values = read(nck, axes.chain([format!("N/M/10010[1..{}]", ChannelNumber::all().count())])).await;
         let mode_groups = values.pop().flatten();
         for (axis, told) in AxisNumber::all().zip(values) {
             names.axes[axis] = told.and_then(name);
         }
         let channels: Vec<_> =
             ChannelNumber::all().filter(|channel| may_exist(*channel, mode_groups.as_ref())).collect();
-        let values = read(&nck, channels.iter().map(|channel| format!("C{}/$MC_CHAN_NAME", channel.number()))).await;
+        let values = read(nck, channels.iter().map(|channel| format!("C{}/$MC_CHAN_NAME", channel.number()))).await;
         for (channel, told) in channels.into_iter().zip(values) {
             names.channels[channel] = told.and_then(name);
         }
         let is_told = names.axes.iter().any(|(_, name)| name.is_some());
-        Ok(is_told.then_some(names))
+        is_told.then_some(names)
     }
 
     /// The value of a text, as scenarios have them.
@@ -265,21 +285,4 @@ fn of_bits(place: &Place, bits: u64) -> Value {
         (Width::Double, Format::Real) => Value::Real(f32::from_bits(bits as u32)),
         (Width::Double, Format::Unsigned) => Value::DoubleWord(bits as u32),
     }
-}
-
-/// The cells of a value: as text, and in hexadecimal.
-pub(super) fn cells(target: &Target, value: &Result<Value, Error>) -> [String; 2] {
-    let variable = &target.variable;
-    let value = match value {
-        Ok(value) => value,
-        Err(error) => return [format!("refused: {}", target.reason(error)), String::new()],
-    };
-    let hex = match (variable, value) {
-        // They are in hexadecimal already, or no bytes of their own.
-        (_, Value::Bytes(_) | Value::Text(_)) => Vec::new(),
-        (Variable::Memory(Place { width: Width::Bits { .. }, .. }), Value::Byte(bits)) => vec![*bits],
-        _ => value.encode(variable).unwrap_or_default(),
-    };
-    let hex: Vec<String> = hex.iter().map(|byte| format!("{byte:02X}")).collect();
-    [value.to_string(), hex.join(" ")]
 }

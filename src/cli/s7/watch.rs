@@ -7,9 +7,10 @@ use tokio::sync::mpsc;
 use tokio::time::{Instant, MissedTickBehavior, interval};
 
 use super::arguments::{Host, Names};
+use super::cells::{Cell, cells};
 use super::failure::Failure;
 use super::sources::{self, Source};
-use super::targets::{Dictionary, Target, cells};
+use super::targets::{Dictionary, Target};
 use crate::cli::Format;
 use crate::cli::output::Output;
 use crate::s7::client::{Error, Mode, State, Value};
@@ -54,9 +55,11 @@ pub(super) async fn watch(
         std::pin::pin!(crate::cli::serve::signals().map_err(|error| {
             Problem::new(format!("the system gives no signals: {error}"), "close other programs")
         })?);
+    let mut gone = std::pin::pin!(reader_gone());
     loop {
         let came = tokio::select! {
             () = &mut end => return Ok(0),
+            () = &mut gone => return Ok(0),
             came = news.recv() => came,
         };
         match came {
@@ -69,6 +72,25 @@ pub(super) async fn watch(
             return Ok(0); // nobody reads any more
         }
     }
+}
+
+/// Waits until nobody reads standard output any more, as behind `head`; whatever comes, and if nothing comes, too.
+#[cfg(unix)]
+async fn reader_gone() {
+    use std::os::fd::AsFd;
+    use tokio::io::Interest;
+    use tokio::net::unix::pipe::Sender;
+    // Nothing is written through it: it stays as it is, and only tells of an error. Where it is a file there is nobody to go.
+    let watched = std::io::stdout().as_fd().try_clone_to_owned().and_then(Sender::from_owned_fd_unchecked);
+    match watched {
+        Ok(watched) if watched.ready(Interest::ERROR).await.is_ok() => {}
+        Ok(_) | Err(_) => std::future::pending().await,
+    }
+}
+
+#[cfg(not(unix))]
+async fn reader_gone() {
+    std::future::pending().await
 }
 
 /// Values of one source, read again and again or sent by the module.
@@ -138,7 +160,7 @@ struct Screen<'a> {
     targets: &'a [Target],
     format: Format,
     begin: Instant,
-    last: Vec<Option<[String; 2]>>,
+    last: Vec<Option<[Cell; 2]>>,
     width: usize,
 }
 
@@ -161,14 +183,14 @@ impl<'a> Screen<'a> {
         if self.last[at].as_ref() == Some(&cells) {
             return;
         }
-        let [value, hex] = &cells;
+        let [Cell { text: value, json }, Cell { text: hex, .. }] = &cells;
         let time = self.begin.elapsed().as_secs_f64();
         match self.format {
             Format::Table => {
                 let (name, width) = (name(target), self.width);
                 let line = match &self.last[at] {
                     None => format!("{time:>10.3}  {name:<width$}  {value}"),
-                    Some([before, _]) => format!("{time:>10.3}  {name:<width$}  {before} -> {value}"),
+                    Some([before, _]) => format!("{time:>10.3}  {name:<width$}  {} -> {value}", before.text),
                 };
                 output.line(line.trim_end());
             }
@@ -176,7 +198,7 @@ impl<'a> Screen<'a> {
                 "t": (time * 1000.0).round() / 1000.0,
                 "address": target.address(),
                 "symbol": target.symbol,
-                "value": value,
+                "value": json,
                 "hex": hex,
             })),
             Format::Csv => {
