@@ -4,6 +4,7 @@ use zerocopy::{FromBytes, IntoBytes};
 
 use super::Machine;
 use super::command::Force;
+use super::written::{FIXED, Written};
 use crate::image::{Memory, Part, ToNck, signals_at};
 use crate::sinumerik::Changes;
 use crate::trace::{By, Change, Row};
@@ -14,7 +15,7 @@ use crate::variables::{EventId, Place};
 #[derive(Debug)]
 pub(super) struct Before {
     parts: Vec<(Part, Vec<u8>)>,
-    pub(super) written: Vec<Force>,
+    pub(super) written: Written,
     /// The PLC's half is another one than at the end of the last cycle.
     plc_wrote: bool,
     /// Power was switched off and on in this step.
@@ -22,25 +23,23 @@ pub(super) struct Before {
     pub(super) last_event: EventId,
 }
 
-/// Room for writes from outside in one step before the list has to grow.
-const WRITES: usize = 256;
-
 impl Before {
     /// The memory as it is now.
     pub(super) fn new(memory: &Memory, last_event: EventId) -> Self {
-        let fixed = [
-            Part::ToNck,
-            Part::FromNck,
-            Part::Hmi,
-            Part::Inputs,
-            Part::Outputs,
-            Part::Flags,
-            Part::Timers,
-            Part::Counters,
-        ];
         let own = memory.blocks.iter().map(|block| Part::Block(block.number));
-        let parts = fixed.into_iter().chain(own).map(|part| (part, memory.part(part).to_vec())).collect();
-        Self { parts, written: Vec::with_capacity(WRITES), plc_wrote: true, power_on: false, last_event }
+        let parts = FIXED.into_iter().chain(own).map(|part| (part, memory.part(part).to_vec())).collect();
+        Self { parts, written: Written::new(memory), plc_wrote: true, power_on: false, last_event }
+    }
+
+    /// Nothing, for a machine that does not go on.
+    pub(super) const fn without_room() -> Self {
+        Self {
+            parts: Vec::new(),
+            written: Written::without_room(),
+            plc_wrote: true,
+            power_on: false,
+            last_event: EventId::NONE,
+        }
     }
 }
 
@@ -68,13 +67,7 @@ impl Machine {
 
     /// Writes from outside that the PLC program overwrote in this step.
     pub(super) fn note_overwritten(&mut self) {
-        let written = &self.before.written;
-        for (index, &Force { location, value }) in written.iter().enumerate() {
-            // What another write of the same cycle replaced, the PLC did not.
-            let once_more = written[index + 1..].iter().any(|later| later.location.overlaps(location));
-            if once_more || self.memory.read(location) == value & location.mask() {
-                continue;
-            }
+        for location in self.before.written.settle(&self.memory) {
             let bits = if location.width < 8 { location.mask() << location.bit } else { 0xFF };
             let bits = u8::try_from(bits & 0xFF).unwrap_or(0xFF);
             let change = Change::Overwritten { part: location.part, offset: location.offset, bits };
@@ -134,35 +127,23 @@ impl Machine {
     }
 
     fn who(&self, part: Part, offset: u32, bit: u8, value: bool) -> By {
-        let meant = |write: &&Force| {
+        let is_meant = |write: &Force| {
             let first = u64::from(write.location.offset) * 8 + u64::from(write.location.bit);
             let this = u64::from(offset) * 8 + u64::from(bit);
             write.location.part == part && (first..first + u64::from(write.location.width)).contains(&this)
         };
-        let written = |write: &Force| {
-            let place = if write.location.width < 8 {
-                u32::from(bit - write.location.bit)
-            } else {
-                // Most significant byte first.
-                (write.location.bytes() - 1 - (offset - write.location.offset)) * 8 + u32::from(bit)
-            };
-            (write.value >> place & 1 == 1) == value
-        };
-        if self.forces.iter().any(|force| meant(&force)) {
+        let written = self.before.written.bit(part, offset, bit);
+        if self.forces.iter().any(is_meant) {
             return By::Force;
         }
         match part {
             Part::FromNck => {
-                return if self.before.written.iter().any(|w| meant(&w)) && !is_signal(part, offset, bit) {
-                    By::Outside
-                } else {
-                    By::Nck
-                };
+                return if written.is_some() && !is_signal(part, offset, bit) { By::Outside } else { By::Nck };
             }
             Part::ToNck if self.is_switch(offset, bit) => return By::Plant,
             _ => {}
         }
-        if self.before.written.iter().rev().find(meant).is_some_and(written) {
+        if written == Some(value) {
             return By::Outside;
         }
         let preset =

@@ -192,7 +192,7 @@ impl Machine {
 
     fn write(&mut self, location: Location, value: u64) {
         self.memory.write(location, value);
-        self.before.written.push(Force { location, value });
+        self.before.written.push(location, value);
         match location.part {
             Part::FromNck => self.control.half_overwritten(),
             Part::Hmi => {

@@ -23,6 +23,7 @@ mod describe;
 mod open;
 mod saved;
 mod step;
+mod written;
 
 pub use crate::plant::{Fault, FaultKind, Switch};
 pub use crate::sinumerik::machine_data::Value as DatumValue;

@@ -141,16 +141,16 @@ impl Machine {
                 )
             })?),
         };
-        Ok(self.copy(program, Recorder::default()))
+        Ok(self.copy(program, Recorder::default(), Before::new(&self.memory, self.before.last_event)))
     }
 
     /// The machine as it is now, to be looked at while the other goes on.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot {
-        Snapshot(self.copy(None, Recorder::without_room()))
+        Snapshot(self.copy(None, Recorder::without_room(), Before::without_room()))
     }
 
-    fn copy(&self, program: Option<Box<dyn PlcProgram>>, recorder: Recorder) -> Self {
+    fn copy(&self, program: Option<Box<dyn PlcProgram>>, recorder: Recorder, before: Before) -> Self {
         let mut plc = Plc::default();
         plc.program = program;
         plc.stopped = self.plc.stopped;
@@ -174,7 +174,7 @@ impl Machine {
             cycle: self.cycle,
             time: self.time,
             feedback: self.feedback,
-            before: Before::new(&self.memory, self.before.last_event),
+            before,
             alarms_before,
             recorder,
         }

@@ -80,13 +80,15 @@ pub struct Recorder {
 
 impl Default for Recorder {
     fn default() -> Self {
-        Self { rows: Vec::with_capacity(Self::ROWS), events: Vec::with_capacity(Self::EVENTS), lost: 0 }
+        Self { rows: Vec::with_capacity(Self::ROOM), events: Vec::with_capacity(Self::EVENTS), lost: 0 }
     }
 }
 
 impl Recorder {
-    /// How many rows fit between two drains; one step writes far fewer.
-    pub const ROWS: usize = 2048;
+    /// How many rows are kept between two drains: more than the bytes that clients may change at the edge of one step, twice.
+    pub const ROWS: usize = 16_384;
+    /// Room for rows before it has to grow; one step without such clients writes far fewer.
+    const ROOM: usize = 2048;
     /// How many events fit between two drains.
     pub const EVENTS: usize = 1024;
 

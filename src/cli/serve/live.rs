@@ -67,8 +67,10 @@ pub(super) struct Shared {
     view: View,
     /// What clients asked for.
     pub(super) inbox: Inbox,
-    /// Whether each step is shown; else it is copied for whoever looks.
-    is_shown: bool,
+    /// A scan may wait for a process: each step is shown before it does.
+    is_lock_step: bool,
+    /// A step is shown while somebody looks; faster, few of so many are looked at, and each is copied for who does.
+    is_real_time: bool,
     /// How many wait for the lock.
     waiting: AtomicUsize,
     /// How many cycles are over.
@@ -223,8 +225,8 @@ impl Live {
         let shared = Arc::new(Shared {
             view: View::new(clocked.seen()),
             inbox: Inbox::new(cycle + 1),
-            // Cheap beside a cycle in real time, and beside one that waits for a process; else few of so many steps are looked at.
-            is_shown: speed <= Speed::default() || is_held,
+            is_lock_step: is_held,
+            is_real_time: speed <= Speed::default(),
             cycle: watch::Sender::new(cycle),
             clocked: Mutex::new(clocked),
             waiting: AtomicUsize::new(0),
@@ -427,14 +429,15 @@ impl Shared {
             std::thread::yield_now();
         }
         let mut clocked = self.clocked.lock().unwrap_or_else(PoisonError::into_inner);
-        let orders = self.inbox.empty(clocked.machine.cycle() + 1);
+        let orders = self.inbox.take(clocked.machine.cycle() + 1);
         let refused = clocked.take(orders);
         let over = clocked.step();
         clocked.observe();
         let machine = &clocked.machine;
         let changed = changed_alarms(machine, alarms);
         let (cycle, period) = (machine.cycle(), machine.cycle_time().nanos());
-        let shown = self.is_shown.then(|| clocked.seen());
+        let is_shown = self.is_lock_step || self.is_real_time && self.view.is_looked_at();
+        let shown = is_shown.then(|| clocked.seen());
         drop(clocked);
         self.view.over(cycle, shown);
         self.cycle.send_replace(cycle);

@@ -3,7 +3,7 @@
 //! Whoever looks holds up nobody: neither the step that is due, nor, where a step lasts (a scan that waits for a PLC process), those
 //! who look as well. A step is copied once, some microseconds, however many look at it.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::machine::Snapshot;
@@ -22,6 +22,8 @@ pub(super) struct Seen {
 pub(super) struct View {
     /// How many cycles are over.
     cycle: AtomicU64,
+    /// Somebody has looked since a step was shown.
+    is_looked_at: AtomicBool,
     /// What the stepping thread shows, if it does; nobody holds this lock for longer than it takes to put something there.
     fresh: Mutex<Option<Box<Seen>>>,
     seen: Mutex<Box<Seen>>,
@@ -29,7 +31,18 @@ pub(super) struct View {
 
 impl View {
     pub(super) fn new(seen: Box<Seen>) -> Self {
-        Self { cycle: AtomicU64::new(seen.machine.cycle()), fresh: Mutex::new(None), seen: Mutex::new(seen) }
+        let is_looked_at = AtomicBool::new(false);
+        Self {
+            cycle: AtomicU64::new(seen.machine.cycle()),
+            is_looked_at,
+            fresh: Mutex::new(None),
+            seen: Mutex::new(seen),
+        }
+    }
+
+    /// Whether somebody has looked since this was asked last: most probably somebody will again.
+    pub(super) fn is_looked_at(&self) -> bool {
+        self.is_looked_at.swap(false, Ordering::Relaxed)
     }
 
     /// A cycle is over; whoever looks from now on sees what it left.
@@ -41,6 +54,7 @@ impl View {
 
     /// Looks at the last step; `copy` gives it where nobody has shown it.
     pub(super) fn look<T>(&self, copy: impl FnOnce() -> Box<Seen>, look: impl FnOnce(&Seen) -> T) -> T {
+        self.is_looked_at.store(true, Ordering::Relaxed);
         let mut seen = lock(&self.seen);
         if seen.machine.cycle() < self.cycle.load(Ordering::Acquire) {
             let shown = lock(&self.fresh).take();
