@@ -264,6 +264,36 @@ fn watching_ends_when_nobody_reads() {
     assert_eq!(child.wait().unwrap().code(), Some(0));
 }
 
+/// The recipe of the README for a gantry, at twenty times real time; where it watches, the test waits.
+#[test]
+fn the_readme_references_a_gantry() {
+    let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+    let recipe = readme.split("### Referencing from a client").nth(1).unwrap().split("```").nth(1).unwrap();
+    let served = Served::with(&["--plc", "enable_all", "--speed", "20"]);
+    let wait = |symbol: &str| {
+        let is_there = || rows(&served.text("read", &[symbol]))[0].contains(&"1");
+        assert!((0..5000).any(|_| is_there()), "{symbol} does not come");
+    };
+    wait("X.gantry_leading_axis"); // the control has run up
+    let mut done = 0;
+    for line in recipe.lines().filter(|line| line.starts_with("opennck s7 ")) {
+        let words: Vec<&str> = line.split(" #").next().unwrap().split_whitespace().skip(2).collect();
+        match words[0] {
+            "watch" => words[2..].iter().for_each(|symbol| wait(symbol)),
+            "read" => wait(words[2]),
+            command => drop(served.text(command, &words[2..])),
+        }
+        if words.contains(&"DB11.DBX1.2=1") {
+            wait("DB11.DBX7.2");
+        }
+        if words.contains(&"X.start_gantry_synchronization=1") {
+            wait("X.gantry_grouping_is_synchronized");
+        }
+        done += 1;
+    }
+    assert_eq!(done, 7, "{recipe}");
+}
+
 /// Each line of the README that calls `opennck s7`, on a port that is free here.
 #[test]
 fn the_commands_of_the_readme_work() {

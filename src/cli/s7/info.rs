@@ -173,3 +173,16 @@ async fn read(nck: &Client, names: impl Iterator<Item = String>) -> Result<Vec<O
     let variables = names.map(|name| format!("nck:{name}").parse::<Variable>()).collect::<Result<Vec<_>, _>>()?;
     nck.read_all(&variables).await.into_iter().map(told).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_alarm_has_its_text_with_what_the_control_fills_in() {
+        let fills = [Some(Value::Text("KCHAN1".to_owned())), Some(Value::Text("S2".to_owned())), None, None];
+        let said = "channel CHAN1 waiting for synchronization start of gantry grouping 2";
+        assert_eq!(text(AlarmNumber(10654), &fills), said);
+        assert_eq!(text(AlarmNumber(999_999), &fills), "", "nobody knows it");
+    }
+}
