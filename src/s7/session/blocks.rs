@@ -37,9 +37,11 @@ impl Session {
             return Err(ErrorCode::FUNCTION_PARAMETERS);
         };
         let blocks = exchange.station.data_blocks();
-        if kind != DATA_BLOCK || blocks.is_empty() {
+        if !TYPES.contains(&kind) {
             return Err(ErrorCode::NO_BLOCK);
         }
+        // A type without blocks has an empty list: clients that list one type after another give up at the first refusal.
+        let blocks = if kind == DATA_BLOCK { blocks } else { &[] };
         let entry = |block: &BlockInfo| {
             let [high, low] = block.number.to_be_bytes();
             [high, low, 0x22, LANGUAGE]

@@ -23,7 +23,12 @@ fn data_blocks_are_listed_in_order_and_other_types_have_none() {
     let numbers: Vec<u16> = answer[4..].chunks(4).map(|entry| u16::from_be_bytes([entry[0], entry[1]])).collect();
     assert_eq!(numbers[..8], [2, 4, 5, 7, 10, 11, 18, 19]);
     assert_eq!(numbers[53..], [1000, 1001]);
-    assert_eq!(client.user_data(3, 2, "30 38").0, "D2 0E");
+    // OB, SDB, FC, SFC, FB, SFB.
+    for kind in ["38", "42", "43", "44", "45", "46"] {
+        let (error, answer) = client.user_data(3, 2, &format!("30 {kind}"));
+        assert_eq!((error.as_str(), answer.as_str()), ("00 00", "FF 09 00 00"), "{kind}");
+    }
+    assert_eq!(client.user_data(3, 2, "30 39").0, "D2 0E");
     assert_eq!(client.user_data(3, 2, "41").0, "D2 02");
 }
 

@@ -220,8 +220,10 @@ fn any(rest: &[u8]) -> Item {
     };
     let is_timer = matches!(kind, Type::Timer | Type::Counter);
     if is_numbered {
-        // The address is a number of two bytes each; clients send WORD as well as the type of the area.
-        if kind.bytes() != 2 {
+        // The address is a number of two bytes each; clients send a plain word as well as the type of the area. Who sends another
+        // type of two bytes counts in other units, and would get another timer without a word.
+        let own = if area == Area::Timers { [Type::Timer, Type::S5Time] } else { [Type::Counter; 2] };
+        if !matches!(kind, Type::Word | Type::Int) && !own.contains(&kind) {
             return Item::Refused(Refusal::TypeInconsistent);
         }
         return Item::Any(AnyItem { kind, count: any.count.get(), area, byte: address * 2, bit: 0 });
