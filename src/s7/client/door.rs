@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use socket2::{SockRef, TcpKeepalive};
-use tokio::io::{AsyncReadExt, AsyncWriteExt};
+use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt};
 use tokio::net::TcpStream;
 use tokio::time::Instant;
 
@@ -26,10 +26,15 @@ const SHORTEST: u16 = 64;
 /// The longest PDU that is built.
 const LONGEST: u16 = 4096;
 
+/// What a connection goes over.
+pub(super) trait Stream: AsyncRead + AsyncWrite + std::fmt::Debug + Send + Unpin {}
+
+impl<T: AsyncRead + AsyncWrite + std::fmt::Debug + Send + Unpin> Stream for T {}
+
 /// An open connection.
 #[derive(Debug)]
 pub(super) struct Door {
-    pub(super) stream: TcpStream,
+    pub(super) stream: Box<dyn Stream>,
     pub(super) conversation: Conversation,
     pub(super) negotiated: Negotiated,
     /// Bytes of a PDU in one packet.
@@ -52,6 +57,16 @@ pub(super) async fn open(address: &str, options: &Options) -> Result<Door, Error
     let _ = stream.set_nodelay(true);
     let keep_alive = TcpKeepalive::new().with_time(Duration::from_secs(30));
     let _ = SockRef::from(&stream).set_tcp_keepalive(&keep_alive);
+    greet(Box::new(stream), address, options, deadline).await
+}
+
+/// Opens what comes behind the transport.
+pub(super) async fn greet(
+    stream: Box<dyn Stream>,
+    address: &str,
+    options: &Options,
+    deadline: Instant,
+) -> Result<Door, Error> {
     let conversation = Conversation::default();
     let mut opening = Opening { stream, conversation, address, options, deadline };
     let confirm = opening.connect().await?;
@@ -66,7 +81,7 @@ pub(super) async fn open(address: &str, options: &Options) -> Result<Door, Error
 }
 
 struct Opening<'a> {
-    stream: TcpStream,
+    stream: Box<dyn Stream>,
     conversation: Conversation,
     address: &'a str,
     options: &'a Options,

@@ -61,8 +61,10 @@ pub use system::{Identification, SystemStateList};
 pub use value::Value;
 pub use variable::{Memory, Variable};
 
+use std::fmt::Debug;
 use std::sync::Arc;
 
+use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::sync::{Mutex, mpsc, oneshot, watch};
 use tokio::time::Instant;
 
@@ -101,12 +103,29 @@ impl Client {
     /// Nobody is there, or does not take the connection, or the password.
     pub async fn connect(address: &str, options: Options) -> Result<Self, Error> {
         let door = door::open(address, &options).await?;
+        Ok(Self::behind(door, address, options))
+    }
+
+    /// Over a stream that somebody has opened: a tunnel, or a test's. It is not opened again when it is lost, whatever the options say.
+    ///
+    /// # Errors
+    /// Who is at its other end does not take the connection, or the password.
+    pub async fn over(
+        stream: impl AsyncRead + AsyncWrite + Debug + Send + Unpin + 'static,
+        options: Options,
+    ) -> Result<Self, Error> {
+        let (options, name) = (Options { reconnect: None, ..options }, "the other end");
+        let door = door::greet(Box::new(stream), name, &options, Instant::now() + options.timeout).await?;
+        Ok(Self::behind(door, name, options))
+    }
+
+    fn behind(door: door::Door, address: &str, options: Options) -> Self {
         let (commands, receiver) = mpsc::channel(COMMANDS);
         let (sender, state) = watch::channel(State::Connected(door.negotiated));
         let options = Arc::new(options);
         let link = Link::new(address.into(), Arc::clone(&options), receiver, sender);
         tokio::spawn(link.run(door));
-        Ok(Self { commands, state, options, long: Arc::default() })
+        Self { commands, state, options, long: Arc::default() }
     }
 
     /// How the connection is now.
