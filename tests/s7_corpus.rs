@@ -2,6 +2,9 @@
 //! finds what it is for.
 #![cfg(feature = "s7")]
 
+#[path = "../fuzz/src/client.rs"]
+#[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
+mod client;
 #[path = "../fuzz/src/conversation.rs"]
 #[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
 mod conversation;
@@ -31,7 +34,7 @@ fn corpus(target: &str) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-fn tell(target: &str, judge: impl Fn(&[u8]) + std::panic::RefUnwindSafe) {
+fn tell<R>(target: &str, judge: impl Fn(&[u8]) -> R + std::panic::RefUnwindSafe) {
     for (name, input) in corpus(target) {
         if let Err(panic) = std::panic::catch_unwind(|| judge(&input)) {
             eprintln!("fuzz/corpus/{target}/{name}");
@@ -51,10 +54,33 @@ fn requests_end_as_they_have_to() {
 }
 
 #[test]
+fn a_client_hears_them_to_the_end() {
+    tell("client", client::judge);
+}
+
+/// The answers are understood: their conversations are named for what is asked.
+#[test]
+fn a_client_has_the_values_of_right_answers() {
+    for (name, input) in corpus("client") {
+        let expected = match name.as_str() {
+            "read_memory" | "fragments" => 5, // of six values
+            "write" | "list" | "upload" => 2,
+            "stop_and_start" => 3,
+            "blocks" => 4,
+            "cyclic" => 8, // three updates and five values
+            _ => continue,
+        };
+        assert_eq!(client::judge(&input), expected, "{name}");
+    }
+}
+
+#[test]
 fn the_corpus_is_small() {
-    let files = [corpus("session"), corpus("requests")].concat();
-    let bytes: usize = files.iter().map(|(_, input)| input.len()).sum();
-    assert!(files.len() <= 300 && bytes <= 300_000, "{} files, {bytes} bytes: minimise it", files.len());
+    for target in ["session", "requests", "client"] {
+        let files = corpus(target);
+        let bytes: usize = files.iter().map(|(_, input)| input.len()).sum();
+        assert!(files.len() <= 300 && bytes <= 200_000, "{target}: {} files, {bytes} bytes: minimise it", files.len());
+    }
 }
 
 /// A read of MB0 and MB1, of which the oracle knows that they are 05 and 06.

@@ -1,6 +1,7 @@
 //! What the fuzz targets and `tests/s7_corpus.rs` share: a conversation with a session of S7 communication, an oracle that judges
 //! its answers, and a grammar of requests.
 
+pub mod client;
 pub mod conversation;
 pub mod grammar;
 pub mod oracle;
