@@ -16,7 +16,7 @@
 //! | `0424` | 20 | | operating state and the change into it |
 //! | `00A0`, `01A0` | 20 | how many | diagnostic buffer |
 //!
-//! The extract `0Fxx` of a list is its head alone.
+//! The extract `0Fxx` of a list is its head alone, with the number of records that the list has.
 
 use super::{Exchange, Session};
 use crate::image::Area;
@@ -91,10 +91,10 @@ fn system_state_list(list: u16, index: u16, station: &dyn Station, pdu: usize) -
     }
     let index = if is_head { 0 } else { index };
     let mut records = records(whole, index, station, pdu)?;
+    let count = records.count();
     if is_head {
         records.bytes.clear();
     }
-    let count = records.count();
     let mut payload = Vec::with_capacity(8 + records.bytes.len());
     for word in [list, index, records.length, count] {
         payload.extend_from_slice(&word.to_be_bytes());

@@ -13,7 +13,9 @@ fn list(client: &mut Client, list: &str, index: &str) -> (u16, u16, Vec<u8>) {
     assert_eq!(usize::from(u16::from_be_bytes([answer[2], answer[3]])), answer.len() - 4);
     assert_eq!(hex(&answer[4..6]), list);
     let (length, count) = (u16::from_be_bytes([answer[8], answer[9]]), u16::from_be_bytes([answer[10], answer[11]]));
-    assert_eq!(answer.len() - 12, usize::from(length) * usize::from(count), "{list}");
+    // The extract 0Fxx is a head without its records.
+    let sent = if list.starts_with("0F") { 0 } else { usize::from(count) };
+    assert_eq!(answer.len() - 12, usize::from(length) * sent, "{list}");
     (length, count, answer[12..].to_vec())
 }
 
@@ -38,6 +40,34 @@ fn every_list_that_is_listed_can_be_read() {
             _ => "00 00",
         };
         list(&mut client, known, index);
+    }
+}
+
+/// System Software for S7-300/400, 33.2: the fourth word of the head is the number of records, and `0Fxx` is the head alone. snap7
+/// has `0F 14 00 00 00 08 00 09` and the like, captured at a CPU 315.
+#[test]
+fn the_head_of_a_list_tells_how_many_records_the_list_has() {
+    let mut client = Client::ready(960);
+    client.diagnosis = vec![Diagnosis::of_state(Diagnosis::RUN, client.clock); 3];
+    for (head, whole, index) in [
+        ("0F 00", "00 00", "00 00"),
+        ("0F 11", "00 11", "00 00"),
+        ("0F 12", "00 12", "00 00"),
+        ("0F 13", "00 13", "00 00"),
+        ("0F 14", "00 14", "00 00"),
+        ("0F 15", "00 15", "00 00"),
+        ("0F 19", "00 19", "00 00"),
+        ("0F 1C", "00 1C", "00 00"),
+        ("0F 31", "01 31", "00 01"),
+        ("0F 32", "01 32", "00 04"),
+        ("0F 74", "00 74", "00 00"),
+        ("0F A0", "00 A0", "00 00"),
+    ] {
+        let (length, count, _) = list(&mut client, whole, index);
+        assert!(count > 0, "{whole}");
+        // FF, an octet string of the eight bytes of a head, and nothing behind it.
+        let alone = format!("FF 09 00 08 {head} 00 00 {length:04X} {count:04X}");
+        assert_eq!(client.user_data(4, 1, &format!("{head} 00 00")).1.replace(' ', ""), alone.replace(' ', ""));
     }
 }
 
