@@ -221,18 +221,25 @@ fn memories(station: &dyn Station) -> Records {
     records
 }
 
+/// All nine of them. Index 3 counts the flags in bits and 8 in bytes; 7 counts local data in bytes and 9 in kilobytes. Choices: what can
+/// be addressed is what the process image has, as at a CPU 315, and local data there are none: the program is none of MC7.
 fn areas(station: &dyn Station) -> Records {
-    let bytes = |area| u16::try_from(station.area_length(area)).unwrap_or(u16::MAX);
+    let length = |area| station.area_length(area);
+    let flags = length(Area::Flags);
     let mut records = Records::of(8);
     let areas = [
-        (1, bytes(Area::Inputs)),
-        (2, bytes(Area::Outputs)),
-        (3, bytes(Area::Flags)),
-        (4, bytes(Area::Timers) / 2),
-        (5, bytes(Area::Counters) / 2),
+        (1, length(Area::Inputs)),
+        (2, length(Area::Outputs)),
+        (3, flags.saturating_mul(8)),
+        (4, length(Area::Timers) / 2),
+        (5, length(Area::Counters) / 2),
+        (6, length(Area::Inputs)),
+        (7, 0),
+        (8, flags),
+        (9, 0),
     ];
     for (index, size) in areas {
-        records.words(&[index, 1, size, 0]);
+        records.words(&[index, 1, u16::try_from(size).unwrap_or(u16::MAX), 0]);
     }
     records
 }

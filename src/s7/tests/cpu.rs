@@ -352,6 +352,25 @@ fn whoever_logs_on_to_messages_is_told_that_it_is() {
     assert_eq!(client.user_data(4, 2, "").0, "D4 05");
 }
 
+/// System Software for S7-300/400, 33.8: at least nine records, index 3 in bits, 8 in bytes. 128 bytes of inputs and outputs, 256 of flags
+/// (2048 bits), 32 timers and counters, nothing else.
+#[test]
+fn flags_are_counted_in_bits_and_in_bytes() {
+    let mut client = Client::ready(480);
+    let records = [
+        "00 01 00 01 00 80 00 00",
+        "00 02 00 01 00 80 00 00",
+        "00 03 00 01 08 00 00 00",
+        "00 04 00 01 00 20 00 00",
+        "00 05 00 01 00 20 00 00",
+        "00 06 00 01 00 80 00 00",
+        "00 07 00 01 00 00 00 00",
+        "00 08 00 01 01 00 00 00",
+        "00 09 00 01 00 00 00 00",
+    ];
+    assert_eq!(list(&mut client, "00 14", "00 00"), (8, 9, bytes(&records.join(" "))));
+}
+
 /// What Wireshark's dissector reads there: used and free add up to the size, and what is served is what can be asked for.
 #[test]
 fn memories_areas_and_services_are_those_of_this_module() {
@@ -362,10 +381,6 @@ fn memories_areas_and_services_are_those_of_this_module() {
     assert_eq!(double(16), 272 + 64 + 4160 + 31 * 148 + 2560 + 2055);
     assert_eq!((double(4), double(12)), (1 << 24, 1 << 24));
     assert_eq!(double(16) + double(20), 1 << 24);
-    // 128 bytes of inputs and outputs, 256 of flags, 32 timers and counters.
-    let areas = list(&mut client, "00 14", "00 00").2;
-    let sizes: Vec<u16> = areas.chunks(8).map(|area| u16::from_be_bytes([area[4], area[5]])).collect();
-    assert_eq!(sizes, [128, 128, 256, 32, 32]);
     let services = list(&mut client, "01 31", "00 03").2;
     assert_eq!(hex(&services[..14]), "00 03 47 E0 81 01 01 E0 00 20 00 01 63 9C");
 }
