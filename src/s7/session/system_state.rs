@@ -305,13 +305,10 @@ fn communication(station: &dyn Station, pdu: usize) -> Records {
 fn protection(station: &dyn Station) -> Records {
     let protection = station.protection();
     let parameter = if protection.password.is_some() { protection.level } else { 0 };
-    // The switch stands on RUN-P or, when the PLC does not run, on STOP.
-    let switch = match station.state() {
-        CpuState::Run => 2,
-        CpuState::Stop => 3,
-    };
+    // The mode selector stands on RUN-P: nobody turns it, whoever stops the CPU.
+    const RUN_P: u16 = 2;
     let mut records = Records::of(40);
-    records.words(&[4, 1, parameter.into(), protection.level.into(), switch, 0]);
+    records.words(&[4, 1, parameter.into(), protection.level.into(), RUN_P, 0]);
     records
 }
 

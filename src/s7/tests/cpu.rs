@@ -174,6 +174,11 @@ fn communication_and_protection_have_records_of_40_bytes() {
         assert_eq!((length, count), (40, 1));
         assert!(hex(&record).starts_with(start), "{asked}: {}", hex(&record));
     }
+    // 33.19: bart_sch, the fifth word, is where the mode selector stands; a client that stops the CPU does not turn it.
+    client.job(STOP, "");
+    client.step();
+    assert_eq!(client.state, CpuState::Stop);
+    assert_eq!(hex(&list(&mut client, "02 32", "00 04").2[..12]), "00 04 00 01 00 00 00 01 00 02 00 00");
     client.connections = 7;
     assert_eq!(hex(&list(&mut client, "01 31", "00 01").2[..6]), "00 01 01 E0 00 07");
 }
