@@ -34,10 +34,9 @@ const LISTS: [u16; 34] = [
 /// Lamps of a CPU: SF, RUN, STOP, FRCE, bus fault 1.
 const LAMPS: [u16; 5] = [1, 4, 5, 6, 11];
 
-/// Features by group: MC7 interpreter; a clock in BCD with a resolution of 1 ms; restarts; floating point, its functions and
-/// four accumulators.
-const FEATURES: [u16; 12] =
-    [0x0000, 0x0002, 0x0100, 0x0101, 0x0104, 0x0200, 0x0202, 0x0300, 0x0302, 0x0303, 0x0304, 0x0305];
+/// Features by group, which is the first byte: MC7 interpreter; a clock in BCD with a resolution of 1 ms; restarts; floating point, its
+/// functions and four accumulators.
+const FEATURES: [u16; 8] = [0x0002, 0x0101, 0x0104, 0x0202, 0x0302, 0x0303, 0x0304, 0x0305];
 
 /// The most entries of the diagnostic buffer that are shown.
 const ENTRIES: usize = 100;
@@ -162,8 +161,8 @@ fn records(list: u16, index: u16, station: &dyn Station, pdu: usize) -> Result<R
         }
         0x0011 => Ok(order_numbers(station)),
         0x0111 => order_numbers(station).only(index),
-        0x0012 => Ok(features(0)),
-        0x0112 => match features(index) {
+        0x0012 => Ok(features(|_| true)),
+        0x0112 => match features(|feature| feature & 0xFF00 == index) {
             none if none.bytes.is_empty() => Err(ErrorCode::WRONG_INDEX),
             found => Ok(found),
         },
@@ -212,10 +211,9 @@ fn order_numbers(station: &dyn Station) -> Records {
     records
 }
 
-fn features(group: u16) -> Records {
+fn features(is_wanted: impl Fn(u16) -> bool) -> Records {
     let mut records = Records::of(2);
-    let is_wanted = |feature: &&u16| group == 0 || **feature & 0xFF00 == group;
-    FEATURES.iter().filter(is_wanted).for_each(|feature| records.words(&[*feature]));
+    FEATURES.iter().filter(|feature| is_wanted(**feature)).for_each(|feature| records.words(&[*feature]));
     records
 }
 

@@ -348,6 +348,22 @@ fn each_control_has_its_own_plc() {
     assert_ne!(Identity::SINUMERIK_840D_SL.order_number, Identity::SINUMERIK_828D.order_number);
 }
 
+/// 33.6: index 0000 is the group "MC7 processing unit", 0100 the time system; a group is no feature. snap7 has one record at index 0000
+/// and two at 0100, of a CPU 315 that compiles MC7 (0001) where this one interprets it (0002).
+#[test]
+fn the_features_of_a_group_are_those_of_that_group_alone() {
+    let mut client = Client::ready(240);
+    for (group, features) in [
+        ("00 00", "00 02"),
+        ("01 00", "01 01 01 04"),
+        ("02 00", "02 02"),
+        ("03 00", "03 02 03 03 03 04 03 05"),
+    ] {
+        assert_eq!(hex(&list(&mut client, "01 12", group).2), features);
+    }
+    assert_eq!(list(&mut client, "00 12", "00 00").1, 8);
+}
+
 /// The bits of the events are those of Wireshark's dissector: 01 changes of the operating state, 02 system diagnostics, 04 messages of the
 /// program, 80 messages of blocks. The answer is snap7's (`FF 09 00 02 02 00`).
 #[test]
