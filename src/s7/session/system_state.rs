@@ -18,7 +18,7 @@
 //!
 //! The extract `0Fxx` of a list is its head alone, with the number of records that the list has.
 
-use super::{Exchange, Session};
+use super::{Exchange, LONGEST_PDU, SHORTEST_PDU, Session};
 use crate::image::Area;
 use crate::s7::station::{CpuState, Diagnosis, Station};
 use crate::s7::wire::header::ErrorCode;
@@ -31,8 +31,8 @@ const LISTS: [u16; 34] = [
     0x0F19, 0x0F1C, 0x0F31, 0x0F32, 0x0F74, 0x0FA0,
 ];
 
-/// Lamps of a CPU: SF, RUN, STOP, FRCE, bus fault 1.
-const LAMPS: [u16; 5] = [1, 4, 5, 6, 11];
+/// Lamps of a CPU with two interfaces: SF, RUN, STOP, FRCE, bus faults 1 and 2, maintenance demand.
+const LAMPS: [u16; 7] = [1, 4, 5, 6, 0x0B, 0x0C, 0x15];
 
 /// Features by group, which is the first byte: MC7 interpreter; a clock in BCD with a resolution of 1 ms; restarts; floating point, its
 /// functions and four accumulators.
@@ -46,7 +46,9 @@ impl Session {
         let Some((list, index)) = two_words(request.payload) else {
             return Err(ErrorCode::NOT_SUPPORTED);
         };
-        let payload = system_state_list(list, index, exchange.station, exchange.budget.pdu)?;
+        let longest = self.settings.longest_pdu.clamp(SHORTEST_PDU, LONGEST_PDU);
+        let pdu = PduLengths { longest, agreed: u16::try_from(exchange.budget.pdu).unwrap_or(longest) };
+        let payload = system_state_list(list, index, exchange.station, pdu)?;
         self.send_in_parts(request, exchange, payload);
         Ok(())
     }
@@ -79,13 +81,20 @@ impl Session {
     }
 }
 
+/// How long a PDU may be: of this module, and of this connection.
+#[derive(Clone, Copy, Debug)]
+struct PduLengths {
+    longest: u16,
+    agreed: u16,
+}
+
 fn two_words(payload: &[u8]) -> Option<(u16, u16)> {
     let [a, b, c, d] = payload else { return None };
     Some((u16::from_be_bytes([*a, *b]), u16::from_be_bytes([*c, *d])))
 }
 
 /// A list with its head: identifier, index, length and number of records.
-fn system_state_list(list: u16, index: u16, station: &dyn Station, pdu: usize) -> Result<Vec<u8>, ErrorCode> {
+fn system_state_list(list: u16, index: u16, station: &dyn Station, pdu: PduLengths) -> Result<Vec<u8>, ErrorCode> {
     let is_head = list >> 8 == 0x0F;
     // The head of 0Fxx tells of the whole list; some lists have no form without an extract.
     let whole = match list {
@@ -97,8 +106,10 @@ fn system_state_list(list: u16, index: u16, station: &dyn Station, pdu: usize) -
     if LISTS.binary_search(&list).is_err() {
         return Err(ErrorCode::WRONG_LIST);
     }
-    let index = if is_head { 0 } else { index };
-    let mut records = records(whole, index, station, pdu)?;
+    // What has no choice of records ignores the index, and its head says 0.
+    let has_index = !is_head && !matches!(list, 0x01A0 | 0x0424) && list > 0x00FF;
+    let mut records = records(whole, if is_head { 0 } else { index }, station, pdu)?;
+    let index = if has_index { index } else { 0 };
     let count = records.count();
     if is_head {
         records.bytes.clear();
@@ -152,7 +163,7 @@ impl Records {
 }
 
 /// The records of a list. Where a list has one record, index 0 means it, too: several clients ask so.
-fn records(list: u16, index: u16, station: &dyn Station, pdu: usize) -> Result<Records, ErrorCode> {
+fn records(list: u16, index: u16, station: &dyn Station, pdu: PduLengths) -> Result<Records, ErrorCode> {
     match list {
         0x0000 => {
             let mut records = Records::of(2);
@@ -289,23 +300,24 @@ fn names(station: &dyn Station) -> Records {
     for (index, text) in texts {
         records.add(&[&index.to_be_bytes(), &field::<32>(text, 0)]);
     }
-    // 9 is manufacturer and profile: no number of ours is registered.
-    records.add(&[&[0, 9]]);
+    // Manufacturer Siemens, profile of a CPU, type, as a CPU 315 tells them: like the order number, what the control would say.
+    records.add(&[&[0, 9, 0x00, 0x2A, 0xF6, 0x00, 0x00, 0x01]]);
     records.add(&[&[0, 10]]);
     records.add(&[&[0, 11], &field::<32>(identity.location, 0)]);
     records
 }
 
-fn communication(station: &dyn Station, pdu: usize) -> Records {
+fn communication(station: &dyn Station, pdu: PduLengths) -> Records {
     let mut records = Records::of(40);
-    let pdu = u16::try_from(pdu).unwrap_or(0);
-    // Longest PDU, connections, and the rates of two buses that are not there.
-    records.words(&[1, pdu, station.connections(), 0, 0, 0, 0]);
+    /// Connections that a CPU 317-2 has. This one may have more clients than that.
+    const CONNECTIONS: u16 = 32;
+    // Longest PDU of the module, connections, and the rates of two buses that are not there.
+    records.words(&[1, pdu.longest, station.connections().min(CONNECTIONS), 0, 0, 0, 0]);
     // Operator interface: read once, write once, cycles that start at once and can be cleared; inputs, outputs and flags; data
     // blocks and counters; timers.
     let served = [0b0100_0111, 0b1110_0000, 0b1000_0001, 0b0000_0001];
     // 32 jobs in cycles of 0.1 s to 2550 s.
-    records.add(&[&[0, 3], &served, &pdu.to_be_bytes(), &[0, 32, 0, 1], &25_500_u16.to_be_bytes()]);
+    records.add(&[&[0, 3], &served, &pdu.agreed.to_be_bytes(), &[0, 32, 0, 1], &25_500_u16.to_be_bytes()]);
     records
 }
 

@@ -161,12 +161,13 @@ fn restarts_and_changes_of_the_state_have_their_time() {
     assert_eq!(list(&mut client, "01 74", "00 01").2, [0, 1, 1, 0]);
 }
 
+/// The longest PDU is that of the module, 960 here, though 480 were agreed; connections are at most the 32 of a CPU 317-2.
 #[test]
 fn communication_and_protection_have_records_of_40_bytes() {
     let mut client = Client::ready(480);
     for (asked, index, start) in [
-        ("01 31", "00 01", "00 01 01 E0 00 20"),
-        ("01 31", "00 00", "00 01 01 E0 00 20"),
+        ("01 31", "00 01", "00 01 03 C0 00 20"),
+        ("01 31", "00 00", "00 01 03 C0 00 20"),
         ("01 32", "00 04", "00 04 00 01 00 00 00 01 00 02 00 00"),
         ("02 32", "00 00", "00 04 00 01 00 00 00 01 00 02 00 00"),
     ] {
@@ -180,7 +181,44 @@ fn communication_and_protection_have_records_of_40_bytes() {
     assert_eq!(client.state, CpuState::Stop);
     assert_eq!(hex(&list(&mut client, "02 32", "00 04").2[..12]), "00 04 00 01 00 00 00 01 00 02 00 00");
     client.connections = 7;
-    assert_eq!(hex(&list(&mut client, "01 31", "00 01").2[..6]), "00 01 01 E0 00 07");
+    assert_eq!(hex(&list(&mut client, "01 31", "00 01").2[..6]), "00 01 03 C0 00 07");
+    client.connections = 2048;
+    assert_eq!(hex(&list(&mut client, "01 31", "00 01").2[..6]), "00 01 03 C0 00 20");
+}
+
+/// snap7 has the lamps 1, 4, 5, 6, 0B, 0C and 15 of a CPU 315-2 PN/DP; 33.10 calls them SF, RUN, STOP, FRCE, BUS1F, BUS2F and (edition
+/// of 2010, 34.20) MAINT.
+#[test]
+fn the_lamps_are_those_of_a_cpu_with_two_interfaces() {
+    let mut client = Client::ready(240);
+    let lamps = "00 01 00 00 00 04 01 00 00 05 00 00 00 06 00 00 00 0B 00 00 00 0C 00 00 00 15 00 00";
+    for all in ["00 19", "00 74"] {
+        assert_eq!(list(&mut client, all, "00 00"), (4, 7, bytes(lamps)));
+    }
+    for lamp in ["00 0C", "00 15"] {
+        assert_eq!(hex(&list(&mut client, "01 74", lamp).2), format!("{lamp} 00 00"));
+    }
+}
+
+/// snap7 has these bytes of a CPU 315: manufacturer 002A, which PROFIBUS and PROFINET gave to Siemens, profile F600, type 1.
+#[test]
+fn the_manufacturer_is_that_of_the_order_number() {
+    let mut client = Client::ready(240);
+    let record = list(&mut client, "01 1C", "00 09").2;
+    assert_eq!(hex(&record[..8]), "00 09 00 2A F6 00 00 01");
+    assert!(record[8..].iter().all(|byte| *byte == 0));
+}
+
+/// snap7 answers lists that have no choice of records with index 0000, whatever was asked.
+#[test]
+fn a_list_without_a_choice_of_records_has_index_0_in_its_head() {
+    let mut client = Client::ready(960);
+    for list in ["00 00", "00 11", "00 12", "00 14", "00 19", "00 1C", "00 74", "00 A0", "01 A0", "04 24", "0F 11"] {
+        let answer = client.user_data(4, 1, &format!("{list} FF FF")).1;
+        assert_eq!(answer[12..23], format!("{list} 00 00"), "{answer}");
+    }
+    let answer = client.user_data(4, 1, "01 11 00 06").1;
+    assert_eq!(answer[12..23], *"01 11 00 06");
 }
 
 #[test]
