@@ -185,6 +185,20 @@ fn eight_clients_at_once_see_whole_requests() {
 }
 
 #[test]
+fn who_never_says_anything_is_left_when_any_other_idle_client_would_be() {
+    let live = live();
+    let limits = Limits { idle: Duration::from_millis(300), ..Limits::default() };
+    assert!(limits.greeting > Duration::from_secs(5));
+    let (window, address) = window(&live, limits);
+    let begin = std::time::Instant::now();
+    let mut silent = bare(address);
+    wait("a client", || window.clients() == 1);
+    assert_eq!(silent.read(&mut [0; 100]).unwrap_or(0), 0);
+    assert!(begin.elapsed() < Duration::from_secs(5));
+    wait("its leave", || window.clients() == 0);
+}
+
+#[test]
 fn garbage_and_half_packets_hold_up_nobody() {
     let live = live();
     let limits = Limits { greeting: Duration::from_millis(300), ..Limits::default() };

@@ -123,7 +123,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
 
     pub(super) async fn hold(&mut self, ended: watch::Receiver<bool>) -> End {
         let limits = &self.server.limits;
-        let (mut allowed, mut is_quiet) = (limits.greeting, true);
+        let (mut allowed, mut is_quiet) = (limits.greeting.min(limits.idle), true);
         let mut last = Instant::now();
         let mut idle = pin!(sleep(allowed / PARTS));
         let mut pushes = None;

@@ -12,7 +12,7 @@ pub struct Limits {
     pub networks: Vec<Network>,
     /// How long a client may stay silent.
     pub idle: Duration,
-    /// How long the first request may take.
+    /// How long the first request may take; never longer than [`Limits::idle`].
     pub greeting: Duration,
     /// How long a client may take to take an answer.
     pub writing: Duration,
