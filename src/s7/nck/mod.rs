@@ -25,7 +25,7 @@ use super::wire::data::Refusal;
 use super::wire::date_and_time::DateAndTime;
 use super::wire::items::{MeasuringSystem, NckItem};
 use crate::image::{Memory, Names};
-use crate::units::{AxisNumber, ChannelNumber};
+use crate::units::ChannelNumber;
 use crate::variables::{Place, Variables};
 
 use data::put_text;
@@ -201,6 +201,11 @@ fn lines(item: &NckItem) -> Result<std::ops::Range<u16>, Refusal> {
     if item.line == 0 || item.count == 0 { Err(Refusal::OutOfRange) } else { Ok(item.line..end) }
 }
 
+/// Units count from 1; only the NCK itself, of which there is one, is 0 with some clients and 1 with others.
+fn unit(item: &NckItem) -> u8 {
+    if item.area == NckArea::Nck.code() { item.unit.max(1) } else { item.unit }
+}
+
 fn find(item: &NckItem) -> Option<&'static Variable> {
     // The NCK has the axes of all channels; here that is the same.
     let area = match (item.area, item.module) {
@@ -220,8 +225,7 @@ fn put_variable(
     line: u16,
     into: &mut Vec<u8>,
 ) -> Result<(), Refusal> {
-    let unit = item.unit.max(1); // the NCK itself is 0 with some clients and 1 with others
-    let shown = (variable.get)(view, unit, line).ok_or(Refusal::OutOfRange)?;
+    let shown = (variable.get)(view, unit(item), line).ok_or(Refusal::OutOfRange)?;
     match (variable.kind, shown) {
         (Kind::Text(length), Shown::Text(text)) => put_text(&text, length, into),
         (Kind::Date, Shown::Date(date)) => into.extend_from_slice(&date.map_or([0; 8], |date| date.bytes())),
@@ -253,20 +257,22 @@ fn whole(value: f64) -> i64 {
     value as i64
 }
 
-/// Whose machine datum an item means.
-fn owner(item: &NckItem) -> Option<Place> {
-    match item.area {
+/// Whose machine datum an item means: a channel or an axis that is not there has none.
+fn owner(view: &View<'_>, item: &NckItem) -> Result<Place, Refusal> {
+    let place = match item.area {
         0 => Some(Place::Nck),
-        2 => ChannelNumber::new(item.unit).map(Place::Channel),
-        3 => AxisNumber::new(item.unit).map(Place::Axis),
-        _ => None,
-    }
+        2 => values::channel_number(view, item.unit).map(Place::Channel),
+        3 => values::axis_number(view, item.unit.into()).map(Place::Axis),
+        _ => return Err(Refusal::DoesNotExist),
+    };
+    place.ok_or(Refusal::OutOfRange)
 }
 
 fn datum<'a>(view: &View<'a>, item: &NckItem, line: u16) -> Result<(Place, Datum<'a>), Refusal> {
-    let (Some(place), Some(machine_data), module::M) = (owner(item), view.machine_data, item.module) else {
+    let (Some(machine_data), module::M) = (view.machine_data, item.module) else {
         return Err(Refusal::DoesNotExist);
     };
+    let place = owner(view, item)?;
     let datum = machine_data.datum(place, item.column, line - 1);
     match datum {
         Some(datum) => Ok((place, datum)),
@@ -309,7 +315,7 @@ pub fn write(view: &View<'_>, item: &NckItem, bytes: &[u8], into: &mut Vec<Comma
 
 fn write_row(view: &View<'_>, item: &NckItem, line: u16, bytes: &[u8]) -> Result<Command, Refusal> {
     if find(item).is_some() {
-        let (channel, number, _) = r_parameter(view, item.unit.max(1), line)?;
+        let (channel, number, _) = r_parameter(view, unit(item), line)?;
         let value = data::number(bytes).ok_or(Refusal::TypeInconsistent)?;
         return Ok(Command::RParameter { channel, number, value });
     }

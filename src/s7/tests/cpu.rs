@@ -391,12 +391,9 @@ fn each_control_has_its_own_plc() {
 #[test]
 fn the_features_of_a_group_are_those_of_that_group_alone() {
     let mut client = Client::ready(240);
-    for (group, features) in [
-        ("00 00", "00 02"),
-        ("01 00", "01 01 01 04"),
-        ("02 00", "02 02"),
-        ("03 00", "03 02 03 03 03 04 03 05"),
-    ] {
+    for (group, features) in
+        [("00 00", "00 02"), ("01 00", "01 01 01 04"), ("02 00", "02 02"), ("03 00", "03 02 03 03 03 04 03 05")]
+    {
         assert_eq!(hex(&list(&mut client, "01 12", group).2), features);
     }
     assert_eq!(list(&mut client, "00 12", "00 00").1, 8);

@@ -130,7 +130,9 @@ fn an_unknown_variable_does_not_exist_and_the_other_items_are_served() {
     assert_eq!(answer, "00 02 00 14 00 00 04 03 0A 00 00 00 FF 09 00 08 00 00 00 00 00 00 59 40 0A 00 00 00");
     for (item, code) in [
         ("82 42 00 02 00 01 74 01", "05"), // channel 2 does not exist
-        ("82 40 00 02 00 01 74 01", "FF"), // no channel is the first
+        ("82 40 00 02 00 01 74 01", "05"), // units count from 1
+        ("82 20 00 03 00 01 7F 01", "05"), // mode groups, too
+        ("82 00 00 07 00 01 7F 01", "FF"), // only the NCK is one, whatever it is called
         ("82 81 00 03 00 01 26 01", "0A"), // tools
     ] {
         assert!(read(&mut client, item).starts_with(code), "{item}");
@@ -431,7 +433,11 @@ fn machine_data_are_read_by_number_and_index() {
     assert_eq!(read(&mut client, "82 61 8D D6 00 01 1A 01"), "FF 09 00 04 01 00 00 80");
     assert_eq!(read(&mut client, "82 61 76 20 00 03 1A 01"), "05 00 00 00");
     assert_eq!(read(&mut client, "82 61 85 2A 00 01 1A 01"), "0A 00 00 00");
-    assert_eq!(read(&mut client, "82 7F 85 2A 00 01 1A 01"), "0A 00 00 00");
+    // 05 is out of range. There are no axes 4 and 31, no axis 0 and no channel 2, as in the rows of MachineAxis.
+    for unit in ["64", "7F", "60", "42", "40"] {
+        assert_eq!(read(&mut client, &format!("82 {unit} 75 FC 00 01 1A 01")), "05 00 00 00", "{unit}");
+    }
+    assert_eq!(read(&mut client, "82 63 76 5C 00 01 1A 01"), "FF 09 00 01 00"); // MD30300 of the last axis
     // Degrees have no inches.
     assert_eq!(read(&mut client, "84 41 00 02 00 02 74 01"), double(&[-0.5]));
 }
@@ -454,6 +460,8 @@ fn machine_data_are_written_and_what_the_control_shows_is_not() {
         ("82 61 76 20 00 02 1A 02", "00 09 00 02 01 02", "05"),
         ("82 61 84 D0 00 01 1A 01", "00 09 00 04 00 00 00 00", "03"),
         ("82 62 75 FC 00 01 1A 01", "00 09 00 01 02", "0A"), // MD30204
+        ("82 64 76 5C 00 01 1A 01", "00 09 00 01 01", "05"), // there is no axis 4
+        ("82 40 00 01 00 06 15 01", "00 09 00 08 00 00 00 00 00 00 E0 3F", "05"), // no channel 0
         ("82 62 76 5C 00 01 1A 01", "00 09 00 01 02", "07"), // MD30300 is no 2
         ("82 41 00 02 00 01 74 01", "00 09 00 08 00 00 00 00 00 00 E0 3F", "03"),
     ] {
