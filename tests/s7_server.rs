@@ -190,7 +190,7 @@ fn who_never_says_anything_is_left_when_any_other_idle_client_would_be() {
     let limits = Limits { idle: Duration::from_millis(300), ..Limits::default() };
     assert!(limits.greeting > Duration::from_secs(5));
     let (window, address) = window(&live, limits);
-    let begin = std::time::Instant::now();
+    let begin = Instant::now();
     let mut silent = bare(address);
     wait("a client", || window.clients() == 1);
     assert_eq!(silent.read(&mut [0; 100]).unwrap_or(0), 0);

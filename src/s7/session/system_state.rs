@@ -53,9 +53,7 @@ impl Session {
         Ok(())
     }
 
-    /// The message service. Messages that blocks of the program send can be had: no block sends any here, so that none is missed.
-    /// What the CPU would send by itself is refused: changes of its state and entries of the diagnostic buffer do happen, and nobody is
-    /// told of them (lists 0424 and 00A0 have them).
+    /// The message service. Nobody sends messages here; a client that logs on is told that it is, and hears of none.
     pub(super) fn log_on_to_messages(
         &mut self,
         request: &Request<'_>,
@@ -63,18 +61,11 @@ impl Session {
     ) -> Result<(), ErrorCode> {
         /// Events and a reserved byte, then the name of the client.
         const WITHOUT_KIND: usize = 2 + 8;
-        /// Messages of the program (SFC 52) and messages of blocks (ALARM, ALARM_8, ALARM_S), as Wireshark's dissector has the bits.
-        const OF_BLOCKS: u8 = 0x04 | 0x80;
-        let &[events, _, ..] = request.payload else {
-            return Err(ErrorCode::NOT_SUPPORTED);
-        };
-        if events & !OF_BLOCKS != 0 {
-            return Err(ErrorCode::NOT_SUPPORTED);
-        }
         let head = Head::answer(request, self.next_sequence());
         let answer: &[u8] = match request.payload.get(WITHOUT_KIND) {
             Some(&kind) => &[2, 0, kind, 0, 0],
-            None => &[2, 0],
+            None if request.payload.len() >= 2 => &[2, 0],
+            None => return Err(ErrorCode::NOT_SUPPORTED),
         };
         head.send(exchange.answers, exchange.reference, exchange.budget, answer);
         Ok(())

@@ -399,28 +399,14 @@ fn the_features_of_a_group_are_those_of_that_group_alone() {
     assert_eq!(list(&mut client, "00 12", "00 00").1, 8);
 }
 
-/// The bits of the events are those of Wireshark's dissector: 01 changes of the operating state, 02 system diagnostics, 04 messages of the
-/// program, 80 messages of blocks. The answer is snap7's (`FF 09 00 02 02 00`).
+/// The answer is snap7's (`FF 09 00 02 02 00`).
 #[test]
-fn whoever_logs_on_to_messages_of_blocks_is_told_that_it_is() {
+fn whoever_logs_on_to_messages_is_told_that_it_is() {
     let mut client = Client::ready(240);
     let name = "48 4D 49 5F 52 54 4D 20";
-    assert_eq!(client.user_data(4, 2, &format!("04 00 {name}")).1, "FF 09 00 02 02 00");
+    assert_eq!(client.user_data(4, 2, &format!("01 00 {name}")).1, "FF 09 00 02 02 00");
     assert_eq!(client.user_data(4, 2, &format!("80 00 {name} 04 00")).1, "FF 09 00 05 02 00 04 00 00");
-    // To nothing: whoever logs off.
-    assert_eq!(client.user_data(4, 2, &format!("00 00 {name}")).1, "FF 09 00 02 02 00");
     assert_eq!(client.user_data(4, 2, "").0, "D4 05");
-}
-
-#[test]
-fn messages_that_would_not_come_are_refused_and_the_client_goes_on() {
-    let mut client = Client::ready(240);
-    let name = "48 4D 49 5F 52 54 4D 20";
-    for events in ["01", "02", "03", "81", "08"] {
-        let refused = client.user_data(4, 2, &format!("{events} 00 {name}"));
-        assert_eq!(refused, ("D4 05".to_owned(), "0A 00 00 00".to_owned()), "{events}");
-    }
-    assert_eq!(list(&mut client, "04 24", "00 00").2[3], 8);
 }
 
 /// System Software for S7-300/400, 33.8: at least nine records, index 3 in bits, 8 in bytes. 128 bytes of inputs and outputs, 256 of flags
