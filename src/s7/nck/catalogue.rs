@@ -6,13 +6,15 @@
 //! Siemens' NC-Var selector, T an NCK driver in TypeScript and C a collector in C that read controls, L the public lists of the
 //! columns of a module, which agree with the others wherever both name one.
 //!
-//! Choices: texts of machine data and of alarm parameters have 32 bytes. `sysTimeUdword` counts seconds since 1970.
+//! Choices: texts of machine data and of alarm parameters have 32 bytes. `sysTimeUdword` counts seconds since 1970. MD18040 has this
+//! simulator and its version in the first of its four rows. `N/Y` has no `nckType` and `nckVersion`: their addresses (columns 001F and
+//! 0020) are known, but no source says which values are those of which control.
 
 use super::alarms::{self, Order};
 use super::values::{
     asked, axis, axis_name, axis_number, axis_signal, channel, channel_exists, channel_name, channel_status,
     count_axes, empty, feedrate, flag, geometry_axis, machine_function, measuring_system, mode, number, of_axis,
-    of_channel, only, program_status, seconds, zero,
+    of_channel, only, program_status, seconds, version, zero,
 };
 use super::{Kind, NckArea, Shown, Variable, drives, module, r_parameter};
 use crate::image::ChannelToNck;
@@ -73,6 +75,7 @@ pub const CATALOGUE: &[Variable] = &[
     row!("C/$MC_CHAN_NAME",                    Channel,   M,      0x4E20, Text(32),  "C D",     |v, c, l| only(l).and_then(|()| channel_name(v, c))),
     row!("N/$MN_AXCONF_MACHAX_NAME_TAB",       Nck,       M,      0x2710, Text(32),  "C D",     |v, _, l| axis_name(v, l)),
     row!("N/$MN_HW_SERIAL_NUMBER",             Nck,       M,      0x466E, Text(32),  "C",       |v, _, l| only(l).map(|()| Shown::Text(v.serial_number.into()))),
+    row!("N/$MN_VERSION_INFO",                 Nck,       M,      0x4678, Text(32),  "C",       |_, _, l| version(l)),
     // The configuration.
     row!("C/Y/numMachAxes",                    Channel,   Y,      0x0003, Word,      "T",       |v, c, l| only(l).and_then(|()| count_axes(v, c))),
     row!("C/Y/numSpindles",                    Channel,   Y,      0x0004, Word,      "T",       |v, c, l| zero(v, c, l)),

@@ -63,6 +63,15 @@ pub(super) fn channel_name<'a>(view: &View<'a>, unit: u8) -> Option<Shown<'a>> {
     Some(Shown::Text(view.names.channels[number].as_deref().unwrap_or("").into()))
 }
 
+/// MD18040, four rows: what runs here, and nothing more.
+pub(super) fn version<'a>(line: u16) -> Option<Shown<'a>> {
+    match line {
+        1 => Some(Shown::Text(concat!("OpenNCK ", env!("CARGO_PKG_VERSION")).into())),
+        2..=4 => Some(Shown::Text("".into())),
+        _ => None,
+    }
+}
+
 pub(super) fn count_axes<'a>(view: &View<'a>, unit: u8) -> Option<Shown<'a>> {
     channel_exists(view, unit)?;
     Some(number(view.names.axes.iter().filter(|(_, name)| name.is_some()).count()))

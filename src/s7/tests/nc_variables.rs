@@ -387,6 +387,11 @@ fn names_are_texts_of_fixed_length_filled_with_zeros() {
     assert_eq!(read(&mut client, "82 41 00 03 00 01 10 01"), "FF 09 00 02 03 00"); // three axes
     assert_eq!(read(&mut client, "82 41 00 03 00 01 7D 01"), fixed("", 32)); // no program
     assert_eq!(read(&mut client, "82 01 46 6E 00 01 1A 01"), fixed("SIMULATED", 32)); // MD18030
+    // MD18040, rows 1 to 4.
+    let version = concat!("OpenNCK ", env!("CARGO_PKG_VERSION"));
+    assert_eq!(read(&mut client, "82 01 46 78 00 01 1A 01"), fixed(version, 32));
+    assert_eq!(read(&mut client, "82 01 46 78 00 04 1A 01"), fixed("", 32));
+    assert_eq!(read(&mut client, "82 01 46 78 00 05 1A 01"), "05 00 00 00");
 }
 
 /// MD34090 of axis 2, MD37100 of axis 1, MD30300: axis 2 turns.
