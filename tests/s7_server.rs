@@ -199,6 +199,30 @@ fn who_never_says_anything_is_left_when_any_other_idle_client_would_be() {
 }
 
 #[test]
+fn who_has_said_nothing_gives_way_to_who_comes_and_clients_do_not() {
+    let live = live();
+    let (window, address) = window(&live, Limits { clients: 3, ..Limits::default() });
+    let mut first = client(address);
+    let mut silent = [bare(address), bare(address)];
+    wait("three clients", || window.clients() == 3);
+    // The oldest silent one goes, and then the other one: half a packet is no request.
+    silent[1].write_all(&CONNECT[..11]).unwrap();
+    let mut others = Vec::new();
+    for stream in &mut silent {
+        others.push(client(address));
+        assert_eq!(stream.read(&mut [0; 100]).unwrap_or(0), 0);
+    }
+    // Clients stay.
+    assert_eq!(bare(address).read(&mut [0; 100]).unwrap_or(0), 0);
+    assert!(first.read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
+    for other in &mut others {
+        assert!(other.read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
+    }
+    let ends: Vec<_> = window.counters().ends().filter(|(_, count)| *count > 0).collect();
+    assert_eq!((ends, window.counters().crowded.get()), (vec![("gave_way", 2)], 1));
+}
+
+#[test]
 fn garbage_and_half_packets_hold_up_nobody() {
     let live = live();
     let limits = Limits { greeting: Duration::from_millis(300), ..Limits::default() };
@@ -260,7 +284,9 @@ fn a_client_that_takes_no_answers_is_left() {
 fn one_client_too_many_is_sent_away_and_a_free_place_is_given_again() {
     let live = live();
     let (window, address) = window(&live, Limits { clients: 2, ..Limits::default() });
-    let (first, mut second) = (bare(address), client(address));
+    let (mut first, mut second) = (bare(address), client(address));
+    first.write_all(&CONNECT).unwrap();
+    first.read_exact(&mut [0; 22]).unwrap();
     wait("two clients", || window.clients() == 2);
     let mut third = bare(address);
     assert_eq!(third.read(&mut [0; 10]).unwrap_or(0), 0);

@@ -18,6 +18,7 @@ use tokio::task::yield_now;
 use tokio::time::{Instant, Interval, MissedTickBehavior, interval, sleep, timeout};
 
 use super::faults::Faulty;
+use super::strangers::Stranger;
 use super::witness::Witness;
 use super::{Server, Stations};
 use crate::s7::session::{Connection, Session};
@@ -55,6 +56,8 @@ pub(super) enum End {
     Closed,
     /// It asked nothing for too long.
     Idle,
+    /// It had asked nothing yet, and somebody else needed its place.
+    GaveWay,
     /// It did not take its answers.
     Slow,
     /// The server ends.
@@ -64,7 +67,8 @@ pub(super) enum End {
 }
 
 impl End {
-    pub(super) const ALL: [Self; 6] = [Self::Left, Self::Closed, Self::Idle, Self::Slow, Self::Server, Self::Fault];
+    pub(super) const ALL: [Self; 7] =
+        [Self::Left, Self::Closed, Self::Idle, Self::GaveWay, Self::Slow, Self::Server, Self::Fault];
 
     /// In one word, for whoever counts.
     pub(super) const fn name(self) -> &'static str {
@@ -72,6 +76,7 @@ impl End {
             Self::Left => "left",
             Self::Closed => "closed",
             Self::Idle => "idle",
+            Self::GaveWay => "gave_way",
             Self::Slow => "slow",
             Self::Server => "server",
             Self::Fault => "fault",
@@ -82,6 +87,8 @@ impl End {
 /// One client.
 pub(super) struct Conversation<'a, S> {
     server: &'a Server<S>,
+    /// Until its first request; taken when the conversation is held.
+    stranger: Option<Stranger<'a>>,
     witness: Witness<'a>,
     faulty: Option<Faulty>,
     stream: TcpStream,
@@ -99,6 +106,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
         let recording = capture.zip(stream.local_addr().ok()).map(|(capture, own)| capture.begin(peer, own, number));
         Self {
             server,
+            stranger: Some(server.strangers.meet(number)),
             witness: Witness::new(&server.counters, &server.flood, peer, recording),
             faulty: server.instruments.faults.as_ref().map(|faults| Faulty::new(faults, number)),
             stream,
@@ -124,6 +132,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
     pub(super) async fn hold(&mut self, ended: watch::Receiver<bool>) -> End {
         let limits = &self.server.limits;
         let (mut allowed, mut is_quiet) = (limits.greeting.min(limits.idle), true);
+        let mut stranger = self.stranger.take();
         let mut last = Instant::now();
         let mut idle = pin!(sleep(allowed / PARTS));
         let mut pushes = None;
@@ -144,6 +153,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
                     }
                 },
                 () = &mut end => return End::Server,
+                () = turn(stranger.as_ref()), if stranger.is_some() => return End::GaveWay,
                 () = due(&mut pushes), if self.session.has_subscriptions() => self.push(),
                 () = &mut idle => {
                     let now = Instant::now();
@@ -167,6 +177,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
             }
             if !self.answers.is_empty() {
                 is_quiet = false;
+                stranger = None;
                 if allowed != limits.idle {
                     allowed = limits.idle;
                     idle.as_mut().reset(Instant::now() + allowed / PARTS);
@@ -351,6 +362,14 @@ async fn until(mut ended: watch::Receiver<bool>) {
     let _ = ended.wait_for(|ended| *ended).await;
 }
 
+/// Waits until a stranger has to give way.
+async fn turn(stranger: Option<&Stranger<'_>>) {
+    match stranger {
+        Some(stranger) => stranger.gives_way().await,
+        None => std::future::pending().await,
+    }
+}
+
 /// Waits until it is time to look at the subscriptions; who has none has no clock for them.
 async fn due(pushes: &mut Option<Interval>) {
     let pushes = pushes.get_or_insert_with(|| {
@@ -390,6 +409,7 @@ impl std::fmt::Display for End {
             Self::Left => "has left",
             Self::Closed => "was disconnected: what it sent is no S7 communication",
             Self::Idle => "was disconnected: it asked nothing for too long",
+            Self::GaveWay => "was disconnected: it had asked nothing yet, and another client needed its place",
             Self::Slow => "was disconnected: it did not take its answers",
             Self::Server => "was disconnected: the server ends",
             Self::Fault => "was disconnected: a fault on purpose",

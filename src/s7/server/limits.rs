@@ -6,7 +6,8 @@ use std::time::Duration;
 /// What a server allows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Clients at once; one more is sent away.
+    /// Clients at once. One more takes the place of the oldest connection that has not made any request; where there is none, it is sent
+    /// away.
     pub clients: usize,
     /// From which networks they may come; from all where there is none.
     pub networks: Vec<Network>,

@@ -10,6 +10,7 @@
 //! | the room for requests and answers belongs to the thread, not to the client | a thousand panels need some 3 MiB |
 //! | answers leave in one write, in order; no delay of TCP | clients that read once find all of it |
 //! | a client that does not take its answers is not read any more, and is left after a while | it holds up nobody else |
+//! | where all places are taken, the oldest connection without any request gives way | silence keeps nobody out |
 //! | idle is who got no answer for long, not who has sent nothing | half packets keep no place |
 //! | who waits for values that change is never idle; keep-alive of TCP finds out who has gone | panels stay connected over night |
 //!
@@ -21,6 +22,7 @@ mod counters;
 mod faults;
 mod limits;
 mod refusals;
+mod strangers;
 mod witness;
 
 use std::future::Future;
@@ -45,7 +47,11 @@ pub use counters::{Counter, Counters};
 pub use faults::Faults;
 pub use limits::{Limits, Network};
 pub use refusals::Refused;
+use strangers::Strangers;
 use witness::Flood;
+
+/// How long a place may take to become free whose client was asked to give way.
+const GIVING_WAY: Duration = Duration::from_secs(1);
 
 /// Whoever has stations to lend.
 pub trait Stations: Send + Sync + 'static {
@@ -81,6 +87,7 @@ pub struct Server<S> {
     clients: AtomicUsize,
     counters: Counters,
     flood: Flood,
+    strangers: Strangers,
     instruments: Instruments,
     begin: Instant,
 }
@@ -99,6 +106,7 @@ impl<S: Stations> Server<S> {
             clients: AtomicUsize::new(0),
             counters: Counters::default(),
             flood: Flood::default(),
+            strangers: Strangers::default(),
             instruments: Instruments::default(),
             begin,
         }
@@ -152,20 +160,19 @@ impl<S: Stations> Server<S> {
         conversations.shutdown().await;
     }
 
-    /// A place for a client, if it may come.
-    fn admit(&self, stream: &TcpStream, peer: SocketAddr) -> Option<OwnedSemaphorePermit> {
+    /// A place for a client, if it may come; one that will be free in a moment where somebody silent gives way.
+    fn admit(&self, stream: &TcpStream, peer: SocketAddr) -> Option<Option<OwnedSemaphorePermit>> {
         let networks = &self.limits.networks;
         if !networks.is_empty() && !networks.iter().any(|network| network.contains(peer.ip())) {
             self.counters.foreign.add(1);
             self.flood.log(|| tracing::warn!("{peer} was sent away: it is in none of the networks that are allowed"));
             return None;
         }
-        let Ok(place) = Arc::clone(&self.places).try_acquire_owned() else {
-            self.counters.crowded.add(1);
-            self.flood
-                .log(|| tracing::warn!("{peer} was sent away: {} clients are there already", self.limits.clients));
+        let place = Arc::clone(&self.places).try_acquire_owned().ok();
+        if place.is_none() && !self.strangers.send_oldest_away() {
+            self.send_away(peer);
             return None;
-        };
+        }
         // Without these it works, too, only later.
         let _ = stream.set_nodelay(true);
         let keep_alive = TcpKeepalive::new().with_time(Duration::from_secs(30));
@@ -173,13 +180,25 @@ impl<S: Stations> Server<S> {
         Some(place)
     }
 
+    fn send_away(&self, peer: SocketAddr) {
+        self.counters.crowded.add(1);
+        self.flood.log(|| tracing::warn!("{peer} was sent away: {} clients are there already", self.limits.clients));
+    }
+
     async fn attend(
         self: Arc<Self>,
         stream: TcpStream,
         peer: SocketAddr,
         ended: watch::Receiver<bool>,
-        place: OwnedSemaphorePermit,
+        place: Option<OwnedSemaphorePermit>,
     ) {
+        let place = match place {
+            Some(place) => place,
+            None => match timeout(GIVING_WAY, Arc::clone(&self.places).acquire_owned()).await {
+                Ok(Ok(place)) => place,
+                Ok(Err(_)) | Err(_) => return self.send_away(peer),
+            },
+        };
         let _counted = Counted::new(&self.clients);
         let mut conversation = Conversation::new(&self, peer, stream);
         let end = conversation.hold(ended).await;
