@@ -118,7 +118,7 @@ if IS_NATIVE:
     equal("type of the CPU", info.ModuleTypeName, b"CPU 317-2 PN/DP")
     equal("order code", c.get_order_code().OrderCode[:20].strip(), b"6ES7 317-2EK14-0AB0")
     equal("protection", c.get_protection().sch_schal, 1)
-    equal("the PDU of the communication processor", c.get_cp_info().MaxPduLength, 480)
+    equal("the longest PDU of the module", c.get_cp_info().MaxPduLength, 960)
     holds("the list of lists", len(c.read_szl_list()) > 20)
     lists = c.read_szl(0x0011, 0)
     equal("records of list 0011", lists.Header.LengthDR, 28)
