@@ -32,6 +32,7 @@ impl Before {
     }
 
     /// Nothing, for a machine that does not go on.
+    #[cfg(feature = "cli")]
     pub(super) const fn without_room() -> Self {
         Self {
             parts: Vec::new(),

@@ -30,7 +30,8 @@ pub use crate::sinumerik::machine_data::Value as DatumValue;
 pub use crate::sinumerik::{ApproachPhase, GroupingPhase, TakenTransitions};
 pub use command::Command;
 pub use open::OpenOptions;
-pub use saved::Snapshot;
+#[cfg(feature = "cli")]
+pub(crate) use saved::Snapshot;
 
 use std::path::Path;
 use std::sync::Arc;

@@ -144,9 +144,9 @@ impl Machine {
         Ok(self.copy(program, Recorder::default(), Before::new(&self.memory, self.before.last_event)))
     }
 
-    /// The machine as it is now, to be looked at while the other goes on.
-    #[must_use]
-    pub fn snapshot(&self) -> Snapshot {
+    /// The machine as it is now, to be looked at while this one goes on.
+    #[cfg(feature = "cli")]
+    pub(crate) fn snapshot(&self) -> Snapshot {
         Snapshot(self.copy(None, Recorder::without_room(), Before::without_room()))
     }
 
@@ -181,10 +181,13 @@ impl Machine {
     }
 }
 
-/// A machine that stands still: what another one was after some step, without its program and its record.
+/// A machine that stands still: what another one was after some step, without its program and its record. It is for who looks only:
+/// it can be neither saved nor forked as that machine.
+#[cfg(feature = "cli")]
 #[derive(Debug)]
-pub struct Snapshot(Machine);
+pub(crate) struct Snapshot(Machine);
 
+#[cfg(feature = "cli")]
 impl std::ops::Deref for Snapshot {
     type Target = Machine;
 

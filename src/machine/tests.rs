@@ -549,3 +549,17 @@ fn there_are_three_handwheels() {
         assert_eq!(turned.is_ok(), there, "{number}");
     }
 }
+
+#[cfg(feature = "cli")]
+#[test]
+fn a_snapshot_stays_while_the_machine_goes_on() {
+    let mut machine = Machine::open("g1_example").expect("it is built in");
+    let flag = at(&machine, "MB100");
+    machine.step();
+    let snapshot = machine.snapshot();
+    machine.queue(Command::Write { location: flag, value: 7 }).expect("it is a place");
+    machine.step();
+    assert_eq!((machine.cycle(), machine.memory().read(flag)), (2, 7));
+    assert_eq!((snapshot.cycle(), snapshot.memory().read(flag)), (1, 0));
+    assert_eq!(snapshot.names(), machine.names());
+}

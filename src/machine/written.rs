@@ -37,6 +37,7 @@ impl Written {
     }
 
     /// Nothing, where nothing is ever written.
+    #[cfg(feature = "cli")]
     pub(super) const fn without_room() -> Self {
         Self { writes: Vec::new(), places: Vec::new(), overwritten: Vec::new() }
     }
@@ -108,10 +109,7 @@ fn index_of(places: &[(Part, Vec<Bits>)], part: Part) -> Option<usize> {
         return FIXED.iter().position(|fixed| *fixed == part);
     };
     let own = places.get(FIXED.len()..)?;
-    let found = own.binary_search_by_key(&number, |(part, _)| match part {
-        Part::Block(number) => *number,
-        _ => 0,
-    });
+    let found = own.binary_search_by(|(part, _)| part.cmp(&Part::Block(number)));
     found.ok().map(|index| FIXED.len() + index)
 }
 

@@ -85,7 +85,7 @@ impl Default for Recorder {
 }
 
 impl Recorder {
-    /// How many rows are kept between two drains: more than the bytes that clients may change at the edge of one step, twice.
+    /// How many rows are kept between two drains: some times those of what clients may write at the edge of one step.
     pub const ROWS: usize = 16_384;
     /// Room for rows before it has to grow; one step without such clients writes far fewer.
     const ROOM: usize = 2048;

@@ -77,7 +77,7 @@ impl MappedPlc {
         image.cycle_time(machine.cycle_time());
         Ok(Self {
             least: 0,
-            plc_starts: image.plc_starts(),
+            plc_starts: image.plc_starts_before(),
             image: Arc::new(Mutex::new(image)),
             exchange,
             is_watched: false,
@@ -123,6 +123,7 @@ impl MappedPlc {
         if self.is_watched {
             self.silent += since.min(self.exchange.time_out / SHARE);
             if self.silent > self.exchange.time_out {
+                self.plc_starts = image.plc_starts();
                 return Err(self.silence());
             }
         }
@@ -150,6 +151,8 @@ impl MappedPlc {
                 return Ok(());
             }
             if waited > self.exchange.time_out {
+                // Who opens the file from now on is another process.
+                self.plc_starts = image.plc_starts();
                 image.give_up();
                 drop(image);
                 return Err(self.silence());
@@ -198,10 +201,7 @@ impl PlcProgram for MappedPlc {
         } else {
             publish(&mut lock(&self.image), io, step, false);
         }
-        if taken.is_err() {
-            self.is_watched = false;
-            self.plc_starts = lock(&self.image).plc_starts();
-        }
+        self.is_watched &= taken.is_ok();
         taken
     }
 

@@ -13,7 +13,8 @@ use crate::source::Problem;
 
 /// From so many orders on, clients wait a while with each.
 const MANY: usize = 1000;
-/// How many commands an edge takes, a byte or more each: half a millisecond. One request has fewer.
+/// How many bytes an edge writes: what takes half a millisecond, and far less than what the record of a step has room for. One request
+/// has fewer.
 const EDGE: usize = 4096;
 
 /// What a request asked for, in order.
@@ -30,30 +31,48 @@ pub(super) struct Inbox(Mutex<Waiting>);
 
 #[derive(Debug)]
 struct Waiting {
-    /// With the cycle at whose edge each is taken up.
+    /// With the step at whose edge each is taken up.
     orders: VecDeque<(u64, Order)>,
-    /// The cycle of the last of them, and how many commands its edge has already.
-    cycle: u64,
-    commands: usize,
+    /// The step of the last of them, and how many bytes its edge writes already.
+    step: u64,
+    bytes: usize,
+    /// How many steps have begun.
+    begun: u64,
+}
+
+impl Order {
+    /// How many bytes it writes.
+    fn bytes(&self) -> usize {
+        let bytes = |command: &s7::Command| match command {
+            s7::Command::Write { location, .. } => location.bytes() as usize,
+            s7::Command::MachineDatum { .. }
+            | s7::Command::RParameter { .. }
+            | s7::Command::PlcStop
+            | s7::Command::PlcStart(_)
+            | s7::Command::SetClock(_) => size_of::<f64>(),
+        };
+        self.commands.iter().map(bytes).sum()
+    }
 }
 
 impl Inbox {
-    /// An empty one, before this cycle.
-    pub(super) fn new(cycle: u64) -> Self {
-        Self(Mutex::new(Waiting { orders: VecDeque::new(), cycle, commands: 0 }))
+    /// An empty one, before the first step.
+    pub(super) fn new() -> Self {
+        Self(Mutex::new(Waiting { orders: VecDeque::new(), step: 1, bytes: 0, begun: 0 }))
     }
 
-    /// Adds an order; gives the cycle that takes it up.
+    /// Adds an order; gives the step that takes it up.
     pub(super) fn add(&self, order: Order) -> u64 {
         let mut waiting = self.lock();
-        waiting.commands += order.commands.len();
-        if waiting.commands > EDGE {
-            waiting.cycle += 1;
-            waiting.commands = order.commands.len();
+        let bytes = order.bytes();
+        waiting.bytes += bytes;
+        if waiting.bytes > EDGE {
+            waiting.step += 1;
+            waiting.bytes = bytes;
         }
-        let cycle = waiting.cycle;
-        waiting.orders.push_back((cycle, order));
-        cycle
+        let step = waiting.step;
+        waiting.orders.push_back((step, order));
+        step
     }
 
     /// Whether many orders wait.
@@ -61,13 +80,15 @@ impl Inbox {
         self.lock().orders.len() >= MANY
     }
 
-    /// The orders for the edge of this cycle; what comes from now on waits for the next.
-    pub(super) fn take(&self, cycle: u64) -> Vec<Order> {
+    /// The orders for the edge of the step that begins; what comes from now on waits for the next.
+    pub(super) fn take(&self) -> Vec<Order> {
         let mut waiting = self.lock();
-        if waiting.cycle <= cycle {
-            (waiting.cycle, waiting.commands) = (cycle + 1, 0);
+        waiting.begun += 1;
+        let begun = waiting.begun;
+        if waiting.step <= begun {
+            (waiting.step, waiting.bytes) = (begun + 1, 0);
         }
-        let due = waiting.orders.partition_point(|(when, _)| *when <= cycle);
+        let due = waiting.orders.partition_point(|(step, _)| *step <= begun);
         waiting.orders.drain(..due).map(|(_, order)| order).collect()
     }
 
@@ -101,25 +122,36 @@ pub(super) fn queue(clocked: &mut Clocked, command: &s7::Command) -> Result<(), 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::image::{Format, Location, Part};
+    use crate::trace::Recorder;
 
-    fn order(commands: usize) -> Order {
-        Order { client: None, commands: vec![s7::Command::PlcStop; commands] }
+    /// So many doubles.
+    fn order(doubles: usize) -> Order {
+        let location = Location { part: Part::Flags, offset: 0, bit: 0, width: 32, format: Format::Unsigned };
+        Order { client: None, commands: vec![s7::Command::Write { location, value: 0 }; doubles] }
     }
 
     fn sizes(orders: &[Order]) -> Vec<usize> {
         orders.iter().map(|order| order.commands.len()).collect()
     }
 
-    /// 4,000 and 96 fill the edge of cycle 1, the next order is for cycle 2, and what comes in the end for cycle 3.
+    /// 1,000 and 24 doubles are the 4,096 bytes of the first edge, the next order is for the second, and what comes in the end for
+    /// the third.
     #[test]
     fn an_edge_takes_whole_orders_as_far_as_it_has_time() {
-        let inbox = Inbox::new(1);
-        let cycles: Vec<_> = [4000, 96, 1, 4095, 1].into_iter().map(|count| inbox.add(order(count))).collect();
-        assert_eq!(cycles, [1, 1, 2, 2, 3]);
-        assert_eq!(sizes(&inbox.take(1)), [4000, 96]);
+        let inbox = Inbox::new();
+        let steps: Vec<_> = [1000, 24, 1, 1023, 1].into_iter().map(|count| inbox.add(order(count))).collect();
+        assert_eq!(steps, [1, 1, 2, 2, 3]);
+        assert_eq!(sizes(&inbox.take()), [1000, 24]);
         assert_eq!(inbox.add(order(5)), 3);
-        assert_eq!((sizes(&inbox.take(2)), sizes(&inbox.take(3))), (vec![1, 4095], vec![1, 5]));
-        assert!(inbox.take(4).is_empty());
-        assert_eq!(inbox.add(order(7)), 5, "the edge of cycle 4 is over");
+        assert_eq!((sizes(&inbox.take()), sizes(&inbox.take())), (vec![1, 1023], vec![1, 5]));
+        assert!(inbox.take().is_empty());
+        assert_eq!(inbox.add(order(7)), 5, "the edge of step 4 is over");
+    }
+
+    /// A byte that changes is a row, and each write that the program overwrites is another one.
+    #[test]
+    fn the_record_of_a_step_has_room_for_an_edge() {
+        const { assert!(Recorder::ROWS >= 2 * 2 * EDGE) };
     }
 }

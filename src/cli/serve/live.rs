@@ -73,8 +73,8 @@ pub(super) struct Shared {
     is_real_time: bool,
     /// How many wait for the lock.
     waiting: AtomicUsize,
-    /// How many cycles are over.
-    pub(super) cycle: watch::Sender<u64>,
+    /// How many steps are over.
+    pub(super) steps: watch::Sender<u64>,
     overruns: AtomicU64,
     worst: AtomicU64,
     lost: AtomicU64,
@@ -87,6 +87,8 @@ pub(super) struct Shared {
 #[derive(Debug)]
 pub(super) struct Clocked {
     pub(super) machine: Machine,
+    /// How many steps it has taken here.
+    steps: u64,
     pub(super) diagnosis: Buffer,
     set: DateAndTime,
     set_at: Time,
@@ -106,6 +108,8 @@ pub struct LiveOptions {
     pub operator: Option<Operator>,
     /// It is looked at as it was switched on, and takes its first step after [`Live::begin`].
     pub is_held: bool,
+    /// Its scans may wait for a process: each step is shown to clients before it waits in the next one.
+    pub is_lock_step: bool,
 }
 
 /// What was kept of a machine that has ended.
@@ -127,14 +131,15 @@ impl Ended {
 
 impl Clocked {
     fn new(machine: Machine, options: LiveOptions) -> Self {
-        let LiveOptions { recording, trace, operator, is_held: _ } = options;
+        let LiveOptions { recording, trace, operator, .. } = options;
         let trace = trace.map(|watch| {
             let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle());
             trace.watch_values(&watch, machine.cycle(), machine.variables());
             (trace, watch)
         });
         let set = today();
-        Self { diagnosis: Buffer::new(&machine, set), set, set_at: machine.time(), machine, recording, trace, operator }
+        let (diagnosis, set_at) = (Buffer::new(&machine, set), machine.time());
+        Self { diagnosis, set, set_at, steps: 0, machine, recording, trace, operator }
     }
 
     /// Notes what became of the CPU in a step.
@@ -155,7 +160,7 @@ impl Clocked {
     /// What clients see of it now.
     fn seen(&self) -> Box<Seen> {
         let (machine, diagnosis) = (self.machine.snapshot(), self.diagnosis.entries().to_vec());
-        Box::new(Seen { machine, clock: self.clock(), diagnosis })
+        Box::new(Seen { step: self.steps, machine, clock: self.clock(), diagnosis })
     }
 
     /// Queues what clients asked for. Says what of it the machine does not take.
@@ -174,7 +179,7 @@ impl Clocked {
 
     /// One step, with what goes with the machine. Says how the scenario ended, if it did in this step.
     fn step(&mut self) -> Option<String> {
-        let Self { machine, recording, trace, operator, .. } = self;
+        let Self { machine, steps, recording, trace, operator, .. } = self;
         let was_at_work = operator.as_ref().is_some_and(|operator| *operator.state() == State::Acting);
         if was_at_work && let Some(operator) = operator {
             let queued = machine.queued().len();
@@ -194,6 +199,7 @@ impl Clocked {
             recording.edge(machine);
         }
         machine.step();
+        *steps += 1;
         if let Some((trace, _)) = trace {
             trace.extend(machine.recorder());
             trace.note_values(machine.cycle(), machine.variables());
@@ -219,15 +225,14 @@ impl Live {
     /// Starts a machine with what goes with it.
     #[must_use]
     pub fn start_with(machine: Machine, speed: Speed, options: LiveOptions) -> Self {
-        let is_held = options.is_held;
+        let (is_held, is_lock_step) = (options.is_held, options.is_lock_step);
         let clocked = Clocked::new(machine, options);
-        let cycle = clocked.machine.cycle();
         let shared = Arc::new(Shared {
             view: View::new(clocked.seen()),
-            inbox: Inbox::new(cycle + 1),
-            is_lock_step: is_held,
+            inbox: Inbox::new(),
+            is_lock_step,
             is_real_time: speed <= Speed::default(),
-            cycle: watch::Sender::new(cycle),
+            steps: watch::Sender::new(0),
             clocked: Mutex::new(clocked),
             waiting: AtomicUsize::new(0),
             overruns: AtomicU64::new(0),
@@ -266,8 +271,8 @@ impl Live {
     }
 
     /// The same if it can be had soon: a scan in lock-step may wait for long.
-    pub(super) fn with_soon<T>(&self, look: impl FnOnce(&mut Machine) -> T) -> Option<T> {
-        self.shared.lend_soon().map(|mut lent| look(&mut lent.machine))
+    pub(super) fn with_soon<T>(&self, look: impl FnOnce(&Clocked) -> T) -> Option<T> {
+        self.shared.lend_soon().map(|lent| look(&lent))
     }
 
     /// How far the scenario is that acts on it, if one does.
@@ -429,18 +434,18 @@ impl Shared {
             std::thread::yield_now();
         }
         let mut clocked = self.clocked.lock().unwrap_or_else(PoisonError::into_inner);
-        let orders = self.inbox.take(clocked.machine.cycle() + 1);
+        let orders = self.inbox.take();
         let refused = clocked.take(orders);
         let over = clocked.step();
         clocked.observe();
         let machine = &clocked.machine;
         let changed = changed_alarms(machine, alarms);
-        let (cycle, period) = (machine.cycle(), machine.cycle_time().nanos());
+        let (step, period) = (clocked.steps, machine.cycle_time().nanos());
         let is_shown = self.is_lock_step || self.is_real_time && self.view.is_looked_at();
         let shown = is_shown.then(|| clocked.seen());
         drop(clocked);
-        self.view.over(cycle, shown);
-        self.cycle.send_replace(cycle);
+        self.view.over(step, shown);
+        self.steps.send_replace(step);
         // Nobody waits for the machine while a terminal waits for its reader.
         for line in refused.into_iter().chain(changed).chain(over) {
             tracing::info!("{line}");

@@ -58,6 +58,7 @@ use crate::plc::Programs;
 use crate::scenario::State;
 use crate::source::Problem;
 use crate::variables::Describe;
+use live::Clocked;
 use opening::Opened;
 
 /// How often the status line is drawn.
@@ -165,8 +166,9 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     // Last of the files: one that has begun would be in the way of the next try.
     let recording = arguments.record.as_deref().map(|path| record::of(path, &opened)).transpose()?;
     let Opened { machine, operator, watch, .. } = opened;
-    let is_held = arguments.lock_step;
-    let options = LiveOptions { recording, trace: trace.is_some().then_some(watch), operator, is_held };
+    let (is_held, is_lock_step) = (arguments.lock_step, arguments.lock_step);
+    let trace_of = trace.is_some().then_some(watch);
+    let options = LiveOptions { recording, trace: trace_of, operator, is_held, is_lock_step };
     let start = |machine| Live::start_with(machine, arguments.speed, options);
     let (live, keeper) = match mapped {
         Some(mapped) => {
@@ -306,12 +308,13 @@ impl<'a> Status<'a> {
         if self.live.is_held() {
             return format!("step 0  waits for a PLC process to open the image  clients {}", self.window.clients());
         }
-        let looked = self.live.with_soon(|machine| {
+        let looked = self.live.with_soon(|Clocked { machine, operator, .. }| {
             let name = |number| machine.alarm_name(number);
             let alarms: Vec<_> = machine.variables().alarms.iter().map(|alarm| name(alarm.number)).collect();
-            (machine.time().seconds(), machine.cycle(), alarms)
+            let scenario = operator.as_ref().map(|operator| operator.state().clone());
+            (machine.time().seconds(), machine.cycle(), alarms, scenario)
         });
-        let Some((time, cycle, alarms)) = looked else {
+        let Some((time, cycle, alarms, scenario)) = looked else {
             // A scan in lock-step waits for its answer; whoever waited here would not hear a signal.
             return "waits for the PLC process".to_owned();
         };
@@ -329,7 +332,7 @@ impl<'a> Status<'a> {
         if self.live.pace().overruns > 0 {
             line += &format!("  {}", self.overruns());
         }
-        if let Some(scenario) = self.live.scenario() {
+        if let Some(scenario) = scenario {
             let how = match scenario {
                 State::Acting => "acts",
                 State::Done => "held",

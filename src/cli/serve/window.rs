@@ -230,7 +230,11 @@ impl Stations for Lender {
         if self.shared.is_held() && !self.shared.inbox.is_full() {
             return;
         }
-        let _ = self.shared.cycle.subscribe().wait_for(|cycle| *cycle >= step).await;
+        let _ = self.shared.steps.subscribe().wait_for(|steps| *steps >= step).await;
+    }
+
+    fn is_crowded(&self) -> bool {
+        self.shared.inbox.is_full()
     }
 }
 

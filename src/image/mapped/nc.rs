@@ -81,6 +81,7 @@ pub struct MappedImage {
     newest: u64,
     seen: u64,
     starts: u64,
+    plc_starts_before: u64,
 }
 
 /// Where the slots are.
@@ -164,6 +165,8 @@ impl MappedImage {
             words.store(offset, value);
         }
         let (newest, seen) = (words.load(header::NEWEST_STEP), words.load(header::NEWEST_ANSWER));
+        // Whoever opens the file from now on waits until it is valid, and counts then.
+        let plc_starts_before = words.load(header::PLC_STARTS);
         // Nobody has counted so far: it was written by a stranger, and numbers would come to their end.
         let newest = if newest > u64::MAX / 2 { 0 } else { newest };
         let mut image = Self {
@@ -176,6 +179,7 @@ impl MappedImage {
             newest,
             seen,
             starts: 0,
+            plc_starts_before,
         };
         let first = Step { cycle: 0, time: Time::ZERO, since_last: Time::ZERO };
         image.publish(memory, first, false);
@@ -187,6 +191,12 @@ impl MappedImage {
     #[must_use]
     pub fn sections(&self) -> &[Section] {
         &self.layout.sections
+    }
+
+    /// How often a process had opened the file before it was created for this machine.
+    #[must_use]
+    pub fn plc_starts_before(&self) -> u64 {
+        self.plc_starts_before
     }
 
     /// Says what the NC does.

@@ -292,15 +292,19 @@ impl<'a, S: Stations> Conversation<'a, S> {
             }
         };
         let written = server.stations.lend_to(peer, &mut work);
-        let last = &input[start + answered - length..start + answered];
-        witness.answered(last, answers, known, written.is_some());
+        let answered = if answered == 0 { length } else { answered }; // a station that is not lent answers nothing
+        if answered > 0 {
+            let last = &input[start + answered - length..start + answered];
+            witness.answered(last, answers, known, written.is_some());
+        }
         (answered, connection, written)
     }
 
     /// Waits for the step that takes up what was written.
     async fn settle(&self, owed: &mut Option<u64>) {
         if let Some(step) = owed.take() {
-            let _ = timeout(self.server.limits.step, self.server.stations.taken_up(step)).await;
+            let Server { stations, limits, .. } = self.server;
+            while timeout(limits.step, stations.taken_up(step)).await.is_err() && stations.is_crowded() {}
         }
     }
 
@@ -392,8 +396,8 @@ fn is_read(packet: &[u8]) -> bool {
 
 /// The function of the job that begins in a packet.
 fn job_of(packet: &[u8]) -> Option<u8> {
-    match packet.get(tpkt::HEADER + 3..)? {
-        [PROTOCOL, kind::JOB, _, _, _, _, _, _, _, _, function, ..] => Some(*function),
+    match packet.get(tpkt::HEADER..)? {
+        [2, 0xF0, 0x80, PROTOCOL, kind::JOB, _, _, _, _, _, _, _, _, function, ..] => Some(*function),
         _ => None,
     }
 }

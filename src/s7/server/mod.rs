@@ -55,7 +55,7 @@ const GIVING_WAY: Duration = Duration::from_secs(1);
 
 /// Whoever has stations to lend.
 pub trait Stations: Send + Sync + 'static {
-    /// Lends a station, which nobody else changes meanwhile. Gives the number of the step that takes up what was written;
+    /// Lends a station, which nobody else changes meanwhile, exactly once. Gives the number of the step that takes up what was written;
     /// nothing where nothing was written.
     fn lend(&self, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64>;
 
@@ -66,6 +66,11 @@ pub trait Stations: Send + Sync + 'static {
 
     /// Waits until that step is over.
     fn taken_up(&self, step: u64) -> impl Future<Output = ()> + Send;
+
+    /// Whether so much waits to be taken up that clients have to wait for that, however long it takes.
+    fn is_crowded(&self) -> bool {
+        false
+    }
 }
 
 /// What a server does besides serving.

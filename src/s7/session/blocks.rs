@@ -1,4 +1,7 @@
 //! Blocks: how many of each type there are, which, and what one is. There are data blocks and no others.
+//!
+//! Choice: a type without blocks has an empty list, as in python-snap7's server, and not the error `D20E`, as in snap7's. A real CPU has
+//! blocks of all types, so clients that list one type after another (Node-RED) take a refusal for a failure of all.
 
 use super::{Exchange, Session};
 use crate::s7::station::{BlockInfo, Station};
