@@ -1,7 +1,7 @@
 //! A client of S7 communication whose server says any bytes, without a socket and without a clock.
 //!
 //! ```text
-//! first byte          bits 0 to 3 what is asked, bit 4 whether the opening is in the input, too
+//! first byte          bits 0 to 3 what is asked, bit 4 whether the opening is in the input, too, bit 5 whether with a password
 //! second byte         bits 0 to 3 what is asked at the same time
 //! FE ED               the server waits for the client: until it has asked something, or does nothing more
 //! everything else     bytes from the server; FF FF where a reference stands is the reference of the last request
