@@ -221,6 +221,7 @@ fn it_tells_what_a_module_is() {
     for said in ["PLC 317-2 PN/DP", "RUN", "148 bytes", "X at ", "JOG", "6ES7 317-2EK14-0AB0"] {
         assert!(info.contains(said), "{said} is missing:\n{info}");
     }
+    assert!(served.text("szl", &["001C"]).contains("manufacturer: 002A"));
     let list = served.text("szl", &["0011"]);
     assert!(list.contains("records of 28 bytes") && list.contains("module 6ES7 317-2EK14-0AB0"), "{list}");
     assert_eq!(served.s7("szl", &["0042"]).status.code(), Some(1));

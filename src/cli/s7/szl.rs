@@ -42,6 +42,8 @@ fn name(id: u16) -> &'static str {
 }
 
 fn meaning(id: u16, record: &[u8]) -> String {
+    /// Index 9 of list 1C, the only one that is a number.
+    const MANUFACTURER: u16 = 9;
     let word = |at: usize| record.get(at..at + 2).map(|word| u16::from_be_bytes([word[0], word[1]]));
     let lookup = |number: Option<u16>, names: &[(u16, &str)]| {
         let found = names.iter().find(|(known, _)| Some(*known) == number);
@@ -62,13 +64,16 @@ fn meaning(id: u16, record: &[u8]) -> String {
                 (5, "serial number"),
                 (7, "type"),
                 (8, "memory card"),
-                (9, "manufacturer"),
+                (MANUFACTURER, "manufacturer"),
                 (0xB, "location"),
             ];
-            lookup(word(0), &names).map(|what| format!("{what}: {}", printable(record.get(2..).unwrap_or_default())))
+            let text = || printable(record.get(2..).unwrap_or_default());
+            let number = || format!("{:04X}", word(2).unwrap_or_default());
+            let is_number = word(0) == Some(MANUFACTURER);
+            lookup(word(0), &names).map(|what| format!("{what}: {}", if is_number { number() } else { text() }))
         }
         0x19 | 0x74 => {
-            let names = [(1, "SF"), (4, "RUN"), (5, "STOP"), (6, "FRCE"), (11, "BUS1F")];
+            let names = [(1, "SF"), (4, "RUN"), (5, "STOP"), (6, "FRCE"), (11, "BUS1F"), (12, "BUS2F"), (21, "MAINT")];
             let state = if record.get(2) == Some(&1) { "on" } else { "off" };
             lookup(word(0), &names).map(|lamp| format!("{lamp} {state}"))
         }

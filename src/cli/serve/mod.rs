@@ -105,6 +105,10 @@ impl Served {
             return Ok(());
         };
         let ended = live.end();
+        let lost = ended.as_ref().and_then(|ended| ended.trace.as_ref()).map_or(0, |(trace, _)| trace.lost());
+        if lost > 0 {
+            tracing::warn!("{lost} rows of the trace were lost: too much changed in one cycle");
+        }
         let text = ended.and_then(|ended| ended.json_lines());
         trace.write(&text.unwrap_or_default())
     }
