@@ -7,7 +7,8 @@ mod panel;
 mod program;
 
 use std::fs;
-use std::net::SocketAddr;
+use std::io::{Read, Write};
+use std::net::{SocketAddr, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
@@ -354,4 +355,30 @@ fn two_writers_at_speed_1000_and_nobody_ever_sees_half_a_request() {
     });
     assert_eq!(torn.load(Ordering::Relaxed), 0);
     assert!(scans.load(Ordering::Relaxed) >= 250, "each write was a step of its own");
+}
+
+/// 40 writes of 200 bytes in one go are 8,000 bytes, and an edge takes 4,096: some act a cycle later, and so they do again.
+#[test]
+fn what_is_too_much_for_one_edge_acts_in_order_and_runs_again() {
+    const BYTES: u8 = 200;
+    let recorded = Recorded::start("too_much_for_one_edge", "1", None);
+    let mut stream = TcpStream::connect(recorded.address()).expect("the server is there");
+    // DB19 from byte 0, each time with another value in all bytes: 17 + 14 bytes, and 4 before the values.
+    let write = |value: u8| {
+        let head = [3, 0, 0, 35 + BYTES, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, value, 0, 14, 0, 4 + BYTES];
+        let [high, low] = (8 * u16::from(BYTES)).to_be_bytes();
+        let item = [5, 1, 0x12, 10, 0x10, 2, 0, BYTES, 0, 19, 0x84, 0, 0, 0, 0, 4, high, low];
+        [&head[..], &item, &vec![value; BYTES.into()]].concat()
+    };
+    let connect = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
+    let setup = [3, 0, 0, 25, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 1, 0, 8, 0, 0, 0xF0, 0, 0, 1, 0, 1, 1, 0xE0];
+    let writes: Vec<u8> = (1..=40).flat_map(write).collect();
+    stream.write_all(&[&connect[..], &setup, &writes].concat()).expect("it takes them");
+    let mut answers = vec![0; 22 + 27 + 40 * 22];
+    stream.read_exact(&mut answers).expect("all are answered");
+    assert!(answers[49..].chunks(22).zip(1..).all(|(answer, value)| answer[12] == value && answer[21] == 0xFF));
+    assert!(
+        recorded.live.with(|machine| machine.memory().blocks.get(19).unwrap()[..200].iter().all(|byte| *byte == 40))
+    );
+    recorded.runs_again();
 }
