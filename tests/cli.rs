@@ -165,6 +165,21 @@ fn one_unusable_file_and_nothing_runs() {
 }
 
 #[test]
+fn no_output_replaces_an_input_of_the_same_command() {
+    let directory = directory("apart");
+    fs::write(directory.join("good.toml"), GOOD).unwrap();
+    for output in ["--trace", "--vcd", "--svg"] {
+        let refused = opennck(&["run", "good.toml", output, "./good.toml"], &directory);
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(err(&refused).contains(&format!("expected a file of its own for {output}, found good.toml")));
+    }
+    let serve = ["serve", "--scenario", "good.toml", "--s7", "127.0.0.1:0", "--trace", "good.toml"];
+    let refused = opennck(&serve, &directory);
+    assert_eq!(refused.status.code(), Some(2), "{}", err(&refused));
+    assert_eq!(fs::read_to_string(directory.join("good.toml")).unwrap(), GOOD);
+}
+
+#[test]
 fn test_compares_accepts_and_reports() {
     let directory = directory("test");
     fs::create_dir_all(directory.join("golden/area")).unwrap();

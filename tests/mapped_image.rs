@@ -317,6 +317,8 @@ enum Comes {
     After(Duration),
     /// It is there already, with another server that served the file.
     WithAnother,
+    /// Before the server, but behind another one that has gone without a word: the file says that it is served.
+    BehindAnother,
 }
 
 const SCENARIO: &str = r#"
@@ -336,15 +338,17 @@ within = "100s"
 /// The worked example with a PLC in Python in lock-step, while a scripted operator writes; gives the trace.
 fn traced_worked_example(mut python: Command, name: &str, comes: &Comes) -> String {
     const AGAIN: &str = "import worked_example\nwhile worked_example.main(): pass";
+    const ONCE: &str = "import sys, worked_example\nsys.exit(worked_example.main())";
     let file = File::new(name);
     let (scenario, trace) = (File::called(&format!("{name}.toml")), File::called(&format!("{name}.jsonl")));
     fs::write(&scenario.0, SCENARIO).unwrap();
-    let mut plc = python.args(["-c", AGAIN, file.text()]).stdout(Stdio::piped()).stderr(Stdio::null());
+    let program = if matches!(comes, Comes::BehindAnother) { ONCE } else { AGAIN };
+    let mut plc = python.args(["-c", program, file.text()]).stdout(Stdio::piped()).stderr(Stdio::null());
     let lock_step = ["--image", file.text(), "--lock-step", "--plc-timeout", "1min"];
     let mut there = None;
     match comes {
         Comes::Before => there = Some(plc.spawn().unwrap()),
-        Comes::After(_) => {}
+        Comes::After(_) | Comes::BehindAnother => {}
         Comes::WithAnother => {
             let mut other = Served::start(&[&["g1_example"], &lock_step[..]].concat());
             there = Some(plc.spawn().unwrap());
@@ -353,6 +357,15 @@ fn traced_worked_example(mut python: Command, name: &str, comes: &Comes) -> Stri
             other.child.kill().unwrap(); // without a farewell: its file still says that it runs
             other.child.wait().unwrap();
         }
+    }
+    if matches!(comes, Comes::BehindAnother) {
+        let mut other = Served::start(&[&["g1_example"], &lock_step[..]].concat());
+        other.child.kill().unwrap();
+        other.child.wait().unwrap();
+        let starts = || fs::read(&file.0).unwrap()[512];
+        let before = starts();
+        there = Some(plc.spawn().unwrap());
+        wait("the process opens the file", || starts() != before);
     }
     let with = ["--scenario", scenario.text(), "--trace", trace.text(), "--speed", "1000"];
     let served = Served::start(&[&lock_step[..], &with].concat());
@@ -376,7 +389,8 @@ fn the_worked_example_with_a_plc_in_python_has_the_same_trace_whenever_the_proce
     let run = |name, comes| Some(traced_worked_example(python()?, name, &comes));
     let Some(first) = run("before", Comes::Before) else { return };
     assert!(first.contains("the flag is of one cycle"), "{first}");
-    for (name, comes) in [("late", Comes::After(Duration::from_millis(700))), ("attached", Comes::WithAnother)] {
+    let late = Comes::After(Duration::from_millis(700));
+    for (name, comes) in [("late", late), ("attached", Comes::WithAnother), ("behind", Comes::BehindAnother)] {
         let again = run(name, comes).unwrap();
         let differs = first.lines().zip(again.lines()).find(|(first, again)| first != again);
         assert!(first == again, "{name}: {differs:?}, {} bytes, then {}", first.len(), again.len());

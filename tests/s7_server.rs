@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use common::{CONNECT, bare, client, packet, setup};
-use opennck::cli::serve::{Limits, Live, Speed, Window};
+use opennck::cli::serve::{Limits, Live, LiveOptions, Speed, Window};
 use opennck::machine::Machine;
 use opennck::plc::{self, PlcIo, Programs};
 use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE};
@@ -343,6 +343,28 @@ fn the_plc_is_stopped_and_started_by_a_client() {
     wait("alarm 2000", || live.with(|machine| machine.variables().alarms.count() > 0));
     let head = [3, 0, 0, 37, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 4, 0, 20, 0, 0, 0x28, 0, 0, 0, 0, 0, 0, 0xFD, 0, 0, 9];
     assert_eq!(ask(&[&head[..], name].concat())[17..19], [0, 0]);
+    assert!(!live.with(|machine| machine.is_plc_stopped()));
+}
+
+/// Nothing is taken up yet, and the start finds the stop all the same: it is not told that the PLC runs already.
+#[test]
+fn who_stops_and_starts_the_plc_of_a_held_machine_finds_it_running() {
+    let machine = Machine::open("g1_example").unwrap();
+    let options = LiveOptions { is_held: true, ..LiveOptions::default() };
+    let live = Live::start_with(machine, Speed::default(), options);
+    let (_window, address) = window(&live, Limits::default());
+    let mut stream = bare(address);
+    stream.write_all(&[&CONNECT[..], &SETUP].concat()).unwrap();
+    let _answers = (packet(&mut stream), packet(&mut stream));
+    let stop = [&[0x29, 0, 0, 0, 0, 0, 9], &b"P_PROGRAM"[..]].concat();
+    let start = [&[0x28, 0, 0, 0, 0, 0, 0, 0xFD, 0, 0, 9], &b"P_PROGRAM"[..]].concat();
+    // Behind the error: the function, and what is said beside it.
+    assert_eq!(ask(&mut stream, &start, &[])[2..], [0x28, 3], "it runs already");
+    assert_eq!(ask(&mut stream, &stop, &[])[2..], [0x29]);
+    assert_eq!(ask(&mut stream, &stop, &[])[2..], [0x29, 7], "it stands already");
+    assert_eq!(ask(&mut stream, &start, &[])[2..], [0x28]);
+    live.begin();
+    wait("some cycles", || live.with(|machine| machine.cycle() > 5));
     assert!(!live.with(|machine| machine.is_plc_stopped()));
 }
 

@@ -116,14 +116,18 @@ class Image:
     def __init__(self, path, wait=10.0):
         if sys.byteorder != "little":
             raise OSError("the words of the file are little-endian; this computer's are not")
-        end = time.monotonic() + wait
+        self._path, self._wait = path, wait
+        self._open_soon()
+
+    def _open_soon(self):
+        end = time.monotonic() + self._wait
         while True:
             try:
-                self._open(path)
+                self._open(self._path)
                 return
             except NotYet as reason:
                 if time.monotonic() > end:
-                    raise TimeoutError(f"no NC serves {path}: {reason}") from None
+                    raise TimeoutError(f"no NC serves {self._path}: {reason}") from None
             time.sleep(0.01)
 
     def _open(self, path):
@@ -256,13 +260,30 @@ class Image:
         return step
 
     def steps(self, nap=0.00005):
-        """The steps of the NC as they come, while it is there and the PLC is in RUN; a slow program misses some."""
-        while self.is_served():
-            step = self.newest() if self.word(STATE) == RUN else None
-            if step is None:
-                time.sleep(nap)
-            else:
-                yield step
+        """The steps of the NC as they come, while it is there and the PLC is in RUN; a slow program misses some.
+
+        Who opened the file of an NC that had ended without a word has seen none of its steps, and begins with the next NC.
+        """
+        while True:
+            while self.is_served():
+                step = self.newest() if self.word(STATE) == RUN else None
+                if step is None:
+                    time.sleep(nap)
+                else:
+                    yield step
+            if self._newest or not self._has_another_nc():
+                return
+            self.close()
+            self._open_soon()
+
+    def _has_another_nc(self):
+        """Whether another NC begins with the file; it says first that the old one has ended."""
+        end = time.monotonic() + 1
+        while self.word(GENERATION) == self.generation:
+            if time.monotonic() > end:
+                return False
+            time.sleep(0.01)
+        return True
 
     def answer(self, step):
         """Publishes what the PLC made of a step. Whoever changed a bit wins it; what stayed as it was is nobody's write."""

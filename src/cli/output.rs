@@ -2,6 +2,26 @@
 
 use std::fmt::Display;
 use std::io::Write;
+use std::path::Path;
+
+use crate::source::Problem;
+
+/// Refuses to write an output where an input of the same command is: it would be lost.
+pub(super) fn apart<'a>(option: &str, path: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Problem> {
+    let Ok(real) = path.canonicalize() else {
+        return Ok(()); // it is not there yet
+    };
+    match inputs.into_iter().find(|input| input.canonicalize().is_ok_and(|input| input == real)) {
+        Some(input) => Err(Problem::new(
+            format!(
+                "expected a file of its own for {option}, found {}, which is read or written as well",
+                input.display()
+            ),
+            "name another one",
+        )),
+        None => Ok(()),
+    }
+}
 
 /// Standard output and standard error; a reader who has gone is not an error.
 #[derive(Debug, Default)]

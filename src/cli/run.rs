@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::output::Output;
+use super::output::{Output, apart};
 use crate::plc::Programs;
 use crate::scenario::{Failure, Finished, Prepared, Scenario};
 use crate::source::{Problem, unreadable};
@@ -37,7 +37,7 @@ struct Waiting {
 
 impl Files {
     /// Opens them all, before anything runs.
-    fn open(&self, runs: usize) -> Result<Vec<Waiting>, Problem> {
+    fn open(&self, runs: usize, scenarios: &[PathBuf]) -> Result<Vec<Waiting>, Problem> {
         let wanted: [(&str, &Option<PathBuf>, Form); 3] = [
             ("--trace", &self.trace, Finished::json_lines),
             ("--vcd", &self.vcd, Finished::vcd),
@@ -54,6 +54,7 @@ impl Files {
                     "run them one by one, each with its own file",
                 ));
             }
+            apart(option, path, scenarios.iter().map(PathBuf::as_path))?;
             let file = File::create(path).map_err(|error| unreadable(path, &error))?;
             waiting.push(Waiting { path: path.clone(), file, text });
         }
@@ -77,7 +78,7 @@ pub(super) fn run(scenarios: &[PathBuf], files: &Files, programs: &Programs, out
     if !usable {
         return 2;
     }
-    let mut waiting = match files.open(ready.len()) {
+    let mut waiting = match files.open(ready.len(), scenarios) {
         Ok(waiting) => waiting,
         Err(problem) => {
             output.error(problem);

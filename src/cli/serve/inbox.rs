@@ -8,7 +8,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use super::live::Clocked;
 use super::panel::machine_datum;
 use crate::machine::Command;
-use crate::s7;
+use crate::s7::{self, CpuState};
 use crate::source::Problem;
 
 /// From so many orders on, clients wait a while with each.
@@ -38,6 +38,8 @@ struct Waiting {
     bytes: usize,
     /// How many steps have begun.
     begun: u64,
+    /// What the PLC was asked for last, and the step at whose edge it does that.
+    plc: Option<(u64, CpuState)>,
 }
 
 impl Order {
@@ -58,7 +60,7 @@ impl Order {
 impl Inbox {
     /// An empty one, before the first step.
     pub(super) fn new() -> Self {
-        Self(Mutex::new(Waiting { orders: VecDeque::new(), step: 1, bytes: 0, begun: 0 }))
+        Self(Mutex::new(Waiting { orders: VecDeque::new(), step: 1, bytes: 0, begun: 0, plc: None }))
     }
 
     /// Adds an order; gives the step that takes it up.
@@ -71,8 +73,22 @@ impl Inbox {
             waiting.bytes = bytes;
         }
         let step = waiting.step;
+        let plc = order.commands.iter().rev().find_map(|command| match command {
+            s7::Command::PlcStop => Some(CpuState::Stop),
+            s7::Command::PlcStart(_) => Some(CpuState::Run),
+            s7::Command::Write { .. }
+            | s7::Command::MachineDatum { .. }
+            | s7::Command::RParameter { .. }
+            | s7::Command::SetClock(_) => None,
+        });
+        waiting.plc = plc.map(|state| (step, state)).or(waiting.plc);
         waiting.orders.push_back((step, order));
         step
+    }
+
+    /// What the PLC was asked for and does not show yet, for who sees the machine after this step: whoever stops it may start it at once.
+    pub(super) fn asked_of_plc(&self, seen: u64) -> Option<CpuState> {
+        self.lock().plc.filter(|(step, _)| *step > seen).map(|(_, state)| state)
     }
 
     /// Whether many orders wait.

@@ -53,7 +53,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tokio::runtime::Builder;
 
-use super::output::Output;
+use super::output::{Output, apart};
 use crate::plc::Programs;
 use crate::scenario::State;
 use crate::source::Problem;
@@ -128,6 +128,9 @@ impl Kept {
                 "name another one for the trace, for example one that ends in .jsonl",
             ));
         }
+        let Arguments { scenario, plc_image, image, identity, pcap, .. } = arguments;
+        let files = [scenario, image, identity, pcap].into_iter().flatten().map(PathBuf::as_path);
+        apart("--trace", path, files.chain(plc_image.iter().map(Path::new)))?;
         let file = File::options().write(true).create(true).truncate(false).open(path);
         let file = file.map_err(|error| Self::cannot(path, &error))?;
         Ok(Self { path: path.to_owned(), file })

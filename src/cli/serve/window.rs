@@ -249,8 +249,9 @@ impl Lender {
     fn show(&self, seen: &Seen, work: &mut dyn FnMut(&mut dyn Station)) -> Vec<s7::Command> {
         let machine: &Machine = &seen.machine;
         let data = Panel(machine);
+        let shown = if machine.is_plc_stopped() { CpuState::Stop } else { CpuState::Run };
         let machinery = Machinery {
-            state: if machine.is_plc_stopped() { CpuState::Stop } else { CpuState::Run },
+            state: self.shared.inbox.asked_of_plc(seen.step).unwrap_or(shown),
             clock: seen.clock,
             is_read_only: self.is_read_only,
             machine_data: Some(&data),
