@@ -93,7 +93,12 @@ impl Inbox {
 
     /// Whether many orders wait.
     pub(super) fn is_full(&self) -> bool {
-        self.lock().orders.len() >= MANY
+        self.count() >= MANY
+    }
+
+    /// How many orders wait.
+    pub(super) fn count(&self) -> usize {
+        self.lock().orders.len()
     }
 
     /// The orders for the edge of the step that begins; what comes from now on waits for the next.

@@ -315,6 +315,10 @@ impl Live {
         drop(self.end.take());
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
+            let left = self.shared.inbox.count();
+            if left > 0 {
+                tracing::warn!("no step came any more for what clients wrote last: {left} requests");
+            }
         }
         // Its file is whole before anybody looks at it.
         drop(self.shared.lend().recording.take());

@@ -31,8 +31,8 @@ impl Urgency {
             *self = Self { is_urgent: false, breathless: 0 };
             system::calm_down();
             tracing::warn!(
-                "this computer does not keep up: {BREATHLESS} cycles one after another took longer than they last, so the machine \
-                 goes before other programs no more; close some, or take a smaller --speed"
+                "{BREATHLESS} cycles one after another took longer than they last: other programs keep this computer busy, or a PLC process \
+                 in lock-step is slow. The machine goes before other programs no more; close some, or take a smaller --speed"
             );
         }
     }
