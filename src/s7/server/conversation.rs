@@ -292,11 +292,9 @@ impl<'a, S: Stations> Conversation<'a, S> {
             }
         };
         let written = server.stations.lend_to(peer, &mut work);
-        let answered = if answered == 0 { length } else { answered }; // a station that is not lent answers nothing
-        if answered > 0 {
-            let last = &input[start + answered - length..start + answered];
-            witness.answered(last, answers, known, written.is_some());
-        }
+        let answered = answered.max(length); // where no station was lent, the packet is passed over
+        let last = &input[start + answered - length..start + answered];
+        witness.answered(last, answers, known, written.is_some());
         (answered, connection, written)
     }
 
