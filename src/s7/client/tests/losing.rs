@@ -1,7 +1,18 @@
 //! Connections that are lost, and what becomes of what was asked.
 
 use super::*;
-use crate::s7::client::{BlockKind, Error, Mode, State, Value};
+use crate::s7::client::{BlockKind, Client, Error, Mode, State, Value};
+
+/// The first three values of a flag byte that come by themselves, across lost connections.
+async fn first_three(client: &Client) -> Vec<Result<Value, Error>> {
+    let memory = variables(&["MB1"]);
+    let mut subscription = client.subscribe(&memory, Mode::Change, Duration::from_millis(100)).await.unwrap();
+    let mut values = Vec::new();
+    for _ in 0..3 {
+        values.extend(subscription.next().await.unwrap().unwrap().values.into_iter().map(|(_, value)| value));
+    }
+    values
+}
 
 #[tokio::test]
 async fn what_only_reads_is_asked_again_on_the_next_connection() {
@@ -142,16 +153,7 @@ async fn subscriptions_are_asked_for_again() {
         peer.user_data(0, 0x02, 5, 8, &one(3)).await;
         peer
     };
-    let listening = async {
-        let memory = variables(&["MB1"]);
-        let mut subscription = client.subscribe(&memory, Mode::Change, Duration::from_millis(100)).await.unwrap();
-        let mut values = Vec::new();
-        for _ in 0..3 {
-            values.extend(subscription.next().await.unwrap().unwrap().values.into_iter().map(|(_, value)| value));
-        }
-        values
-    };
-    let (values, _peer) = tokio::join!(listening, script);
+    let (values, _peer) = tokio::join!(first_three(&client), script);
     assert_eq!(values, [Ok(Value::Byte(1)), Ok(Value::Byte(2)), Ok(Value::Byte(3))]);
 }
 
@@ -177,16 +179,7 @@ async fn a_renewed_subscription_whose_answer_is_lost_is_asked_for_again_and_the_
         peer.user_data(0, 0x02, 5, 9, &one(3)).await;
         peer
     };
-    let listening = async {
-        let memory = variables(&["MB1"]);
-        let mut subscription = client.subscribe(&memory, Mode::Change, Duration::from_millis(100)).await.unwrap();
-        let mut values = Vec::new();
-        for _ in 0..3 {
-            values.extend(subscription.next().await.unwrap().unwrap().values.into_iter().map(|(_, value)| value));
-        }
-        values
-    };
-    let (values, _peer) = tokio::join!(listening, script);
+    let (values, _peer) = tokio::join!(first_three(&client), script);
     assert_eq!(values, [Ok(Value::Byte(1)), Ok(Value::Byte(2)), Ok(Value::Byte(3))]);
 }
 
