@@ -3,12 +3,12 @@
 //! States have their events; what follows from a value at the moment (exact stop, standstill, sums over axes and alarms)
 //! is noted when its edge is seen.
 
-use super::alarms::{self, Alarm, Cancel, Reaction};
-use super::axis::Axis;
-use super::gantry::Grouping;
-use super::parameters::Parameters;
-use super::rules::Rule;
-use super::{Control, State};
+use crate::sinumerik::alarms::{self, Alarm, Cancel, Reaction};
+use crate::sinumerik::axis::Axis;
+use crate::sinumerik::gantry::Grouping;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::{Control, State};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position};
 use crate::variables::{AlarmNumber, Event, EventId, Input, Place, Quantity};
 

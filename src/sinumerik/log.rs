@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::rules::Rule;
-use super::transitions::TakenTransitions;
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::transitions::TakenTransitions;
 use crate::units::AxisNumber;
 use crate::variables::{EventId, Events, Input, Place, SignalBit};
 

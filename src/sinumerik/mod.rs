@@ -10,61 +10,40 @@
 //!
 //! | I want to add | I do |
 //! |---|---|
-//! | a machine datum | a row in `machine_data/`, a field in `parameters.rs` where the model needs it |
-//! | an alarm | a row in `alarms.rs`, a `raise` where it happens |
+//! | a machine datum | a row in `machine_data/`, a field in `parameters/` where the model needs it |
+//! | an alarm | a row in `alarms/mod.rs`, a `raise` where it happens |
 //! | a rule that causes an edge | a row in `rules.rs`, a `note` where it is decided |
-//! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `referencing.rs` or `gantry.rs` |
+//! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `referencing/approach.rs` or `gantry/mod.rs` |
 //! | something that all axes depend on | a field of `Shared` in `resting.rs`, or nobody wakes for it |
 //! | something to watch | a file in `monitoring/`, a row in its table |
 //! | a signal that the control shows | a line in `publish.rs`, and its cause in `causes.rs` |
 
-mod alarm_list;
 mod alarms;
 mod axis;
-mod axis_signals;
 mod causes;
-mod channel;
-mod channels;
-mod declarations;
-mod dynamics;
-mod emergency_stop;
-mod enabling;
 mod gantry;
-mod gantry_definition;
-mod handwheel;
-mod increments;
 mod jog;
-mod limits;
 mod log;
 pub mod machine_data;
-mod mechanics;
-mod mode_group;
 mod monitoring;
-mod opening;
-mod overload;
-mod parameter_sets;
+mod operation;
 mod parameters;
-mod position_control;
 mod publish;
-mod reference_axes;
 mod referencing;
 mod resting;
 mod rules;
-mod run_up;
-mod setpoints;
 mod shown;
-mod synchronisation;
 mod transitions;
 
-pub use alarm_list::NOT_RAISED as ALARMS_NOT_RAISED;
+pub use alarms::not_raised::NOT_RAISED as ALARMS_NOT_RAISED;
 pub use alarms::{Alarm, CATALOGUE as ALARMS, Cancel, Reaction};
 pub use axis::Feedback;
-pub use dynamics::{Dynamics, FeedForward, Jerk, PARAMETER_SETS, ParameterSet};
 pub use gantry::{Phase as GroupingPhase, TRANSITIONS as GROUPING_TRANSITIONS};
-pub use increments::KeyModes;
-pub use mechanics::{Mechanics, Misfit};
+pub use jog::increments::KeyModes;
+pub use parameters::dynamics::{Dynamics, FeedForward, Jerk, PARAMETER_SETS, ParameterSet};
+pub use parameters::mechanics::{Mechanics, Misfit};
 pub use parameters::{AxisPresence, Parameters};
-pub use referencing::{Phase as ApproachPhase, TRANSITIONS as APPROACH_TRANSITIONS};
+pub use referencing::approach::{Phase as ApproachPhase, TRANSITIONS as APPROACH_TRANSITIONS};
 pub use resting::Changes;
 pub use rules::Rule;
 pub use transitions::{Rows, TakenTransitions, Transition};
@@ -80,17 +59,17 @@ use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 use crate::variables::{EventId, Place};
 
+use axis::position_control::Shaping;
 use axis::{Axis, Motion};
-use channel::Channel;
-use emergency_stop::EmergencyStop;
 use gantry::Grouping;
-use gantry_definition::GROUPINGS;
 use log::Log;
 use machine_data::{Effect, MachineData, Target, Value};
-use mode_group::ModeGroup;
-use position_control::Shaping;
+use operation::channel::Channel;
+use operation::emergency_stop::EmergencyStop;
+use operation::mode_group::ModeGroup;
+use operation::run_up::RunUp;
+use parameters::groupings::GROUPINGS;
 use resting::Resting;
-use run_up::RunUp;
 
 /// Axes that are enabled, stopped and held together: a closed grouping with its leading axis first, or one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -157,13 +136,13 @@ struct State {
     alarms: alarms::Pending,
     feedback: PerAxis<Feedback>,
     summary: Summary,
-    handwheels: [handwheel::Handwheel; handwheel::COUNT],
-    group_functions: PerModeGroup<increments::GroupFunction>,
+    handwheels: [jog::handwheel::Handwheel; jog::handwheel::COUNT],
+    group_functions: PerModeGroup<jog::increments::GroupFunction>,
     power_on_cause: EventId,
     definition_cause: EventId,
     plc_missing: bool,
     plc_cause: EventId,
-    declared: declarations::Declared,
+    declared: gantry::declarations::Declared,
     /// Somebody else wrote into the NCK's half; the next publication overwrites all of it (SIG-11).
     overwritten: bool,
 }
@@ -416,7 +395,7 @@ impl State {
             definition_cause: EventId::NONE,
             plc_missing: false,
             plc_cause: EventId::NONE,
-            declared: declarations::Declared::default(),
+            declared: gantry::declarations::Declared::default(),
             overwritten: true,
         };
         state.note_power_on();

@@ -2,14 +2,14 @@
 //!
 //! Signals are set axis by axis (SIG-09). What somebody else wrote into a bit of the NCK is overwritten here (SIG-11).
 
-use super::alarms::Reaction;
-use super::axis::Motion;
-use super::gantry::Phase;
-use super::increments::{Function, Movement};
-use super::mode_group::{MachineFunction, Mode};
-use super::parameters::{AxisParameters, Parameters};
-use super::{Control, State};
 use crate::image::{AxisFromNck, FromNck, Hmi, clear_signals};
+use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::axis::Motion;
+use crate::sinumerik::gantry::Phase;
+use crate::sinumerik::jog::increments::{Function, Movement};
+use crate::sinumerik::operation::mode_group::{MachineFunction, Mode};
+use crate::sinumerik::parameters::{AxisParameters, Parameters};
+use crate::sinumerik::{Control, State};
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, Position};
 use crate::variables::{AxisValues, Place, Variables};
 

@@ -8,17 +8,17 @@
 
 use arrayvec::ArrayVec;
 
-use super::axis::Axis;
-use super::channel::Channel;
-use super::emergency_stop::EmergencyStop;
-use super::gantry::Grouping;
-use super::gantry_definition::GROUPINGS;
-use super::handwheel::{self, Handwheel};
-use super::increments::GroupFunction;
-use super::mode_group::ModeGroup;
-use super::parameters::Parameters;
-use super::run_up::RunUp;
-use super::{Control, State};
+use crate::sinumerik::axis::Axis;
+use crate::sinumerik::gantry::Grouping;
+use crate::sinumerik::jog::handwheel::{self, Handwheel};
+use crate::sinumerik::jog::increments::GroupFunction;
+use crate::sinumerik::operation::channel::Channel;
+use crate::sinumerik::operation::emergency_stop::EmergencyStop;
+use crate::sinumerik::operation::mode_group::ModeGroup;
+use crate::sinumerik::operation::run_up::RunUp;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::groupings::GROUPINGS;
+use crate::sinumerik::{Control, State};
 use crate::units::{AxisNumber, AxisSet, PerAxis, PerChannel, PerModeGroup};
 
 /// What the PLC's half has other than in the last cycle.

@@ -7,9 +7,9 @@
 //! **The speed of a motor** is the actual velocity behind pitch and gear of the active
 //! parameter set.
 
-use super::mechanics::Mechanics;
-use super::{Alarm, Cancel, Control};
 use crate::image::{AxisToNck, ChannelToNck};
+use crate::sinumerik::parameters::mechanics::Mechanics;
+use crate::sinumerik::{Alarm, Cancel, Control};
 use crate::units::AxisNumber;
 use crate::variables::AlarmNumber;
 

@@ -1,6 +1,6 @@
 //! Tables of transitions: a state machine takes only the steps that stand in its table, and each row remembers that it was taken.
 
-use super::rules::Rule;
+use crate::sinumerik::rules::Rule;
 
 /// A step from one phase to another by a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,8 +45,8 @@ impl Rows {
     }
 }
 
-const _: () = assert!(super::APPROACH_TRANSITIONS.len() <= u64::BITS as usize);
-const _: () = assert!(super::GROUPING_TRANSITIONS.len() <= u64::BITS as usize);
+const _: () = assert!(crate::sinumerik::APPROACH_TRANSITIONS.len() <= u64::BITS as usize);
+const _: () = assert!(crate::sinumerik::GROUPING_TRANSITIONS.len() <= u64::BITS as usize);
 
 /// The rows of both tables by which a control has gone since it was made, of whichever axis and grouping. They decide nothing and
 /// are neither saved nor taken back: they tell what a suite of scenarios has exercised.

@@ -5,7 +5,7 @@
 //!
 //! | file | what | alarms |
 //! |---|---|---|
-//! | `synchronism.rs` | the synchronism difference of a grouping | 10652, 10653 |
+//! | `gantry/synchronism.rs` | the synchronism difference of a grouping | 10652, 10653 |
 //! | `position.rs` | an axis at rest, on its way into exact stop, clamped, and its contour | 25040, 25080, 26000, 25050 |
 //! | `speed.rs` | actual velocity and speed setpoint | 25030, 25060 |
 //! | `encoders.rs` | frequency, faults, zero marks and differences of the encoders, and their switch-over | 21610, 21613, 25000 to 25021, 25100 to 25110 |
@@ -16,23 +16,20 @@
 
 mod drive;
 mod encoders;
-mod parameters;
 mod position;
 mod speed;
-mod synchronism;
 
 use serde::{Deserialize, Serialize};
 
-use super::alarms;
-use super::parameters::{AxisParameters, Parameters};
-use super::rules::Rule;
-use super::{Control, State};
 use crate::motion::advance;
+use crate::sinumerik::alarms;
+use crate::sinumerik::parameters::{AxisParameters, Parameters};
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::{Control, State};
 use crate::units::{AxisNumber, AxisSet, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 
 pub(super) use encoders::EncoderMonitor;
-pub(super) use parameters::{Monitoring, monitoring};
 
 /// What monitoring remembers of one axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -14,7 +14,7 @@
 
 use crate::sinumerik::State;
 use crate::sinumerik::alarms;
-use crate::sinumerik::enabling::Control;
+use crate::sinumerik::axis::enabling::Control;
 use crate::sinumerik::gantry::Phase;
 use crate::sinumerik::parameters::AxisParameters;
 use crate::sinumerik::rules::Rule;

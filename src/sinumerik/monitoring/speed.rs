@@ -2,7 +2,7 @@
 //!
 //! The actual velocity is watched while a measuring system is active, whatever moves the axis. The speed setpoint that
 //! position control gives to the drive is limited to MD36210 in every position-control cycle
-//! ([`limited`](crate::sinumerik::position_control::limited)); what it would be without the limit is judged once per
+//! ([`limited`](crate::sinumerik::axis::position_control::limited)); what it would be without the limit is judged once per
 //! interpolation cycle, from what the encoder tells at its end.
 
 use crate::sinumerik::State;

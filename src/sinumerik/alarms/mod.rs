@@ -1,0 +1,510 @@
+//! Alarms: what they mean, what they stop, how they are cancelled, and the list of those that are pending.
+//!
+//! Numbers, reactions and cancel classes are those of the Diagnostics Manual. An alarm is raised in the stage
+//! "monitoring and alarms"; its reactions act from the next cycle on and its bits are published in the same one.
+//! A new alarm is a row of [`alarms!`] and a call of [`Pending::raise`].
+
+pub(super) mod not_raised;
+
+use std::fmt;
+
+use arrayvec::ArrayVec;
+use serde::{Deserialize, Serialize};
+
+use crate::variables::{AlarmNumber, Alarms, EventId, Parameter, Place, RaisedAlarm};
+
+/// What an alarm does, as flags; the names are the Diagnostics Manual's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Reaction(u16);
+
+impl Reaction {
+    /// Nothing but its entry in the list.
+    pub const NONE: Self = Self(0);
+    /// NC not ready: DB10.DBX108.7 = 0, all axes stop.
+    pub const NC_NOT_READY: Self = Self(1);
+    /// Mode group not ready: DB11.DBX6.3 = 0.
+    pub const MODE_GROUP_NOT_READY: Self = Self(1 << 1);
+    /// Channel not ready: DB21.DBX36.5 = 0.
+    pub const CHANNEL_NOT_READY: Self = Self(1 << 2);
+    /// NC start disabled in this channel.
+    pub const START_DISABLED: Self = Self(1 << 3);
+    /// The NC switches the axis to follow-up.
+    pub const FOLLOW_UP: Self = Self(1 << 4);
+    /// Alarm interface signals are set: DB10.DBX109.0, DB21.DBX36.6, DB31.DBX61.1.
+    pub const INTERFACE_SIGNALS: Self = Self(1 << 5);
+    /// Shown.
+    pub const DISPLAY: Self = Self(1 << 6);
+    /// NC stop with the alarm: DB21.DBX36.7 = 1.
+    pub const STOP: Self = Self(1 << 7);
+    /// Only the axis concerned stops.
+    pub const LOCAL: Self = Self(1 << 8);
+
+    /// Mode group not ready, also for single axes that the PLC or a command moves.
+    pub const MODE_GROUP_AND_AXES_NOT_READY: Self = Self(1 << 1 | 1 << 9);
+    /// Axes must be referenced again.
+    pub const REFERENCE_AGAIN: Self = Self(1 << 10);
+    /// NC stop at the end of the block.
+    pub const STOP_AT_BLOCK_END: Self = Self(1 << 11);
+    /// The block can be corrected.
+    pub const CORRECTION_BLOCK: Self = Self(1 << 12);
+    /// The interpreter stops.
+    pub const INTERPRETER_STOP: Self = Self(1 << 13);
+    /// Delayed reactions act at once.
+    pub const NO_DELAY: Self = Self(1 << 14);
+
+    /// Whether it has all of these.
+    #[must_use]
+    pub const fn has(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    pub(super) const fn and(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+/// What removes an alarm; a stronger one also removes what a weaker one would.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Cancel {
+    /// Goes with its cause.
+    ByItself,
+    /// The alarm-cancel key, or NC start.
+    CancelKey,
+    /// NC start, or RESET.
+    NcStart,
+    /// RESET in the channel.
+    Reset,
+    /// RESET in all channels of the mode group.
+    ModeGroupReset,
+    /// Power off and on.
+    PowerOn,
+}
+
+/// As the operator says it: `RESET`, `alarm cancel`.
+impl fmt::Display for Cancel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::ByItself => "itself",
+            Self::CancelKey => "alarm cancel",
+            Self::NcStart => "NC start",
+            Self::Reset => "RESET",
+            Self::ModeGroupReset => "mode group RESET",
+            Self::PowerOn => "POWER ON",
+        })
+    }
+}
+
+/// The reactions in words, in the order of the Diagnostics Manual.
+impl fmt::Display for Reaction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let words = [
+            (Self::NC_NOT_READY, "NC not ready"),
+            (Self::MODE_GROUP_NOT_READY, "mode group not ready"),
+            (Self::CHANNEL_NOT_READY, "channel not ready"),
+            (Self::START_DISABLED, "NC start disabled"),
+            (Self::FOLLOW_UP, "follow-up"),
+            (Self::REFERENCE_AGAIN, "reference again"),
+            (Self::CORRECTION_BLOCK, "correction block"),
+            (Self::INTERPRETER_STOP, "interpreter stop"),
+            (Self::INTERFACE_SIGNALS, "interface signals"),
+            (Self::DISPLAY, "shown"),
+            (Self::STOP, "NC stop"),
+            (Self::STOP_AT_BLOCK_END, "NC stop at block end"),
+            (Self::LOCAL, "local"),
+            (Self::NO_DELAY, "without delay"),
+        ];
+        let words: Vec<_> = words.iter().filter(|(flag, _)| self.has(*flag)).map(|(_, word)| *word).collect();
+        f.pad(&words.join(", "))
+    }
+}
+
+/// A row of the alarm list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Alarm {
+    /// Its number, or one beyond [`AlarmNumber::OWN`].
+    pub number: AlarmNumber,
+    /// Its text with `%1` to `%4`.
+    pub text: &'static str,
+    /// What it does.
+    pub reaction: Reaction,
+    /// What removes it.
+    pub cancel: Cancel,
+}
+
+/// Makes a constant and a catalogue entry of each row, `NAME number [REACTIONS] Cancel "text";`, and a list without
+/// constants of rows without names.
+macro_rules! alarms {
+    ($(#[$about:meta])* $catalogue:ident: $($(#[$doc:meta])* $constant:ident $number:literal
+        [$($reaction:ident)*] $cancel:ident $text:literal;)*) => {
+        $($(#[$doc])* pub(super) const $constant: AlarmNumber = AlarmNumber($number);)*
+
+        alarms! { $(#[$about])* $catalogue; $($number [$($reaction)*] $cancel $text;)* }
+    };
+    ($(#[$about:meta])* $catalogue:ident; $($number:literal [$($reaction:ident)*] $cancel:ident $text:literal;)*) => {
+        $(#[$about])*
+        pub const $catalogue: &[$crate::sinumerik::Alarm] = &[$($crate::sinumerik::Alarm {
+            number: AlarmNumber($number),
+            text: $text,
+            reaction: Reaction::NONE$(.and(Reaction::$reaction))*,
+            cancel: Cancel::$cancel,
+        }),*];
+    };
+}
+pub(super) use alarms;
+
+alarms! {
+    /// All alarms that can be raised, ascending by number.
+    CATALOGUE:
+    /// The PLC program stopped or faulted.
+    PLC_SIGN_OF_LIFE 2000
+        [NC_NOT_READY LOCAL CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
+        "sign-of-life monitoring: the PLC program does not run";
+    /// Emergency stop; it ends with its acknowledgement together with mode group RESET.
+    EMERGENCY_STOP 3000
+        [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP NO_DELAY] ModeGroupReset
+        "emergency stop";
+    /// MD30450 on a synchronous axis of a closed grouping: it is ignored, the leading axis' counts. %1: the machine datum.
+    DECLARATION_NOT_ALLOWED 4300 [DISPLAY] Reset
+        "axis %2 machine datum %1: declaration not allowed";
+    /// NC start in AUTOMATIC or MDI while an axis that needs its reference point has none (MD20700).
+    START_WITHOUT_REFERENCE 10203 [INTERFACE_SIGNALS DISPLAY] NcStart
+        "channel %1 NC start without reference point";
+    /// JOG: the axis rests on a software limit switch. %3: + or −.
+    ON_SOFTWARE_LIMIT 10621 [DISPLAY] ByItself
+        "channel %1 axis %2 rests on software limit switch %3";
+    /// Wrong gantry machine data. Code 1: wrong grouping number or designation; 2: leading axis declared more than once.
+    GANTRY_MACHINE_DATA 10650
+        [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
+        "channel %1 axis %2 wrong gantry machine data, error code %3";
+    /// Illegal gantry configuration, reason and grouping in one number.
+    GANTRY_CONFIGURATION 10651
+        [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
+        "channel %1 illegal gantry configuration, reason %2";
+    /// Warning limit exceeded.
+    GANTRY_WARNING_LIMIT 10652 [DISPLAY] ByItself
+        "channel %1 axis %2 gantry warning limit exceeded";
+    /// Trip limit exceeded; the axes brake in position control and stay under control.
+    GANTRY_TRIP_LIMIT 10653 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "channel %1 axis %2 gantry error limit exceeded";
+    /// Waiting for synchronisation start.
+    GANTRY_WAITING 10654 [DISPLAY] ByItself
+        "channel %1 waiting for synchronization start of gantry grouping %2";
+    /// Synchronisation running.
+    GANTRY_SYNCHRONISING 10655 [DISPLAY] ByItself
+        "channel %1 synchronization of gantry grouping %2 running";
+    /// The leading axis asks for more than MD32000 or MD32300 of the synchronous axis.
+    GANTRY_OVERLOADED 10656
+        [MODE_GROUP_NOT_READY LOCAL CHANNEL_NOT_READY INTERFACE_SIGNALS DISPLAY] ModeGroupReset
+        "channel %1 axis %2 gantry synchronized axis dynamically overloaded";
+    /// The grouping cannot be closed. %3: thousands say what (7: motion pending), the last two digits the grouping.
+    IMPERMISSIBLE_AXIS_STATE 10658 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP LOCAL] Reset
+        "channel %1 axis %2 impermissible axis state %3";
+    /// Reference cam not reached within MD34030.
+    CAM_NOT_REACHED 20000 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "channel %1 axis %2 reference cam not reached";
+    /// At rest after section 1 and not on the cam.
+    CAM_SIGNAL_MISSING 20001 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "channel %1 axis %2 cam signal missing";
+    /// No zero mark within MD34060.
+    REFERENCE_MARK_NOT_FOUND 20002 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "channel %1 axis %2 zero reference mark not found";
+    /// Approach aborted.
+    APPROACH_ABORTED 20005 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "channel %1 axis %2 reference point approach aborted";
+    /// Creep velocity not reached at the cam edge, twice.
+    CREEP_VELOCITY_NOT_REACHED 20006 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "channel %1 axis %2 reference point creep velocity not reached";
+    /// A traversing key is pressed while handwheels move the axis.
+    HANDWHEEL_ACTIVE 20050 [DISPLAY] ByItself
+        "channel %1 axis %2 handwheel active";
+    /// Handwheels are turned while the axis is moved otherwise.
+    HANDWHEEL_NOT_POSSIBLE 20051 [DISPLAY] ByItself
+        "channel %1 axis %2 handwheel not possible";
+    /// MD36300 exceeded on the active encoder. %3: encoder.
+    ENCODER_FREQUENCY 21610
+        [MODE_GROUP_NOT_READY CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "channel %1 axis %2 encoder %3 frequency exceeded";
+    /// Enable reset during motion. Cause 1: servo enable; 2: pulse enable; 3: pulses enabled; 4: drive ready.
+    ENABLE_RESET 21612 [FOLLOW_UP START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] CancelKey
+        "channel %1 axis %2 enable reset during motion, cause %3";
+    /// The measuring system was switched over.
+    SWITCH_OVER 21613 [DISPLAY] ByItself
+        "axis %1 encoder switchover";
+    /// Hardware limit switch. %3: + or −.
+    HARDWARE_LIMIT_SWITCH 21614 [START_DISABLED DISPLAY] Reset
+        "channel %1 axis %2 hardware limit switch %3";
+    /// In motion when its drive lost its power.
+    FOLLOW_UP_IN_MOTION 21615 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "channel %1 axis %2 taken from motion into follow-up";
+    /// The active encoder tells nothing, or its cable is off.
+    ACTIVE_ENCODER_FAULT 25000
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] PowerOn
+        "axis %1 hardware fault of the active encoder";
+    /// The encoder that is not active tells nothing.
+    PASSIVE_ENCODER_FAULT 25001 [DISPLAY] Reset
+        "axis %1 hardware fault of the passive encoder";
+    /// As 25000, with MD36310 above 100.
+    ACTIVE_ENCODER_POLLUTION 25010
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] ModeGroupReset
+        "axis %1 pollution of the active measuring system";
+    /// As 25001, with MD36310 above 100.
+    PASSIVE_ENCODER_POLLUTION 25011 [DISPLAY] CancelKey
+        "axis %1 pollution of the passive measuring system";
+    /// A zero mark of the active encoder is not where the counts say (MD36310).
+    ACTIVE_ZERO_MARK 25020
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] ModeGroupReset
+        "axis %1 zero mark monitoring of the active encoder";
+    /// The same of the encoder that is not active.
+    PASSIVE_ZERO_MARK 25021 [DISPLAY] CancelKey
+        "axis %1 zero mark monitoring of the passive encoder";
+    /// MD36200 exceeded.
+    ACTUAL_VELOCITY 25030
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 actual velocity alarm limit";
+    /// MD36030 exceeded at rest.
+    STANDSTILL 25040
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 standstill monitoring";
+    /// MD36400 exceeded.
+    CONTOUR 25050
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 contour monitoring";
+    /// MD36210 exceeded for longer than MD36220.
+    SPEED_SETPOINT 25060
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 speed setpoint limitation";
+    /// Exact stop fine not reached within MD36020.
+    POSITIONING 25080
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 positioning monitoring";
+    /// The encoders differ by more than MD36500, or the other one is dead.
+    SWITCH_OVER_IMPOSSIBLE 25100 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "axis %1 encoder switchover not possible";
+    /// MD36510 exceeded.
+    ENCODERS_DIFFER 25105
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 measuring systems differ";
+    /// 1.6 selects an encoder that the axis does not have.
+    ENCODER_NOT_AVAILABLE 25110 [DISPLAY] CancelKey
+        "axis %1 selected encoder not available";
+    /// The interface asks for a parameter set that there is not.
+    PARAMETER_SET_INVALID 25200 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "axis %1 requested parameter set invalid";
+    /// The drive tells of a fault.
+    DRIVE_FAULT 25201
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 drive fault";
+    /// The drive does not run up.
+    WAITING_FOR_DRIVE 25202 [INTERFACE_SIGNALS DISPLAY] ByItself
+        "axis %1 waiting for drive";
+    /// MD36050 exceeded while 2.3 = 1.
+    CLAMPING 26000
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 clamping monitoring";
+    /// The parameter set has another load gear, and the axis is in position control with an encoder behind it. %2, %3: 1 to 6.
+    PARAMETER_SET_NOT_POSSIBLE 26050 [FOLLOW_UP LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "axis %1 parameter set change from %2 to %3 not possible";
+    /// Linear and rotary axes in one grouping; the manuals give no number (O-18).
+    GANTRY_MIXED_AXIS_TYPES 1_000_000
+        [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
+        "channel %1 axis %2 gantry grouping %3 mixes linear and rotary axes";
+    /// Data that must be equal within a grouping are not, at power on (DYN-03); the manuals give no number (O-18).
+    GANTRY_UNEQUAL_DATA 1_000_001 [DISPLAY] Reset
+        "channel %1 axis %2 machine datum %3 differs from that of the leading axis of gantry grouping %4";
+}
+
+/// The names of the alarms for which no source gives a number (O-18), in order of their own numbers.
+const OWN_NAMES: &[&str] = &["gantry-mixed-axis-types", "gantry-unequal-data"];
+
+impl Alarm {
+    /// As it is called: its number, or its name where no source gives a number.
+    #[must_use]
+    pub fn name(number: AlarmNumber) -> String {
+        let own = number.0.checked_sub(AlarmNumber::OWN).and_then(|index| OWN_NAMES.get(index as usize));
+        own.map_or_else(|| number.0.to_string(), |name| (*name).to_owned())
+    }
+
+    /// The number behind a name of our own.
+    #[must_use]
+    pub fn named(name: &str) -> Option<AlarmNumber> {
+        let index = OWN_NAMES.iter().position(|known| *known == name)?;
+        u32::try_from(index).ok().map(|index| AlarmNumber(AlarmNumber::OWN + index))
+    }
+
+    /// The row of a number.
+    #[must_use]
+    pub fn find(number: AlarmNumber) -> Option<&'static Self> {
+        CATALOGUE.binary_search_by_key(&number, |alarm| alarm.number).ok().map(|index| &CATALOGUE[index])
+    }
+}
+
+/// A pending alarm and the event behind it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct Entry {
+    alarm: RaisedAlarm,
+    cause: EventId,
+    /// Raised by its cause in this cycle; what goes by itself goes when nobody raises it any more.
+    fresh: bool,
+}
+
+/// The alarms that are pending; bounded, as the list of a control is. What does not fit is the least of the troubles.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Pending {
+    entries: ArrayVec<Entry, { Alarms::CAPACITY }>,
+    changed: bool,
+    /// Counts the changes of the list.
+    version: u32,
+}
+
+impl Pending {
+    /// Raises an alarm, or keeps it raised.
+    pub(super) fn raise(&mut self, number: AlarmNumber, place: Place, parameters: [Parameter; 4], cause: EventId) {
+        let alarm = RaisedAlarm { number, place, parameters };
+        if let Some(entry) = self.entries.iter_mut().find(|entry| entry.alarm == alarm) {
+            entry.fresh = true;
+            return;
+        }
+        let index = self.entries.partition_point(|entry| (entry.alarm.number, entry.alarm.place) < (number, place));
+        let added = self.entries.try_insert(index, Entry { alarm, cause, fresh: true }).is_ok();
+        self.note_changed(added);
+    }
+
+    /// Removes what this way of cancelling removes of what concerns somebody; whether that was any.
+    pub(super) fn cancel(&mut self, by: Cancel, concerns: impl Fn(Place) -> bool) -> bool {
+        let before = self.entries.len();
+        self.entries.retain(|entry| {
+            let class = Alarm::find(entry.alarm.number).map_or(Cancel::PowerOn, |alarm| alarm.cancel);
+            class == Cancel::ByItself || class > by || !concerns(entry.alarm.place)
+        });
+        let removed = self.entries.len() != before;
+        self.note_changed(removed);
+        removed
+    }
+
+    /// Ends a cycle: what goes by itself and was not raised in it goes.
+    pub(super) fn settle(&mut self) {
+        let before = self.entries.len();
+        self.entries.retain(|entry| {
+            let stays =
+                entry.fresh || Alarm::find(entry.alarm.number).is_none_or(|alarm| alarm.cancel != Cancel::ByItself);
+            entry.fresh = false;
+            stays
+        });
+        self.note_changed(self.entries.len() != before);
+    }
+
+    fn note_changed(&mut self, changed: bool) {
+        self.changed |= changed;
+        self.version = self.version.wrapping_add(u32::from(changed));
+    }
+
+    /// Another number after each change of the list.
+    #[must_use]
+    pub(super) const fn version(&self) -> u32 {
+        self.version
+    }
+
+    /// Whether this alarm of this place is pending.
+    #[must_use]
+    pub(super) fn is_pending(&self, number: AlarmNumber, place: Place) -> bool {
+        self.entries.iter().any(|entry| (entry.alarm.number, entry.alarm.place) == (number, place))
+    }
+
+    /// The event behind an alarm of this place.
+    #[must_use]
+    pub(super) fn cause(&self, number: AlarmNumber, place: Place) -> EventId {
+        let of_it = |entry: &&Entry| (entry.alarm.number, entry.alarm.place) == (number, place);
+        self.entries.iter().find(of_it).map_or(EventId::NONE, |entry| entry.cause)
+    }
+
+    /// Whether nothing is pending.
+    #[must_use]
+    pub(super) fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// Whether the list changed since it was last asked.
+    pub(super) fn take_changed(&mut self) -> bool {
+        std::mem::take(&mut self.changed)
+    }
+
+    /// All that are pending with the events behind them, in order of number and place.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (&RaisedAlarm, EventId)> {
+        self.entries.iter().map(|entry| (&entry.alarm, entry.cause))
+    }
+
+    /// The event behind the first pending alarm with this reaction that concerns this place (or all).
+    #[must_use]
+    #[inline]
+    pub(super) fn with_reaction(&self, reaction: Reaction, place: Option<Place>) -> Option<EventId> {
+        self.first(|entry, alarm| place.is_none_or(|place| entry == place) && alarm.reaction.has(reaction))
+    }
+
+    /// The event behind the first pending alarm that is meant, by its place and its row.
+    #[must_use]
+    #[inline]
+    pub(super) fn first(&self, meant: impl Fn(Place, &Alarm) -> bool) -> Option<EventId> {
+        if self.entries.is_empty() {
+            return None;
+        }
+        let is_meant =
+            |entry: &&Entry| Alarm::find(entry.alarm.number).is_some_and(|alarm| meant(entry.alarm.place, alarm));
+        self.entries.iter().find(is_meant).map(|entry| entry.cause)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn has(pending: &Pending, number: AlarmNumber) -> bool {
+        pending.iter().any(|(alarm, _)| alarm.number == number)
+    }
+
+    fn raise(pending: &mut Pending, number: AlarmNumber) {
+        pending.raise(number, Place::Nck, [Parameter::None; 4], EventId::NONE);
+    }
+
+    #[test]
+    fn the_catalogue_ascends_so_that_a_number_is_found() {
+        assert!(CATALOGUE.windows(2).all(|pair| pair[0].number < pair[1].number));
+        assert_eq!(Alarm::find(GANTRY_WAITING).map(|alarm| alarm.cancel), Some(Cancel::ByItself));
+        assert_eq!(Alarm::find(AlarmNumber(1)), None);
+    }
+
+    #[test]
+    fn an_alarm_is_raised_or_not_yet_and_never_both() {
+        let not_yet = not_raised::NOT_RAISED;
+        assert!(not_yet.windows(2).all(|pair| pair[0].number < pair[1].number));
+        assert!(not_yet.iter().all(|alarm| Alarm::find(alarm.number).is_none()));
+        assert_eq!(Alarm::named("gantry-mixed-axis-types"), Some(GANTRY_MIXED_AXIS_TYPES));
+        assert_eq!(Alarm::name(GANTRY_MIXED_AXIS_TYPES), "gantry-mixed-axis-types");
+    }
+
+    #[test]
+    fn a_stronger_reset_removes_what_a_weaker_one_does_and_no_more() {
+        let mut pending = Pending::default();
+        for number in [ENABLE_RESET, GANTRY_TRIP_LIMIT, GANTRY_CONFIGURATION, GANTRY_WAITING] {
+            raise(&mut pending, number);
+        }
+        pending.cancel(Cancel::CancelKey, |_| true);
+        assert!(!has(&pending, ENABLE_RESET) && has(&pending, GANTRY_TRIP_LIMIT));
+        pending.cancel(Cancel::ModeGroupReset, |place| place != Place::Nck);
+        assert!(has(&pending, GANTRY_TRIP_LIMIT), "it concerns somebody else");
+        pending.cancel(Cancel::ModeGroupReset, |_| true);
+        assert!(!has(&pending, GANTRY_TRIP_LIMIT));
+        assert!(has(&pending, GANTRY_CONFIGURATION) && has(&pending, GANTRY_WAITING));
+    }
+
+    #[test]
+    fn what_goes_by_itself_goes_in_the_first_cycle_without_its_cause() {
+        let mut pending = Pending::default();
+        raise(&mut pending, GANTRY_WARNING_LIMIT);
+        pending.settle();
+        raise(&mut pending, GANTRY_WARNING_LIMIT);
+        pending.settle();
+        assert!(has(&pending, GANTRY_WARNING_LIMIT));
+        pending.settle();
+        assert!(pending.is_empty());
+    }
+}

@@ -1,0 +1,142 @@
+//! Alarms of the Diagnostics Manual that the model cannot raise yet. They are listed, so that a person finds what a number
+//! means; a row moves to `alarms/mod.rs` when something raises it.
+//!
+//! | numbers | what the model lacks for them |
+//! |---|---|
+//! | 2001, 2900, 4xxx but 4300, 26014 to 26017, 26024, 26025 | machine data are judged before the control starts, and reported there |
+//! | 10657 | extended monitoring: MD37150 bit 0 with MD37135 |
+//! | 10620, 10630, 10631, 107xx, 12550, 14xxx, 16xxx, 17xxx, 20070, 20071, 26072, 26076 | programs, blocks, the PLC's positioning axes, working areas |
+//! | 20003, 20004, 20007, 20008, 22062, 22064 | distance-coded marks, and MD34200 = 6 and 7 |
+//! | 20052, 20053, 20060, 20062 | geometry axes, and overlaid movements such as DRF |
+//! | 20054, 20056, 20058 | indexing axes and revolutional feed |
+//! | 20059 | AUTOMATIC with JOG at the same time (MD10735) |
+//! | 21550 | couplings other than gantry groupings, which would retract an axis from its limit switch |
+//! | 21620 | the emergency braking ramp of a drive that stops by itself |
+//! | 22060 | a movement of an axis that no key, but a program wants out of position control |
+//! | 22321, 22322 | PRESET |
+//! | 25022, 26020, 26030 | absolute encoders |
+//! | 25042 | limits of torque or force |
+//! | 25070 | drift compensation |
+//! | 26006, 26100, 26101, 26105, 26106 | drives and encoders on a bus: those of the plant are always found, and of the type that they should be |
+
+use crate::sinumerik::alarms::{Cancel, Reaction, alarms};
+use crate::variables::AlarmNumber;
+
+alarms! {
+    /// What cannot be raised yet, ascending by number.
+    NOT_RAISED;
+    2001 [NC_NOT_READY LOCAL CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "PLC has not started up";
+    2900 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY STOP NO_DELAY] PowerOn "reboot is delayed";
+    4000 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 machine datum %2[%3] has a gap in the axis assignment";
+    4001 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 axis %2 defined for more than one channel";
+    4002 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 axis %2 not defined in the channel";
+    4004 [MODE_GROUP_NOT_READY CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 geometry axis %2 defined more than once";
+    4005 [NC_NOT_READY CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 more axes than allowed";
+    4011 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 machine datum invalid";
+    4040 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 axis identifier %2 not consistent with machine datum";
+    4060 [DISPLAY] Reset "default machine data loaded";
+    4070 [DISPLAY] CancelKey "scaling machine datum changed";
+    4075 [DISPLAY] CancelKey "machine datum %1 not changed, access level %2 missing";
+    4110 [DISPLAY] Reset "interpolation cycle changed to %1 ms";
+    4111 [DISPLAY] Reset "PLC cycle changed to %1 ms";
+    4112 [DISPLAY] Reset "position control cycle changed to %1 ms";
+    4113 [DISPLAY] Reset "system clock cycle changed to %1 ms";
+    4200 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 geometry axis %2 must not be a rotary axis";
+    4210 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 spindle %2: declaration as rotary axis is missing";
+    10620 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %3 axis %2 reaches software limit switch %4";
+    10630 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %2 axis %3 reaches working area limit %4";
+    10631 [DISPLAY] ByItself "channel %1 axis %2 rests on working area limit %3";
+    10657 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 switched off while the gantry error limit was exceeded";
+    10720 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %3 axis %2 programmed end point is behind software limit switch %4";
+    10721 [LOCAL INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %3 axis %2 programmed end point is behind software limit switch %4";
+    10722 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %5 axis %2 software limit switch violated, residual distance %3 %4";
+    10723 [LOCAL INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %5 axis %2 software limit switch violated, residual distance %3 %4";
+    12550 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 name %3 not defined";
+    14092 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 has the wrong axis type";
+    14790 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 currently controlled by the PLC";
+    16772 [DISPLAY] ByItself "channel %1 block %2 axis %3 is a following axis, the coupling is opened";
+    16794 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 coupling does not permit referencing";
+    16904 [DISPLAY] CancelKey "channel %1 action %2 not allowed in the present state";
+    16905 [DISPLAY] CancelKey "channel %1 action %2 not allowed";
+    16906 [DISPLAY] CancelKey "channel %1 action %2 aborted by an alarm";
+    16907 [DISPLAY] CancelKey "channel %1 action %2 only possible in stop";
+    16908 [DISPLAY] CancelKey "channel %1 action %2 only possible in reset or at the block end";
+    16912 [DISPLAY] CancelKey "channel %1 action %2 only possible in reset";
+    16914 [DISPLAY] CancelKey "channel %1 mode change not allowed, action %2";
+    16920 [DISPLAY] CancelKey "channel %1 action %2 already active";
+    16925 [DISPLAY] CancelKey "channel %1 action %2 not allowed in this mode";
+    16928 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 interrupt handling: action %2 not possible";
+    16933 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 interrupt handling: action %2 not allowed in the present state";
+    17020 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 illegal first array index";
+    17030 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 illegal second array index";
+    17630 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 reference point approach not possible";
+    17650 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 machine axis %3 not programmable";
+    17810 [INTERFACE_SIGNALS DISPLAY] CancelKey "channel %1 axis %2 not referenced";
+    17900 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 block %2 axis %4 is not a machine axis";
+    20003 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 measuring system error";
+    20004 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 reference mark missing";
+    20007 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 reference point approach needs two measuring systems";
+    20008 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 reference point approach needs a second, referenced measuring system";
+    20052 [DISPLAY] CancelKey "channel %1 axis %2 already active";
+    20053 [DISPLAY] CancelKey "channel %1 axis %2 DRF, FTOCON, external work offset not possible";
+    20054 [DISPLAY] CancelKey "channel %1 axis %2 indexing index not allowed";
+    20056 [DISPLAY] ByItself "channel %1 axis %2 no revolutional feedrate possible";
+    20058 [DISPLAY] ByItself "channel %1 axis %2 revolutional feedrate: illegal source";
+    20059 [DISPLAY] CancelKey "channel %1 axis %2 already active, cause %3";
+    20060 [DISPLAY] CancelKey "channel %1 axis %2 cannot be moved as a geometry axis";
+    20062 [DISPLAY] CancelKey "channel %1 axis %2 already active as geometry axis";
+    20070 [DISPLAY] ByItself "channel %1 axis %2 programmed end position is behind software limit switch %3";
+    20071 [DISPLAY] ByItself "channel %1 axis %2 programmed end position is behind working area limit %3";
+    21550 [START_DISABLED DISPLAY] Reset "channel %1 axis %2 motion off the hardware limit switch not possible, cause %3";
+    21620 [START_DISABLED LOCAL FOLLOW_UP INTERFACE_SIGNALS DISPLAY] Reset "channel %1 axis %2 emergency braking ramp active";
+    22060 [DISPLAY] ByItself "channel %1 axis %2 position control expected";
+    22062 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 zero mark search velocity not reached";
+    22064 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 zero mark search velocity too high";
+    22321 [INTERFACE_SIGNALS DISPLAY] CancelKey "channel %1 axis %2 PRESET not allowed during motion";
+    22322 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 PRESET: illegal value";
+    25022 [DISPLAY] CancelKey "axis %1 encoder %2 warning %3";
+    25042 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset "axis %1 standstill monitoring with torque or force limiting";
+    25070 [DISPLAY] CancelKey "axis %1 drift value too large";
+    26006 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 encoder %2 encoder or output type %3 not possible";
+    26014 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 machine datum %2 value not allowed";
+    26015 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 machine datum %2[%3] value not allowed";
+    26016 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset "axis %1 machine datum %2 value not allowed";
+    26017 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset "axis %1 machine datum %2[%3] value not allowed";
+    26020 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] PowerOn "axis %1 encoder %2 hardware fault %3 at encoder initialisation";
+    26024 [DISPLAY] Reset "axis %1 machine datum %2 value was changed";
+    26025 [DISPLAY] Reset "axis %1 machine datum %2[%3] value was changed";
+    26030 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] ModeGroupReset "axis %1 encoder %2 absolute position lost";
+    26072 [INTERFACE_SIGNALS DISPLAY] CancelKey "channel %1 axis %2 cannot be controlled by the PLC";
+    26076 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 axis %2 not available for the NC program, permanently a PLC axis";
+    26100 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 drive %2 sign of life missing";
+    26101 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED REFERENCE_AGAIN INTERFACE_SIGNALS DISPLAY STOP] Reset "axis %1 drive %2 communication failure";
+    26105 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "drive of axis %1 not found";
+    26106 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "encoder %2 of axis %1 not found";
+}
+
+#[cfg(test)]
+mod tests {
+    use super::NOT_RAISED;
+
+    /// `4xxx but 4300`, `26014 to 26017`, `2001`.
+    fn means(numbers: &str, number: &str) -> bool {
+        let (numbers, but) = numbers.split_once(" but ").unwrap_or((numbers, ""));
+        let (first, last) = numbers.split_once(" to ").unwrap_or((numbers, numbers));
+        let within = |end: &str, bound: char| end.replace('x', &bound.to_string()).parse::<u32>().unwrap();
+        number != but && (within(first, '0')..=within(last, '9')).contains(&number.parse().unwrap())
+    }
+
+    #[test]
+    fn the_table_says_of_every_alarm_why_and_of_no_other() {
+        let rows = include_str!("not_raised.rs").lines().filter_map(|line| line.strip_prefix("//! | "));
+        let said: Vec<_> = rows.skip(1).flat_map(|row| row.split(" | ").next().unwrap().split(", ")).collect();
+        for alarm in NOT_RAISED {
+            let number = alarm.number.0.to_string();
+            let rows = said.iter().filter(|numbers| means(numbers, &number)).count();
+            assert_eq!(rows, 1, "alarm {number}");
+        }
+        for numbers in said {
+            assert!(NOT_RAISED.iter().any(|alarm| means(numbers, &alarm.number.0.to_string())), "{numbers}");
+        }
+    }
+}

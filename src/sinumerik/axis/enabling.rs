@@ -1,0 +1,335 @@
+//! Enabling: from drive ready to position control and back (decision O-20).
+//!
+//! Called once per cycle in the stage "enabling", after modes and RESET, before anything moves. Reads 1.4 to 1.6,
+//! 2.1 and 21.7 of each axis; axes of a closed grouping form one unit that is enabled, braked and held in the same
+//! manner (SIG-01, SIG-02). Writes the state from which 61.3, 61.5 to 61.7, 93.5, 93.7 and 102.5/.6 follow.
+
+use serde::{Deserialize, Serialize};
+
+use crate::image::ToNck;
+use crate::sinumerik::alarms::{self, Reaction};
+use crate::sinumerik::axis::Axis;
+use crate::sinumerik::log::axis_bit;
+use crate::sinumerik::parameters::{AxisParameters, Parameters};
+use crate::sinumerik::resting::Resting;
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::{State, Unit};
+use crate::units::AxisNumber;
+use crate::variables::{EventId, Input, Parameter, Place};
+
+/// How many cycles each step of the chain takes, so that brake and timer logic meets a real order.
+const STEP: u8 = 2;
+
+/// How far an axis is on its way to position control.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum Control {
+    /// No position control.
+    #[default]
+    Off,
+    /// The controllers switch on one after another; how many cycles so far.
+    SwitchingOn(u8),
+    /// In position control.
+    On,
+    /// Braking after the enable went; how many cycles are left before it is switched off anyway (MD36620).
+    Braking(u64),
+}
+
+/// The state of the chain.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Enabling {
+    /// Position control.
+    pub control: Control,
+    /// Cycles with drive ready and pulse enable, up to [`STEP`].
+    pulses: u8,
+    /// Not in position control, and the setpoint follows the actual value.
+    pub follow_up: bool,
+}
+
+impl Enabling {
+    /// 93.7.
+    #[must_use]
+    pub(in crate::sinumerik) const fn pulses_enabled(&self) -> bool {
+        self.pulses >= STEP
+    }
+
+    /// 61.7, 61.6 and 61.5: current, speed and position controller.
+    #[must_use]
+    pub(in crate::sinumerik) const fn controllers(&self) -> [bool; 3] {
+        match self.control {
+            Control::Off => [false; 3],
+            Control::SwitchingOn(cycles) => [cycles >= STEP, cycles >= 2 * STEP, false],
+            Control::On | Control::Braking(_) => [true; 3],
+        }
+    }
+
+    /// The drive acts on velocity commands.
+    #[must_use]
+    pub(in crate::sinumerik) const fn is_powered(&self) -> bool {
+        self.pulses_enabled() && matches!(self.control, Control::On | Control::Braking(_))
+    }
+
+    /// Ready to be moved.
+    #[must_use]
+    pub(in crate::sinumerik) const fn is_on(&self) -> bool {
+        matches!(self.control, Control::On)
+    }
+}
+
+/// What holds for all axes of a unit.
+struct Conditions {
+    enable: bool,
+    follow_up: bool,
+    /// Pulses and measuring system on every axis.
+    healthy: bool,
+    alarm: EventId,
+    /// Every setpoint rests and every axis stands.
+    standing: bool,
+    moving: bool,
+    /// The signal that took the enable away.
+    missing: Input,
+    /// The axis and cause of alarm 21612.
+    culprit: (AxisNumber, i64),
+}
+
+impl State {
+    /// The measuring systems that 1.5 and 1.6 select; parking is common to all axes of a unit.
+    pub(in crate::sinumerik) fn select_measuring_systems(
+        &mut self,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+        resting: &Resting,
+    ) {
+        let mut next = 0;
+        while let Some(index) = self.next_awake(next, resting) {
+            next = index + 1;
+            let unit = self.units[index];
+            let parked = unit.members().any(|axis| self.selected(axis, parameters, to_nck).is_none());
+            for axis in unit.members() {
+                let signals = &to_nck.axes[axis];
+                let wanted = self.selected(axis, parameters, to_nck).filter(|_| !parked);
+                let second = signals.position_measuring_system_2() && !signals.position_measuring_system_1();
+                if second && parameters.axes[axis].encoders == 1 {
+                    self.tell_missing_encoder(axis, &parameters.axes[axis]);
+                }
+                self.switch_measuring_system(axis, wanted, &parameters.axes[axis], to_nck);
+            }
+        }
+    }
+
+    /// The measuring system that is selected; a second one that there is not changes nothing.
+    fn selected(&self, number: AxisNumber, parameters: &Parameters, to_nck: &ToNck) -> Option<u8> {
+        let (signals, count) = (&to_nck.axes[number], parameters.axes[number].encoders);
+        if signals.position_measuring_system_1() && count >= 1 {
+            Some(0)
+        } else if signals.position_measuring_system_2() && count >= 2 {
+            Some(1)
+        } else if signals.position_measuring_system_2() && count == 1 {
+            self.axes[number].measuring_system
+        } else {
+            None
+        }
+    }
+
+    fn switch_measuring_system(
+        &mut self,
+        number: AxisNumber,
+        wanted: Option<u8>,
+        parameters: &AxisParameters,
+        to_nck: &ToNck,
+    ) {
+        if self.axes[number].measuring_system == wanted || self.switch_over_fails(number, wanted, parameters) {
+            return;
+        }
+        if self.axes[number].measuring_system.is_some() && wanted.is_some() {
+            self.tell_switch_over(number);
+        }
+        let signals = &to_nck.axes[number];
+        let inputs = [
+            axis_bit(number, 1, 5, signals.position_measuring_system_1()),
+            axis_bit(number, 1, 6, signals.position_measuring_system_2()),
+            Input::None,
+        ];
+        let rule = if wanted.is_some() { Rule::MeasuringSystem } else { Rule::Parking };
+        let event = self.log.note(Place::Axis(number), rule, inputs, EventId::NONE);
+        let aborts = self.axes[number].approach.is_running();
+        let axis = &mut self.axes[number];
+        let before = axis.actual;
+        axis.measuring_system = wanted;
+        axis.causes.measuring_system = event;
+        if wanted.is_none() {
+            axis.referenced = [false; 2];
+            axis.causes.reference = [event; 2];
+        }
+        axis.sense(&self.feedback[number]);
+        axis.setpoint = crate::motion::Setpoint::at(axis.actual);
+        axis.monitor.restart(axis.actual);
+        axis.signals.hold_at(axis.actual);
+        let shift = axis.actual - before;
+        self.value_shifted(number, shift);
+        if aborts {
+            self.abort_approach(number, event);
+        }
+    }
+
+    /// One step of the chain for every axis.
+    pub(in crate::sinumerik) fn enable(&mut self, parameters: &Parameters, to_nck: &ToNck, resting: &Resting) {
+        for number in resting.awake().iter() {
+            self.axes[number].monitor.clamped = to_nck.axes[number].clamping_in_progress();
+            self.enable_pulses(number, to_nck.axes[number].pulse_enable());
+        }
+        let mut next = 0;
+        while let Some(index) = self.next_awake(next, resting) {
+            next = index + 1;
+            let unit = self.units[index];
+            let conditions = self.conditions(&unit, parameters, to_nck);
+            let lost = !conditions.enable || !conditions.healthy;
+            if lost && conditions.moving && self.unit_is_on(&unit) {
+                let (axis, cause) = conditions.culprit;
+                let event =
+                    self.log.note_one(Place::Axis(axis), Rule::EnableLostInMotion, conditions.missing, EventId::NONE);
+                let channel = Parameter::Channel(unit.channel);
+                let cause = [channel, Parameter::Axis(axis), Parameter::Number(cause), Parameter::None];
+                self.alarms.raise(alarms::ENABLE_RESET, Place::Axis(axis), cause, event);
+            }
+            // The axis that is switched off first switches all of them off: they stop in the same manner (SIG-01).
+            let disable_cycles =
+                unit.members().map(|axis| parameters.axes[axis].servo_disable_cycles).min().unwrap_or_default();
+            for axis in unit.members() {
+                let (was_on, moved) =
+                    (self.axes[axis].enabling.controllers()[2], !self.axes[axis].setpoint.is_at_rest());
+                self.step_control(axis, &conditions, disable_cycles);
+                if was_on && moved && !self.axes[axis].enabling.pulses_enabled() {
+                    self.tell_follow_up_in_motion(axis);
+                }
+            }
+        }
+    }
+
+    /// 21615: the drive of an axis in motion lost its power; it cannot be braked, and 21612 switches it to follow-up.
+    fn tell_follow_up_in_motion(&mut self, number: AxisNumber) {
+        let cause = self.axes[number].causes.drive;
+        let event = self.log.note_plain(Place::Axis(number), Rule::FollowUpInMotion, cause);
+        self.raise_axis_alarm(alarms::FOLLOW_UP_IN_MOTION, number, event);
+    }
+
+    fn unit_is_on(&self, unit: &Unit) -> bool {
+        unit.members().any(|axis| self.axes[axis].enabling.is_on())
+    }
+
+    fn enable_pulses(&mut self, number: AxisNumber, enable: bool) {
+        let axis = &mut self.axes[number];
+        let (ready, before) = (axis.drive_ready && self.run_up.is_nc_ready(), axis.enabling.pulses);
+        axis.enabling.pulses = if ready && enable { (before + 1).min(STEP) } else { 0 };
+        let (was, is) = (before >= STEP, axis.enabling.pulses_enabled());
+        if was != is {
+            let rule = if is { Rule::PulsesEnabled } else { Rule::PulsesDisabled };
+            let inputs = [axis_bit(number, 21, 7, enable), axis_bit(number, 93, 5, ready), Input::None];
+            axis.causes.drive = self.log.note(Place::Axis(number), rule, inputs, axis.causes.drive);
+        }
+    }
+
+    fn conditions(&self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) -> Conditions {
+        let mut conditions = Conditions {
+            enable: true,
+            follow_up: false,
+            healthy: true,
+            alarm: self.emergency_stop.active_cause().unwrap_or(EventId::NONE),
+            standing: true,
+            moving: false,
+            missing: Input::None,
+            culprit: (unit.leader(), 0),
+        };
+        for number in unit.members() {
+            let (axis, signals) = (&self.axes[number], &to_nck.axes[number]);
+            conditions.standing &= axis.stands(&parameters.axes[number]);
+            conditions.moving |= axis.is_in_motion();
+            conditions.follow_up |= signals.follow_up_mode();
+            if let Some(event) = self.alarms.with_reaction(Reaction::FOLLOW_UP, Some(Place::Axis(number))) {
+                conditions.alarm = event;
+            }
+            let lost = if !signals.controller_enable() {
+                conditions.enable = false;
+                Some((axis_bit(number, 2, 1, false), 1))
+            } else if axis.measuring_system.is_none() {
+                conditions.healthy = false;
+                Some((axis_bit(number, 102, 5, false), 0))
+            } else if !axis.enabling.pulses_enabled() {
+                conditions.healthy = false;
+                let by_plc = !signals.pulse_enable();
+                Some((
+                    axis_bit(number, if by_plc { 21 } else { 93 }, if by_plc { 7 } else { 5 }, false),
+                    if by_plc { 2 } else { 4 },
+                ))
+            } else {
+                None
+            };
+            if let (Some((input, cause)), Input::None) = (lost, conditions.missing) {
+                conditions.missing = input;
+                conditions.culprit = (number, cause);
+            }
+        }
+        conditions
+    }
+
+    fn step_control(&mut self, number: AxisNumber, conditions: &Conditions, disable_cycles: u64) {
+        let before = self.axes[number].enabling;
+        let wanted = conditions.enable && conditions.healthy && !conditions.alarm.is_some();
+        let powered = self.axes[number].enabling.pulses_enabled();
+        let off = || {
+            if powered { Control::Braking(disable_cycles) } else { Control::Off }
+        };
+        let control = match before.control {
+            Control::Off if wanted => Control::SwitchingOn(0),
+            Control::Off => Control::Off,
+            Control::SwitchingOn(_) if !wanted => Control::Off,
+            Control::SwitchingOn(cycles) if cycles + 1 >= 3 * STEP => Control::On,
+            Control::SwitchingOn(cycles) => Control::SwitchingOn(cycles + 1),
+            Control::On if wanted => Control::On,
+            Control::On => off(),
+            Control::Braking(left) if left == 0 || conditions.standing || !powered => Control::Off,
+            Control::Braking(left) => Control::Braking(left - 1),
+        };
+        let parked = self.axes[number].measuring_system.is_none();
+        let off = matches!(control, Control::Off | Control::SwitchingOn(_));
+        let follow_up = off && (conditions.follow_up && !conditions.enable || conditions.alarm.is_some() || parked);
+        // Follow-up lasts until position control takes over, so that it takes over at the actual value.
+        let follow_up = follow_up || before.follow_up && matches!(control, Control::SwitchingOn(_));
+        self.axes[number].enabling.control = control;
+        self.axes[number].enabling.follow_up = follow_up;
+        let after = self.axes[number].enabling;
+        if before.controllers() != after.controllers() || before.follow_up != after.follow_up {
+            // What began to switch off goes on to do so, also when its reason is gone.
+            let goes_off = matches!(before.control, Control::Braking(_));
+            let (rule, parent) = if wanted && goes_off {
+                (Rule::ControllerOff, self.axes[number].causes.enabling)
+            } else if wanted {
+                (Rule::ControllerOn, EventId::NONE)
+            } else if conditions.alarm.is_some() {
+                (Rule::FollowUpByAlarm, conditions.alarm)
+            } else if follow_up && !before.follow_up {
+                (Rule::FollowUp, EventId::NONE)
+            } else {
+                (Rule::ControllerOff, EventId::NONE)
+            };
+            let input = if wanted && !goes_off { axis_bit(number, 2, 1, true) } else { conditions.missing };
+            let event = self.log.note_one(Place::Axis(number), rule, input, parent);
+            self.axes[number].causes.enabling = event;
+        }
+    }
+}
+
+impl Axis {
+    /// The motion of an axis that is not in position control, or that brakes towards being switched off.
+    pub(in crate::sinumerik) fn motion_without_control(
+        &self,
+        emergency_deceleration: f64,
+    ) -> Option<crate::sinumerik::axis::Motion> {
+        use crate::sinumerik::axis::Motion;
+        match self.enabling.control {
+            Control::On => None,
+            Control::Braking(_) => Some(Motion::Brake { deceleration: emergency_deceleration }),
+            Control::Off | Control::SwitchingOn(_) if self.enabling.follow_up => Some(Motion::Track),
+            Control::Off | Control::SwitchingOn(_) => Some(Motion::Hold),
+        }
+    }
+}

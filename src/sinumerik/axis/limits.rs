@@ -1,0 +1,159 @@
+//! Hardware and software limit switches.
+//!
+//! Hardware (12.0 minus, 12.1 plus): alarm 21614 on the axis, and all axes of its unit brake (MON-14) as MD36600 says, with their
+//! ramp or with setpoint 0; afterwards only the opposite direction moves. An approach or a synchronising motion ends there.
+//!
+//! Software (MD36100 and MD36110, or the second pair by 12.2 and 12.3): the leading axis only (MON-13), once it is referenced,
+//! and no modulo axis. JOG brakes so that the axis rests exactly on the limit, with 10621 until it is moved away.
+
+use serde::{Deserialize, Serialize};
+
+use crate::image::ToNck;
+use crate::sinumerik::alarms;
+use crate::sinumerik::axis::Motion;
+use crate::sinumerik::log::axis_bit;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::{State, Unit};
+use crate::units::{AxisNumber, ChannelNumber, Position};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
+
+/// Setpoint 0 at once: no ramp.
+const WITHOUT_RAMP: f64 = 1e18;
+
+/// The limit switches of an axis as the last cycle saw them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct LimitSwitches {
+    minus: bool,
+    plus: bool,
+    cause: EventId,
+}
+
+impl LimitSwitches {
+    /// A movement in this direction leads further onto a switch.
+    const fn blocks(self, direction: i8) -> bool {
+        direction > 0 && self.plus || direction < 0 && self.minus
+    }
+}
+
+/// What a movement in JOG meets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::sinumerik) enum Ahead {
+    /// No software limit acts.
+    Free,
+    /// One lies ahead.
+    At(Position),
+    /// The axis rests on it or is beyond it.
+    Reached,
+}
+
+impl State {
+    /// The hardware limit switches of a unit, and their alarms.
+    pub(in crate::sinumerik) fn watch_limit_switches(&mut self, unit: &Unit, to_nck: &ToNck) {
+        for number in unit.members() {
+            let signals = &to_nck.axes[number];
+            let (minus, plus) = (signals.hardware_limit_switch_minus(), signals.hardware_limit_switch_plus());
+            let before = self.axes[number].limits;
+            if !minus && !plus && !before.minus && !before.plus {
+                continue;
+            }
+            if (minus, plus) != (before.minus, before.plus) {
+                let inputs = [axis_bit(number, 12, 0, minus), axis_bit(number, 12, 1, plus), Input::None];
+                let cause = self.log.note(Place::Axis(number), Rule::HardwareLimitSwitch, inputs, EventId::NONE);
+                self.axes[number].limits = LimitSwitches { minus, plus, cause };
+            }
+            for (pressed, direction) in [(minus, -1), (plus, 1)] {
+                if pressed {
+                    let cause = self.axes[number].limits.cause;
+                    self.raise_limit(alarms::HARDWARE_LIMIT_SWITCH, unit.channel, number, direction, cause);
+                }
+            }
+        }
+    }
+
+    fn raise_limit(
+        &mut self,
+        alarm: AlarmNumber,
+        channel: ChannelNumber,
+        number: AxisNumber,
+        direction: i8,
+        cause: EventId,
+    ) {
+        let channel = Parameter::Channel(channel);
+        let parameters = [channel, Parameter::Axis(number), Parameter::Direction(direction), Parameter::None];
+        self.alarms.raise(alarm, Place::Axis(number), parameters, cause);
+    }
+
+    /// The event of a hardware limit switch of the unit that a movement in this direction leads further onto.
+    pub(in crate::sinumerik) fn limited(&self, unit: &Unit, direction: i8) -> Option<EventId> {
+        unit.members()
+            .map(|axis| self.axes[axis].limits)
+            .find(|limits| limits.blocks(direction))
+            .map(|limits| limits.cause)
+    }
+
+    /// The event of any hardware limit switch of the unit that is pressed.
+    pub(in crate::sinumerik) fn on_limit_switch(&self, unit: &Unit) -> Option<EventId> {
+        self.limited(unit, 1).or_else(|| self.limited(unit, -1))
+    }
+
+    /// The unit brakes because of a hardware limit switch, as MD36600 of the axis on it says.
+    pub(in crate::sinumerik) fn brake_at_limit(&mut self, unit: &Unit, parameters: &Parameters) {
+        let pressed = |axis: &AxisNumber| self.axes[*axis].limits.minus || self.axes[*axis].limits.plus;
+        if unit.members().filter(pressed).any(|axis| parameters.axes[axis].limit_without_ramp) {
+            for axis in unit.members() {
+                self.axes[axis].motion = Motion::Brake { deceleration: WITHOUT_RAMP };
+            }
+        }
+    }
+
+    /// The software limit of an axis in a direction, if it acts.
+    fn software_limit(
+        &self,
+        number: AxisNumber,
+        direction: i8,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> Option<Position> {
+        let (axis, signals) = (&parameters.axes[number], &to_nck.axes[number]);
+        if axis.modulo || !self.axes[number].is_referenced() {
+            return None;
+        }
+        let [minus, plus] = axis.software_limits;
+        Some(if direction > 0 {
+            plus[usize::from(signals.second_software_limit_switch_plus())]
+        } else {
+            minus[usize::from(signals.second_software_limit_switch_minus())]
+        })
+    }
+
+    /// The software limit that a movement in JOG meets in this direction.
+    pub(in crate::sinumerik) fn software_limit_ahead(
+        &self,
+        number: AxisNumber,
+        direction: i8,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> Ahead {
+        match self.software_limit(number, direction, parameters, to_nck) {
+            None => Ahead::Free,
+            Some(limit) => {
+                let way = (limit - self.axes[number].setpoint.position).increments();
+                if way.signum() * i64::from(direction) <= 0 { Ahead::Reached } else { Ahead::At(limit) }
+            }
+        }
+    }
+
+    /// 10621 while the leading axis of a unit rests on its software limit or is beyond it.
+    pub(in crate::sinumerik) fn watch_software_limits(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
+        let number = unit.leader();
+        for direction in [-1, 1] {
+            let Some(limit) = self.software_limit(number, direction, parameters, to_nck) else { continue };
+            let way = (limit - self.axes[number].setpoint.position).increments();
+            if way.signum() * i64::from(direction) <= 0 && self.axes[number].setpoint.is_at_rest() {
+                let cause = self.axes[number].causes.motion;
+                self.raise_limit(alarms::ON_SOFTWARE_LIMIT, unit.channel, number, direction, cause);
+            }
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! Position control: fine interpolation, dynamic response adaptation, feed-forward, servo gain.
+//!
+//! Called by the machine MD10070 / MD10060 times in each interpolation cycle, after the stage "setpoints", for every axis. Reads
+//! setpoints, encoders and the active parameter set; writes nothing but the delays of the setpoint branch.
+//!
+//! Position control compares the setpoint and the actual value of one instant, the end of the position-control cycle before: the
+//! following error that is shown is the one that it works on, v / Kv at steady speed.
+//!
+//! The setpoint branch: MD32900 delays the whole of it by MD32910 (PT1). Behind that, MD32610 times the setpoint velocity goes
+//! to the drive, and what the actual value is compared with is delayed by the balancing time, PT1 or dead time; a drive with the
+//! time constant that MD32810 says leaves nothing to be corrected. At steady speed the following error (setpoint of the
+//! interpolator minus actual value) is v · (MD32910 + MD32810) + (1 − MD32610) · v / Kv with feed-forward, and
+//! v / Kv + v · MD32910 without.
+//!
+//! Choices: an axis that needs no delay has none, and pays for none. An axis without power, and one whose setpoint
+//! is not put out (1.3, 20.1, an encoder fault), starts its branch anew.
+//! MD32620 = 2 and 4 act by their speed part; MD32650 does nothing.
+
+use serde::{Deserialize, Serialize};
+
+use crate::motion::{DeadTime, JerkFilter, Pt1, velocity_command};
+use crate::sinumerik::axis::Axis;
+use crate::sinumerik::parameters::dynamics::{Dynamics, FeedForward, Jerk, ParameterSet};
+use crate::sinumerik::parameters::{AxisParameters, Parameters};
+use crate::sinumerik::{Control, State};
+use crate::units::{AxisNumber, Position};
+
+/// What stands between the movement that is commanded and position control, where machine data ask for it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Shaping {
+    /// The jerk filter of the setpoint.
+    pub jerk: Option<JerkFilter>,
+    branch: Option<SetpointBranch>,
+}
+
+/// The delays in the setpoint branch of an axis.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct SetpointBranch {
+    matching: Pt1,
+    balancing: Pt1,
+    dead_time: DeadTime,
+}
+
+impl SetpointBranch {
+    fn reset(&mut self) {
+        self.matching.reset();
+        self.balancing.reset();
+        self.dead_time.reset();
+    }
+
+    /// The delayed setpoint is not where the setpoint is.
+    fn is_behind(&self) -> bool {
+        [self.matching.behind(), self.balancing.behind(), self.dead_time.behind()].iter().any(|way| way.abs() > 0.0)
+    }
+
+    /// One position-control cycle: how far the setpoint for the comparison is behind the one of the interpolator, in
+    /// increments, and the velocity that is fed forward.
+    fn pass(&mut self, mode: FeedForward, set: &ParameterSet, movement: f64, cycle: f64) -> (f64, f64) {
+        let before = self.matching.behind();
+        let matched = self.matching.delay(movement, set.matching_time, cycle);
+        let feed_forward = set.feed_forward_weight * matched / cycle;
+        match mode {
+            FeedForward::Off => (before, 0.0),
+            FeedForward::Pt1 => {
+                let behind = before + self.balancing.behind();
+                self.balancing.delay(matched, set.balancing_time, cycle);
+                (behind, feed_forward)
+            }
+            FeedForward::DeadTime => {
+                let behind = before + self.dead_time.behind();
+                self.dead_time.delay(matched, set.balancing_time / cycle);
+                (behind, feed_forward)
+            }
+        }
+    }
+}
+
+impl Control {
+    /// Position control of an axis in part `part` of `count` of the interpolation cycle: the velocity that its drive is to
+    /// have; `None` for a drive without power.
+    pub fn velocity_command(
+        &mut self,
+        number: AxisNumber,
+        encoders: [Position; 2],
+        part: u32,
+        count: u32,
+    ) -> Option<f64> {
+        let parameters = &self.parameters.axes[number];
+        let dynamics = &parameters.dynamics;
+        let state = &mut *self.state;
+        let axis = &mut state.axes[number];
+        let branch = state.shaping[number].as_deref_mut().and_then(|shaping| shaping.branch.as_mut());
+        let powered = axis.measuring_system.filter(|_| axis.enabling.is_powered());
+        let put_out = powered.is_some_and(|active| !axis.monitor.encoders[usize::from(active)].fault)
+            && !axis.signals.fast_stop
+            && axis.signals.disabled_at().is_none();
+        let branch = match branch {
+            Some(branch) if !put_out => {
+                branch.reset();
+                axis.branch = (0.0, 0.0);
+                None
+            }
+            other => other,
+        };
+        let active = usize::from(powered?);
+        let set = &dynamics.sets[usize::from(axis.parameter_set)];
+        let (shown, command) = match &set.misfit {
+            None => (encoders[active], 1.0),
+            Some(misfit) => (misfit.shown(active, encoders[active]), misfit.command),
+        };
+        let actual = shown + axis.offset[active];
+        if axis.monitor.encoders[active].fault || axis.signals.fast_stop {
+            axis.monitor.restart_model(actual);
+            return Some(0.0);
+        }
+        if let Some(held) = axis.signals.disabled_at() {
+            axis.monitor.restart_model(actual);
+            let deviation = (held - actual).increments() as f64;
+            return Some(limited(velocity_command(deviation, set.gain, axis.half_count, 0.0), parameters) * command);
+        }
+        let cycle = self.parameters.cycle.seconds() / f64::from(count);
+        if let Some(branch) = branch {
+            axis.branch = branch.pass(dynamics.feed_forward, set, axis.setpoint.velocity() * cycle, cycle);
+            axis.unsettled = axis.unsettled.wrapping_add(u32::from(branch.is_behind()));
+        }
+        // Of the time at which the actual value was taken.
+        let setpoint = axis.finely_interpolated(part - 1, count);
+        let wanted = axis.velocity_wanted(set, setpoint, actual, axis.half_count);
+        let ideal = axis.velocity_wanted(set, setpoint, axis.monitor.model(), Position::ZERO);
+        axis.monitor.move_model(ideal * cycle);
+        Some(limited(wanted, parameters) * command)
+    }
+}
+
+impl State {
+    /// Memory for the filters and delays that the active machine data ask for; what is in use already stays as it is.
+    pub(in crate::sinumerik) fn prepare_position_control(&mut self, parameters: &Parameters) {
+        let cycle = parameters.cycle.seconds() / f64::from(parameters.servo_cycles);
+        for (number, axis) in parameters.existing() {
+            let dynamics = &axis.dynamics;
+            let shaping = &mut self.shaping[number];
+            if !dynamics.delays_setpoints() {
+                self.axes[number].branch = (0.0, 0.0);
+            }
+            if !dynamics.jerk.is_limited() && !dynamics.delays_setpoints() {
+                *shaping = None;
+                continue;
+            }
+            let shaping = shaping.get_or_insert_default();
+            shaping.prepare_jerk(&dynamics.jerk);
+            shaping.prepare_branch(dynamics, cycle);
+        }
+    }
+}
+
+/// What of it the drive is given: MD36210.
+#[must_use]
+pub(in crate::sinumerik) fn limited(velocity: f64, parameters: &AxisParameters) -> f64 {
+    let limit = parameters.monitoring.speed_setpoint_limit;
+    velocity.clamp(-limit, limit)
+}
+
+impl Axis {
+    /// The velocity that position control asks for with an actual value.
+    #[must_use]
+    pub(in crate::sinumerik) fn velocity_wanted(
+        &self,
+        set: &ParameterSet,
+        setpoint: Position,
+        actual: Position,
+        half_count: Position,
+    ) -> f64 {
+        let (behind, feed_forward) = self.branch;
+        let deviation = (setpoint - actual).increments() as f64;
+        velocity_command(deviation - behind, set.gain, half_count, feed_forward)
+    }
+
+    fn finely_interpolated(&self, part: u32, count: u32) -> Position {
+        if part == count {
+            return self.setpoint.position;
+        }
+        if part == 0 {
+            return self.before;
+        }
+        let way = (self.setpoint.position - self.before).increments();
+        self.before + Position::new(way * i64::from(part) / i64::from(count))
+    }
+}
+
+impl Shaping {
+    fn prepare_jerk(&mut self, jerk: &Jerk) {
+        let windows = [jerk.longest, jerk.window];
+        if !jerk.is_limited() {
+            self.jerk = None;
+        } else if !self.jerk.as_ref().is_some_and(|filter| filter.has_windows_of(windows)) {
+            self.jerk = Some(JerkFilter::new(windows));
+        }
+    }
+
+    fn prepare_branch(&mut self, dynamics: &Dynamics, cycle: f64) {
+        if !dynamics.delays_setpoints() {
+            self.branch = None;
+            return;
+        }
+        let dead_time = DeadTime::new(dynamics.longest_dead_time() / cycle);
+        let branch = self.branch.get_or_insert_default();
+        if branch.dead_time.cycles() != dead_time.cycles() {
+            branch.dead_time = dead_time;
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! Axis disable 1.3, delete distance-to-go 2.2 and ramp-function generator fast stop 20.1: what they do to a unit.
+//!
+//! Called once per cycle for each unit: [`State::take_axis_signals`] before it is moved, [`State::stop_by_ramp_function_generator`]
+//! when its motions are commanded. Axis disable acts on the leading axis, for all axes of its unit, and has no effect on a
+//! synchronous axis (SIG-03); delete distance-to-go acts on the leading axis, and has no effect on a synchronous axis
+//! (SIG-04); the fast stop of any axis acts on all of its unit (SIG-07), and shows as 92.1 on each of them.
+//!
+//! Choices where the manuals leave one. **Axis disable**: setpoint and display go on while position control holds each
+//! axis where its setpoint was; it ends when 1.3 is 0 and the setpoints rest: then they take the place that was held,
+//! so that nothing moves. An approach or a synchronising motion neither starts nor goes on (20005). **Delete
+//! distance-to-go**: its rising edge ends an increment or the way of a handwheel; a movement without an end (continuous,
+//! reference point approach) has none to delete. **Fast stop**: the drives brake to speed 0 by themselves, position control
+//! stays active and its setpoint follows the actual value; increments and ways of handwheels are dropped, an
+//! approach ends with 20005; a key that acts while it is held goes on when 20.1 goes.
+
+use serde::{Deserialize, Serialize};
+
+use crate::image::ToNck;
+use crate::sinumerik::axis::Motion;
+use crate::sinumerik::jog::increments::Movement;
+use crate::sinumerik::log::axis_bit;
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::{State, Unit};
+use crate::units::{AxisNumber, Position};
+use crate::variables::{EventId, Input, Place};
+
+/// The state of these signals on one axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct AxisSignals {
+    /// The unit is stopped by 20.1: 92.1.
+    pub fast_stop: bool,
+    /// Why.
+    pub fast_stop_cause: EventId,
+    /// Where position control holds the axis while its setpoint is not output.
+    disabled_at: Option<Position>,
+    /// 2.2 in the last cycle.
+    delete_was: bool,
+}
+
+impl AxisSignals {
+    /// The setpoint of position control while axis disable acts.
+    #[must_use]
+    #[inline]
+    pub(in crate::sinumerik) const fn disabled_at(&self) -> Option<Position> {
+        self.disabled_at
+    }
+
+    /// What position control works on is not the setpoint: axis disable, or the fast stop.
+    #[must_use]
+    pub(in crate::sinumerik) const fn withholds_setpoint(&self) -> bool {
+        self.fast_stop || self.disabled_at.is_some()
+    }
+
+    /// The same place gets another value.
+    pub(in crate::sinumerik) fn shift(&mut self, by: Position) {
+        if let Some(held) = &mut self.disabled_at {
+            *held += by;
+        }
+    }
+
+    /// Position control holds another place: the actual value.
+    pub(in crate::sinumerik) fn hold_at(&mut self, actual: Position) {
+        if self.disabled_at.is_some() {
+            self.disabled_at = Some(actual);
+        }
+    }
+}
+
+impl State {
+    /// Takes the signals of one unit.
+    pub(in crate::sinumerik) fn take_axis_signals(&mut self, unit: &Unit, to_nck: &ToNck) {
+        let leader = unit.leader();
+        let stopped_by = unit.members().find(|&axis| to_nck.axes[axis].ramp_function_generator_fast_stop());
+        let disable = to_nck.axes[leader].axis_spindle_disable();
+        for number in unit.members() {
+            let delete = to_nck.axes[number].delete_distance_to_go_spindle_reset();
+            let was = std::mem::replace(&mut self.axes[number].signals.delete_was, delete);
+            if delete && !was && number == leader {
+                self.delete_distance_to_go(leader);
+            }
+            if stopped_by.is_some() != self.axes[number].signals.fast_stop {
+                let axis = stopped_by.unwrap_or(number);
+                let input = axis_bit(axis, 20, 1, stopped_by.is_some());
+                let event = self.log.note_one(Place::Axis(number), Rule::FastStop, input, EventId::NONE);
+                self.axes[number].signals.fast_stop = stopped_by.is_some();
+                self.axes[number].signals.fast_stop_cause = event;
+            }
+        }
+        if disable || self.axes[leader].signals.disabled_at.is_some() {
+            self.disable(unit, disable);
+        }
+    }
+
+    /// Axis disable, from its beginning to the rest of the setpoints after it.
+    fn disable(&mut self, unit: &Unit, disable: bool) {
+        let leader = unit.leader();
+        let rest = unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest());
+        let ends = !disable && rest;
+        if disable != self.axes[leader].signals.disabled_at.is_some() && (disable || ends) {
+            let input = axis_bit(leader, 1, 3, disable);
+            self.log.note_one(Place::Axis(leader), Rule::AxisDisable, input, EventId::NONE);
+        }
+        for number in unit.members() {
+            let axis = &mut self.axes[number];
+            if axis.enabling.follow_up {
+                axis.signals.hold_at(axis.actual);
+            }
+            let held = axis.signals.disabled_at.unwrap_or(axis.setpoint.position);
+            if ends {
+                axis.signals.disabled_at = None;
+                axis.setpoint = crate::motion::Setpoint::at(held);
+                axis.jogging.movement = Movement::None;
+            } else {
+                axis.signals.disabled_at = Some(held);
+            }
+        }
+    }
+
+    fn delete_distance_to_go(&mut self, number: AxisNumber) {
+        match self.axes[number].jogging.movement {
+            Movement::Pending(..) | Movement::Path(..) => {}
+            Movement::None | Movement::Continuous(_) => return,
+        }
+        self.axes[number].jogging.movement = Movement::None;
+        let input = axis_bit(number, 2, 2, true);
+        let event = self.log.note_one(Place::Axis(number), Rule::DistanceDeleted, input, EventId::NONE);
+        self.traverse(number, 0, 0, event);
+    }
+
+    /// What forbids an approach or a synchronising motion of a unit: axis disable, or the fast stop.
+    pub(in crate::sinumerik) fn motion_forbidden(&self, unit: &Unit) -> Option<Input> {
+        let leader = unit.leader();
+        if self.axes[leader].signals.disabled_at.is_some() {
+            return Some(axis_bit(leader, 1, 3, true));
+        }
+        self.axes[leader].signals.fast_stop.then(|| axis_bit(leader, 92, 1, true))
+    }
+
+    /// With the fast stop the setpoint follows the axis, whatever else was commanded.
+    pub(in crate::sinumerik) fn stop_by_ramp_function_generator(&mut self, unit: &Unit) {
+        if self.axes[unit.leader()].signals.fast_stop {
+            for axis in unit.members() {
+                self.axes[axis].motion = Motion::Track;
+            }
+        }
+    }
+}

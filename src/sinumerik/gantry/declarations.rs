@@ -1,0 +1,66 @@
+//! Machine data that do not go with a gantry grouping, but do not forbid it either: they are shown.
+//!
+//! Called whenever units are formed: after power on, when machine data become active, when a grouping closes.
+//!
+//! - MD30450 = 1 on a synchronous axis of a closed grouping is ignored, the leading axis' state counts; 4300 says so (DEF-11, E-21).
+//!   It comes once: at power on, when the datum becomes active, or when the grouping closes; RESET takes it away.
+//! - Data of interpolation and jerk that differ within a grouping (DYN-03) are told at power on only. The manuals give no
+//!   number for it: `gantry-unequal-data`, an entry for each datum of each synchronous axis. `machine-data check` tells the same.
+
+use serde::{Deserialize, Serialize};
+
+use crate::sinumerik::State;
+use crate::sinumerik::alarms;
+use crate::sinumerik::gantry::Phase;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::groupings::Unequal;
+use crate::sinumerik::rules::Rule;
+use crate::units::AxisSet;
+use crate::variables::{Input, Parameter, Place};
+
+/// What has been told.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Declared {
+    /// The data that must be equal have been looked at since power on.
+    compared: bool,
+    /// Synchronous axes of closed groupings with MD30450 = 1.
+    concurrent: AxisSet,
+}
+
+impl State {
+    /// Shows what is new.
+    pub(in crate::sinumerik) fn report_declarations(&mut self, parameters: &Parameters) {
+        if !std::mem::replace(&mut self.declared.compared, true) {
+            // The latest of equal number and place is the first in the list.
+            for &unequal in parameters.groupings.unequal.iter().rev() {
+                self.report_unequal(unequal, parameters);
+            }
+        }
+        let mut concurrent = AxisSet::NONE;
+        for grouping in self.groupings.iter().filter(|grouping| grouping.phase != Phase::Open) {
+            for axis in grouping.coupling.followers() {
+                concurrent.set(axis, parameters.axes[axis].gantry.concurrent);
+            }
+        }
+        let known = std::mem::replace(&mut self.declared.concurrent, concurrent);
+        for axis in concurrent.iter().filter(|&axis| !known.contains(axis)) {
+            let input = Input::Datum(30450, Some(axis), 1.0);
+            let cause = self.log.note_one(Place::Axis(axis), Rule::ConcurrentAxisIgnored, input, self.definition_cause);
+            let shown = [Parameter::Number(30450), Parameter::Axis(axis), Parameter::None, Parameter::None];
+            self.alarms.raise(alarms::DECLARATION_NOT_ALLOWED, Place::Axis(axis), shown, cause);
+        }
+    }
+
+    fn report_unequal(&mut self, unequal: Unequal, parameters: &Parameters) {
+        let Unequal { grouping, leader, axis, datum, values: [wanted, found] } = unequal;
+        let inputs = [Input::Datum(datum, Some(axis), found), Input::Datum(datum, Some(leader), wanted), Input::None];
+        let cause = self.log.note(Place::Axis(axis), Rule::UnequalData, inputs, self.definition_cause);
+        let shown = [
+            Parameter::Channel(parameters.axes[axis].channel),
+            Parameter::Axis(axis),
+            Parameter::Number(i64::from(datum)),
+            Parameter::Number(i64::from(grouping)),
+        ];
+        self.alarms.raise(alarms::GANTRY_UNEQUAL_DATA, Place::Axis(axis), shown, cause);
+    }
+}

@@ -1,0 +1,298 @@
+//! Handwheels 1 to 3: their pulses, which axis they move, and how far.
+//!
+//! Called once per cycle: [`State::turn_handwheels`] before the units, [`State::take_handwheels`] from `jog/mod.rs` while an axis is
+//! jogged; the wheels themselves are turned from outside. Reads DBX4.0 to 4.2 and 7.0 of the axis, and the selection of the
+//! HMI in DB10.DBB100 to 102 (for a machine axis, 100.7 = 1), which acts like 4.0 to 4.2, as the basic program carries it over;
+//! shows the counters in DB10.DBB68 to 70, DBX64.0 to 64.2 and 67.0. A pulse is an increment of the active machine function
+//! (MD11330 or SD41010 times MD31090, at most MD32080) divided by MD11320; a handwheel of a synchronous axis of a closed
+//! grouping moves nothing (MIS-01), and that of its leading axis moves the grouping (MIS-02).
+//!
+//! Stop conditions are MD32084: bit 0 override 0 %, bit 2 feed stop and feed disable, bit 3 clamping (2.3), bits 4 and 5
+//! missing controller and pulse enable; 1 drops the way and ignores pulses, 0 keeps the way and collects pulses.
+//! Its bit 6 takes MD32000 as the largest velocity, else that of the keys; with bit 7 the override counts as 100 %, but 0 % holds.
+//!
+//! Choices where the manuals leave one: with continuous, a pulse has no way and nothing moves; of several handwheels
+//! that are assigned to an axis, 1 counts before 2 before 3; pulses that lead beyond a software limit are ignored; without path mode (MD11346 = 0 or 2) the
+//! rest of the way is dropped 100 ms after the last pulse; the inversion acts at once on the pulses that follow; a
+//! handwheel that is taken from an axis drops its way; 20051 stays until the key has ended its movement; a key that meets a
+//! moving handwheel (20050) moves nothing until it is released and pressed again.
+
+use serde::{Deserialize, Serialize};
+
+use crate::image::{AxisToNck, NckHmi};
+use crate::sinumerik::alarms;
+use crate::sinumerik::jog::increments::{By, Movement};
+use crate::sinumerik::log::axis_bit;
+use crate::sinumerik::parameters::{AxisParameters, Parameters};
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::{Control, State};
+use crate::units::{AxisNumber, Position};
+use crate::variables::{EventId, Input, Place, SignalBit};
+
+/// How many handwheels there are.
+pub(in crate::sinumerik) const COUNT: usize = 3;
+
+/// One handwheel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Handwheel {
+    /// Pulses that one turn has.
+    pulses: i64,
+    /// Over how many cycles they spread.
+    cycles: i64,
+    /// How many of these have passed.
+    passed: i64,
+    /// Pulses in this cycle.
+    pub moved: i64,
+    /// All pulses so far, as the interface counts them.
+    pub counter: u8,
+    /// The machine axis for which the HMI selects it.
+    selected: Option<AxisNumber>,
+}
+
+impl Handwheel {
+    fn turn(&mut self, pulses: i64, cycles: i64) {
+        let left = self.pulses - self.share(self.passed);
+        *self = Self { pulses: left + pulses, cycles: cycles.max(1), passed: 0, ..*self };
+    }
+
+    /// Pulses of the turn after so many cycles.
+    const fn share(&self, passed: i64) -> i64 {
+        if self.cycles == 0 { 0 } else { self.pulses.saturating_mul(passed) / self.cycles }
+    }
+
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the counter runs over")]
+    fn advance(&mut self) {
+        self.moved = 0;
+        if self.passed < self.cycles {
+            self.moved = self.share(self.passed + 1) - self.share(self.passed);
+            self.passed += 1;
+            self.counter = self.counter.wrapping_add(self.moved as u8);
+            if self.passed == self.cycles {
+                *self = Self { pulses: 0, cycles: 0, passed: 0, ..*self };
+            }
+        }
+    }
+}
+
+/// What a stop condition does to handwheels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Hold {
+    /// There is none.
+    None,
+    /// The way is kept, pulses are collected.
+    Interrupt,
+    /// The way is dropped, pulses are ignored.
+    Abort,
+}
+
+impl Control {
+    /// Turns a handwheel, 1 to 3, by pulses that spread evenly over cycles; what is left of its last turn is turned with it.
+    pub fn turn_handwheel(&mut self, number: u8, pulses: i32, cycles: u64) {
+        if let Some(handwheel) = self.state.handwheels.get_mut(usize::from(number.saturating_sub(1))) {
+            handwheel.turn(pulses.into(), i64::try_from(cycles).unwrap_or(i64::MAX));
+        }
+    }
+
+    /// Takes which machine axes the HMI selects.
+    #[inline]
+    pub fn select_handwheels(&mut self, hmi: &NckHmi) {
+        let selected = [
+            (hmi.handwheel_1_selected(), hmi.handwheel_1_machine_axis(), hmi.handwheel_1_axis_number()),
+            (hmi.handwheel_2_selected(), hmi.handwheel_2_machine_axis(), hmi.handwheel_2_axis_number()),
+            (hmi.handwheel_3_selected(), hmi.handwheel_3_machine_axis(), hmi.handwheel_3_axis_number()),
+        ];
+        for (handwheel, (selected, machine_axis, axis)) in self.state.handwheels.iter_mut().zip(selected) {
+            handwheel.selected = if selected && machine_axis { AxisNumber::new(axis) } else { None };
+        }
+    }
+}
+
+impl State {
+    /// The pulses of this cycle.
+    pub(in crate::sinumerik) fn turn_handwheels(&mut self) {
+        for handwheel in &mut self.handwheels {
+            handwheel.advance();
+        }
+    }
+
+    /// What handwheels add to the way of an axis, and whether they may.
+    pub(in crate::sinumerik) fn take_handwheels(
+        &mut self,
+        number: AxisNumber,
+        parameters: &Parameters,
+        signals: &AxisToNck,
+    ) {
+        let mut active = signals.activated_handwheels();
+        for (bit, handwheel) in self.handwheels.iter().enumerate() {
+            active |= u8::from(handwheel.selected == Some(number)) << bit;
+        }
+        // One handwheel moves an axis: 1 before 2 before 3.
+        active &= active.wrapping_neg();
+        if active == 0 && self.axes[number].jogging.handwheels == 0 {
+            return;
+        }
+        let inverted = active != 0 && signals.invert_handwheel_direction_of_rotation();
+        let shown = &self.axes[number].jogging;
+        if active != shown.handwheels || inverted != shown.inverted {
+            let changed = active ^ shown.handwheels;
+            let inputs = self.selection_inputs(number, if changed == 0 { active } else { changed }, signals);
+            let event = self.log.note(Place::Axis(number), Rule::HandwheelActivated, inputs, EventId::NONE);
+            let jogging = &mut self.axes[number].jogging;
+            (jogging.handwheels, jogging.inverted, jogging.handwheel_cause) = (active, inverted, event);
+            jogging.still = 0;
+            if active == 0 {
+                self.drop_way_of_handwheels(number);
+            }
+        }
+        let axis_parameters = &parameters.axes[number];
+        let (mut moved, mut detents) = (false, 0.0);
+        for (bit, handwheel) in self.handwheels.iter().enumerate() {
+            let per_detent = parameters.handwheel_pulses[bit];
+            if active >> bit & 1 == 1 && handwheel.moved != 0 && per_detent.abs() > 0.0 {
+                moved = true;
+                detents += (handwheel.moved as f64 / per_detent).clamp(-1e12, 1e12);
+            }
+        }
+        let hold = self.handwheel_hold(number, axis_parameters, signals);
+        let jogging = &mut self.axes[number].jogging;
+        let increment = limited(jogging.function.way(axis_parameters), axis_parameters.handwheel_maximum);
+        // Counted while it matters only, so that an axis that stands under a handwheel rests.
+        jogging.still = if moved || !jogging.movement.is_by_handwheel() { 0 } else { jogging.still + 1 };
+        let drops = parameters.handwheel_drops_rest && jogging.still > parameters.handwheel_still_cycles;
+        if hold == Hold::Abort || drops {
+            self.drop_way_of_handwheels(number);
+        }
+        let jogging = &mut self.axes[number].jogging;
+        if !moved || increment == Position::ZERO || hold == Hold::Abort {
+            return;
+        }
+        let exact = detents * increment.increments() as f64 * if inverted { -1.0 } else { 1.0 } + jogging.carry;
+        // No way of a machine, but sums of positions stay exact.
+        let exact = exact.clamp(-1e15, 1e15);
+        #[expect(clippy::cast_possible_truncation, reason = "bounded above")]
+        let way = Position::new(exact.round() as i64);
+        jogging.carry = exact - exact.round();
+        jogging.movement = match jogging.movement {
+            Movement::None => Movement::Pending(way, By::Handwheel),
+            Movement::Pending(before, By::Handwheel) => Movement::Pending(before + way, By::Handwheel),
+            Movement::Path(target, By::Handwheel) => Movement::Path(target + way, By::Handwheel),
+            by_key @ (Movement::Continuous(_) | Movement::Pending(..) | Movement::Path(..)) => {
+                jogging.refused = true;
+                by_key
+            }
+        };
+    }
+
+    fn drop_way_of_handwheels(&mut self, number: AxisNumber) {
+        let jogging = &mut self.axes[number].jogging;
+        if jogging.movement.is_by_handwheel() {
+            jogging.movement = Movement::None;
+            jogging.carry = 0.0;
+            let parent = jogging.handwheel_cause;
+            let event = self.log.note_plain(Place::Axis(number), Rule::HandwheelDropped, parent);
+            self.traverse(number, 0, 0, event);
+        }
+    }
+
+    /// The signals that assign these handwheels, and the one that turns their direction round.
+    fn selection_inputs(&self, number: AxisNumber, handwheels: u8, signals: &AxisToNck) -> [Input; 3] {
+        let handwheel = u8::try_from(handwheels.trailing_zeros().min(2)).unwrap_or(0);
+        let by_plc = axis_bit(number, 4, handwheel, signals.activated_handwheels() >> handwheel & 1 == 1);
+        let selected = self.handwheels[usize::from(handwheel)].selected == Some(number);
+        let strobe = SignalBit { place: Place::Nck, byte: 100 + u16::from(handwheel), bit: 6 };
+        let by_hmi = if selected { Input::Bit(strobe, true) } else { Input::None };
+        let inverted = signals.invert_handwheel_direction_of_rotation();
+        [by_plc, by_hmi, if inverted { axis_bit(number, 7, 0, true) } else { Input::None }]
+    }
+
+    /// The stop conditions of MD32084.
+    fn handwheel_hold(&self, number: AxisNumber, parameters: &AxisParameters, signals: &AxisToNck) -> Hold {
+        let axis = &self.axes[number];
+        let off = !axis.enabling.is_on();
+        let pulses = axis.enabling.pulses_enabled();
+        let aborts = |bit: u8| parameters.handwheel_stop_conditions >> bit & 1 == 1;
+        let conditions = [
+            (0, axis.feed_factor <= 0.0),
+            (2, axis.feed_held),
+            (3, signals.clamping_in_progress() && aborts(3)),
+            (4, off && pulses),
+            (5, off && !pulses),
+        ];
+        conditions.into_iter().filter(|&(_, holds)| holds).fold(Hold::None, |hold, (bit, _)| {
+            if hold == Hold::Abort || aborts(bit) { Hold::Abort } else { Hold::Interrupt }
+        })
+    }
+
+    /// 20050 and 20051: a key meets a handwheel that moves the axis, or the other way round.
+    pub(in crate::sinumerik) fn raise_handwheel_alarms(&mut self, number: AxisNumber, key: i8) {
+        let jogging = &mut self.axes[number].jogging;
+        let cause = jogging.handwheel_cause;
+        let meets = jogging.key_meets_handwheel(key);
+        jogging.refused &= jogging.movement != Movement::None && !jogging.movement.is_by_handwheel();
+        if jogging.refused {
+            self.raise_axis_alarm(alarms::HANDWHEEL_NOT_POSSIBLE, number, cause);
+        }
+        if meets {
+            self.raise_axis_alarm(alarms::HANDWHEEL_ACTIVE, number, cause);
+        }
+    }
+}
+
+/// The velocity of a handwheel's way, with the override.
+#[must_use]
+pub(in crate::sinumerik) fn velocity(parameters: &AxisParameters, key_velocity: f64, factor: f64) -> f64 {
+    let bit = |bit: u8| parameters.handwheel_stop_conditions >> bit & 1 == 1;
+    let velocity = if bit(6) { parameters.maximum_velocity } else { key_velocity };
+    // The override counts as 100 % with bit 7, but 0 % always acts.
+    let factor = if bit(7) && factor > 0.0 { 1.0 } else { factor };
+    (velocity * factor).min(parameters.maximum_velocity)
+}
+
+/// An increment of a size of at most `maximum`, where that is not 0.
+fn limited(increment: Position, maximum: Position) -> Position {
+    if maximum == Position::ZERO || increment.abs() <= maximum {
+        increment
+    } else if increment < Position::ZERO {
+        -maximum
+    } else {
+        maximum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 7 pulses over 3 cycles: 7/3, 14/3, 7 whole pulses after each, so 2, 2 and 3 in them; then none.
+    #[test]
+    fn pulses_spread_evenly_and_none_is_lost() {
+        for sign in [1, -1] {
+            let mut handwheel = Handwheel::default();
+            handwheel.turn(sign * 7, 3);
+            let moved: Vec<_> = (0..5)
+                .map(|_| {
+                    handwheel.advance();
+                    handwheel.moved
+                })
+                .collect();
+            assert_eq!(moved, [2, 2, 3, 0, 0].map(|pulses| sign * pulses));
+        }
+    }
+
+    #[test]
+    fn a_second_turn_takes_the_rest_of_the_first_along() {
+        let mut handwheel = Handwheel::default();
+        handwheel.turn(10, 10);
+        for _ in 0..4 {
+            handwheel.advance();
+        }
+        assert_eq!(handwheel.counter, 4);
+        handwheel.turn(-1, 1);
+        handwheel.advance();
+        assert_eq!((handwheel.moved, handwheel.counter), (5, 9));
+        // 250 more: the counter is one byte.
+        handwheel.turn(250, 1);
+        handwheel.advance();
+        assert_eq!(handwheel.counter, 3);
+    }
+}

@@ -1,0 +1,188 @@
+//! The channels: RESET, the alarm-cancel key, NC start, and the states that they show.
+//!
+//! RESET of a channel is the rising edge of DB21.DBX7.7 or of DB11.DBX0.7 of its mode group; while either is 1 nothing of it
+//! starts to move. It cancels the channel's alarms of class RESET; those of class mode group RESET go when RESET is pressed in
+//! all channels of the group at once. The alarm-cancel key concerns all channels. As long as no NC program can be selected,
+//! NC start does no more than to cancel alarms and to be refused without a reference point (10203).
+
+use serde::{Deserialize, Serialize};
+
+use crate::image::ToNck;
+use crate::sinumerik::alarms::{self, Cancel, Reaction};
+use crate::sinumerik::operation::mode_group::Mode;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::referencing::ChannelReferencing;
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::{Control, State};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
+use crate::variables::{EventId, Input, Parameter, Place, SignalBit};
+
+use crate::sinumerik::machine_data::Effect;
+
+/// The state of a channel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Channel {
+    /// RESET is pressed.
+    pub reset: bool,
+    /// The latest RESET.
+    pub reset_cause: EventId,
+    /// What took alarms away last: RESET, the cancel key or NC start.
+    pub cancel_cause: EventId,
+    /// NC start in the last cycle.
+    start_was: bool,
+    /// Channel-specific referencing.
+    pub referencing: ChannelReferencing,
+}
+
+impl Channel {
+    /// 33.0.
+    #[must_use]
+    pub(in crate::sinumerik) const fn is_referencing(&self) -> bool {
+        self.referencing.is_active()
+    }
+
+    /// Channel-specific referencing started this axis.
+    #[must_use]
+    pub(in crate::sinumerik) const fn started(&self, axis: AxisNumber) -> bool {
+        self.referencing.started(axis)
+    }
+}
+
+impl Control {
+    /// RESET, the cancel key and NC start; data of the classes RESET and NEWCONF become active with a RESET.
+    pub(in crate::sinumerik) fn reset_and_cancel(&mut self, to_nck: &ToNck, cancel_key: bool) {
+        let (parameters, state) = (&*self.parameters, &mut *self.state);
+        let mut any = false;
+        for (channel, group) in parameters.existing_channels() {
+            state.start(channel, group, parameters, to_nck);
+            any |= state.reset(channel, group, parameters, to_nck);
+        }
+        if cancel_key {
+            state.cancel(Cancel::CancelKey, None, parameters);
+        }
+        if !any {
+            return;
+        }
+        for group in parameters.existing_mode_groups() {
+            let mut channels = parameters.existing_channels().filter(|(_, of)| *of == group);
+            if channels.all(|(channel, _)| state.channels[channel].reset) {
+                state.alarms.cancel(Cancel::ModeGroupReset, |place| parameters.concerns_mode_group(place, group));
+            }
+        }
+        self.activate(Effect::Reset);
+    }
+}
+
+impl State {
+    /// RESET of a channel; whether it begins in this cycle.
+    fn reset(
+        &mut self,
+        channel: ChannelNumber,
+        group: ModeGroupNumber,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> bool {
+        let by_mode_group = to_nck.mode_groups[group].mode_group_reset();
+        let pressed = to_nck.channels[channel].channel_reset() || by_mode_group;
+        let rises = pressed && !self.channels[channel].reset;
+        self.channels[channel].reset = pressed;
+        if !rises {
+            return false;
+        }
+        let bit = if by_mode_group {
+            SignalBit { place: Place::ModeGroup(group), byte: 0, bit: 7 }
+        } else {
+            SignalBit { place: Place::Channel(channel), byte: 7, bit: 7 }
+        };
+        let place = Place::Channel(channel);
+        let event = self.log.note_one(place, Rule::ResetDone, Input::Bit(bit, true), EventId::NONE);
+        self.channels[channel].reset_cause = event;
+        self.channels[channel].cancel_cause = event;
+        self.alarms.cancel(Cancel::Reset, |place| parameters.concerns_channel(place, channel));
+        for index in 0..self.groupings.len() {
+            let leader = self.groupings[index].coupling.leader();
+            if parameters.axes[leader].channel == channel {
+                self.reset_grouping(index, event);
+            }
+        }
+        true
+    }
+
+    /// NC start of a channel.
+    fn start(&mut self, channel: ChannelNumber, group: ModeGroupNumber, parameters: &Parameters, to_nck: &ToNck) {
+        let signals = &to_nck.channels[channel];
+        let start = signals.nc_start();
+        let was = std::mem::replace(&mut self.channels[channel].start_was, start);
+        let rises = start && !was;
+        if rises {
+            self.cancel(Cancel::NcStart, Some(channel), parameters);
+        }
+        let runs_programs = self.mode_groups[group].mode != Mode::Jog;
+        if rises && runs_programs && !signals.nc_start_disable() && !self.is_referenced(channel, parameters) {
+            let place = Place::Channel(channel);
+            let bit = Input::Bit(SignalBit { place, byte: 7, bit: 1 }, true);
+            let missing = Input::Bit(SignalBit { place, byte: 36, bit: 2 }, false);
+            let event = self.log.note(place, Rule::StartRefused, [bit, missing, Input::None], EventId::NONE);
+            let shown = [Parameter::Channel(channel), Parameter::None, Parameter::None, Parameter::None];
+            self.alarms.raise(alarms::START_WITHOUT_REFERENCE, place, shown, event);
+        }
+    }
+
+    /// The cancel key, or NC start of a channel.
+    fn cancel(&mut self, by: Cancel, channel: Option<ChannelNumber>, parameters: &Parameters) {
+        let concerns = |place| channel.is_none_or(|channel| parameters.concerns_channel(place, channel));
+        if self.alarms.cancel(by, concerns) {
+            let shown = channel.unwrap_or(ChannelNumber::FIRST);
+            let event = self.log.note_plain(Place::Channel(shown), Rule::AlarmCancelled, EventId::NONE);
+            for (number, _) in parameters.existing_channels() {
+                if channel.is_none_or(|channel| channel == number) {
+                    self.channels[number].cancel_cause = event;
+                }
+            }
+        }
+    }
+
+    /// What stops every movement of a channel: RESET, or an alarm that says NC stop, NC not ready or mode group not ready.
+    pub(in crate::sinumerik) fn stop_cause(&self, channel: ChannelNumber, parameters: &Parameters) -> Option<EventId> {
+        if let Some(cause) = self.emergency_stop.active_cause() {
+            return Some(cause);
+        }
+        if self.channels[channel].reset {
+            return Some(self.channels[channel].reset_cause);
+        }
+        self.alarms
+            .first(|place, alarm| {
+                alarm.reaction.has(Reaction::STOP) && parameters.concerns_channel(place, channel)
+                    || alarm.reaction.has(Reaction::NC_NOT_READY)
+            })
+            .or_else(|| self.mode_group_not_ready(parameters.mode_group(channel), parameters))
+    }
+
+    /// The alarm that takes "mode group ready" from a group; one that concerns a single axis does not stop the others.
+    pub(in crate::sinumerik) fn mode_group_not_ready(
+        &self,
+        group: ModeGroupNumber,
+        parameters: &Parameters,
+    ) -> Option<EventId> {
+        self.alarms.first(|place, alarm| {
+            let only_channel = parameters.only_channel_not_ready && alarm.reaction.has(Reaction::CHANNEL_NOT_READY);
+            let not_ready = alarm.reaction.has(Reaction::MODE_GROUP_NOT_READY) && !only_channel;
+            not_ready && parameters.concerns_mode_group(place, group)
+        })
+    }
+
+    /// The first alarm with a reaction that concerns a channel.
+    pub(in crate::sinumerik) fn channel_alarm(
+        &self,
+        channel: ChannelNumber,
+        reaction: Reaction,
+        parameters: &Parameters,
+    ) -> Option<EventId> {
+        self.alarms.first(|place, alarm| alarm.reaction.has(reaction) && parameters.concerns_channel(place, channel))
+    }
+
+    /// The axes that need their reference point for NC start have it: those with MD34110 above −1, where MD20700 is not 0.
+    pub(in crate::sinumerik) fn is_referenced(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
+        self.summary.referenced.has_all_of(parameters.channels[channel].reference_needed)
+    }
+}

@@ -1,0 +1,62 @@
+//! Emergency stop with its handshake (DB10.DBX56.1, 56.2, 106.1; E-06 names the bits).
+//!
+//! Called before RESET in the control's part of a cycle. 56.1 = 1 begins it: alarm 3000 (NC not ready, mode group not ready),
+//! 106.1 = 1, all axes brake on the ramp of MD36610, are switched off after MD36620 at the latest, and follow up. It ends when
+//! 56.1 is 0 and acknowledge 56.2 and mode group RESET (DB11.DBX0.7, of every mode group that has channels) are 1 together; neither
+//! alone ends it.
+
+use serde::{Deserialize, Serialize};
+
+use crate::image::ToNck;
+use crate::sinumerik::State;
+use crate::sinumerik::alarms::Cancel;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::rules::Rule;
+use crate::variables::{EventId, Input, Place, SignalBit};
+
+/// The state of the emergency stop.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct EmergencyStop {
+    active: bool,
+    /// The event that began or ended it.
+    pub(in crate::sinumerik) cause: EventId,
+}
+
+impl EmergencyStop {
+    /// 106.1.
+    #[must_use]
+    pub(in crate::sinumerik) const fn is_active(self) -> bool {
+        self.active
+    }
+
+    /// The event behind it while it is active.
+    #[must_use]
+    pub(in crate::sinumerik) fn active_cause(self) -> Option<EventId> {
+        self.active.then_some(self.cause)
+    }
+}
+
+fn bit(bit: u8, value: bool) -> Input {
+    Input::Bit(SignalBit { place: Place::Nck, byte: 56, bit }, value)
+}
+
+impl State {
+    /// One cycle of the handshake.
+    pub(in crate::sinumerik) fn watch_emergency_stop(&mut self, parameters: &Parameters, to_nck: &ToNck) {
+        let requested = to_nck.nck.emergency_stop();
+        let acknowledged = to_nck.nck.acknowledge_emergency_stop();
+        let reset = parameters.existing_mode_groups().all(|group| to_nck.mode_groups[group].mode_group_reset());
+        if requested && !self.emergency_stop.active {
+            let cause = self.log.note_one(Place::Nck, Rule::EmergencyStop, bit(1, true), EventId::NONE);
+            self.emergency_stop = EmergencyStop { active: true, cause };
+        } else if !requested && acknowledged && reset && self.emergency_stop.active {
+            let pressed = |group| Input::Bit(SignalBit { place: Place::ModeGroup(group), byte: 0, bit: 7 }, true);
+            // There is room for one; without RESET of the others it would not have ended.
+            let group = parameters.existing_mode_groups().next().map_or(Input::None, pressed);
+            let inputs = [bit(1, false), bit(2, true), group];
+            let cause = self.log.note(Place::Nck, Rule::EmergencyStopAcknowledged, inputs, self.emergency_stop.cause);
+            self.emergency_stop = EmergencyStop { active: false, cause };
+            self.alarms.cancel(Cancel::ModeGroupReset, |_| true);
+        }
+    }
+}

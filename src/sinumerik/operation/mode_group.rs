@@ -1,0 +1,159 @@
+//! The mode groups: modes and machine functions.
+//!
+//! Called first in the control's part of a cycle. Requests are levels (O-19): the highest of JOG, MDA, AUTO that is 1
+//! is taken, all 0 keeps the mode, DBX0.4 inhibits a change. Machine functions act within their mode: TEACH IN in MDA, REF and
+//! REPOS in JOG; REF wins over REPOS. REPOS moves an axis back to where a program was interrupted; as long as no program has
+//! been, its keys move nothing. MD10720 names the mode after power on, JOG where it does not.
+
+use serde::{Deserialize, Serialize};
+
+use crate::image::ToNck;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::{State, Unit};
+use crate::units::ModeGroupNumber;
+use crate::variables::{EventId, Input, Place, SignalBit};
+
+/// An operating mode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum Mode {
+    /// Automatic.
+    Automatic,
+    /// Manual data input, automatic.
+    Mda,
+    /// Manual traversing.
+    #[default]
+    Jog,
+}
+
+impl Mode {
+    /// After power on, as MD10720 says.
+    const fn after_power_on(datum: i32) -> Self {
+        match datum {
+            0 | 1 => Self::Automatic,
+            2..=5 => Self::Mda,
+            _ => Self::Jog,
+        }
+    }
+}
+
+/// What the keys mean within a mode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum MachineFunction {
+    /// The mode itself.
+    #[default]
+    None,
+    /// TEACH IN in MDA.
+    TeachIn,
+    /// REPOS in JOG.
+    Repos,
+    /// REF in JOG.
+    Reference,
+}
+
+/// The state of a mode group.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct ModeGroup {
+    /// The active mode.
+    pub mode: Mode,
+    /// The active machine function.
+    pub function: MachineFunction,
+    /// The event behind the mode.
+    pub mode_cause: EventId,
+    /// The event behind the machine function.
+    pub function_cause: EventId,
+    /// DB11.DBB5 was written from outside: the control does not mirror REF there any more (E-01).
+    pub strobe_is_the_hmi_s: bool,
+}
+
+impl ModeGroup {
+    /// As after power on.
+    pub(in crate::sinumerik) fn new(parameters: &Parameters, group: ModeGroupNumber) -> Self {
+        Self { mode: Mode::after_power_on(parameters.mode_after_power_on[group]), ..Self::default() }
+    }
+
+    /// The latest change of mode or machine function.
+    pub(in crate::sinumerik) fn cause(&self) -> EventId {
+        self.mode_cause.max(self.function_cause)
+    }
+
+    /// Machine function REF.
+    #[must_use]
+    pub(in crate::sinumerik) fn is_referencing(&self) -> bool {
+        self.function == MachineFunction::Reference
+    }
+
+    /// JOG without a machine function.
+    #[must_use]
+    pub(in crate::sinumerik) fn is_jogging(&self) -> bool {
+        self.mode == Mode::Jog && self.function == MachineFunction::None
+    }
+}
+
+impl State {
+    /// Modes and machine functions as requested.
+    pub(in crate::sinumerik) fn select_modes(&mut self, parameters: &Parameters, to_nck: &ToNck) {
+        for group in parameters.existing_mode_groups() {
+            self.select_mode(group, to_nck);
+        }
+    }
+
+    fn select_mode(&mut self, group: ModeGroupNumber, to_nck: &ToNck) {
+        let signals = &to_nck.mode_groups[group];
+        let place = Place::ModeGroup(group);
+        let bit = |byte: u16, bit: u8, value: bool| Input::Bit(SignalBit { place, byte, bit }, value);
+        let requested = if signals.mode_change_inhibit() {
+            None
+        } else if signals.mode_jog() {
+            Some((Mode::Jog, bit(0, 2, true)))
+        } else if signals.mode_mdi() {
+            Some((Mode::Mda, bit(0, 1, true)))
+        } else if signals.mode_automatic() {
+            Some((Mode::Automatic, bit(0, 0, true)))
+        } else {
+            None
+        };
+        let state = &mut self.mode_groups[group];
+        if let Some((mode, input)) = requested
+            && mode != state.mode
+        {
+            state.mode = mode;
+            state.mode_cause = self.log.note_one(place, Rule::ModeSelected, input, EventId::NONE);
+        }
+        let function = match state.mode {
+            Mode::Jog if signals.machine_function_ref() => MachineFunction::Reference,
+            Mode::Jog if signals.machine_function_repos() => MachineFunction::Repos,
+            Mode::Mda if signals.machine_function_teach_in() => MachineFunction::TeachIn,
+            Mode::Jog | Mode::Mda | Mode::Automatic => MachineFunction::None,
+        };
+        if function != state.function {
+            let of_either = if function == MachineFunction::None { state.function } else { function };
+            let requested = match of_either {
+                MachineFunction::TeachIn => bit(1, 0, signals.machine_function_teach_in()),
+                MachineFunction::Repos => bit(1, 1, signals.machine_function_repos()),
+                MachineFunction::Reference | MachineFunction::None => bit(1, 2, signals.machine_function_ref()),
+            };
+            let within = if of_either == MachineFunction::TeachIn {
+                bit(6, 1, state.mode == Mode::Mda)
+            } else {
+                bit(6, 2, state.mode == Mode::Jog)
+            };
+            state.function = function;
+            state.function_cause =
+                self.log.note(place, Rule::MachineFunction, [requested, within, Input::None], EventId::NONE);
+        }
+    }
+
+    /// The mode group that a unit belongs to.
+    pub(in crate::sinumerik) fn mode_group(&self, unit: &Unit) -> &ModeGroup {
+        &self.mode_groups[unit.mode_group]
+    }
+
+    /// Somebody else wrote DBB5 of a mode group in DB11: it is the HMI's from now on (E-01).
+    pub(in crate::sinumerik) fn strobe_written(&mut self, group: ModeGroupNumber) {
+        if !self.mode_groups[group].strobe_is_the_hmi_s {
+            self.mode_groups[group].strobe_is_the_hmi_s = true;
+            self.log.note_plain(Place::ModeGroup(group), Rule::StrobeOwnedByHmi, EventId::NONE);
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! Run-up of the control: 104.7, then 108.5, 108.6 and 108.7, each a few cycles after the other (O-20).
+
+use serde::{Deserialize, Serialize};
+
+use crate::sinumerik::State;
+use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::rules::Rule;
+use crate::variables::{EventId, Place};
+
+/// How many cycles each step takes.
+const STEP: u8 = 2;
+
+/// How far the control has run up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct RunUp {
+    cycles: u8,
+    drives_ready: bool,
+    /// The event behind the latest step.
+    pub cause: EventId,
+}
+
+impl RunUp {
+    /// 104.7.
+    #[must_use]
+    pub(in crate::sinumerik) const fn is_cpu_ready(&self) -> bool {
+        self.cycles >= STEP
+    }
+
+    /// 108.5.
+    #[must_use]
+    pub(in crate::sinumerik) const fn are_drives_cyclic(&self) -> bool {
+        self.cycles >= 2 * STEP
+    }
+
+    /// 108.6.
+    #[must_use]
+    pub(in crate::sinumerik) const fn are_drives_ready(&self) -> bool {
+        self.are_drives_cyclic() && self.drives_ready
+    }
+
+    /// The run-up is over; 108.7 is this without alarms that say NC not ready.
+    #[must_use]
+    pub(in crate::sinumerik) const fn is_nc_ready(&self) -> bool {
+        self.cycles >= 3 * STEP
+    }
+}
+
+impl State {
+    /// One cycle of the run-up.
+    pub(in crate::sinumerik) fn run_up(&mut self, parameters: &Parameters) {
+        let ready = self.summary.drive_ready.has_all_of(parameters.existing);
+        let run_up = &mut self.run_up;
+        let before = *run_up;
+        run_up.drives_ready = ready;
+        // The last step waits for the drives.
+        if run_up.cycles < 2 * STEP || run_up.cycles < 3 * STEP && ready {
+            run_up.cycles += 1;
+        }
+        let steps = |r: &RunUp| (r.is_cpu_ready(), r.are_drives_cyclic(), r.are_drives_ready(), r.is_nc_ready());
+        if steps(&before) != steps(run_up) {
+            // Later than the run-up itself, a drive is behind it.
+            let drives = parameters.existing.iter().map(|axis| self.axes[axis].monitor.drive_cause);
+            let parent = drives.max().unwrap_or(EventId::NONE);
+            run_up.cause = self.log.note_plain(Place::Nck, Rule::RunUp, parent);
+        }
+    }
+
+    /// 108.7.
+    pub(in crate::sinumerik) fn is_nc_ready(&self) -> bool {
+        self.run_up.is_nc_ready() && self.alarms.with_reaction(Reaction::NC_NOT_READY, None).is_none()
+    }
+}

@@ -1,0 +1,78 @@
+//! Which channels there are, which axes and which mode group they have (MD10010, MD20070, MD30550).
+//!
+//! Read at power on. A channel exists where MD10010 gives it a mode group; channel 1 always exists. An axis that no channel
+//! names belongs to channel 1; one that several name belongs to the one of MD30550, or to the lowest of them.
+
+use crate::sinumerik::machine_data::MachineData;
+use crate::sinumerik::parameters::{AxisParameters, Parameters};
+use crate::units::{AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel};
+use crate::variables::Place;
+
+/// One channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ChannelParameters {
+    /// MD10010; `None`: the channel does not exist.
+    pub mode_group: Option<ModeGroupNumber>,
+    /// Its axes.
+    pub axes: AxisSet,
+    /// The axes that need their reference point for NC start: MD34110 above −1, unless MD20700 is 0.
+    pub reference_needed: AxisSet,
+}
+
+/// All channels.
+#[must_use]
+pub(in crate::sinumerik) fn channels(
+    data: &MachineData,
+    axes: &PerAxis<AxisParameters>,
+) -> PerChannel<ChannelParameters> {
+    PerChannel::from_fn(|channel| {
+        let own = || axes.iter().filter(|(_, axis)| axis.exists && axis.channel == channel);
+        let locked = data.channels[channel].refp_nc_start_lock != 0;
+        let needed = own().filter(|(_, axis)| locked && axis.reference.cycle_number > -1);
+        ChannelParameters {
+            mode_group: data.mode_group(channel),
+            axes: own().map(|(number, _)| number).collect(),
+            reference_needed: needed.map(|(number, _)| number).collect(),
+        }
+    })
+}
+
+impl Parameters {
+    /// The channels that exist, with their mode groups.
+    pub fn existing_channels(&self) -> impl Iterator<Item = (ChannelNumber, ModeGroupNumber)> {
+        self.channel_list.iter().copied()
+    }
+
+    /// The mode groups that have channels.
+    pub fn existing_mode_groups(&self) -> impl Iterator<Item = ModeGroupNumber> {
+        self.mode_group_list.iter().copied()
+    }
+
+    /// The mode group of a channel.
+    #[must_use]
+    pub fn mode_group(&self, channel: ChannelNumber) -> ModeGroupNumber {
+        self.channels[channel].mode_group.unwrap_or(ModeGroupNumber::FIRST)
+    }
+
+    /// Whether what happens at a place concerns a channel.
+    #[must_use]
+    pub fn concerns_channel(&self, place: Place, channel: ChannelNumber) -> bool {
+        match place {
+            Place::Nck => true,
+            Place::ModeGroup(group) => self.mode_group(channel) == group,
+            Place::Channel(other) => other == channel,
+            Place::Axis(axis) => self.axes[axis].channel == channel,
+        }
+    }
+
+    /// Whether what happens at a place concerns a mode group.
+    #[must_use]
+    pub fn concerns_mode_group(&self, place: Place, group: ModeGroupNumber) -> bool {
+        match place {
+            Place::Nck => true,
+            Place::ModeGroup(other) => other == group,
+            Place::Channel(channel) => self.mode_group(channel) == group,
+            Place::Axis(axis) => self.mode_group(self.axes[axis].channel) == group,
+        }
+    }
+}

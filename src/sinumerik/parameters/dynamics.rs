@@ -1,0 +1,149 @@
+//! Machine data of position control in the units of the model, and what an axis has once per parameter set.
+//!
+//! Part of [`AxisParameters`](crate::sinumerik::parameters::AxisParameters); read by position control, exact stop and monitoring.
+//! Which parameter set is active is state of the axis.
+
+use crate::motion::LONGEST_WINDOW;
+use crate::sinumerik::machine_data::Axis;
+use crate::sinumerik::parameters::mechanics::{Mechanics, Misfit};
+use crate::units::{Position, Time};
+
+/// How many parameter sets an axis has.
+pub const PARAMETER_SETS: usize = 6;
+
+/// How the feed-forward's balancing delays the setpoint that the actual value is compared with (MD32620).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeedForward {
+    /// 0, or left to part programs by MD32630.
+    Off,
+    /// 1 and 2.
+    Pt1,
+    /// 3 and 4.
+    DeadTime,
+}
+
+/// What an axis has once per parameter set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParameterSet {
+    /// MD32200 in 1/s.
+    pub gain: f64,
+    /// MD32610.
+    pub feed_forward_weight: f64,
+    /// MD32810, with MD32620 = 2 and 4 MD32800, in seconds.
+    pub balancing_time: f64,
+    /// MD32910 in seconds, 0 while MD32900 = 0.
+    pub matching_time: f64,
+    /// MD36000 × MD36012.
+    pub exact_stop_coarse: Position,
+    /// MD36010 × MD36012.
+    pub exact_stop_fine: Position,
+    /// MD36030 × MD36012.
+    pub standstill_tolerance: Position,
+    /// MD36200, in increments per second.
+    pub velocity_limit: f64,
+    /// How the control is wrong about the iron.
+    pub misfit: Option<Misfit>,
+}
+
+/// What limits the jerk of an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jerk {
+    /// MD32430 in increments per second cubed, while MD32420 = 1: it bounds JOG, referencing and positioning.
+    pub limit: Option<f64>,
+    /// The window of every movement in cycles: MD32410 while MD32400 = 1, else 1. MD32402 has one kind.
+    pub window: usize,
+    /// The longest window that MD32430 asks for, in cycles; 1 for none.
+    pub longest: usize,
+    /// A braking that is harder than every acceleration of the axis is a fast stop and passes the windows by.
+    pub hardest: f64,
+}
+
+impl Jerk {
+    /// Any movement is filtered.
+    #[must_use]
+    pub const fn is_limited(&self) -> bool {
+        self.window > 1 || self.longest > 1
+    }
+
+    /// The window that keeps MD32430 with an acceleration, in cycles; 1 without a limit.
+    #[must_use]
+    pub fn window_for(&self, acceleration: f64, cycle: f64) -> usize {
+        self.limit.map_or(1, |limit| whole_cycles((acceleration / (limit * cycle) - 1e-6).ceil()))
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates, and is bounded")]
+fn whole_cycles(cycles: f64) -> usize {
+    (cycles as usize).clamp(1, LONGEST_WINDOW)
+}
+
+/// Position control of one axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dynamics {
+    /// Jerk filters of its setpoint.
+    pub jerk: Jerk,
+    /// MD32620 and MD32630.
+    pub feed_forward: FeedForward,
+    /// The parameter sets, the first one at index 0.
+    pub sets: [ParameterSet; PARAMETER_SETS],
+}
+
+impl Dynamics {
+    /// The setpoint of position control is another than the one that the interpolator gives, in any parameter set.
+    #[must_use]
+    pub fn delays_setpoints(&self) -> bool {
+        self.feed_forward != FeedForward::Off || self.sets.iter().any(|set| set.matching_time > 0.0)
+    }
+
+    /// The longest dead time of any parameter set, in seconds; 0 without one.
+    #[must_use]
+    pub fn longest_dead_time(&self) -> f64 {
+        match self.feed_forward {
+            FeedForward::Off | FeedForward::Pt1 => 0.0,
+            FeedForward::DeadTime => self.sets.iter().map(|set| set.balancing_time).fold(0.0, f64::max),
+        }
+    }
+}
+
+/// The jerk filters from the machine data of an axis; `unit` is their unit of length in increments.
+pub(in crate::sinumerik) fn jerk(md: &Axis, unit: f64, accelerations: [f64; 2], cycle: Time) -> Jerk {
+    let limited = md.jog_and_pos_jerk_enable && md.jog_and_pos_max_jerk > 0.0;
+    let limit = limited.then_some(md.jog_and_pos_max_jerk * unit);
+    let window = if md.ax_jerk_enable { (md.ax_jerk_time / cycle.seconds()).round() } else { 1.0 };
+    let hardest = accelerations[0].max(accelerations[1]);
+    let jerk = Jerk { limit, window: whole_cycles(window), longest: 1, hardest };
+    Jerk { longest: jerk.window_for(hardest, cycle.seconds()), ..jerk }
+}
+
+/// From the machine data of an axis; `velocity` turns theirs into increments per second.
+pub(in crate::sinumerik) fn dynamics(
+    md: &Axis,
+    jerk: Jerk,
+    iron: &Mechanics,
+    velocity: &impl Fn(f64) -> f64,
+) -> Dynamics {
+    let switched_by_programs = md.ffw_activation_mode != 0;
+    let feed_forward = match md.ffw_mode {
+        _ if switched_by_programs => FeedForward::Off,
+        0 => FeedForward::Off,
+        1 | 2 => FeedForward::Pt1,
+        _ => FeedForward::DeadTime,
+    };
+    let mechanics = Mechanics::new(md);
+    let torque = matches!(md.ffw_mode, 2 | 4);
+    let sets = std::array::from_fn(|set| {
+        let window = |value: f64| Position::from_user(value * md.stop_limit_factor[set]);
+        ParameterSet {
+            gain: md.posctrl_gain[set] * 1_000.0 / 60.0,
+            feed_forward_weight: md.velo_ffw_weight[set],
+            balancing_time: if torque { md.equiv_currctrl_time[set] } else { md.equiv_speedctrl_time[set] },
+            matching_time: if md.dyn_match_enable { md.dyn_match_time[set] } else { 0.0 },
+            exact_stop_coarse: window(md.stop_limit_coarse),
+            exact_stop_fine: window(md.stop_limit_fine),
+            standstill_tolerance: window(md.standstill_pos_tol),
+            velocity_limit: velocity(md.ax_velo_limit[set]),
+            misfit: mechanics.misfit(iron, set),
+        }
+    });
+    Dynamics { jerk, feed_forward, sets }
+}

@@ -1,0 +1,168 @@
+//! The definition of gantry groupings by MD37100, and what can be wrong with it (G1 2.2, 2.4).
+//!
+//! Read at power on only (DEF-09). A grouping with a fault is not formed; its alarm stays until power off.
+
+use arrayvec::ArrayVec;
+
+use crate::motion::Coupling;
+use crate::sinumerik::alarms;
+use crate::sinumerik::machine_data::{MachineData, unequal_data};
+use crate::sinumerik::parameters::AxisParameters;
+use crate::units::{AxisNumber, ChannelNumber, PerAxis};
+use crate::variables::{AlarmNumber, Parameter, Place};
+
+/// How many groupings there can be (DEF-02).
+pub(in crate::sinumerik) const GROUPINGS: usize = 8;
+
+/// A grouping as the machine data define it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Definition {
+    /// Its number, 1 to 8.
+    pub number: u8,
+    /// Its axes: the leading axis leads, the synchronous axes follow, ascending by axis number (O-10).
+    pub coupling: Coupling,
+}
+
+/// An alarm that a definition raises at power on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Which alarm.
+    pub alarm: AlarmNumber,
+    /// Whose.
+    pub place: Place,
+    /// Its parameters.
+    pub parameters: [Parameter; 4],
+}
+
+/// A machine datum that must be equal within a grouping and is not (DYN-03).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unequal {
+    /// The number of the grouping.
+    pub grouping: u8,
+    /// The leading axis.
+    pub leader: AxisNumber,
+    /// The synchronous axis.
+    pub axis: AxisNumber,
+    /// Which datum.
+    pub datum: u32,
+    /// Of the leading axis, and of the synchronous axis.
+    pub values: [f64; 2],
+}
+
+/// The groupings of a machine and the faults found in their definition.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Definitions {
+    /// What could be formed.
+    pub groupings: ArrayVec<Definition, GROUPINGS>,
+    /// What is wrong.
+    pub faults: Vec<Fault>,
+    /// What differs within the groupings that could be formed.
+    pub unequal: Vec<Unequal>,
+}
+
+/// Reads MD37100 of all axes.
+#[must_use]
+pub(in crate::sinumerik) fn define(data: &MachineData, axes: &PerAxis<AxisParameters>) -> Definitions {
+    let mut found = Definitions::default();
+    let kind = |axis: AxisNumber| data.axes[axis].gantry_axis_type;
+    for (axis, _) in axes.iter().filter(|(_, parameters)| parameters.exists) {
+        // DEF-01: units digit = number of the grouping, tens digit 1 = synchronous axis.
+        if !matches!(kind(axis), 0 | 1..=8 | 11..=18) {
+            found.faults.push(machine_data_fault(data, axis, 1));
+        }
+    }
+    for number in 1..=8_u8 {
+        let of_kind = |wanted: u8| -> Vec<AxisNumber> {
+            axes.iter()
+                .filter(|(axis, parameters)| parameters.exists && kind(*axis) == wanted)
+                .map(|(axis, _)| axis)
+                .collect()
+        };
+        let (leaders, followers) = (of_kind(number), of_kind(number + 10));
+        if leaders.is_empty() && followers.is_empty() {
+            continue;
+        }
+        let elsewhere = axes.iter().any(|(axis, parameters)| !parameters.exists && kind(axis) == number + 10);
+        let before = found.faults.len();
+        check(&mut found.faults, number, &leaders, &followers, elsewhere, data);
+        if found.faults.len() > before {
+            continue;
+        }
+        if let Some(coupling) = Coupling::new(leaders[0], &followers) {
+            // At most eight numbers pass here.
+            for &axis in &followers {
+                let [leading, own] = [leaders[0], axis].map(|axis| &data.axes[axis]);
+                let unequal = |(datum, values)| Unequal { grouping: number, leader: leaders[0], axis, datum, values };
+                found.unequal.extend(unequal_data(leading, own).map(unequal));
+            }
+            found.groupings.push(Definition { number, coupling });
+        }
+    }
+    found
+}
+
+fn check(
+    faults: &mut Vec<Fault>,
+    number: u8,
+    leaders: &[AxisNumber],
+    followers: &[AxisNumber],
+    followers_elsewhere: bool,
+    data: &MachineData,
+) {
+    let home = |axis: &AxisNumber| data.home_channel(*axis);
+    let channel = leaders.first().or_else(|| followers.first()).map_or(ChannelNumber::FIRST, home);
+    // 10650 code 2: leading axis declared more than once (DEF-05); in another channel its number clashes (DEF-07).
+    let (here, elsewhere): (Vec<_>, Vec<_>) = leaders.iter().skip(1).partition(|axis| home(axis) == channel);
+    faults.extend(here.into_iter().map(|&axis| machine_data_fault(data, axis, 2)));
+    // 10650 code 1: wrong following-axis designation; more than two of them (DEF-03).
+    faults.extend(followers.iter().skip(2).map(|&axis| machine_data_fault(data, axis, 1)));
+    let Some(&leader) = leaders.first() else {
+        faults.push(configuration_fault(channel, 1_000, number));
+        return;
+    };
+    if followers.is_empty() {
+        faults.push(configuration_fault(channel, if followers_elsewhere { 5_000 } else { 2_000 }, number));
+    }
+    // DEF-08: the synchronous axes are known wherever the leading axis is.
+    let unknown = |channel: ChannelNumber| {
+        data.channel_knows(channel, leader) && followers.iter().any(|&axis| !data.channel_knows(channel, axis))
+    };
+    let master_channel = |axis: AxisNumber| data.axes[axis].axconf_assign_master_chan;
+    let known_in = ChannelNumber::all().filter(|&channel| data.channel_knows(channel, leader)).count();
+    if known_in > 1 && ChannelNumber::all().any(unknown) {
+        faults.push(configuration_fault(channel, 6_000, number));
+    } else if followers.iter().any(|&axis| master_channel(axis) != master_channel(leader)) {
+        faults.push(configuration_fault(channel, 3_000, number));
+    } else if !elsewhere.is_empty() || followers.iter().any(|axis| home(axis) != channel) {
+        faults.push(configuration_fault(channel, 4_000, number));
+    }
+    let master = &data.axes[leader];
+    for &axis in followers {
+        if data.axes[axis].is_rot_ax != master.is_rot_ax {
+            let parameters = [
+                Parameter::Channel(channel),
+                Parameter::Axis(axis),
+                Parameter::Number(i64::from(number)),
+                Parameter::None,
+            ];
+            faults.push(Fault { alarm: alarms::GANTRY_MIXED_AXIS_TYPES, place: Place::Axis(axis), parameters });
+        }
+    }
+    let members = || leaders.iter().chain(followers);
+    if members().any(|&axis| data.axes[axis].spind_assign_to_machax != 0) {
+        faults.push(configuration_fault(channel, 13_000, 0));
+    }
+}
+
+fn machine_data_fault(data: &MachineData, axis: AxisNumber, code: i64) -> Fault {
+    let channel = Parameter::Channel(data.home_channel(axis));
+    let parameters = [channel, Parameter::Axis(axis), Parameter::Number(code), Parameter::None];
+    Fault { alarm: alarms::GANTRY_MACHINE_DATA, place: Place::Axis(axis), parameters }
+}
+
+/// 10651 with its reason: thousands say what, the last two digits the grouping.
+fn configuration_fault(channel: ChannelNumber, reason: i64, number: u8) -> Fault {
+    let reason = Parameter::Number(reason + i64::from(number));
+    let parameters = [Parameter::Channel(channel), reason, Parameter::None, Parameter::None];
+    Fault { alarm: alarms::GANTRY_CONFIGURATION, place: Place::Channel(channel), parameters }
+}

@@ -1,0 +1,181 @@
+//! Gears, leadscrew, encoder lines and directions: what the control believes of the iron, and what the iron is.
+//!
+//! The iron of a machine is what its machine data say when it is opened: an archive alone is a machine, and it is one that
+//! works. When these data are changed afterwards (they act by power on), the control converts counts and velocities with its
+//! new data, and the iron stays: actual values and drives are wrong by the ratio, as on a machine with wrong data.
+//! Read by position control and by the stage that takes what encoders tell; an axis whose data fit pays nothing.
+//!
+//! One line of a linear scale is MD31010, of a rotary encoder MD31030 (rotary axis: 360 degrees) by MD31020, times
+//! MD31080 / MD31070, and times MD31050 / MD31060 where it sits at the motor (MD31040 = 0). One revolution of the motor is
+//! MD31030 times MD31050 / MD31060.
+//!
+//! MD32100 = −1 turns the traversing direction: motor and encoder, so that position control stays what it is.
+//! MD32110 = −1 turns the encoder alone: on iron that does not need it, the loop runs away.
+//!
+//! Choices: the iron has the load gear of the first parameter set. A factor of 0 counts as 1. The smallest step of an
+//! encoder is the plant's `resolution`, not MD31020 by a multiplication.
+
+use crate::sinumerik::axis::Feedback;
+use crate::sinumerik::machine_data::Axis;
+use crate::sinumerik::parameters::dynamics::PARAMETER_SETS;
+use crate::units::Position;
+
+/// Ways in mm or degrees, with a sign for the direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mechanics {
+    /// Of one revolution of the motor, by parameter set.
+    motor: [f64; PARAMETER_SETS],
+    /// Of one line of each encoder, by parameter set.
+    encoders: [[f64; 2]; PARAMETER_SETS],
+}
+
+impl Mechanics {
+    /// What machine data say.
+    #[must_use]
+    pub fn new(md: &Axis) -> Self {
+        let ratio = |above: i32, below: i32| {
+            let whole = |value: i32| if value == 0 { 1.0 } else { f64::from(value) };
+            whole(above) / whole(below)
+        };
+        let sign = |value: i32| if value < 0 { -1.0 } else { 1.0 };
+        let revolution = if md.is_rot_ax { 360.0 } else { md.leadscrew_pitch };
+        let direction = sign(md.ax_motion_dir);
+        let load_gear = |set: usize| ratio(md.drive_ax_ratio_denom[set], md.drive_ax_ratio_numera[set]);
+        let line = |set: usize, encoder: usize| {
+            let measuring_gear = ratio(md.drive_enc_ratio_numera[encoder], md.drive_enc_ratio_denom[encoder]);
+            let way = if md.enc_is_linear[encoder] {
+                md.enc_grid_point_dist[encoder]
+            } else if md.enc_is_direct[encoder] {
+                revolution * ratio(1, md.enc_resol[encoder]) * measuring_gear
+            } else {
+                revolution * ratio(1, md.enc_resol[encoder]) * measuring_gear * load_gear(set)
+            };
+            way * direction * sign(md.enc_feedback_pol[encoder])
+        };
+        Self {
+            motor: std::array::from_fn(|set| revolution * load_gear(set) * direction),
+            encoders: std::array::from_fn(|set| [line(set, 0), line(set, 1)]),
+        }
+    }
+
+    /// The way of one revolution of the motor in the first parameter set, in mm or degrees, without a direction.
+    #[must_use]
+    pub fn motor_revolution(&self) -> f64 {
+        self.motor[0].abs()
+    }
+
+    /// The way of one revolution of the motor in a parameter set, 0 to 5, in mm or degrees, with the sign of its direction.
+    #[must_use]
+    pub(in crate::sinumerik) fn motor_turn(&self, set: usize) -> f64 {
+        self.motor.get(set).copied().unwrap_or(self.motor[0])
+    }
+
+    /// The way of one line of an encoder, 0 or 1, in the first parameter set, in mm or degrees, without a direction.
+    #[must_use]
+    pub fn encoder_line(&self, encoder: usize) -> f64 {
+        self.encoders[0][encoder].abs()
+    }
+
+    /// How it misses the iron in a parameter set; `None` where it fits.
+    #[must_use]
+    pub fn misfit(&self, iron: &Self, set: usize) -> Option<Misfit> {
+        let misfit = Misfit {
+            command: iron.motor[0] / self.motor[set],
+            encoders: [0, 1].map(|encoder| self.encoders[set][encoder] / iron.encoders[0][encoder]),
+        };
+        (misfit != Misfit { command: 1.0, encoders: [1.0; 2] }).then_some(misfit)
+    }
+}
+
+impl Default for Mechanics {
+    fn default() -> Self {
+        Self::new(&Axis::default())
+    }
+}
+
+/// By which factors the control is wrong about the iron.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Misfit {
+    /// Velocity of the slide for a velocity that is commanded.
+    pub command: f64,
+    /// Way that each encoder shows for a way of the slide.
+    pub encoders: [f64; 2],
+}
+
+impl Misfit {
+    /// The way that an encoder shows.
+    #[must_use]
+    pub fn shown(&self, encoder: usize, value: Position) -> Position {
+        #[expect(clippy::cast_possible_truncation, reason = "a position for display; the cast saturates")]
+        Position::new((value.increments() as f64 * self.encoders[encoder]).round() as i64)
+    }
+
+    /// What the control takes encoders and drive to tell.
+    #[must_use]
+    pub(in crate::sinumerik) fn seen(&self, feedback: &Feedback, active: usize) -> Feedback {
+        let mut seen = *feedback;
+        for (index, encoder) in seen.encoders.iter_mut().enumerate() {
+            encoder.value = self.shown(index, encoder.value);
+            encoder.zero_mark = encoder.zero_mark.map(|mark| self.shown(index, mark));
+            seen.half_count[index] = self.shown(index, seen.half_count[index]).abs();
+        }
+        seen.velocity *= self.encoders[active];
+        seen
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Machine data of an axis, changed.
+    fn with(change: impl FnOnce(&mut Axis)) -> Mechanics {
+        let mut md = Axis::default();
+        change(&mut md);
+        Mechanics::new(&md)
+    }
+
+    fn misfit(change: impl FnOnce(&mut Axis)) -> Option<(f64, f64)> {
+        with(change).misfit(&Mechanics::default(), 0).map(|misfit| (misfit.command, misfit.encoders[0]))
+    }
+
+    #[test]
+    fn what_is_as_the_iron_was_built_fits() {
+        assert_eq!(misfit(|_| {}), None);
+        assert_eq!(misfit(|md| md.enc_grid_point_dist = [0.02; 2]), None, "no linear scale");
+        assert_eq!(misfit(|md| md.drive_ax_ratio_denom[1] = 3), None, "another parameter set");
+    }
+
+    /// The iron: 10 mm of pitch, 2048 lines at the motor, gears 1:1.
+    #[test]
+    fn wrong_data_miss_by_their_ratio() {
+        // Twice the pitch: every line shows twice its way, and the motor makes half the revolutions.
+        assert_eq!(misfit(|md| md.leadscrew_pitch = 20.0), Some((0.5, 2.0)));
+        // A load gear of 4 motor for 1 load revolution: a motor encoder shows a quarter; the motor turns 4 times as fast.
+        assert_eq!(misfit(|md| md.drive_ax_ratio_numera[0] = 4), Some((4.0, 0.25)));
+        // The lines and the measuring gear concern the encoder alone.
+        assert_eq!(misfit(|md| md.enc_resol = [1024; 2]), Some((1.0, 2.0)));
+        assert_eq!(misfit(|md| md.drive_enc_ratio_numera = [2; 2]), Some((1.0, 2.0)));
+        assert_eq!(misfit(|md| md.drive_enc_ratio_denom = [2; 2]), Some((1.0, 0.5)));
+    }
+
+    #[test]
+    fn a_load_gear_does_not_concern_an_encoder_at_the_machine() {
+        let built = with(|md| md.enc_is_direct[0] = true);
+        let now = with(|md| (md.enc_is_direct[0], md.drive_ax_ratio_numera[0]) = (true, 4));
+        assert_eq!(now.misfit(&built, 0), Some(Misfit { command: 4.0, encoders: [1.0, 0.25] }));
+    }
+
+    /// DYN-06
+    #[test]
+    fn the_traversing_direction_turns_motor_and_encoder_and_the_polarity_the_encoder_alone() {
+        assert_eq!(misfit(|md| md.ax_motion_dir = -1), Some((-1.0, -1.0)));
+        assert_eq!(misfit(|md| md.enc_feedback_pol = [-1; 2]), Some((1.0, -1.0)));
+    }
+
+    #[test]
+    fn a_factor_of_zero_divides_by_nothing() {
+        let zero = with(|md| (md.drive_ax_ratio_numera[0], md.drive_enc_ratio_denom) = (0, [0; 2]));
+        assert_eq!(zero.misfit(&Mechanics::default(), 0), None);
+    }
+}
