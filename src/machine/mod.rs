@@ -37,10 +37,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::image::{Memory, Names, OverrideCoding};
+use crate::motion::Feedback;
 use crate::plant::{Layout, Plant};
 use crate::plc::PlcProgram;
+use crate::sinumerik::Control;
 use crate::sinumerik::machine_data::MachineData;
-use crate::sinumerik::{Control, Feedback};
 use crate::source::Problem;
 use crate::trace::Recorder;
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, Time};

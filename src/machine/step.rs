@@ -2,8 +2,8 @@
 
 use super::command::Force;
 use super::{Machine, Switch};
+use crate::motion::Feedback;
 use crate::plc::{PlcIo, PlcProgram};
-use crate::sinumerik::Feedback;
 use crate::units::{AxisSet, PerAxis, Time};
 use crate::variables::{AxisValues, Variables};
 

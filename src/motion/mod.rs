@@ -5,16 +5,20 @@
 //! fraction of an increment is carried, never lost. Arithmetic is `+ − × ÷ sqrt` and comparisons only, so that every
 //! build and machine computes the same bits.
 
+mod command;
 mod coupling;
 mod delay;
 mod encoder;
+mod feedback;
 mod jerk;
 mod profile;
 mod servo;
 
+pub use command::Motion;
 pub use coupling::{Coupling, Difference, Stage};
 pub use delay::{DeadTime, Pt1};
 pub use encoder::{Encoder, EncoderSignal};
+pub use feedback::Feedback;
 pub use jerk::{JerkFilter, LONGEST_WINDOW};
 pub use profile::{Limits, Setpoint};
 pub use servo::{Drive, velocity_command};

@@ -4,11 +4,12 @@
 //! is noted when its edge is seen.
 
 use crate::sinumerik::alarms::{self, Alarm, Cancel, Reaction};
-use crate::sinumerik::axis::Axis;
-use crate::sinumerik::gantry::Grouping;
+use crate::sinumerik::axis::state::Axis;
+use crate::sinumerik::control::Control;
+use crate::sinumerik::gantry::state::Grouping;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::{Control, State};
+use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position};
 use crate::variables::{AlarmNumber, Event, EventId, Input, Place, Quantity};
 

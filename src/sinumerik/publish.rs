@@ -3,13 +3,14 @@
 //! Signals are set axis by axis (SIG-09). What somebody else wrote into a bit of the NCK is overwritten here (SIG-11).
 
 use crate::image::{AxisFromNck, FromNck, Hmi, clear_signals};
+use crate::motion::Motion;
 use crate::sinumerik::alarms::Reaction;
-use crate::sinumerik::axis::Motion;
-use crate::sinumerik::gantry::Phase;
-use crate::sinumerik::jog::increments::{Function, Movement};
-use crate::sinumerik::operation::mode_group::{MachineFunction, Mode};
+use crate::sinumerik::control::Control;
+use crate::sinumerik::gantry::state::Phase;
+use crate::sinumerik::jog::state::{Function, Movement};
+use crate::sinumerik::operation::state::{MachineFunction, Mode};
 use crate::sinumerik::parameters::{AxisParameters, Parameters};
-use crate::sinumerik::{Control, State};
+use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, Position};
 use crate::variables::{AxisValues, Place, Variables};
 

@@ -8,17 +8,14 @@
 
 use arrayvec::ArrayVec;
 
-use crate::sinumerik::axis::Axis;
-use crate::sinumerik::gantry::Grouping;
-use crate::sinumerik::jog::handwheel::{self, Handwheel};
-use crate::sinumerik::jog::increments::GroupFunction;
-use crate::sinumerik::operation::channel::Channel;
-use crate::sinumerik::operation::emergency_stop::EmergencyStop;
-use crate::sinumerik::operation::mode_group::ModeGroup;
-use crate::sinumerik::operation::run_up::RunUp;
+use crate::sinumerik::axis::state::Axis;
+use crate::sinumerik::control::Control;
+use crate::sinumerik::gantry::state::Grouping;
+use crate::sinumerik::jog::state::{GroupFunction, HANDWHEELS, Handwheel};
+use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunUp};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::GROUPINGS;
-use crate::sinumerik::{Control, State};
+use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, AxisSet, PerAxis, PerChannel, PerModeGroup};
 
 /// What the PLC's half has other than in the last cycle.
@@ -37,7 +34,7 @@ struct Shared {
     mode_groups: PerModeGroup<ModeGroup>,
     emergency_stop: EmergencyStop,
     channels: PerChannel<Channel>,
-    handwheels: [Handwheel; handwheel::COUNT],
+    handwheels: [Handwheel; HANDWHEELS],
     group_functions: PerModeGroup<GroupFunction>,
 }
 

@@ -4,76 +4,17 @@
 //! 2.1 and 21.7 of each axis; axes of a closed grouping form one unit that is enabled, braked and held in the same
 //! manner (SIG-01, SIG-02). Writes the state from which 61.3, 61.5 to 61.7, 93.5, 93.7 and 102.5/.6 follow.
 
-use serde::{Deserialize, Serialize};
-
 use crate::image::ToNck;
+use crate::motion::Motion;
 use crate::sinumerik::alarms::{self, Reaction};
-use crate::sinumerik::axis::Axis;
+use crate::sinumerik::axis::state::{Axis, ControllerState, STEP};
 use crate::sinumerik::log::axis_bit;
 use crate::sinumerik::parameters::{AxisParameters, Parameters};
 use crate::sinumerik::resting::Resting;
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::{State, Unit};
+use crate::sinumerik::state::{State, Unit};
 use crate::units::AxisNumber;
 use crate::variables::{EventId, Input, Parameter, Place};
-
-/// How many cycles each step of the chain takes, so that brake and timer logic meets a real order.
-const STEP: u8 = 2;
-
-/// How far an axis is on its way to position control.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) enum Control {
-    /// No position control.
-    #[default]
-    Off,
-    /// The controllers switch on one after another; how many cycles so far.
-    SwitchingOn(u8),
-    /// In position control.
-    On,
-    /// Braking after the enable went; how many cycles are left before it is switched off anyway (MD36620).
-    Braking(u64),
-}
-
-/// The state of the chain.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Enabling {
-    /// Position control.
-    pub control: Control,
-    /// Cycles with drive ready and pulse enable, up to [`STEP`].
-    pulses: u8,
-    /// Not in position control, and the setpoint follows the actual value.
-    pub follow_up: bool,
-}
-
-impl Enabling {
-    /// 93.7.
-    #[must_use]
-    pub(in crate::sinumerik) const fn pulses_enabled(&self) -> bool {
-        self.pulses >= STEP
-    }
-
-    /// 61.7, 61.6 and 61.5: current, speed and position controller.
-    #[must_use]
-    pub(in crate::sinumerik) const fn controllers(&self) -> [bool; 3] {
-        match self.control {
-            Control::Off => [false; 3],
-            Control::SwitchingOn(cycles) => [cycles >= STEP, cycles >= 2 * STEP, false],
-            Control::On | Control::Braking(_) => [true; 3],
-        }
-    }
-
-    /// The drive acts on velocity commands.
-    #[must_use]
-    pub(in crate::sinumerik) const fn is_powered(&self) -> bool {
-        self.pulses_enabled() && matches!(self.control, Control::On | Control::Braking(_))
-    }
-
-    /// Ready to be moved.
-    #[must_use]
-    pub(in crate::sinumerik) const fn is_on(&self) -> bool {
-        matches!(self.control, Control::On)
-    }
-}
 
 /// What holds for all axes of a unit.
 struct Conditions {
@@ -276,30 +217,30 @@ impl State {
         let wanted = conditions.enable && conditions.healthy && !conditions.alarm.is_some();
         let powered = self.axes[number].enabling.pulses_enabled();
         let off = || {
-            if powered { Control::Braking(disable_cycles) } else { Control::Off }
+            if powered { ControllerState::Braking(disable_cycles) } else { ControllerState::Off }
         };
         let control = match before.control {
-            Control::Off if wanted => Control::SwitchingOn(0),
-            Control::Off => Control::Off,
-            Control::SwitchingOn(_) if !wanted => Control::Off,
-            Control::SwitchingOn(cycles) if cycles + 1 >= 3 * STEP => Control::On,
-            Control::SwitchingOn(cycles) => Control::SwitchingOn(cycles + 1),
-            Control::On if wanted => Control::On,
-            Control::On => off(),
-            Control::Braking(left) if left == 0 || conditions.standing || !powered => Control::Off,
-            Control::Braking(left) => Control::Braking(left - 1),
+            ControllerState::Off if wanted => ControllerState::SwitchingOn(0),
+            ControllerState::Off => ControllerState::Off,
+            ControllerState::SwitchingOn(_) if !wanted => ControllerState::Off,
+            ControllerState::SwitchingOn(cycles) if cycles + 1 >= 3 * STEP => ControllerState::On,
+            ControllerState::SwitchingOn(cycles) => ControllerState::SwitchingOn(cycles + 1),
+            ControllerState::On if wanted => ControllerState::On,
+            ControllerState::On => off(),
+            ControllerState::Braking(left) if left == 0 || conditions.standing || !powered => ControllerState::Off,
+            ControllerState::Braking(left) => ControllerState::Braking(left - 1),
         };
         let parked = self.axes[number].measuring_system.is_none();
-        let off = matches!(control, Control::Off | Control::SwitchingOn(_));
+        let off = matches!(control, ControllerState::Off | ControllerState::SwitchingOn(_));
         let follow_up = off && (conditions.follow_up && !conditions.enable || conditions.alarm.is_some() || parked);
         // Follow-up lasts until position control takes over, so that it takes over at the actual value.
-        let follow_up = follow_up || before.follow_up && matches!(control, Control::SwitchingOn(_));
+        let follow_up = follow_up || before.follow_up && matches!(control, ControllerState::SwitchingOn(_));
         self.axes[number].enabling.control = control;
         self.axes[number].enabling.follow_up = follow_up;
         let after = self.axes[number].enabling;
         if before.controllers() != after.controllers() || before.follow_up != after.follow_up {
             // What began to switch off goes on to do so, also when its reason is gone.
-            let goes_off = matches!(before.control, Control::Braking(_));
+            let goes_off = matches!(before.control, ControllerState::Braking(_));
             let (rule, parent) = if wanted && goes_off {
                 (Rule::ControllerOff, self.axes[number].causes.enabling)
             } else if wanted {
@@ -320,16 +261,12 @@ impl State {
 
 impl Axis {
     /// The motion of an axis that is not in position control, or that brakes towards being switched off.
-    pub(in crate::sinumerik) fn motion_without_control(
-        &self,
-        emergency_deceleration: f64,
-    ) -> Option<crate::sinumerik::axis::Motion> {
-        use crate::sinumerik::axis::Motion;
+    pub(in crate::sinumerik) fn motion_without_control(&self, emergency_deceleration: f64) -> Option<Motion> {
         match self.enabling.control {
-            Control::On => None,
-            Control::Braking(_) => Some(Motion::Brake { deceleration: emergency_deceleration }),
-            Control::Off | Control::SwitchingOn(_) if self.enabling.follow_up => Some(Motion::Track),
-            Control::Off | Control::SwitchingOn(_) => Some(Motion::Hold),
+            ControllerState::On => None,
+            ControllerState::Braking(_) => Some(Motion::Brake { deceleration: emergency_deceleration }),
+            ControllerState::Off | ControllerState::SwitchingOn(_) if self.enabling.follow_up => Some(Motion::Track),
+            ControllerState::Off | ControllerState::SwitchingOn(_) => Some(Motion::Hold),
         }
     }
 }

@@ -6,35 +6,19 @@
 //! Software (MD36100 and MD36110, or the second pair by 12.2 and 12.3): the leading axis only (MON-13), once it is referenced,
 //! and no modulo axis. JOG brakes so that the axis rests exactly on the limit, with 10621 until it is moved away.
 
-use serde::{Deserialize, Serialize};
-
 use crate::image::ToNck;
+use crate::motion::Motion;
 use crate::sinumerik::alarms;
-use crate::sinumerik::axis::Motion;
+use crate::sinumerik::axis::state::LimitSwitches;
 use crate::sinumerik::log::axis_bit;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::{State, Unit};
+use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, ChannelNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 
 /// Setpoint 0 at once: no ramp.
 const WITHOUT_RAMP: f64 = 1e18;
-
-/// The limit switches of an axis as the last cycle saw them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct LimitSwitches {
-    minus: bool,
-    plus: bool,
-    cause: EventId,
-}
-
-impl LimitSwitches {
-    /// A movement in this direction leads further onto a switch.
-    const fn blocks(self, direction: i8) -> bool {
-        direction > 0 && self.plus || direction < 0 && self.minus
-    }
-}
 
 /// What a movement in JOG meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

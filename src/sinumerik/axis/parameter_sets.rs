@@ -9,13 +9,13 @@
 //! goes on from where it is, and the reference is lost. 9.3 forbids a change by the NC, and there is none. A data set of a drive has no effect on the model.
 
 use crate::image::ToNck;
-use crate::sinumerik::State;
 use crate::sinumerik::alarms;
 use crate::sinumerik::log::axis_bit;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::mechanics::Misfit;
 use crate::sinumerik::resting::Resting;
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
 use crate::units::AxisNumber;
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 

@@ -13,58 +13,14 @@
 //! stays active and its setpoint follows the actual value; increments and ways of handwheels are dropped, an
 //! approach ends with 20005; a key that acts while it is held goes on when 20.1 goes.
 
-use serde::{Deserialize, Serialize};
-
 use crate::image::ToNck;
-use crate::sinumerik::axis::Motion;
-use crate::sinumerik::jog::increments::Movement;
+use crate::motion::Motion;
+use crate::sinumerik::jog::state::Movement;
 use crate::sinumerik::log::axis_bit;
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::{State, Unit};
-use crate::units::{AxisNumber, Position};
+use crate::sinumerik::state::{State, Unit};
+use crate::units::AxisNumber;
 use crate::variables::{EventId, Input, Place};
-
-/// The state of these signals on one axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct AxisSignals {
-    /// The unit is stopped by 20.1: 92.1.
-    pub fast_stop: bool,
-    /// Why.
-    pub fast_stop_cause: EventId,
-    /// Where position control holds the axis while its setpoint is not output.
-    disabled_at: Option<Position>,
-    /// 2.2 in the last cycle.
-    delete_was: bool,
-}
-
-impl AxisSignals {
-    /// The setpoint of position control while axis disable acts.
-    #[must_use]
-    #[inline]
-    pub(in crate::sinumerik) const fn disabled_at(&self) -> Option<Position> {
-        self.disabled_at
-    }
-
-    /// What position control works on is not the setpoint: axis disable, or the fast stop.
-    #[must_use]
-    pub(in crate::sinumerik) const fn withholds_setpoint(&self) -> bool {
-        self.fast_stop || self.disabled_at.is_some()
-    }
-
-    /// The same place gets another value.
-    pub(in crate::sinumerik) fn shift(&mut self, by: Position) {
-        if let Some(held) = &mut self.disabled_at {
-            *held += by;
-        }
-    }
-
-    /// Position control holds another place: the actual value.
-    pub(in crate::sinumerik) fn hold_at(&mut self, actual: Position) {
-        if self.disabled_at.is_some() {
-            self.disabled_at = Some(actual);
-        }
-    }
-}
 
 impl State {
     /// Takes the signals of one unit.

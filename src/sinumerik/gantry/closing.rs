@@ -9,11 +9,11 @@
 //! never exchanged between channels, and no PLC axis can own one of them (a grouping across channels is 10651 at power on).
 
 use crate::sinumerik::alarms;
-use crate::sinumerik::gantry::Phase;
-use crate::sinumerik::jog::increments::Movement;
+use crate::sinumerik::gantry::state::Phase;
+use crate::sinumerik::jog::state::Movement;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::{State, Unit};
+use crate::sinumerik::state::{State, Unit};
 use crate::units::AxisNumber;
 use crate::variables::{EventId, Input, Parameter, Place};
 

@@ -7,25 +7,14 @@
 //! - Data of interpolation and jerk that differ within a grouping (DYN-03) are told at power on only. The manuals give no
 //!   number for it: `gantry-unequal-data`, an entry for each datum of each synchronous axis. `machine-data check` tells the same.
 
-use serde::{Deserialize, Serialize};
-
-use crate::sinumerik::State;
 use crate::sinumerik::alarms;
-use crate::sinumerik::gantry::Phase;
+use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::Unequal;
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
 use crate::units::AxisSet;
 use crate::variables::{Input, Parameter, Place};
-
-/// What has been told.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Declared {
-    /// The data that must be equal have been looked at since power on.
-    compared: bool,
-    /// Synchronous axes of closed groupings with MD30450 = 1.
-    concurrent: AxisSet,
-}
 
 impl State {
     /// Shows what is new.

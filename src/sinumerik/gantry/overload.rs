@@ -5,10 +5,10 @@
 //! (O-11). Braking harder than any acceleration of the one that leads is no movement of the grouping but a stop, which all axes
 //! make in the same manner, and is not compared.
 
-use crate::sinumerik::State;
 use crate::sinumerik::alarms;
 use crate::sinumerik::parameters::{AxisParameters, Parameters};
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Place, Quantity};
 

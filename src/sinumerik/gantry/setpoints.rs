@@ -1,9 +1,9 @@
 //! Setpoints and coupling: what was commanded becomes a setpoint, and the axes of a closed grouping take the movement
 //! of the one that leads, in the same cycle (DYN-01): the filtered one, where its jerk is limited.
 
-use crate::sinumerik::axis::enabling::Control;
+use crate::sinumerik::axis::state::ControllerState;
 use crate::sinumerik::parameters::Parameters;
-use crate::sinumerik::{State, Unit};
+use crate::sinumerik::state::{State, Unit};
 
 impl State {
     /// Setpoints of one unit.
@@ -29,16 +29,18 @@ impl State {
         let before = self.axes[leads].setpoint.position;
         self.axes[leads].execute(self.shaping[leads].as_deref_mut(), &parameters.axes[leads], cycle);
         let led_by = self.axes[leads].setpoint;
-        let moves = matches!(self.axes[leads].enabling.control, Control::On | Control::Braking(_));
+        let moves = matches!(self.axes[leads].enabling.control, ControllerState::On | ControllerState::Braking(_));
         let leader = self.groupings[index].coupling.leader();
         let (request, command, cause) = {
             let axis = &self.axes[leads];
             (axis.traverse_request, axis.traverse_command, axis.causes.motion)
         };
         // Braking harder than any acceleration, and towards being switched off, is a stop that all axes make alike.
-        let stops = !self.axes[leads].enabling.is_on() || self.axes[leads].motion.is_fast(&parameters.axes[leads]);
+        let stops = !self.axes[leads].enabling.is_on()
+            || self.axes[leads].motion.is_fast(parameters.axes[leads].dynamics.jerk.hardest);
         for axis in unit.members().filter(|&axis| axis != leads) {
-            let follows = moves && matches!(self.axes[axis].enabling.control, Control::On | Control::Braking(_));
+            let follows =
+                moves && matches!(self.axes[axis].enabling.control, ControllerState::On | ControllerState::Braking(_));
             if follows {
                 let velocity = self.axes[axis].setpoint.velocity();
                 self.axes[axis].setpoint.follow(led_by.position - before, &led_by);

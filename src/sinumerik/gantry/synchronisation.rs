@@ -4,13 +4,13 @@
 //! Called by `gantry/mod.rs` once per cycle for each grouping. The choices are written there.
 
 use crate::image::ToNck;
+use crate::motion::Motion;
 use crate::sinumerik::alarms;
-use crate::sinumerik::axis::Motion;
-use crate::sinumerik::gantry::Phase;
+use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::log::axis_bit;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::{State, Unit};
+use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 

@@ -15,11 +15,11 @@
 //! MD37110 alone does not warn as well, or the base would mean nothing to it.
 
 use crate::motion::Difference;
-use crate::sinumerik::State;
 use crate::sinumerik::alarms;
-use crate::sinumerik::gantry::Phase;
+use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::parameters::{Gantry, Parameters};
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 

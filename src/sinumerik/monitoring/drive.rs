@@ -3,10 +3,10 @@
 //! A fault takes 93.5 and, through the pulses, 93.7 away; 21612 with cause 4 comes too where it meets a motion. A drive that
 //! has not run up within [`PATIENCE`] of 108.5 (drives in cyclic operation) is waited for with 25202; the manuals give no time.
 
-use crate::sinumerik::State;
 use crate::sinumerik::alarms;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Time};
 use crate::variables::{Input, Place};
 
@@ -14,7 +14,7 @@ use crate::variables::{Input, Place};
 const PATIENCE: Time = Time::from_millis(1_000);
 
 impl State {
-    pub(super) fn monitor_drive(&mut self, number: AxisNumber, parameters: &Parameters) {
+    pub(in crate::sinumerik) fn monitor_drive(&mut self, number: AxisNumber, parameters: &Parameters) {
         let (ready, fault) = (self.feedback[number].drive_ready, self.feedback[number].drive_fault);
         let was_ready = std::mem::replace(&mut self.axes[number].monitor.drive_was_ready, ready);
         if ready {

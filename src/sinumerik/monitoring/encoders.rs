@@ -13,39 +13,15 @@
 //! Switch-over: two referenced encoders must not differ by more than MD36500; one that is not referenced has no position that
 //! could differ. A second measuring system that MD30200 does not have changes nothing.
 
-use serde::{Deserialize, Serialize};
-
-use crate::sinumerik::State;
 use crate::sinumerik::alarms;
 use crate::sinumerik::parameters::AxisParameters;
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
-/// What monitoring remembers of one encoder.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct EncoderMonitor {
-    /// 60.2 and 60.3.
-    pub frequency_exceeded: bool,
-    /// Why.
-    pub frequency_cause: EventId,
-    /// It tells nothing.
-    pub fault: bool,
-    /// The latest zero mark, as it counts.
-    mark: Option<Position>,
-    /// Wrong zero marks so far.
-    errors: u32,
-}
-
-impl EncoderMonitor {
-    /// It counts in another measure from now on: the next zero mark has none before it.
-    pub(in crate::sinumerik) fn forget_mark(&mut self) {
-        self.mark = None;
-    }
-}
-
 impl State {
-    pub(super) fn monitor_encoders(&mut self, number: AxisNumber, parameters: &AxisParameters) {
+    pub(in crate::sinumerik) fn monitor_encoders(&mut self, number: AxisNumber, parameters: &AxisParameters) {
         for encoder in 0..usize::from(parameters.encoders).min(2) {
             self.monitor_frequency(number, encoder, parameters);
             self.monitor_fault(number, encoder, parameters);

@@ -18,77 +18,15 @@ mod drive;
 mod encoders;
 mod position;
 mod speed;
+pub(super) mod state;
 
-use serde::{Deserialize, Serialize};
-
-use crate::motion::advance;
 use crate::sinumerik::alarms;
+use crate::sinumerik::control::Control;
 use crate::sinumerik::parameters::{AxisParameters, Parameters};
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::{Control, State};
-use crate::units::{AxisNumber, AxisSet, Position};
+use crate::sinumerik::state::State;
+use crate::units::{AxisNumber, AxisSet};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
-
-pub(super) use encoders::EncoderMonitor;
-
-/// What monitoring remembers of one axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct AxisMonitor {
-    /// Cycles since the end of interpolation.
-    rest_cycles: u64,
-    /// Cycles of position control since then.
-    positioning_cycles: u64,
-    /// Exact stop fine was reached in them.
-    in_position: bool,
-    /// 2.3: the axis is clamped.
-    pub clamped: bool,
-    /// Where the axis would be with an ideal speed loop.
-    model: Position,
-    carry: f64,
-    /// Cycles with a speed setpoint beyond MD36210.
-    limited_cycles: u64,
-    /// Encoder 1 and 2.
-    pub encoders: [EncoderMonitor; 2],
-    /// Cycles that the drive has been waited for.
-    drive_waits: u64,
-    /// The drive was ready in the last cycle.
-    drive_was_ready: bool,
-    /// Why 93.5 went, or came again; none after the run-up.
-    pub drive_cause: EventId,
-}
-
-impl AxisMonitor {
-    /// The same place has another value.
-    pub(super) fn shift(&mut self, by: Position) {
-        self.model += by;
-    }
-
-    /// Where the axis would be.
-    pub(super) const fn model(&self) -> Position {
-        self.model
-    }
-
-    /// The axis would be here.
-    pub(super) fn restart_model(&mut self, actual: Position) {
-        (self.model, self.carry) = (actual, 0.0);
-    }
-
-    /// The ideal axis moves.
-    pub(super) fn move_model(&mut self, movement: f64) {
-        self.model = advance(self.model, &mut self.carry, movement);
-    }
-
-    /// Interpolation has not ended.
-    const fn moves(&mut self) {
-        (self.rest_cycles, self.positioning_cycles, self.in_position) = (0, 0, false);
-    }
-
-    /// The axis counts as being here, at rest since now.
-    pub(super) fn restart(&mut self, actual: Position) {
-        self.restart_model(actual);
-        self.moves();
-    }
-}
 
 impl Control {
     /// Monitoring and alarms.

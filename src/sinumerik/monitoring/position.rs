@@ -12,17 +12,17 @@
 //! answers at once; position control moves it along in each of its cycles. An axis that brakes to be switched off is stopped
 //! already and is not compared, nor is one whose setpoint is not output (1.3, 20.1).
 
-use crate::sinumerik::State;
 use crate::sinumerik::alarms;
-use crate::sinumerik::axis::enabling::Control;
-use crate::sinumerik::gantry::Phase;
+use crate::sinumerik::axis::state::ControllerState;
+use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::parameters::AxisParameters;
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{Input, Quantity};
 
 impl State {
-    pub(super) fn monitor_position(&mut self, number: AxisNumber, parameters: &AxisParameters) {
+    pub(in crate::sinumerik) fn monitor_position(&mut self, number: AxisNumber, parameters: &AxisParameters) {
         let follows_up = self.axes[number].enabling.follow_up;
         let actual = self.axes[number].actual;
         if follows_up {
@@ -89,7 +89,7 @@ impl State {
         }
         let (difference, tolerance) =
             ((axis.monitor.model() - axis.actual).abs(), parameters.monitoring.contour_tolerance);
-        if difference > tolerance && matches!(axis.enabling.control, Control::On) {
+        if difference > tolerance && matches!(axis.enabling.control, ControllerState::On) {
             let inputs = deviates(number, difference, 36400, tolerance);
             self.raise_monitoring(alarms::CONTOUR, number, Rule::ContourMonitoring, inputs);
         }

@@ -5,15 +5,15 @@
 //! ([`limited`](crate::sinumerik::axis::position_control::limited)); what it would be without the limit is judged once per
 //! interpolation cycle, from what the encoder tells at its end.
 
-use crate::sinumerik::State;
 use crate::sinumerik::alarms;
 use crate::sinumerik::parameters::AxisParameters;
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{Input, Quantity};
 
 impl State {
-    pub(super) fn monitor_speed(&mut self, number: AxisNumber, parameters: &AxisParameters) {
+    pub(in crate::sinumerik) fn monitor_speed(&mut self, number: AxisNumber, parameters: &AxisParameters) {
         let limits = &parameters.monitoring;
         let axis = &mut self.axes[number];
         let set = axis.active_set(parameters);

@@ -5,36 +5,13 @@
 //! 56.1 is 0 and acknowledge 56.2 and mode group RESET (DB11.DBX0.7, of every mode group that has channels) are 1 together; neither
 //! alone ends it.
 
-use serde::{Deserialize, Serialize};
-
 use crate::image::ToNck;
-use crate::sinumerik::State;
 use crate::sinumerik::alarms::Cancel;
+use crate::sinumerik::operation::state::EmergencyStop;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
 use crate::variables::{EventId, Input, Place, SignalBit};
-
-/// The state of the emergency stop.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct EmergencyStop {
-    active: bool,
-    /// The event that began or ended it.
-    pub(in crate::sinumerik) cause: EventId,
-}
-
-impl EmergencyStop {
-    /// 106.1.
-    #[must_use]
-    pub(in crate::sinumerik) const fn is_active(self) -> bool {
-        self.active
-    }
-
-    /// The event behind it while it is active.
-    #[must_use]
-    pub(in crate::sinumerik) fn active_cause(self) -> Option<EventId> {
-        self.active.then_some(self.cause)
-    }
-}
 
 fn bit(bit: u8, value: bool) -> Input {
     Input::Bit(SignalBit { place: Place::Nck, byte: 56, bit }, value)

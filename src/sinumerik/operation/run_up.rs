@@ -1,50 +1,14 @@
 //! Run-up of the control: 104.7, then 108.5, 108.6 and 108.7, each a few cycles after the other (O-20).
 
-use serde::{Deserialize, Serialize};
-
-use crate::sinumerik::State;
 use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::operation::state::RunUp;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
 use crate::variables::{EventId, Place};
 
 /// How many cycles each step takes.
 const STEP: u8 = 2;
-
-/// How far the control has run up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct RunUp {
-    cycles: u8,
-    drives_ready: bool,
-    /// The event behind the latest step.
-    pub cause: EventId,
-}
-
-impl RunUp {
-    /// 104.7.
-    #[must_use]
-    pub(in crate::sinumerik) const fn is_cpu_ready(&self) -> bool {
-        self.cycles >= STEP
-    }
-
-    /// 108.5.
-    #[must_use]
-    pub(in crate::sinumerik) const fn are_drives_cyclic(&self) -> bool {
-        self.cycles >= 2 * STEP
-    }
-
-    /// 108.6.
-    #[must_use]
-    pub(in crate::sinumerik) const fn are_drives_ready(&self) -> bool {
-        self.are_drives_cyclic() && self.drives_ready
-    }
-
-    /// The run-up is over; 108.7 is this without alarms that say NC not ready.
-    #[must_use]
-    pub(in crate::sinumerik) const fn is_nc_ready(&self) -> bool {
-        self.cycles >= 3 * STEP
-    }
-}
 
 impl State {
     /// One cycle of the run-up.

@@ -15,7 +15,7 @@
 //! Choices: the iron has the load gear of the first parameter set. A factor of 0 counts as 1. The smallest step of an
 //! encoder is the plant's `resolution`, not MD31020 by a multiplication.
 
-use crate::sinumerik::axis::Feedback;
+use crate::motion::Feedback;
 use crate::sinumerik::machine_data::Axis;
 use crate::sinumerik::parameters::dynamics::PARAMETER_SETS;
 use crate::units::Position;

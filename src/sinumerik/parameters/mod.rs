@@ -8,17 +8,17 @@ pub(super) mod dynamics;
 pub(super) mod groupings;
 pub(super) mod mechanics;
 pub(super) mod monitoring;
+pub(super) mod overrides;
 
 use arrayvec::ArrayVec;
 
-use crate::sinumerik::jog::increments::KeyModes;
 use crate::sinumerik::machine_data::{Axis, MachineData};
 use crate::sinumerik::parameters::channels::ChannelParameters;
 use crate::sinumerik::parameters::dynamics::{Dynamics, dynamics, jerk};
 use crate::sinumerik::parameters::groupings::Definitions;
 use crate::sinumerik::parameters::mechanics::Mechanics;
 use crate::sinumerik::parameters::monitoring::{Monitoring, monitoring};
-use crate::sinumerik::shown::factor;
+use crate::sinumerik::parameters::overrides::factor;
 use crate::units::{
     AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position, Time,
 };
@@ -327,4 +327,13 @@ fn gantry(md: &Axis) -> Gantry {
         direction_of_leading_axis: md.gantry_function_mask & 2 != 0,
         suppress_message: md.gantry_function_mask & 4 != 0,
     }
+}
+
+/// How keys act.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KeyModes {
+    /// MD11300: an increment runs while its key is held, else to its end.
+    pub increment_held: bool,
+    /// SD41050: continuous movement runs while its key is held, else until the next press.
+    pub continuous_held: bool,
 }

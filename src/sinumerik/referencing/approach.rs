@@ -11,81 +11,17 @@
 //! that is never left within MD34030 ends with alarm 20000; 20006 comes when the cam edge is met at the wrong speed
 //! for the second time. NC stop is not read; an axis that is held by force is stopped by contour monitoring (25050).
 
-use serde::{Deserialize, Serialize};
-
 use crate::image::AxisToNck;
+use crate::motion::Motion;
 use crate::sinumerik::alarms;
-use crate::sinumerik::axis::{Axis, Motion};
+use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::log::{Log, axis_bit};
 use crate::sinumerik::parameters::AxisParameters;
+use crate::sinumerik::referencing::state::{Approach, Phase, TRANSITIONS};
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::transitions::{Transition, next, row};
+use crate::sinumerik::transitions::next;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity, SignalBit};
-
-/// Where an approach is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Phase {
-    /// No approach.
-    #[default]
-    Idle,
-    /// Phase 1: towards the cam with MD34020.
-    SearchCam,
-    /// Braking on the cam.
-    BrakeOnCam,
-    /// MD34050 = 1: off the cam with MD34020.
-    LeaveCam,
-    /// Braking off the cam.
-    BrakeOffCam,
-    /// Phase 2: with MD34040 to the cam edge.
-    SearchEdge,
-    /// The way of MD34092 after the edge.
-    PassShift,
-    /// To the zero mark with MD34040.
-    SearchMark,
-    /// Phase 3: with MD34070 to the reference point.
-    GoToReferencePoint,
-    /// At the reference point, until exact stop fine.
-    ExactStop,
-}
-
-impl Phase {
-    /// What it is, in a few words.
-    #[must_use]
-    pub const fn text(self) -> &'static str {
-        match self {
-            Self::Idle => "no approach",
-            Self::SearchCam => "phase 1: towards the cam",
-            Self::BrakeOnCam => "braking on the cam",
-            Self::LeaveCam => "off the cam",
-            Self::BrakeOffCam => "braking off the cam",
-            Self::SearchEdge => "phase 2: to the cam edge",
-            Self::PassShift => "the way of MD34092",
-            Self::SearchMark => "phase 2: to the zero mark",
-            Self::GoToReferencePoint => "phase 3: to the reference point",
-            Self::ExactStop => "until exact stop fine",
-        }
-    }
-}
-
-/// Every step that an approach can take, but for aborts, which lead from anywhere to [`Phase::Idle`].
-pub const TRANSITIONS: &[Transition<Phase>] = &[
-    row(Phase::Idle, Rule::ApproachStarted, Phase::SearchCam),
-    row(Phase::SearchCam, Rule::WithoutCam, Phase::SearchMark),
-    row(Phase::SearchCam, Rule::OnCamAtStart, Phase::SearchEdge),
-    row(Phase::SearchCam, Rule::CamReached, Phase::BrakeOnCam),
-    row(Phase::SearchCam, Rule::LeaveCamFirst, Phase::LeaveCam),
-    row(Phase::BrakeOnCam, Rule::StoppedOnCam, Phase::SearchEdge),
-    row(Phase::BrakeOnCam, Rule::LeaveCamFirst, Phase::LeaveCam),
-    row(Phase::LeaveCam, Rule::CamLeft, Phase::BrakeOffCam),
-    row(Phase::BrakeOffCam, Rule::StoppedOffCam, Phase::SearchEdge),
-    row(Phase::SearchEdge, Rule::CreepVelocityMissed, Phase::SearchCam),
-    row(Phase::SearchEdge, Rule::CamEdge, Phase::PassShift),
-    row(Phase::PassShift, Rule::CamShiftPassed, Phase::SearchMark),
-    row(Phase::SearchMark, Rule::ZeroMark, Phase::GoToReferencePoint),
-    row(Phase::GoToReferencePoint, Rule::ReferencePointReached, Phase::ExactStop),
-    row(Phase::ExactStop, Rule::Referenced, Phase::Idle),
-];
 
 /// How an approach went on in this cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,28 +32,6 @@ pub(in crate::sinumerik) enum Outcome {
     Referenced(Position, EventId),
     /// It ended with an alarm.
     Failed(AlarmNumber, EventId),
-}
-
-/// The approach of one axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Approach {
-    phase: Phase,
-    /// Direction of the cam search as a sign.
-    cam_direction: f64,
-    /// Direction of the zero-mark search as a sign.
-    marker_direction: f64,
-    /// Actual value where the phase began to be supervised: start of phase 1, or the cam edge.
-    origin: Position,
-    /// The reference point, as an actual value before it is set.
-    target: Position,
-    /// MD34100 as 2.4 to 2.7 selected it.
-    set_position: Position,
-    /// The cam edge was met at the wrong speed once.
-    creep_velocity_missed: bool,
-    /// Cycles at the reference point without exact stop fine.
-    waited: u64,
-    /// The latest event.
-    cause: EventId,
 }
 
 /// What an approach looks at in a cycle.

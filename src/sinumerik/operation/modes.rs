@@ -5,90 +5,13 @@
 //! REPOS in JOG; REF wins over REPOS. REPOS moves an axis back to where a program was interrupted; as long as no program has
 //! been, its keys move nothing. MD10720 names the mode after power on, JOG where it does not.
 
-use serde::{Deserialize, Serialize};
-
 use crate::image::ToNck;
+use crate::sinumerik::operation::state::{MachineFunction, Mode, ModeGroup};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::{State, Unit};
+use crate::sinumerik::state::{State, Unit};
 use crate::units::ModeGroupNumber;
 use crate::variables::{EventId, Input, Place, SignalBit};
-
-/// An operating mode.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) enum Mode {
-    /// Automatic.
-    Automatic,
-    /// Manual data input, automatic.
-    Mda,
-    /// Manual traversing.
-    #[default]
-    Jog,
-}
-
-impl Mode {
-    /// After power on, as MD10720 says.
-    const fn after_power_on(datum: i32) -> Self {
-        match datum {
-            0 | 1 => Self::Automatic,
-            2..=5 => Self::Mda,
-            _ => Self::Jog,
-        }
-    }
-}
-
-/// What the keys mean within a mode.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) enum MachineFunction {
-    /// The mode itself.
-    #[default]
-    None,
-    /// TEACH IN in MDA.
-    TeachIn,
-    /// REPOS in JOG.
-    Repos,
-    /// REF in JOG.
-    Reference,
-}
-
-/// The state of a mode group.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct ModeGroup {
-    /// The active mode.
-    pub mode: Mode,
-    /// The active machine function.
-    pub function: MachineFunction,
-    /// The event behind the mode.
-    pub mode_cause: EventId,
-    /// The event behind the machine function.
-    pub function_cause: EventId,
-    /// DB11.DBB5 was written from outside: the control does not mirror REF there any more (E-01).
-    pub strobe_is_the_hmi_s: bool,
-}
-
-impl ModeGroup {
-    /// As after power on.
-    pub(in crate::sinumerik) fn new(parameters: &Parameters, group: ModeGroupNumber) -> Self {
-        Self { mode: Mode::after_power_on(parameters.mode_after_power_on[group]), ..Self::default() }
-    }
-
-    /// The latest change of mode or machine function.
-    pub(in crate::sinumerik) fn cause(&self) -> EventId {
-        self.mode_cause.max(self.function_cause)
-    }
-
-    /// Machine function REF.
-    #[must_use]
-    pub(in crate::sinumerik) fn is_referencing(&self) -> bool {
-        self.function == MachineFunction::Reference
-    }
-
-    /// JOG without a machine function.
-    #[must_use]
-    pub(in crate::sinumerik) fn is_jogging(&self) -> bool {
-        self.mode == Mode::Jog && self.function == MachineFunction::None
-    }
-}
 
 impl State {
     /// Modes and machine functions as requested.

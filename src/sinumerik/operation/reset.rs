@@ -5,48 +5,16 @@
 //! all channels of the group at once. The alarm-cancel key concerns all channels. As long as no NC program can be selected,
 //! NC start does no more than to cancel alarms and to be refused without a reference point (10203).
 
-use serde::{Deserialize, Serialize};
-
 use crate::image::ToNck;
 use crate::sinumerik::alarms::{self, Cancel, Reaction};
-use crate::sinumerik::operation::mode_group::Mode;
-use crate::sinumerik::parameters::Parameters;
-use crate::sinumerik::referencing::ChannelReferencing;
-use crate::sinumerik::rules::Rule;
-use crate::sinumerik::{Control, State};
-use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
-use crate::variables::{EventId, Input, Parameter, Place, SignalBit};
-
+use crate::sinumerik::control::Control;
 use crate::sinumerik::machine_data::Effect;
-
-/// The state of a channel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Channel {
-    /// RESET is pressed.
-    pub reset: bool,
-    /// The latest RESET.
-    pub reset_cause: EventId,
-    /// What took alarms away last: RESET, the cancel key or NC start.
-    pub cancel_cause: EventId,
-    /// NC start in the last cycle.
-    start_was: bool,
-    /// Channel-specific referencing.
-    pub referencing: ChannelReferencing,
-}
-
-impl Channel {
-    /// 33.0.
-    #[must_use]
-    pub(in crate::sinumerik) const fn is_referencing(&self) -> bool {
-        self.referencing.is_active()
-    }
-
-    /// Channel-specific referencing started this axis.
-    #[must_use]
-    pub(in crate::sinumerik) const fn started(&self, axis: AxisNumber) -> bool {
-        self.referencing.started(axis)
-    }
-}
+use crate::sinumerik::operation::state::Mode;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
+use crate::units::{ChannelNumber, ModeGroupNumber};
+use crate::variables::{EventId, Input, Parameter, Place, SignalBit};
 
 impl Control {
     /// RESET, the cancel key and NC start; data of the classes RESET and NEWCONF become active with a RESET.

@@ -17,62 +17,16 @@
 //! handwheel that is taken from an axis drops its way; 20051 stays until the key has ended its movement; a key that meets a
 //! moving handwheel (20050) moves nothing until it is released and pressed again.
 
-use serde::{Deserialize, Serialize};
-
 use crate::image::{AxisToNck, NckHmi};
 use crate::sinumerik::alarms;
-use crate::sinumerik::jog::increments::{By, Movement};
+use crate::sinumerik::control::Control;
+use crate::sinumerik::jog::state::{By, Movement};
 use crate::sinumerik::log::axis_bit;
 use crate::sinumerik::parameters::{AxisParameters, Parameters};
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::{Control, State};
+use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Place, SignalBit};
-
-/// How many handwheels there are.
-pub(in crate::sinumerik) const COUNT: usize = 3;
-
-/// One handwheel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Handwheel {
-    /// Pulses that one turn has.
-    pulses: i64,
-    /// Over how many cycles they spread.
-    cycles: i64,
-    /// How many of these have passed.
-    passed: i64,
-    /// Pulses in this cycle.
-    pub moved: i64,
-    /// All pulses so far, as the interface counts them.
-    pub counter: u8,
-    /// The machine axis for which the HMI selects it.
-    selected: Option<AxisNumber>,
-}
-
-impl Handwheel {
-    fn turn(&mut self, pulses: i64, cycles: i64) {
-        let left = self.pulses - self.share(self.passed);
-        *self = Self { pulses: left + pulses, cycles: cycles.max(1), passed: 0, ..*self };
-    }
-
-    /// Pulses of the turn after so many cycles.
-    const fn share(&self, passed: i64) -> i64 {
-        if self.cycles == 0 { 0 } else { self.pulses.saturating_mul(passed) / self.cycles }
-    }
-
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the counter runs over")]
-    fn advance(&mut self) {
-        self.moved = 0;
-        if self.passed < self.cycles {
-            self.moved = self.share(self.passed + 1) - self.share(self.passed);
-            self.passed += 1;
-            self.counter = self.counter.wrapping_add(self.moved as u8);
-            if self.passed == self.cycles {
-                *self = Self { pulses: 0, cycles: 0, passed: 0, ..*self };
-            }
-        }
-    }
-}
 
 /// What a stop condition does to handwheels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -256,43 +210,5 @@ fn limited(increment: Position, maximum: Position) -> Position {
         -maximum
     } else {
         maximum
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// 7 pulses over 3 cycles: 7/3, 14/3, 7 whole pulses after each, so 2, 2 and 3 in them; then none.
-    #[test]
-    fn pulses_spread_evenly_and_none_is_lost() {
-        for sign in [1, -1] {
-            let mut handwheel = Handwheel::default();
-            handwheel.turn(sign * 7, 3);
-            let moved: Vec<_> = (0..5)
-                .map(|_| {
-                    handwheel.advance();
-                    handwheel.moved
-                })
-                .collect();
-            assert_eq!(moved, [2, 2, 3, 0, 0].map(|pulses| sign * pulses));
-        }
-    }
-
-    #[test]
-    fn a_second_turn_takes_the_rest_of_the_first_along() {
-        let mut handwheel = Handwheel::default();
-        handwheel.turn(10, 10);
-        for _ in 0..4 {
-            handwheel.advance();
-        }
-        assert_eq!(handwheel.counter, 4);
-        handwheel.turn(-1, 1);
-        handwheel.advance();
-        assert_eq!((handwheel.moved, handwheel.counter), (5, 9));
-        // 250 more: the counter is one byte.
-        handwheel.turn(250, 1);
-        handwheel.advance();
-        assert_eq!(handwheel.counter, 3);
     }
 }

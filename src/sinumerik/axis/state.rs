@@ -1,0 +1,335 @@
+//! What the control remembers of one machine axis.
+
+use serde::{Deserialize, Serialize};
+
+use crate::motion::{Feedback, Motion, Setpoint};
+use crate::sinumerik::axis::shaping::Shaping;
+use crate::sinumerik::jog::state::Jogging;
+use crate::sinumerik::monitoring::state::AxisMonitor;
+use crate::sinumerik::parameters::AxisParameters;
+use crate::sinumerik::parameters::dynamics::ParameterSet;
+use crate::sinumerik::referencing::state::Approach;
+use crate::units::Position;
+use crate::variables::{EventId, Input};
+
+/// The events behind the signals of an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Causes {
+    /// 93.5, 93.7.
+    pub drive: EventId,
+    /// 61.3, 61.5 to 61.7.
+    pub enabling: EventId,
+    /// 102.5, 102.6.
+    pub measuring_system: EventId,
+    /// 60.4, 60.5.
+    pub reference: [EventId; 2],
+    /// 64.4 to 64.7.
+    pub motion: EventId,
+    /// 69.0 to 69.2.
+    pub parameter_set: EventId,
+    /// 93.0 to 93.4.
+    pub drive_data_set: EventId,
+}
+
+/// One machine axis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Axis {
+    /// Where it is to be.
+    pub setpoint: Setpoint,
+    /// The setpoint before this cycle, from which it is finely interpolated.
+    pub before: Position,
+    /// What this cycle commands.
+    pub motion: Motion,
+    /// Counts the cycles in which a filter or delay of its setpoint has not run out.
+    pub unsettled: u32,
+    /// How far position control's setpoint is behind the one of the interpolator, in increments, and the velocity that is fed
+    /// forward, in the last position-control cycle.
+    pub branch: (f64, f64),
+    /// The active parameter set, 0 to 5.
+    pub parameter_set: u8,
+    /// The data set that its drive has taken.
+    pub drive_data_set: u8,
+    /// The target of a [`Motion::GoTo`] is reached, and the setpoint rests on it.
+    pub arrived: bool,
+    /// Actual value minus encoder value, of each measuring system.
+    pub offset: [Position; 2],
+    /// Which measuring system is referenced.
+    pub referenced: [bool; 2],
+    /// Which measuring system is active, 0 or 1; without one the axis is parked.
+    pub measuring_system: Option<u8>,
+    /// Actual value in the machine coordinate system.
+    pub actual: Position,
+    /// The zero mark passed in the last cycle, as an actual value.
+    pub zero_mark: Option<Position>,
+    /// Actual velocity.
+    pub velocity: f64,
+    /// Half a count of the active encoder.
+    pub half_count: Position,
+    /// True position, for display.
+    pub slide: Position,
+    /// The drive has run up.
+    pub drive_ready: bool,
+    /// The way to position control and back.
+    pub enabling: Enabling,
+    /// Reference point approach.
+    pub approach: Approach,
+    /// A traversing key started an approach and has not been released since.
+    pub key_used: bool,
+    /// Direction of the key that started the approach; 0 for channel-specific referencing.
+    pub approach_key: i8,
+    /// Motion wanted, 64.4 and 64.5: +1, −1 or 0.
+    pub traverse_request: i8,
+    /// Motion commanded, 64.6 and 64.7: +1, −1 or 0.
+    pub traverse_command: i8,
+    /// Factor of the axial override.
+    pub feed_factor: f64,
+    /// Feed stop on an axis of its unit, or feed disable of its channel.
+    pub feed_held: bool,
+    /// Feed disable of its channel.
+    pub feed_disabled: bool,
+    /// The signal that holds it, of itself or of another axis of its unit.
+    pub feed_holder: Input,
+    /// Hardware limit switches.
+    pub limits: LimitSwitches,
+    /// What monitoring remembers.
+    pub monitor: AxisMonitor,
+    /// What keys and handwheels do.
+    pub jogging: Jogging,
+    /// Axis disable, ramp-function generator fast stop, delete distance-to-go.
+    pub signals: AxisSignals,
+    /// Why.
+    pub causes: Causes,
+}
+
+impl Default for Axis {
+    fn default() -> Self {
+        Self {
+            setpoint: Setpoint::default(),
+            before: Position::ZERO,
+            motion: Motion::Hold,
+            unsettled: 0,
+            branch: (0.0, 0.0),
+            parameter_set: 0,
+            drive_data_set: 0,
+            arrived: false,
+            offset: [Position::ZERO; 2],
+            referenced: [false; 2],
+            measuring_system: None,
+            actual: Position::ZERO,
+            zero_mark: None,
+            velocity: 0.0,
+            half_count: Position::ZERO,
+            slide: Position::ZERO,
+            drive_ready: false,
+            enabling: Enabling::default(),
+            approach: Approach::default(),
+            key_used: false,
+            approach_key: 0,
+            traverse_request: 0,
+            traverse_command: 0,
+            feed_factor: 1.0,
+            feed_held: false,
+            feed_disabled: false,
+            feed_holder: Input::None,
+            limits: LimitSwitches::default(),
+            monitor: AxisMonitor::default(),
+            jogging: Jogging::default(),
+            signals: AxisSignals::default(),
+            causes: Causes::default(),
+        }
+    }
+}
+
+impl Axis {
+    /// Takes what drive and encoders tell.
+    pub(in crate::sinumerik) fn sense(&mut self, feedback: &Feedback) {
+        self.velocity = feedback.velocity;
+        self.slide = feedback.slide;
+        self.drive_ready = feedback.drive_ready;
+        if let Some(active) = self.measuring_system {
+            let active = usize::from(active);
+            let encoder = feedback.encoders[active];
+            self.half_count = feedback.half_count[active];
+            self.actual = encoder.value + self.offset[active];
+            self.zero_mark = encoder.zero_mark.map(|mark| mark + self.offset[active]);
+        }
+    }
+
+    /// The active measuring system is referenced.
+    #[must_use]
+    pub(in crate::sinumerik) fn is_referenced(&self) -> bool {
+        self.measuring_system.is_some_and(|active| self.referenced[usize::from(active)])
+    }
+
+    /// What it has once per parameter set, of the active one.
+    #[must_use]
+    pub(in crate::sinumerik) fn active_set<'a>(&self, parameters: &'a AxisParameters) -> &'a ParameterSet {
+        &parameters.dynamics.sets[usize::from(self.parameter_set)]
+    }
+
+    /// Setpoint minus actual value; with axis disable, the setpoint that position control holds.
+    #[must_use]
+    pub(in crate::sinumerik) fn deviation(&self) -> Position {
+        self.signals.disabled_at().unwrap_or(self.setpoint.position) - self.actual
+    }
+
+    /// The setpoint rests and the velocity is below MD36060.
+    #[must_use]
+    pub(in crate::sinumerik) fn stands(&self, parameters: &AxisParameters) -> bool {
+        self.setpoint.is_at_rest() && self.velocity.abs() < parameters.standstill_velocity
+    }
+
+    /// The axis moves or is to move.
+    #[must_use]
+    pub(in crate::sinumerik) fn is_in_motion(&self) -> bool {
+        self.traverse_command != 0 || !self.setpoint.is_at_rest()
+    }
+
+    /// Gives the place where it is another actual value: nothing moves.
+    pub(in crate::sinumerik) fn shift(&mut self, by: Position) {
+        if let Some(active) = self.measuring_system {
+            self.offset[usize::from(active)] += by;
+            self.actual += by;
+            self.setpoint.shift(by);
+            self.monitor.shift(by);
+            self.signals.shift(by);
+        }
+    }
+
+    /// Executes what the cycle commands, through the filters that the axis has.
+    pub(in crate::sinumerik) fn execute(
+        &mut self,
+        shaping: Option<&mut Shaping>,
+        parameters: &AxisParameters,
+        cycle: f64,
+    ) {
+        let (motion, actual) = (self.motion, self.actual);
+        let command =
+            |setpoint: &mut Setpoint| motion.execute(setpoint, actual, parameters.maximum_acceleration, cycle);
+        let Some(filter) = shaping.and_then(|shaping| shaping.jerk.as_mut()) else {
+            self.arrived = command(&mut self.setpoint);
+            return;
+        };
+        // What takes the axis out of its movement does not wait for a filter.
+        let fast = matches!(self.enabling.control, ControllerState::Braking(_))
+            || motion.is_fast(parameters.dynamics.jerk.hardest);
+        let first = motion.acceleration().map(|rate| parameters.dynamics.jerk.window_for(rate, cycle));
+        self.arrived = filter.step(&mut self.setpoint, first, fast, cycle, command);
+        self.unsettled = self.unsettled.wrapping_add(u32::from(filter.is_busy()));
+    }
+}
+
+/// How many cycles each step of the chain takes, so that brake and timer logic meets a real order.
+pub(in crate::sinumerik) const STEP: u8 = 2;
+
+/// How far an axis is on its way to position control.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum ControllerState {
+    /// No position control.
+    #[default]
+    Off,
+    /// The controllers switch on one after another; how many cycles so far.
+    SwitchingOn(u8),
+    /// In position control.
+    On,
+    /// Braking after the enable went; how many cycles are left before it is switched off anyway (MD36620).
+    Braking(u64),
+}
+
+/// The state of the chain.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Enabling {
+    /// Position control.
+    pub control: ControllerState,
+    /// Cycles with drive ready and pulse enable, up to [`STEP`].
+    pub pulses: u8,
+    /// Not in position control, and the setpoint follows the actual value.
+    pub follow_up: bool,
+}
+
+impl Enabling {
+    /// 93.7.
+    #[must_use]
+    pub(in crate::sinumerik) const fn pulses_enabled(&self) -> bool {
+        self.pulses >= STEP
+    }
+
+    /// 61.7, 61.6 and 61.5: current, speed and position controller.
+    #[must_use]
+    pub(in crate::sinumerik) const fn controllers(&self) -> [bool; 3] {
+        match self.control {
+            ControllerState::Off => [false; 3],
+            ControllerState::SwitchingOn(cycles) => [cycles >= STEP, cycles >= 2 * STEP, false],
+            ControllerState::On | ControllerState::Braking(_) => [true; 3],
+        }
+    }
+
+    /// The drive acts on velocity commands.
+    #[must_use]
+    pub(in crate::sinumerik) const fn is_powered(&self) -> bool {
+        self.pulses_enabled() && matches!(self.control, ControllerState::On | ControllerState::Braking(_))
+    }
+
+    /// Ready to be moved.
+    #[must_use]
+    pub(in crate::sinumerik) const fn is_on(&self) -> bool {
+        matches!(self.control, ControllerState::On)
+    }
+}
+
+/// The limit switches of an axis as the last cycle saw them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct LimitSwitches {
+    pub minus: bool,
+    pub plus: bool,
+    pub cause: EventId,
+}
+
+impl LimitSwitches {
+    /// A movement in this direction leads further onto a switch.
+    pub(in crate::sinumerik) const fn blocks(self, direction: i8) -> bool {
+        direction > 0 && self.plus || direction < 0 && self.minus
+    }
+}
+
+/// The state of these signals on one axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct AxisSignals {
+    /// The unit is stopped by 20.1: 92.1.
+    pub fast_stop: bool,
+    /// Why.
+    pub fast_stop_cause: EventId,
+    /// Where position control holds the axis while its setpoint is not output.
+    pub disabled_at: Option<Position>,
+    /// 2.2 in the last cycle.
+    pub delete_was: bool,
+}
+
+impl AxisSignals {
+    /// The setpoint of position control while axis disable acts.
+    #[must_use]
+    #[inline]
+    pub(in crate::sinumerik) const fn disabled_at(&self) -> Option<Position> {
+        self.disabled_at
+    }
+
+    /// What position control works on is not the setpoint: axis disable, or the fast stop.
+    #[must_use]
+    pub(in crate::sinumerik) const fn withholds_setpoint(&self) -> bool {
+        self.fast_stop || self.disabled_at.is_some()
+    }
+
+    /// The same place gets another value.
+    pub(in crate::sinumerik) fn shift(&mut self, by: Position) {
+        if let Some(held) = &mut self.disabled_at {
+            *held += by;
+        }
+    }
+
+    /// Position control holds another place: the actual value.
+    pub(in crate::sinumerik) fn hold_at(&mut self, actual: Position) {
+        if self.disabled_at.is_some() {
+            self.disabled_at = Some(actual);
+        }
+    }
+}

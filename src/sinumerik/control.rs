@@ -1,0 +1,245 @@
+//! The control as the machine calls it: machine data, and the order of the stages in a cycle.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::image::ToNck;
+use crate::motion::Feedback;
+use crate::sinumerik::log::Log;
+use crate::sinumerik::machine_data::{Effect, MachineData, Target, Value};
+use crate::sinumerik::parameters::{AxisPresence, Parameters};
+use crate::sinumerik::resting::{Changes, Resting};
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
+use crate::sinumerik::transitions::TakenTransitions;
+use crate::source::Problem;
+use crate::units::{AxisNumber, AxisSet, ModeGroupNumber, PerAxis};
+use crate::variables::{EventId, Place};
+
+/// The control.
+///
+/// Machine data have a stored and an active set (DEF-09, REF-22): a file or an operator changes the stored one, and
+/// the class of a datum says when it begins to act.
+#[derive(Clone, Debug)]
+pub struct Control {
+    pub(super) stored: Arc<MachineData>,
+    pub(super) active: Arc<MachineData>,
+    pub(super) presence: Arc<PerAxis<AxisPresence>>,
+    pub(super) parameters: Arc<Parameters>,
+    pub(super) state: Box<State>,
+    pub(super) resting: Box<Resting>,
+}
+
+/// A saved control.
+#[derive(Serialize, Deserialize)]
+pub struct SavedControl {
+    stored: MachineData,
+    active: MachineData,
+    state: State,
+}
+
+impl Control {
+    /// A control that has just been switched on.
+    #[must_use]
+    pub fn new(data: MachineData, presence: PerAxis<AxisPresence>) -> Self {
+        let stored = Arc::new(data);
+        let parameters = Arc::new(Parameters::new(&stored, &presence));
+        let state = Box::new(State::new(&parameters));
+        let resting = Box::new(Resting::new(&state));
+        Self { active: Arc::clone(&stored), stored, presence: Arc::new(presence), parameters, state, resting }
+    }
+
+    /// Power off and on: stored machine data become active, everything else starts anew.
+    pub fn power_on(&mut self) {
+        let cycle = self.state.log.cycle;
+        self.active = Arc::clone(&self.stored);
+        self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
+        let events = std::mem::take(&mut self.state.log.events);
+        let taken = self.state.log.taken;
+        *self.state = State::new(&self.parameters);
+        self.state.log = Log { cycle, events, taken };
+        self.state.note_power_on();
+        self.resting.begin_anew(&self.state);
+    }
+
+    /// What the stages work with.
+    #[must_use]
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// The machine data that act.
+    #[must_use]
+    pub fn active(&self) -> &MachineData {
+        &self.active
+    }
+
+    /// The machine data as they are stored.
+    #[must_use]
+    pub fn stored(&self) -> &MachineData {
+        &self.stored
+    }
+
+    /// Stores a machine datum; it acts when its class says.
+    ///
+    /// # Errors
+    /// The value does not fit the datum, or only the control writes it; nothing has changed then.
+    pub fn store(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
+        Arc::make_mut(&mut self.stored).set(target, value)?;
+        if target.datum().effect == Effect::Immediate {
+            self.activate(Effect::Immediate);
+        }
+        Ok(())
+    }
+
+    /// "Set machine data active".
+    pub fn new_conf(&mut self) {
+        self.activate(Effect::NewConf);
+    }
+
+    /// Makes the stored data of a class and of those below it active.
+    pub(super) fn activate(&mut self, level: Effect) {
+        if Arc::ptr_eq(&self.stored, &self.active) {
+            return;
+        }
+        Arc::make_mut(&mut self.active).activate(&self.stored, level);
+        self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
+        self.state.prepare_position_control(&self.parameters);
+        self.resting.wake_all();
+    }
+
+    /// The PLC program does not run, or runs again after power on.
+    pub fn plc_missing(&mut self) {
+        if !self.state.plc_missing {
+            self.state.plc_missing = true;
+            self.state.plc_cause = self.state.log.note_plain(Place::Nck, Rule::PlcMissing, EventId::NONE);
+        }
+    }
+
+    /// The PLC program runs again; alarm 2000 stays until power off.
+    pub fn plc_restarted(&mut self) {
+        self.state.plc_missing = false;
+    }
+
+    /// The active measuring system of an axis, 0 or 1.
+    #[must_use]
+    pub fn measuring_system(&self, axis: AxisNumber) -> Option<u8> {
+        self.state.axes[axis].measuring_system
+    }
+
+    /// Which steps of referencing and of the groupings this control has taken.
+    #[must_use]
+    pub fn taken_transitions(&self) -> TakenTransitions {
+        self.state.log.taken
+    }
+
+    /// Where the reference point approach of an axis is.
+    #[must_use]
+    pub fn approach_phase(&self, axis: AxisNumber) -> crate::sinumerik::ApproachPhase {
+        self.state.axes[axis].approach.phase()
+    }
+
+    /// Where the gantry grouping of this number is.
+    #[must_use]
+    pub fn grouping_phase(&self, number: u8) -> Option<crate::sinumerik::GroupingPhase> {
+        let grouping = self.state.groupings.iter().find(|grouping| grouping.number == number)?;
+        Some(grouping.phase)
+    }
+
+    /// Somebody else wrote into the NCK's half.
+    pub fn half_overwritten(&mut self) {
+        self.state.overwritten = true;
+        self.resting.wake_all();
+    }
+
+    /// Somebody else wrote DBB5 of a mode group in DB11 (E-01).
+    pub fn strobe_written(&mut self, group: ModeGroupNumber) {
+        self.state.strobe_written(group);
+    }
+
+    /// Takes what the PLC wrote, and which of it is new, and commands setpoints.
+    pub fn decide(&mut self, cycle: u64, to_nck: &ToNck, changes: Changes, cancel_key: bool) {
+        self.state.log.cycle = cycle;
+        self.state.run_up(&self.parameters);
+        self.state.select_modes(&self.parameters, to_nck);
+        self.state.watch_emergency_stop(&self.parameters, to_nck);
+        self.reset_and_cancel(to_nck, cancel_key);
+        if self.resting.take_units_stale() | self.state.check_closings(&self.parameters) {
+            self.state.form_units(&self.parameters);
+            self.state.report_declarations(&self.parameters);
+        }
+        self.state.start_channel_referencing(&self.parameters, to_nck);
+        self.state.select_group_functions(&self.parameters, to_nck);
+        self.state.turn_handwheels();
+        self.wake(changes);
+        let (parameters, state, resting) = (&*self.parameters, &mut *self.state, &*self.resting);
+        state.select_measuring_systems(parameters, to_nck, resting);
+        state.select_parameter_sets(parameters, to_nck, resting);
+        state.enable(parameters, to_nck, resting);
+        state.select_functions(parameters, to_nck, resting);
+        let mut next = 0;
+        while let Some(index) = state.next_awake(next, resting) {
+            next = index + 1;
+            let unit = state.units[index];
+            state.take_feed(&unit, parameters, to_nck);
+            state.take_axis_signals(&unit, to_nck);
+            match unit.grouping {
+                Some(index) => state.run_grouping(usize::from(index), &unit, parameters, to_nck),
+                None => state.run_single(&unit, parameters, to_nck),
+            }
+            state.stop_by_ramp_function_generator(&unit);
+            state.set_setpoints(&unit, parameters);
+        }
+        state.order_channel_referencing(parameters);
+    }
+
+    /// Takes what encoders and drives of these axes tell, and monitors it. The others tell what they told before.
+    pub fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet) {
+        for number in told.and(self.parameters.existing).iter() {
+            let axis = &self.state.axes[number];
+            let feedback = match &axis.active_set(&self.parameters.axes[number]).misfit {
+                None => feedback[number],
+                Some(misfit) => misfit.seen(&feedback[number], usize::from(axis.measuring_system.unwrap_or(0))),
+            };
+            if self.state.feedback[number] != feedback {
+                self.state.feedback[number] = feedback;
+                self.resting.wake_axis(number);
+            }
+        }
+        for number in self.awake().iter() {
+            self.state.axes[number].sense(&self.state.feedback[number]);
+        }
+        self.monitor();
+        for number in self.awake().iter() {
+            let (axis, summary) = (&self.state.axes[number], &mut self.state.summary);
+            summary.drive_ready.set(number, axis.drive_ready);
+            summary.referenced.set(number, axis.is_referenced());
+            summary.standing.set(number, axis.stands(&self.parameters.axes[number]));
+            // An approach that waits at rest is on its way, too.
+            summary.in_motion.set(number, axis.is_in_motion() || axis.approach.is_running());
+        }
+    }
+
+    /// For save and restore.
+    #[must_use]
+    pub fn save(&self) -> SavedControl {
+        SavedControl {
+            stored: MachineData::clone(&self.stored),
+            active: MachineData::clone(&self.active),
+            state: State::clone(&self.state),
+        }
+    }
+
+    /// Takes back what [`Control::save`] gave.
+    pub fn restore(&mut self, saved: SavedControl) {
+        let same = saved.stored == saved.active;
+        self.stored = Arc::new(saved.stored);
+        self.active = if same { Arc::clone(&self.stored) } else { Arc::new(saved.active) };
+        self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
+        let taken = self.state.log.taken;
+        *self.state = saved.state;
+        self.state.log.taken = taken;
+        self.resting.begin_anew(&self.state);
+    }
+}

@@ -1,0 +1,194 @@
+//! What the control remembers of gantry groupings, and the table of steps that a grouping can take.
+
+use serde::{Deserialize, Serialize};
+
+use crate::motion::Coupling;
+use crate::sinumerik::parameters::groupings::Definition;
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::transitions::{Transition, row};
+use crate::units::{AxisNumber, AxisSet, Position};
+use crate::variables::EventId;
+
+/// Where a grouping is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Phase {
+    /// Not synchronised, and nothing is on the way.
+    #[default]
+    NotSynchronised,
+    /// Section 1: the leading axis is referenced.
+    ReferencingLeadingAxis,
+    /// Section 2: a synchronous axis is referenced, the leading axis follows it.
+    ReferencingSynchronousAxis,
+    /// Section 3: all referenced, the start must come from outside.
+    WaitingForStart,
+    /// Section 3: the axes move decoupled to the common position.
+    Synchronising,
+    /// Synchronised.
+    Synchronised,
+    /// MD37140 = 1.
+    Open,
+}
+
+impl Phase {
+    /// What it is, in a few words.
+    #[must_use]
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::NotSynchronised => "not synchronised",
+            Self::ReferencingLeadingAxis => "section 1: the leading axis is referenced",
+            Self::ReferencingSynchronousAxis => "section 2: a synchronous axis is referenced",
+            Self::WaitingForStart => "section 3: waiting for the start",
+            Self::Synchronising => "section 3: synchronising motion",
+            Self::Synchronised => "synchronised",
+            Self::Open => "opened",
+        }
+    }
+}
+
+/// Every step that a grouping can take.
+pub const TRANSITIONS: &[Transition<Phase>] = &[
+    row(Phase::NotSynchronised, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
+    row(Phase::WaitingForStart, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
+    row(Phase::Synchronised, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
+    row(Phase::ReferencingLeadingAxis, Rule::LeadingAxisReferenced, Phase::ReferencingSynchronousAxis),
+    row(Phase::ReferencingLeadingAxis, Rule::ReferencingAborted, Phase::NotSynchronised),
+    row(Phase::ReferencingSynchronousAxis, Rule::NextSynchronousAxis, Phase::ReferencingSynchronousAxis),
+    row(Phase::ReferencingSynchronousAxis, Rule::ReferencingAborted, Phase::NotSynchronised),
+    row(Phase::ReferencingSynchronousAxis, Rule::AutomaticStart, Phase::Synchronising),
+    row(Phase::ReferencingSynchronousAxis, Rule::WaitWarningLimitZero, Phase::WaitingForStart),
+    row(Phase::ReferencingSynchronousAxis, Rule::WaitDifference, Phase::WaitingForStart),
+    row(Phase::ReferencingSynchronousAxis, Rule::WaitLocked, Phase::WaitingForStart),
+    row(Phase::ReferencingSynchronousAxis, Rule::ReadyNoMore, Phase::NotSynchronised),
+    row(Phase::WaitingForStart, Rule::StartByPlc, Phase::Synchronising),
+    row(Phase::WaitingForStart, Rule::ReadyNoMore, Phase::NotSynchronised),
+    row(Phase::WaitingForStart, Rule::SynchronismRestored, Phase::Synchronised),
+    row(Phase::Synchronising, Rule::Synchronised, Phase::Synchronised),
+    row(Phase::Synchronising, Rule::SynchronisationAborted, Phase::WaitingForStart),
+    row(Phase::Synchronising, Rule::ReadyNoMore, Phase::NotSynchronised),
+    row(Phase::Synchronised, Rule::SynchronismLostFollowUp, Phase::NotSynchronised),
+    row(Phase::Synchronised, Rule::SynchronismLostReference, Phase::NotSynchronised),
+    row(Phase::NotSynchronised, Rule::ReadyAgain, Phase::WaitingForStart),
+    row(Phase::NotSynchronised, Rule::Opened, Phase::Open),
+    row(Phase::ReferencingLeadingAxis, Rule::Opened, Phase::Open),
+    row(Phase::ReferencingSynchronousAxis, Rule::Opened, Phase::Open),
+    row(Phase::WaitingForStart, Rule::Opened, Phase::Open),
+    row(Phase::Synchronising, Rule::Opened, Phase::Open),
+    row(Phase::Synchronised, Rule::Opened, Phase::Open),
+    row(Phase::Open, Rule::Closed, Phase::NotSynchronised),
+];
+
+/// What monitoring found on one synchronous axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Monitored {
+    /// The synchronism difference.
+    pub difference: Position,
+    /// Beyond MD37110: 101.3.
+    pub warning: bool,
+    /// Beyond MD37120 or MD37130: 101.2.
+    pub trip: bool,
+    /// The amount when position control came back after synchronism was lost in operation (MON-08).
+    pub base: Option<Position>,
+    /// Why the warning came or went.
+    pub warning_cause: EventId,
+    /// Why the trip came or went.
+    pub trip_cause: EventId,
+}
+
+/// One grouping.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Grouping {
+    /// Its number, 1 to 8.
+    pub number: u8,
+    /// Leading and synchronous axes, who leads now, and the base of each difference.
+    pub coupling: Coupling,
+    /// Where it is.
+    pub phase: Phase,
+    /// The movement of the one that leads is handed on; not while the axes synchronise, and until all rest after that.
+    pub coupled: bool,
+    /// Which synchronous axis is being referenced.
+    pub turn: u8,
+    /// Direction of the key that started the approach; 0 for channel-specific referencing.
+    pub key: i8,
+    /// Section 3 was entered from section 2, without RESET and without leaving REF since (REF-15).
+    pub from_referencing: bool,
+    /// 10654 is shown; RESET takes it away (O-09).
+    pub message: bool,
+    /// The synchronising motion was waited for; 101.4 was set before it.
+    pub waited_for: bool,
+    /// Where the synchronising motion leads, for all axes.
+    pub target: Position,
+    /// Whether the leading axis moves there, too.
+    pub leading_axis_moves: bool,
+    /// Cycles at the target without exact stop fine.
+    pub waited: u64,
+    /// 29.4 of the leading axis in the last cycle.
+    pub start_was: bool,
+    /// The axes were in follow-up in the last cycle.
+    pub followed_up: bool,
+    /// Follow-up has ended and position control has not come back yet.
+    pub returning: bool,
+    /// Synchronism was lost by follow-up, and nothing has given it back or begun anew since.
+    pub lost_in_operation: bool,
+    /// Closing was refused with 10658 (BRK-05).
+    pub kept_open: bool,
+    /// What monitoring found on each synchronous axis.
+    pub monitored: [Monitored; 2],
+    /// The latest event of the grouping.
+    pub cause: EventId,
+}
+
+impl Grouping {
+    /// As after power on: no difference, nothing referenced.
+    #[must_use]
+    pub(in crate::sinumerik) fn new(definition: &Definition) -> Self {
+        Self {
+            number: definition.number,
+            coupling: definition.coupling.clone(),
+            phase: Phase::NotSynchronised,
+            coupled: true,
+            turn: 0,
+            key: 0,
+            from_referencing: false,
+            message: false,
+            waited_for: false,
+            target: Position::ZERO,
+            leading_axis_moves: false,
+            waited: 0,
+            start_was: false,
+            followed_up: false,
+            returning: false,
+            lost_in_operation: false,
+            kept_open: false,
+            monitored: [Monitored::default(); 2],
+            cause: EventId::NONE,
+        }
+    }
+
+    /// The axis that is referenced in section 1 or 2.
+    pub(in crate::sinumerik) fn referencing(&self) -> Option<AxisNumber> {
+        match self.phase {
+            Phase::ReferencingLeadingAxis => Some(self.coupling.leader()),
+            Phase::ReferencingSynchronousAxis => self.coupling.followers().nth(usize::from(self.turn)),
+            Phase::NotSynchronised
+            | Phase::WaitingForStart
+            | Phase::Synchronising
+            | Phase::Synchronised
+            | Phase::Open => None,
+        }
+    }
+
+    /// Sections 1 and 2 are on the way.
+    #[must_use]
+    pub(in crate::sinumerik) fn is_referencing(&self) -> bool {
+        self.referencing().is_some()
+    }
+}
+
+/// What has been told.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Declared {
+    /// The data that must be equal have been looked at since power on.
+    pub compared: bool,
+    /// Synchronous axes of closed groupings with MD30450 = 1.
+    pub concurrent: AxisSet,
+}

@@ -1,0 +1,236 @@
+//! JOG: traversing keys with rapid traverse, override, feed stop and feed disable.
+//!
+//! Called once per cycle for each unit in the stage "referencing and gantry", while JOG is active without REF. Keys of
+//! a synchronous axis of a closed grouping are ignored without alarm (MIS-01): only the first axis of a unit is asked.
+//! `increments.rs` says what a press of a key begins and ends, `handwheel.rs` what handwheels add.
+//!
+//! Traverse request (64.4, 64.5) is what is wanted, traverse command (64.6, 64.7) what is commanded: override 0 %, feed stop,
+//! feed disable, RESET, an alarm that stops and a limit take the command and leave the request. What has an end
+//! goes on to it after feed stop, feed disable and 0 %, and is dropped by everything else that stops.
+
+use crate::image::{AxisToNck, ToNck};
+use crate::motion::Motion;
+use crate::sinumerik::axis::limits::Ahead;
+use crate::sinumerik::axis::state::Axis;
+use crate::sinumerik::jog::handwheels;
+use crate::sinumerik::jog::state::{By, Movement};
+use crate::sinumerik::log::axis_bit;
+use crate::sinumerik::parameters::{AxisParameters, Parameters};
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::{State, Unit};
+use crate::units::AxisNumber;
+use crate::variables::{EventId, Input, Place, SignalBit};
+
+/// The direction of the traversing keys: +1, −1, or 0 for none, both, or keys that are disabled (4.4).
+#[must_use]
+pub(in crate::sinumerik) fn key_direction(signals: &AxisToNck) -> i8 {
+    let (plus, minus) = (signals.traversing_key_plus(), signals.traversing_key_minus());
+    match (plus, minus, signals.traversing_key_disable()) {
+        (true, false, false) => 1,
+        (false, true, false) => -1,
+        _ => 0,
+    }
+}
+
+impl State {
+    /// What holds every movement of a unit: override factor 0, feed stop on any of its axes (SIG-06), feed disable.
+    pub(in crate::sinumerik) fn take_feed(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
+        let disabled = to_nck.channels[unit.channel].feed_disable();
+        let stopper = unit.members().find(|&axis| to_nck.axes[axis].feed_stop());
+        let stopped = stopper.is_some();
+        let channel = SignalBit { place: Place::Channel(unit.channel), byte: 6, bit: 0 };
+        let holder = stopper.map_or(Input::None, |axis| axis_bit(axis, 4, 3, true));
+        let holder = if disabled { Input::Bit(channel, true) } else { holder };
+        for axis in unit.members() {
+            let signals = &to_nck.axes[axis];
+            // O-21: the axial override acts while 1.7 = 1, else 100 %.
+            let factor =
+                if signals.override_active() { parameters.axis_override(signals.feed_override()) } else { 1.0 };
+            self.axes[axis].feed_factor = factor;
+            self.axes[axis].feed_held = stopped || disabled;
+            self.axes[axis].feed_disabled = disabled;
+            self.axes[axis].feed_holder = holder;
+        }
+    }
+
+    /// Traversing keys and handwheels of the unit's first axis.
+    pub(in crate::sinumerik) fn jog(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
+        let number = unit.leader();
+        self.watch_software_limits(unit, parameters, to_nck);
+        let (signals, axis_parameters) = (&to_nck.axes[number], &parameters.axes[number]);
+        let key = key_direction(signals);
+        let jogging = &mut self.axes[number].jogging;
+        let way = jogging.function.way(axis_parameters);
+        jogging.take_keys(key, signals.traversing_key_disable(), way, parameters.key_modes);
+        self.take_handwheels(number, parameters, signals);
+        self.raise_handwheel_alarms(number, key);
+        let axis = &self.axes[number];
+        if let Some(cause) = self.stop_cause(unit.channel, parameters) {
+            // The unit brakes as it was told (O-04).
+            self.stop_jogging(number, parameters, signals, cause);
+            return;
+        }
+        if let Some(cause) = self.limited(unit, axis.jogging.movement.direction(axis.setpoint.position)) {
+            // Towards a pressed switch nothing moves; away from it everything does.
+            self.brake_at_limit(unit, parameters);
+            self.stop_jogging(number, parameters, signals, cause);
+            return;
+        }
+        if axis.signals.fast_stop {
+            self.stop_jogging(number, parameters, signals, axis.signals.fast_stop_cause);
+            return;
+        }
+        self.axes[number].motion = Motion::Brake { deceleration: axis_parameters.jog_acceleration };
+        let ended = self.axes[number].begin_or_end_way();
+        let axis = &self.axes[number];
+        let movement = axis.jogging.movement;
+        if movement == Movement::None {
+            self.show_jogging(number, 0, 0, if ended { Rule::EndReached } else { Rule::KeyReleased }, signals);
+            return;
+        }
+        let direction = movement.direction(axis.setpoint.position);
+        let velocity = axis.jog_velocity(axis_parameters, signals);
+        let held = axis.feed_held || velocity <= 0.0;
+        if !held && axis.enabling.is_on() {
+            let ahead = self.software_limit_ahead(number, direction, parameters, to_nck);
+            if direction != 0 && ahead == Ahead::Reached && !matches!(movement, Movement::Pending(..)) {
+                self.rest_on_software_limit(number, direction, parameters, signals);
+                return;
+            }
+            self.axes[number].follow_keys(direction, velocity, ahead, axis_parameters.jog_acceleration);
+        }
+        // Without controller enable the command stays pending and runs when the enable returns.
+        let command = if held { 0 } else { direction };
+        let rule = match movement {
+            Movement::None | Movement::Path(..) if direction == 0 => Rule::EndReached,
+            Movement::None | Movement::Continuous(_) => Rule::TraversingKey,
+            Movement::Pending(_, By::Key(_)) | Movement::Path(_, By::Key(_)) => Rule::IncrementStarted,
+            Movement::Pending(_, By::Handwheel) | Movement::Path(_, By::Handwheel) => Rule::HandwheelTurned,
+        };
+        self.show_jogging(number, direction, command, if held { Rule::MotionBlocked } else { rule }, signals);
+    }
+
+    /// Something stops: what has an end is dropped, a key that acts while it is held stays visible.
+    fn stop_jogging(&mut self, number: AxisNumber, parameters: &Parameters, signals: &AxisToNck, cause: EventId) {
+        let axis = &mut self.axes[number];
+        if !(parameters.key_modes.continuous_held && matches!(axis.jogging.movement, Movement::Continuous(_))) {
+            axis.jogging.movement = Movement::None;
+        }
+        let request = axis.jogging.movement.direction(axis.setpoint.position);
+        if axis.traverse_command == 0 && axis.traverse_request != request {
+            // It stands already: only what is wanted is another thing.
+            let rule = if request == 0 { Rule::KeyReleased } else { Rule::MotionBlocked };
+            let event = self.log.note(Place::Axis(number), rule, key_inputs(number, axis, signals), cause);
+            self.traverse(number, request, 0, event);
+        } else {
+            self.traverse(number, request, 0, cause);
+        }
+    }
+
+    fn rest_on_software_limit(
+        &mut self,
+        number: AxisNumber,
+        direction: i8,
+        parameters: &Parameters,
+        signals: &AxisToNck,
+    ) {
+        let axis = &self.axes[number];
+        let mut cause = axis.causes.motion;
+        if (axis.traverse_request, axis.traverse_command) != (direction, 0) {
+            cause = self.log.note_plain(Place::Axis(number), Rule::SoftwareLimit, cause);
+        }
+        self.stop_jogging(number, parameters, signals, cause);
+    }
+
+    fn show_jogging(&mut self, number: AxisNumber, request: i8, command: i8, rule: Rule, signals: &AxisToNck) {
+        let axis = &self.axes[number];
+        if (axis.traverse_request, axis.traverse_command) == (request, command) {
+            return;
+        }
+        let event = if axis.jogging.movement.is_by_handwheel() {
+            self.log.note_plain(Place::Axis(number), rule, axis.jogging.handwheel_cause)
+        } else {
+            // What begins a movement has nothing to do with the one before.
+            let begins = axis.traverse_request == 0;
+            let parent = if begins { EventId::NONE } else { axis.causes.motion };
+            self.log.note(Place::Axis(number), rule, key_inputs(number, axis, signals), parent)
+        };
+        self.traverse(number, request, command, event);
+    }
+
+    /// What is wanted (64.4, 64.5) and commanded (64.6, 64.7), with the event behind a change.
+    pub(in crate::sinumerik) fn traverse(&mut self, number: AxisNumber, request: i8, command: i8, cause: EventId) {
+        let axis = &mut self.axes[number];
+        if (axis.traverse_request, axis.traverse_command) != (request, command) {
+            axis.traverse_request = request;
+            axis.traverse_command = command;
+            axis.causes.motion = cause;
+        }
+    }
+}
+
+impl Axis {
+    /// A way that waited begins, one whose end is reached ends; whether one ended. An increment begins at rest.
+    fn begin_or_end_way(&mut self) -> bool {
+        let rests = self.setpoint.is_at_rest();
+        if let Movement::Pending(way, by) = self.jogging.movement
+            && self.enabling.is_on()
+            && (rests || by == By::Handwheel)
+        {
+            self.jogging.movement = Movement::Path(self.setpoint.position + way, by);
+        }
+        let ended =
+            matches!(self.jogging.movement, Movement::Path(target, _) if rests && self.setpoint.position == target);
+        if ended {
+            self.jogging.movement = Movement::None;
+        }
+        ended
+    }
+
+    /// Velocity of keys or handwheels, with the override.
+    fn jog_velocity(&self, parameters: &AxisParameters, signals: &AxisToNck) -> f64 {
+        let of_keys =
+            if signals.rapid_traverse_override() { parameters.jog_rapid_velocity } else { parameters.jog_velocity };
+        if self.jogging.movement.is_by_handwheel() {
+            handwheels::velocity(parameters, of_keys, self.feed_factor)
+        } else {
+            (of_keys * self.feed_factor).min(parameters.maximum_velocity)
+        }
+    }
+
+    /// Commands the movement; what leads beyond a software limit is dropped.
+    fn follow_keys(&mut self, direction: i8, velocity: f64, ahead: Ahead, acceleration: f64) {
+        self.motion = match (self.jogging.movement, ahead) {
+            (Movement::None | Movement::Pending(..), _) => return,
+            (Movement::Continuous(_), Ahead::At(target)) => Motion::GoTo { target, velocity, acceleration },
+            (Movement::Continuous(_), Ahead::Free | Ahead::Reached) => {
+                Motion::Run { velocity: velocity * f64::from(direction), acceleration }
+            }
+            (Movement::Path(target, by), ahead) => {
+                let target = match ahead {
+                    Ahead::At(limit) if (target > limit) == (direction > 0) => limit,
+                    Ahead::At(_) | Ahead::Free | Ahead::Reached => target,
+                };
+                self.jogging.movement = Movement::Path(target, by);
+                Motion::GoTo { target, velocity, acceleration }
+            }
+        };
+    }
+}
+
+/// The keys, and what of the axis itself holds its movement.
+fn key_inputs(number: AxisNumber, axis: &Axis, signals: &AxisToNck) -> [Input; 3] {
+    let holds = if signals.feed_stop() {
+        axis_bit(number, 4, 3, true)
+    } else if axis.feed_factor <= 0.0 {
+        // The override that acts is 0 %.
+        axis_bit(number, 1, 7, true)
+    } else {
+        axis.feed_holder
+    };
+    [
+        axis_bit(number, 4, 7, signals.traversing_key_plus()),
+        axis_bit(number, 4, 6, signals.traversing_key_minus()),
+        holds,
+    ]
+}

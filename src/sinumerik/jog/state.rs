@@ -1,0 +1,298 @@
+//! What the control remembers of traversing keys, increments and handwheels.
+
+use serde::{Deserialize, Serialize};
+
+use crate::image::AxisToNck;
+use crate::sinumerik::parameters::{AxisParameters, KeyModes};
+use crate::units::{AxisNumber, Position};
+use crate::variables::EventId;
+
+/// A machine function of JOG.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum Function {
+    /// Continuous, bit 6.
+    #[default]
+    Continuous,
+    /// INC1, 10, 100, 1000, 10000 or var, bits 0 to 5.
+    Increment(u8),
+}
+
+impl Function {
+    /// As requested; of several the smallest increment, without any continuous.
+    pub(in crate::sinumerik) fn requested(bits: u8) -> Self {
+        match u8::try_from((bits & 0x3F).trailing_zeros()) {
+            Ok(bit @ 0..=5) => Self::Increment(bit),
+            Ok(_) | Err(_) => Self::Continuous,
+        }
+    }
+
+    /// As it is shown.
+    #[must_use]
+    pub(in crate::sinumerik) const fn bits(self) -> u8 {
+        1 << self.bit()
+    }
+
+    pub(in crate::sinumerik) const fn bit(self) -> u8 {
+        match self {
+            Self::Continuous => 6,
+            Self::Increment(bit) => bit,
+        }
+    }
+
+    /// The way of one increment, with its sign; zero for continuous.
+    #[must_use]
+    pub(in crate::sinumerik) fn way(self, parameters: &AxisParameters) -> Position {
+        match self {
+            Self::Continuous => Position::ZERO,
+            Self::Increment(bit) => parameters.increments[usize::from(bit.min(5))],
+        }
+    }
+}
+
+/// What moves an axis by a way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum By {
+    /// A traversing key: +1 or −1.
+    Key(i8),
+    /// Handwheels.
+    Handwheel,
+}
+
+/// What an axis does in JOG.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum Movement {
+    /// Nothing.
+    #[default]
+    None,
+    /// It moves while a key says so: +1 or −1.
+    Continuous(i8),
+    /// It is to move by a way, and has not begun.
+    Pending(Position, By),
+    /// It moves to a target.
+    Path(Position, By),
+}
+
+impl Movement {
+    /// The direction of it: +1, −1 or 0.
+    #[must_use]
+    pub(in crate::sinumerik) fn direction(self, setpoint: Position) -> i8 {
+        let way = match self {
+            Self::None => return 0,
+            Self::Continuous(direction) => return direction,
+            Self::Pending(way, _) => way,
+            Self::Path(target, _) => target - setpoint,
+        };
+        i8::try_from(way.increments().signum()).unwrap_or(0)
+    }
+
+    /// Handwheels move.
+    #[must_use]
+    pub(in crate::sinumerik) const fn is_by_handwheel(self) -> bool {
+        matches!(self, Self::Pending(_, By::Handwheel) | Self::Path(_, By::Handwheel))
+    }
+
+    /// The way that is left of a movement that has an end.
+    #[must_use]
+    pub(in crate::sinumerik) fn distance_to_go(self, setpoint: Position) -> Position {
+        match self {
+            Self::None | Self::Continuous(_) => Position::ZERO,
+            Self::Pending(way, _) => way,
+            Self::Path(target, _) => target - setpoint,
+        }
+    }
+}
+
+/// What keys and handwheels do to one axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Jogging {
+    /// The active machine function.
+    pub function: Function,
+    /// As it is shown: nothing outside of JOG.
+    pub shown: u8,
+    /// Why.
+    pub function_cause: EventId,
+    /// Plus and minus key in the last cycle.
+    pub keys: [bool; 2],
+    /// Plus and minus key pressed in this cycle.
+    pub pressed: [bool; 2],
+    /// The key that is held began something that has ended; it must be released first.
+    pub spent: bool,
+    /// What the axis does.
+    pub movement: Movement,
+    /// Handwheels that move this axis, as bits.
+    pub handwheels: u8,
+    /// Why.
+    pub handwheel_cause: EventId,
+    /// The direction of the handwheels is turned round, 67.0.
+    pub inverted: bool,
+    /// The fraction of an increment that pulses have left over.
+    pub carry: f64,
+    /// Cycles without a pulse.
+    pub still: u64,
+    /// Handwheels were turned while a key moved the axis.
+    pub refused: bool,
+}
+
+impl Jogging {
+    /// Sees which keys were pressed since the last cycle; in every mode, so that a key that is held is none that is pressed.
+    #[inline]
+    pub(in crate::sinumerik) fn watch_keys(&mut self, signals: &AxisToNck) {
+        let keys = [signals.traversing_key_plus(), signals.traversing_key_minus()];
+        self.pressed = [keys[0] && !self.keys[0], keys[1] && !self.keys[1]];
+        self.keys = keys;
+        self.spent &= keys[0] || keys[1];
+    }
+
+    /// Nothing is jogged: another mode, REF, or no leading axis of its unit.
+    #[inline]
+    pub(in crate::sinumerik) fn end(&mut self) {
+        self.movement = Movement::None;
+        self.handwheels = 0;
+        self.inverted = false;
+        self.refused = false;
+        self.carry = 0.0;
+    }
+
+    /// A key is pressed that moves nothing because handwheels move the axis.
+    #[must_use]
+    pub(in crate::sinumerik) const fn key_meets_handwheel(&self, direction: i8) -> bool {
+        direction != 0 && self.movement.is_by_handwheel()
+    }
+
+    /// What the traversing keys begin and end; `direction` is +1, −1, or 0 for none, both, or keys that 4.4 disables.
+    pub(in crate::sinumerik) fn take_keys(&mut self, direction: i8, disabled: bool, way: Position, modes: KeyModes) {
+        let pressed = !disabled && (self.pressed[0] || self.pressed[1]);
+        let begins = if direction != 0 && self.pressed[usize::from(direction < 0)] { direction } else { 0 };
+        self.movement = match self.movement {
+            Movement::None => match self.function {
+                Function::Continuous if modes.continuous_held && direction != 0 && !self.spent => {
+                    Movement::Continuous(direction)
+                }
+                Function::Continuous if !modes.continuous_held && begins != 0 => Movement::Continuous(begins),
+                Function::Increment(_) if begins != 0 && way != Position::ZERO => {
+                    self.spent = true;
+                    Movement::Pending(if begins > 0 { way } else { -way }, By::Key(begins))
+                }
+                Function::Increment(_) => {
+                    // What is held when an increment is selected moves nothing afterwards either.
+                    self.spent |= direction != 0;
+                    Movement::None
+                }
+                Function::Continuous => Movement::None,
+            },
+            Movement::Continuous(runs) if modes.continuous_held => match (direction, self.function) {
+                (0, _) => Movement::None,
+                (other, Function::Increment(_)) if other != runs => Movement::None,
+                (direction, Function::Continuous | Function::Increment(_)) => Movement::Continuous(direction),
+            },
+            Movement::Pending(_, By::Key(key)) | Movement::Path(_, By::Key(key))
+                if modes.increment_held && direction != key =>
+            {
+                Movement::None
+            }
+            Movement::Continuous(_) if disabled || pressed => Movement::None,
+            Movement::Pending(_, By::Key(_)) | Movement::Path(_, By::Key(_))
+                if !modes.increment_held && (disabled || pressed) =>
+            {
+                Movement::None
+            }
+            by_handwheel @ (Movement::Pending(_, By::Handwheel) | Movement::Path(_, By::Handwheel)) => {
+                self.spent |= direction != 0;
+                by_handwheel
+            }
+            goes_on @ (Movement::Continuous(_) | Movement::Pending(..) | Movement::Path(..)) => goes_on,
+        };
+    }
+}
+
+/// The machine function that a mode group selects for all its axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct GroupFunction {
+    /// Which one, while it does.
+    pub function: Option<Function>,
+    /// Why.
+    pub cause: EventId,
+}
+
+/// How many handwheels there are.
+pub(in crate::sinumerik) const HANDWHEELS: usize = 3;
+
+/// One handwheel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Handwheel {
+    /// Pulses that one turn has.
+    pub pulses: i64,
+    /// Over how many cycles they spread.
+    pub cycles: i64,
+    /// How many of these have passed.
+    pub passed: i64,
+    /// Pulses in this cycle.
+    pub moved: i64,
+    /// All pulses so far, as the interface counts them.
+    pub counter: u8,
+    /// The machine axis for which the HMI selects it.
+    pub selected: Option<AxisNumber>,
+}
+
+impl Handwheel {
+    pub(in crate::sinumerik) fn turn(&mut self, pulses: i64, cycles: i64) {
+        let left = self.pulses - self.share(self.passed);
+        *self = Self { pulses: left + pulses, cycles: cycles.max(1), passed: 0, ..*self };
+    }
+
+    /// Pulses of the turn after so many cycles.
+    pub(in crate::sinumerik) const fn share(&self, passed: i64) -> i64 {
+        if self.cycles == 0 { 0 } else { self.pulses.saturating_mul(passed) / self.cycles }
+    }
+
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the counter runs over")]
+    pub(in crate::sinumerik) fn advance(&mut self) {
+        self.moved = 0;
+        if self.passed < self.cycles {
+            self.moved = self.share(self.passed + 1) - self.share(self.passed);
+            self.passed += 1;
+            self.counter = self.counter.wrapping_add(self.moved as u8);
+            if self.passed == self.cycles {
+                *self = Self { pulses: 0, cycles: 0, passed: 0, ..*self };
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 7 pulses over 3 cycles: 7/3, 14/3, 7 whole pulses after each, so 2, 2 and 3 in them; then none.
+    #[test]
+    fn pulses_spread_evenly_and_none_is_lost() {
+        for sign in [1, -1] {
+            let mut handwheel = Handwheel::default();
+            handwheel.turn(sign * 7, 3);
+            let moved: Vec<_> = (0..5)
+                .map(|_| {
+                    handwheel.advance();
+                    handwheel.moved
+                })
+                .collect();
+            assert_eq!(moved, [2, 2, 3, 0, 0].map(|pulses| sign * pulses));
+        }
+    }
+
+    #[test]
+    fn a_second_turn_takes_the_rest_of_the_first_along() {
+        let mut handwheel = Handwheel::default();
+        handwheel.turn(10, 10);
+        for _ in 0..4 {
+            handwheel.advance();
+        }
+        assert_eq!(handwheel.counter, 4);
+        handwheel.turn(-1, 1);
+        handwheel.advance();
+        assert_eq!((handwheel.moved, handwheel.counter), (5, 9));
+        // 250 more: the counter is one byte.
+        handwheel.turn(250, 1);
+        handwheel.advance();
+        assert_eq!(handwheel.counter, 3);
+    }
+}

@@ -1,0 +1,340 @@
+//! Which axis is referenced when: by the traversing key, or by the channel; and what an approach means for the rest.
+//!
+//! Called in the stage "referencing and gantry". A key that is held starts one approach; it must be released before
+//! it starts another, also when it was pressed while the approach ran or while JOG was active without REF. A
+//! key that is pressed before the axes are in position control stays pending until they are. Channel-specific referencing
+//! (33.0 = 1) waits for an axis of its turn that cannot start (1.3, parked, MD34200 other than 1) until RESET or until REF is left.
+
+use crate::image::ToNck;
+use crate::sinumerik::alarms;
+use crate::sinumerik::jog::keys::key_direction;
+use crate::sinumerik::log::axis_bit;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::referencing::approach::Outcome;
+use crate::sinumerik::referencing::state::ChannelReferencing;
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::{State, Unit};
+use crate::units::{AxisNumber, ChannelNumber, Position};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, SignalBit};
+
+impl State {
+    /// An axis that belongs to no closed grouping.
+    pub(in crate::sinumerik) fn run_single(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
+        let number = unit.leader();
+        self.brake(unit, parameters);
+        self.watch_limit_switches(unit, to_nck);
+        self.watch_key(unit, self.axes[number].approach.is_running(), to_nck);
+        if self.axes[number].approach.is_running() {
+            self.reference_single(unit, parameters, to_nck);
+        } else if self.is_jogging(unit) {
+            self.jog(unit, parameters, to_nck);
+        } else {
+            let cause = self.mode_group(unit).cause();
+            self.traverse(number, 0, 0, cause);
+            if self.unit_can_move(unit, parameters)
+                && !self.is_gantry_axis(number)
+                && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
+            {
+                self.axes[number].approach_key =
+                    if self.channels[unit.channel].started(number) { 0 } else { direction };
+                self.start_approach(number, f64::from(direction), event);
+                self.reference_single(unit, parameters, to_nck);
+            }
+        }
+    }
+
+    fn reference_single(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
+        let number = unit.leader();
+        let key = self.axes[number].approach_key;
+        if let Some((alarm, event)) = self.approach_interrupted(number, key, unit, parameters, to_nck) {
+            self.axes[number].approach.abort();
+            self.traverse(number, 0, 0, event);
+            if let Some(alarm) = alarm {
+                self.raise_axis_alarm(alarm, number, event);
+            }
+            return;
+        }
+        match self.run_approach(number, parameters, to_nck) {
+            Outcome::Running => {}
+            Outcome::Failed(alarm, event) => {
+                self.traverse(number, 0, 0, event);
+                self.raise_axis_alarm(alarm, number, event);
+            }
+            Outcome::Referenced(shift, event) => {
+                self.traverse(number, 0, 0, event);
+                self.set_reference(number, shift, event);
+            }
+        }
+    }
+
+    /// A key that jogs, or is pressed while an approach is on its way, must be released before it starts one.
+    pub(in crate::sinumerik) fn watch_key(&mut self, unit: &Unit, busy: bool, to_nck: &ToNck) {
+        let number = unit.leader();
+        let jogging = self.is_jogging(unit);
+        for axis in unit.members() {
+            self.axes[axis].jogging.watch_keys(&to_nck.axes[axis]);
+            // Keys and handwheels of a synchronous axis move nothing (MIS-01).
+            if !jogging || axis != number {
+                self.axes[axis].jogging.end();
+            }
+        }
+        let pressed = key_direction(&to_nck.axes[number]) != 0;
+        let used = self.axes[number].key_used || busy || jogging;
+        self.axes[number].key_used = pressed && used;
+    }
+
+    /// An approach of the unit's first axis is asked for, by its key in the right direction or by the channel.
+    pub(in crate::sinumerik) fn approach_wanted(
+        &mut self,
+        unit: &Unit,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> Option<(i8, EventId)> {
+        let number = unit.leader();
+        let reference = &parameters.axes[number].reference;
+        let signals = &to_nck.axes[number];
+        let key = key_direction(signals);
+        let has_zero_mark =
+            self.axes[number].measuring_system.is_some_and(|active| reference.mode[usize::from(active)] == 1);
+        let disabled = signals.axis_spindle_disable() || self.axes[number].feed_disabled;
+        if !self.mode_group(unit).is_referencing() || !has_zero_mark || disabled {
+            return None;
+        }
+        let forward = if reference.cam_direction > 0.0 { 1 } else { -1 };
+        let referencing = &mut self.channels[unit.channel].referencing;
+        if referencing.wants(number, reference.cycle_number) {
+            referencing.started |= 1 << number.index();
+            let cause = referencing.cause;
+            return Some((forward, self.log.note_plain(Place::Axis(number), Rule::ApproachStartedByChannel, cause)));
+        }
+        // The other key: no start, no alarm. Without a cam both directions are right.
+        let right = key != 0 && (key == forward || !reference.cam_is_active);
+        if !right || self.axes[number].key_used {
+            return None;
+        }
+        self.axes[number].key_used = true;
+        let bit = if key > 0 { 7 } else { 6 };
+        let active = SignalBit { place: Place::ModeGroup(unit.mode_group), byte: 7, bit: 2 };
+        let inputs = [
+            axis_bit(number, 4, bit, true),
+            Input::Datum(34010, Some(number), f64::from(u8::from(forward < 0))),
+            Input::Bit(active, true),
+        ];
+        let parent = self.mode_group(unit).function_cause;
+        let event = self.log.note(Place::Axis(number), Rule::KeyStartsApproach, inputs, parent);
+        Some((key, event))
+    }
+
+    /// Begins an approach: the reference of its measuring system is gone.
+    pub(in crate::sinumerik) fn start_approach(&mut self, number: AxisNumber, direction: f64, cause: EventId) {
+        let axis = &mut self.axes[number];
+        let encoder = usize::from(axis.measuring_system.unwrap_or(0));
+        if axis.referenced[encoder] {
+            axis.referenced[encoder] = false;
+            axis.causes.reference[encoder] = self.log.note_plain(Place::Axis(number), Rule::NewApproach, cause);
+        }
+        axis.approach.start(&mut self.log, direction, axis.actual, cause);
+    }
+
+    /// One cycle of an approach; the motion of its axis is commanded.
+    pub(in crate::sinumerik) fn run_approach(
+        &mut self,
+        number: AxisNumber,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> Outcome {
+        let mut approach = self.axes[number].approach;
+        let axis = &self.axes[number];
+        let signals = &to_nck.axes[number];
+        let (motion, outcome) = approach.run(&mut self.log, number, axis, &parameters.axes[number], signals);
+        let axis = &mut self.axes[number];
+        axis.approach = approach;
+        axis.motion = motion;
+        let direction = motion.direction(axis.setpoint.position);
+        // A movement that feed stop or an override of 0 % holds is still wanted.
+        let held = axis.feed_held || motion.is_held();
+        let request = if direction == 0 && held { axis.traverse_request } else { direction };
+        if (axis.traverse_request, axis.traverse_command) != (request, direction) {
+            axis.causes.motion = approach.cause();
+            axis.traverse_request = request;
+            axis.traverse_command = direction;
+        }
+        outcome
+    }
+
+    /// What ends an approach from outside: an alarm that stops, RESET, leaving REF, a missing enable, the key.
+    pub(in crate::sinumerik) fn approach_interrupted(
+        &mut self,
+        number: AxisNumber,
+        key: i8,
+        unit: &Unit,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> Option<(Option<AlarmNumber>, EventId)> {
+        let parent = self.axes[number].approach.cause();
+        // A missing enable is named even where alarm 21612, which stops everything, came in the same cycle.
+        if !self.channels[unit.channel].reset
+            && let Some(off) = unit.members().find(|&axis| !to_nck.axes[axis].controller_enable())
+        {
+            let input = axis_bit(off, 2, 1, false);
+            let event = self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, parent);
+            return Some((Some(alarms::APPROACH_ABORTED), event));
+        }
+        if let Some(cause) = self.stop_cause(unit.channel, parameters) {
+            return Some((None, cause));
+        }
+        // A hardware limit switch in the way ends the approach; its own alarm says so.
+        let direction = unit.members().map(|axis| self.axes[axis].traverse_command).find(|&command| command != 0);
+        if let Some(cause) = self.limited(unit, direction.unwrap_or(0)) {
+            self.brake_at_limit(unit, parameters);
+            return Some((None, self.log.note_plain(Place::Axis(number), Rule::ApproachAborted, cause)));
+        }
+        if !self.mode_group(unit).is_referencing() {
+            let cause = self.mode_group(unit).function_cause;
+            return Some((None, self.log.note_plain(Place::Axis(number), Rule::ApproachAborted, cause)));
+        }
+        let pressed = key_direction(&to_nck.axes[number]);
+        let (alarm, input) = if let Some(off) = unit.members().find(|&axis| !self.axes[axis].enabling.is_on()) {
+            (Some(alarms::APPROACH_ABORTED), axis_bit(off, 61, 5, false))
+        } else if let Some(forbidden) = self.motion_forbidden(unit) {
+            (Some(alarms::APPROACH_ABORTED), forbidden)
+        } else if key != 0 && parameters.jog_mode && pressed != key {
+            let released = axis_bit(number, 4, if key > 0 { 7 } else { 6 }, false);
+            // The datum that makes the approach end with its key.
+            let held = Input::Datum(11300, None, 1.0);
+            let inputs = [released, held, Input::None];
+            let event = self.log.note(Place::Axis(number), Rule::ApproachAborted, inputs, parent);
+            return Some((Some(alarms::APPROACH_ABORTED), event));
+        } else if key != 0 && !parameters.jog_mode && pressed == -key {
+            (None, axis_bit(number, 4, if key > 0 { 6 } else { 7 }, true))
+        } else {
+            return None;
+        };
+        Some((alarm, self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, parent)))
+    }
+
+    /// The measuring system was switched, or lost, under a running approach (REF-33).
+    pub(in crate::sinumerik) fn abort_approach(&mut self, number: AxisNumber, event: EventId) {
+        self.axes[number].approach.abort();
+        self.raise_axis_alarm(alarms::APPROACH_ABORTED, number, event);
+        if let Some(index) =
+            self.groupings.iter().position(|g| g.is_referencing() && g.coupling.members().any(|m| m == number))
+        {
+            self.reset_grouping(index, event);
+        }
+    }
+
+    /// The place where the axis is has another actual value from now on, and the axis is referenced.
+    pub(in crate::sinumerik) fn set_reference(&mut self, number: AxisNumber, shift: Position, event: EventId) {
+        let axis = &mut self.axes[number];
+        axis.shift(shift);
+        if let Some(filter) = self.shaping[number].as_deref_mut().and_then(|shaping| shaping.jerk.as_mut()) {
+            filter.shift(shift);
+        }
+        if let Some(active) = axis.measuring_system {
+            axis.referenced[usize::from(active)] = true;
+            axis.causes.reference[usize::from(active)] = event;
+        }
+        self.value_shifted(number, shift);
+    }
+
+    /// The actual value of an axis became another without a movement: no synchronism difference comes from it, unless
+    /// both axes are referenced (O-12).
+    pub(in crate::sinumerik) fn value_shifted(&mut self, number: AxisNumber, shift: Position) {
+        let axes = &self.axes;
+        for grouping in &mut self.groupings {
+            let leader = grouping.coupling.leader();
+            let absolute = |follower: AxisNumber| axes[follower].is_referenced() && axes[leader].is_referenced();
+            grouping.coupling.value_shifted(number, shift, absolute);
+        }
+    }
+
+    /// Raises an alarm of an axis: `%1` channel, `%2` axis.
+    pub(in crate::sinumerik) fn raise_axis_alarm(&mut self, alarm: AlarmNumber, number: AxisNumber, event: EventId) {
+        let unit = self.units.iter().find(|unit| unit.members().any(|axis| axis == number));
+        let channel = unit.map_or(ChannelNumber::FIRST, |unit| unit.channel);
+        let parameters = [Parameter::Channel(channel), Parameter::Axis(number), Parameter::None, Parameter::None];
+        self.alarms.raise(alarm, Place::Axis(number), parameters, event);
+    }
+
+    fn is_gantry_axis(&self, number: AxisNumber) -> bool {
+        self.groupings.iter().any(|grouping| grouping.coupling.members().any(|member| member == number))
+    }
+
+    /// Starts channel-specific referencing with the rising edge of DBX1.0.
+    pub(in crate::sinumerik) fn start_channel_referencing(&mut self, parameters: &Parameters, to_nck: &ToNck) {
+        for (channel, group) in parameters.existing_channels() {
+            let wanted = to_nck.channels[channel].activate_referencing();
+            let before = self.channels[channel].referencing;
+            self.channels[channel].referencing.was = wanted;
+            let rises = wanted && !before.was && !before.is_active();
+            if !rises || self.stop_cause(channel, parameters).is_some() || !self.mode_groups[group].is_referencing() {
+                continue;
+            }
+            let place = Place::Channel(channel);
+            let input = Input::Bit(SignalBit { place, byte: 1, bit: 0 }, true);
+            let cause = self.log.note_one(place, Rule::ApproachStartedByChannel, input, EventId::NONE);
+            let number = self.next_cycle_number(channel, 0, parameters);
+            self.channels[channel].referencing = ChannelReferencing { number, started: 0, was: true, cause };
+        }
+    }
+
+    /// Orders and ends it: MD34110 = 1 first, together; n after all of n − 1. 33.0 goes with the last reference.
+    pub(in crate::sinumerik) fn order_channel_referencing(&mut self, parameters: &Parameters) {
+        for (channel, group) in parameters.existing_channels() {
+            if !self.channels[channel].is_referencing() {
+                continue;
+            }
+            let (finished, failed) = self.channel_referencing_progress(channel, parameters);
+            if failed || self.stop_cause(channel, parameters).is_some() || !self.mode_groups[group].is_referencing() {
+                self.end_channel_referencing(channel, 0);
+            } else if finished {
+                let number = self.channels[channel].referencing.number;
+                self.end_channel_referencing(channel, self.next_cycle_number(channel, number, parameters));
+            }
+        }
+    }
+
+    fn end_channel_referencing(&mut self, channel: ChannelNumber, next: i32) {
+        let referencing = &mut self.channels[channel].referencing;
+        referencing.number = next;
+        if next == 0 {
+            let place = Place::Channel(channel);
+            referencing.cause = self.log.note_plain(place, Rule::ChannelReferencingEnds, referencing.cause);
+        }
+    }
+
+    /// The units that a channel can reference.
+    fn referenced_by(&self, channel: ChannelNumber) -> impl Iterator<Item = &Unit> {
+        let whole = |unit: &&Unit| unit.grouping.is_some() || !self.is_gantry_axis(unit.leader());
+        self.units.iter().filter(move |unit| unit.channel == channel).filter(whole)
+    }
+
+    /// The next order number above this one that an axis has which can be started; 0 when there is none.
+    fn next_cycle_number(&self, channel: ChannelNumber, above: i32, parameters: &Parameters) -> i32 {
+        self.referenced_by(channel)
+            .map(|unit| parameters.axes[unit.leader()].reference.cycle_number)
+            .filter(|&number| number > above)
+            .min()
+            .unwrap_or(0)
+    }
+
+    /// Whether all axes of an order number are done, and whether one was aborted.
+    fn channel_referencing_progress(&self, channel: ChannelNumber, parameters: &Parameters) -> (bool, bool) {
+        let (mut finished, mut failed) = (true, false);
+        let number = self.channels[channel].referencing.number;
+        for unit in self.referenced_by(channel) {
+            let axis = unit.leader();
+            if parameters.axes[axis].reference.cycle_number != number {
+                continue;
+            }
+            let running = self.axes[axis].approach.is_running()
+                || unit.grouping.is_some_and(|index| self.groupings[usize::from(index)].is_referencing());
+            let started = self.channels[channel].started(axis);
+            let referenced = unit.members().all(|member| self.axes[member].is_referenced());
+            finished &= started && !running && referenced;
+            failed |= started && !running && !referenced;
+        }
+        (finished, failed)
+    }
+}

@@ -1,0 +1,128 @@
+//! What the control remembers of a reference point approach and of channel-specific referencing.
+
+use serde::{Deserialize, Serialize};
+
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::transitions::{Transition, row};
+use crate::units::{AxisNumber, Position};
+use crate::variables::EventId;
+
+/// Channel-specific referencing (REF-23): which order number is on, and who has been started.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct ChannelReferencing {
+    /// The order number of MD34110 that is being referenced; 0 when none is.
+    pub number: i32,
+    /// Axes that were started, as bits.
+    pub started: u32,
+    /// DBX1.0 in the last cycle.
+    pub was: bool,
+    /// The event behind 33.0.
+    pub cause: EventId,
+}
+
+impl ChannelReferencing {
+    /// 33.0.
+    #[must_use]
+    pub(in crate::sinumerik) const fn is_active(&self) -> bool {
+        self.number != 0
+    }
+
+    /// It started this axis.
+    #[must_use]
+    pub(in crate::sinumerik) const fn started(&self, axis: AxisNumber) -> bool {
+        self.is_active() && self.started >> axis.index() & 1 == 1
+    }
+}
+
+impl ChannelReferencing {
+    /// This axis is to be started now.
+    pub(in crate::sinumerik) const fn wants(&self, axis: AxisNumber, cycle_number: i32) -> bool {
+        self.is_active() && self.number == cycle_number && !self.started(axis)
+    }
+}
+
+/// Where an approach is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Phase {
+    /// No approach.
+    #[default]
+    Idle,
+    /// Phase 1: towards the cam with MD34020.
+    SearchCam,
+    /// Braking on the cam.
+    BrakeOnCam,
+    /// MD34050 = 1: off the cam with MD34020.
+    LeaveCam,
+    /// Braking off the cam.
+    BrakeOffCam,
+    /// Phase 2: with MD34040 to the cam edge.
+    SearchEdge,
+    /// The way of MD34092 after the edge.
+    PassShift,
+    /// To the zero mark with MD34040.
+    SearchMark,
+    /// Phase 3: with MD34070 to the reference point.
+    GoToReferencePoint,
+    /// At the reference point, until exact stop fine.
+    ExactStop,
+}
+
+impl Phase {
+    /// What it is, in a few words.
+    #[must_use]
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::Idle => "no approach",
+            Self::SearchCam => "phase 1: towards the cam",
+            Self::BrakeOnCam => "braking on the cam",
+            Self::LeaveCam => "off the cam",
+            Self::BrakeOffCam => "braking off the cam",
+            Self::SearchEdge => "phase 2: to the cam edge",
+            Self::PassShift => "the way of MD34092",
+            Self::SearchMark => "phase 2: to the zero mark",
+            Self::GoToReferencePoint => "phase 3: to the reference point",
+            Self::ExactStop => "until exact stop fine",
+        }
+    }
+}
+
+/// Every step that an approach can take, but for aborts, which lead from anywhere to [`Phase::Idle`].
+pub const TRANSITIONS: &[Transition<Phase>] = &[
+    row(Phase::Idle, Rule::ApproachStarted, Phase::SearchCam),
+    row(Phase::SearchCam, Rule::WithoutCam, Phase::SearchMark),
+    row(Phase::SearchCam, Rule::OnCamAtStart, Phase::SearchEdge),
+    row(Phase::SearchCam, Rule::CamReached, Phase::BrakeOnCam),
+    row(Phase::SearchCam, Rule::LeaveCamFirst, Phase::LeaveCam),
+    row(Phase::BrakeOnCam, Rule::StoppedOnCam, Phase::SearchEdge),
+    row(Phase::BrakeOnCam, Rule::LeaveCamFirst, Phase::LeaveCam),
+    row(Phase::LeaveCam, Rule::CamLeft, Phase::BrakeOffCam),
+    row(Phase::BrakeOffCam, Rule::StoppedOffCam, Phase::SearchEdge),
+    row(Phase::SearchEdge, Rule::CreepVelocityMissed, Phase::SearchCam),
+    row(Phase::SearchEdge, Rule::CamEdge, Phase::PassShift),
+    row(Phase::PassShift, Rule::CamShiftPassed, Phase::SearchMark),
+    row(Phase::SearchMark, Rule::ZeroMark, Phase::GoToReferencePoint),
+    row(Phase::GoToReferencePoint, Rule::ReferencePointReached, Phase::ExactStop),
+    row(Phase::ExactStop, Rule::Referenced, Phase::Idle),
+];
+
+/// The approach of one axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Approach {
+    pub phase: Phase,
+    /// Direction of the cam search as a sign.
+    pub cam_direction: f64,
+    /// Direction of the zero-mark search as a sign.
+    pub marker_direction: f64,
+    /// Actual value where the phase began to be supervised: start of phase 1, or the cam edge.
+    pub origin: Position,
+    /// The reference point, as an actual value before it is set.
+    pub target: Position,
+    /// MD34100 as 2.4 to 2.7 selected it.
+    pub set_position: Position,
+    /// The cam edge was met at the wrong speed once.
+    pub creep_velocity_missed: bool,
+    /// Cycles at the reference point without exact stop fine.
+    pub waited: u64,
+    /// The latest event.
+    pub cause: EventId,
+}

@@ -1,0 +1,170 @@
+//! All that the control remembers from one cycle to the next: plain data, saved and restored as it is.
+//!
+//! Each topic has a `state.rs` with its part; the other files of a topic are stages that read and change it.
+
+use arrayvec::ArrayVec;
+use serde::{Deserialize, Serialize};
+
+use crate::motion::{Coupling, Feedback, Motion};
+use crate::sinumerik::alarms::{self};
+use crate::sinumerik::axis::shaping::Shaping;
+use crate::sinumerik::axis::state::Axis;
+use crate::sinumerik::gantry::state::Declared;
+use crate::sinumerik::gantry::state::{Grouping, Phase};
+use crate::sinumerik::jog::state::{GroupFunction, HANDWHEELS, Handwheel};
+use crate::sinumerik::log::Log;
+use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunUp};
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::groupings::GROUPINGS;
+use crate::sinumerik::rules::Rule;
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
+use crate::variables::{EventId, Place};
+
+/// Axes that are enabled, stopped and held together: a closed grouping with its leading axis first, or one axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Unit {
+    pub axes: [AxisNumber; 3],
+    pub count: u8,
+    pub set: AxisSet,
+    /// Which grouping it is.
+    pub grouping: Option<u8>,
+    pub channel: ChannelNumber,
+    pub mode_group: ModeGroupNumber,
+}
+
+impl Unit {
+    pub(super) fn single(axis: AxisNumber, parameters: &Parameters) -> Self {
+        let channel = parameters.axes[axis].channel;
+        let (set, mode_group) = (AxisSet::of(axis), parameters.mode_group(channel));
+        Self { axes: [axis; 3], count: 1, set, grouping: None, channel, mode_group }
+    }
+
+    pub(super) fn of(coupling: &Coupling, index: usize, parameters: &Parameters) -> Self {
+        let mut unit = Self::single(coupling.leader(), parameters);
+        for (place, axis) in unit.axes.iter_mut().zip(coupling.members()) {
+            *place = axis;
+        }
+        unit.count = u8::try_from(coupling.members().count()).unwrap_or(3);
+        unit.set = coupling.members().collect();
+        unit.grouping = u8::try_from(index).ok();
+        unit
+    }
+
+    pub(super) const fn leader(&self) -> AxisNumber {
+        self.axes[0]
+    }
+
+    pub(super) fn members(&self) -> impl Iterator<Item = AxisNumber> {
+        self.axes.iter().take(usize::from(self.count)).copied()
+    }
+}
+
+/// What of all axes goes into the signals of channels and of the NCK.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Summary {
+    pub drive_ready: AxisSet,
+    pub referenced: AxisSet,
+    /// The setpoint rests and the velocity is below MD36060.
+    pub standing: AxisSet,
+    pub in_motion: AxisSet,
+}
+
+/// All that the control remembers from one cycle to the next: plain data, without machine data.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct State {
+    pub log: Log,
+    pub run_up: RunUp,
+    pub mode_groups: PerModeGroup<ModeGroup>,
+    pub emergency_stop: EmergencyStop,
+    pub channels: PerChannel<Channel>,
+    pub axes: PerAxis<Axis>,
+    /// Filters and delays of setpoints, where machine data ask for them.
+    pub shaping: PerAxis<Option<Box<Shaping>>>,
+    pub groupings: ArrayVec<Grouping, GROUPINGS>,
+    pub units: ArrayVec<Unit, { AxisNumber::MAX as usize }>,
+    pub alarms: alarms::Pending,
+    pub feedback: PerAxis<Feedback>,
+    pub summary: Summary,
+    pub handwheels: [Handwheel; HANDWHEELS],
+    pub group_functions: PerModeGroup<GroupFunction>,
+    pub power_on_cause: EventId,
+    pub definition_cause: EventId,
+    pub plc_missing: bool,
+    pub plc_cause: EventId,
+    pub declared: Declared,
+    /// Somebody else wrote into the NCK's half; the next publication overwrites all of it (SIG-11).
+    pub overwritten: bool,
+}
+
+impl State {
+    pub(super) fn new(parameters: &Parameters) -> Self {
+        let mut state = Self {
+            log: Log::default(),
+            run_up: RunUp::default(),
+            mode_groups: PerModeGroup::from_fn(|group| ModeGroup::new(parameters, group)),
+            emergency_stop: EmergencyStop::default(),
+            channels: PerChannel::default(),
+            axes: PerAxis::default(),
+            shaping: PerAxis::default(),
+            groupings: parameters.groupings.groupings.iter().map(Grouping::new).collect(),
+            units: ArrayVec::new(),
+            alarms: alarms::Pending::default(),
+            feedback: PerAxis::default(),
+            summary: Summary::default(),
+            handwheels: Default::default(),
+            group_functions: PerModeGroup::default(),
+            power_on_cause: EventId::NONE,
+            definition_cause: EventId::NONE,
+            plc_missing: false,
+            plc_cause: EventId::NONE,
+            declared: Declared::default(),
+            overwritten: true,
+        };
+        state.note_power_on();
+        state.form_units(parameters);
+        state.prepare_position_control(parameters);
+        state
+    }
+
+    pub(super) fn note_power_on(&mut self) {
+        self.power_on_cause = self.log.note_plain(Place::Nck, Rule::PowerOn, EventId::NONE);
+        self.definition_cause = self.log.note_plain(Place::Nck, Rule::GroupingDefined, self.power_on_cause);
+    }
+
+    /// Closed groupings and single axes; an open grouping is single axes that are still run as a grouping.
+    pub(super) fn form_units(&mut self, parameters: &Parameters) {
+        self.units.clear();
+        let mut taken = AxisSet::NONE;
+        for (index, grouping) in self.groupings.iter().enumerate() {
+            let unit = Unit::of(&grouping.coupling, index, parameters);
+            if grouping.phase == Phase::Open && self.is_kept_open(index, parameters) {
+                continue;
+            }
+            taken = taken.with(unit.set);
+            self.units.push(unit);
+        }
+        for (axis, _) in parameters.existing().filter(|(axis, _)| !taken.contains(*axis)) {
+            self.units.push(Unit::single(axis, parameters));
+        }
+    }
+
+    /// JOG without a machine function.
+    pub(super) fn is_jogging(&self, unit: &Unit) -> bool {
+        self.mode_group(unit).is_jogging()
+    }
+
+    /// Every axis is in position control, and nothing stops.
+    pub(super) fn unit_can_move(&self, unit: &Unit, parameters: &Parameters) -> bool {
+        let free = self.stop_cause(unit.channel, parameters).is_none() && self.motion_forbidden(unit).is_none();
+        free && unit.members().all(|axis| self.axes[axis].enabling.is_on())
+    }
+
+    /// Every axis of the unit brakes at the slowest rate (O-04), unless a later stage commands something else.
+    pub(super) fn brake(&mut self, unit: &Unit, parameters: &Parameters) {
+        let slowest =
+            unit.members().map(|axis| parameters.axes[axis].maximum_acceleration).fold(f64::INFINITY, f64::min);
+        for axis in unit.members() {
+            self.axes[axis].motion = Motion::Brake { deceleration: slowest };
+        }
+    }
+}
