@@ -104,10 +104,10 @@
 //! |---|---|---|
 //! | a signal | a row in `image/db10.rs`, `db11.rs`, `db21.rs` or `db31.rs`, in address order | accessor, docs, symbol, trace column; overlaps stop the build |
 //! | its value | a line in `sinumerik/publish.rs`, its cause in `sinumerik/causes.rs` | golden traces that show it |
-//! | a machine datum | a row in `sinumerik/machine_data/`, a field in `sinumerik/parameters/` | its number and name are read, checked and written |
+//! | a machine datum | a row in `sinumerik/machine_data/`, a field in `sinumerik/parameters/axis.rs` | its number and name are read, checked and written |
 //! | an alarm | a row in `sinumerik/alarms/mod.rs`, a `raise` where it happens | `alarm(N)` in scenarios, its text in traces |
 //! | a rule | a row in `sinumerik/rules.rs`, a `note` where it is decided | the cause behind an edge |
-//! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `sinumerik/referencing/approach.rs` or `gantry/mod.rs` | golden traces that move |
+//! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `sinumerik/referencing/state.rs` or `gantry/state.rs` | golden traces that move |
 //! | a fault | an arm of [`FaultKind`](machine::FaultKind), what it does in `plant/moving.rs`, its name in `scenario/faults.rs` | `fault = {…}` in scenarios |
 //! | a PLC program | a file in `plc/programs/`, a line in `plc/registry.rs`; or a closure of your own | `plc = "name"` in scenarios |
 //! | a machine | a folder below `machine_data/` | `machine = "path"` in scenarios |

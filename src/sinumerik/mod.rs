@@ -10,15 +10,16 @@
 //!
 //! | I want to add | I do |
 //! |---|---|
-//! | a machine datum | a row in `machine_data/`, a field in `parameters/` where the model needs it |
+//! | a machine datum | a row in `machine_data/`, a field in `parameters/axis.rs` where the model needs it |
 //! | an alarm | a row in `alarms/mod.rs`, a `raise` where it happens |
 //! | a rule that causes an edge | a row in `rules.rs`, a `note` where it is decided |
-//! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `referencing/approach.rs` or `gantry/mod.rs` |
+//! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `referencing/state.rs` or `gantry/state.rs` |
 //! | something that all axes depend on | a field of `Shared` in `resting.rs`, or nobody wakes for it |
 //! | something to watch | a file in `monitoring/`, a row in its table |
 //! | a signal that the control shows | a line in `publish.rs`, and its cause in `causes.rs` |
 
 mod alarms;
+mod awake;
 mod axis;
 mod causes;
 mod control;
@@ -41,9 +42,10 @@ pub use alarms::not_raised::NOT_RAISED as ALARMS_NOT_RAISED;
 pub use alarms::{Alarm, CATALOGUE as ALARMS, Cancel, Reaction};
 pub use control::{Control, SavedControl};
 pub use gantry::state::{Phase as GroupingPhase, TRANSITIONS as GROUPING_TRANSITIONS};
-pub use parameters::dynamics::{Dynamics, FeedForward, Jerk, PARAMETER_SETS, ParameterSet};
-pub use parameters::mechanics::{Mechanics, Misfit};
-pub use parameters::{AxisPresence, KeyModes, Parameters};
+pub use parameters::axis::AxisPresence;
+pub use parameters::dynamics::{Dynamics, FeedForward, Jerk, ParameterSet};
+pub use parameters::mechanics::{Mechanics, Misfit, PARAMETER_SETS};
+pub use parameters::{KeyModes, Parameters};
 pub use referencing::state::{Phase as ApproachPhase, TRANSITIONS as APPROACH_TRANSITIONS};
 pub use resting::Changes;
 pub use rules::Rule;

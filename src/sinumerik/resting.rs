@@ -4,12 +4,11 @@
 //! whose state came out of a cycle as it went in, and that gets the same inputs again, comes out of the next one as it is: it
 //! rests, and the stages leave it out until something that it depends on is another one. What all axes depend on (modes,
 //! channels, handwheels, run-up, emergency stop, machine data, any alarm) wakes all. Nothing that anybody can see depends on who rests
-//! ([`Control::never_rest`] computes everything always, and tests compare both).
+//! ([`Control::never_rest`](crate::sinumerik::Control::never_rest) computes everything always, and tests compare both).
 
 use arrayvec::ArrayVec;
 
 use crate::sinumerik::axis::state::Axis;
-use crate::sinumerik::control::Control;
 use crate::sinumerik::gantry::state::Grouping;
 use crate::sinumerik::jog::state::{GroupFunction, HANDWHEELS, Handwheel};
 use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunUp};
@@ -29,7 +28,7 @@ pub struct Changes {
 
 /// What every axis depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Shared {
+pub(super) struct Shared {
     run_up: RunUp,
     mode_groups: PerModeGroup<ModeGroup>,
     emergency_stop: EmergencyStop,
@@ -39,7 +38,7 @@ struct Shared {
 }
 
 impl Shared {
-    fn is_of(&self, state: &State, parameters: &Parameters) -> bool {
+    pub(super) fn is_of(&self, state: &State, parameters: &Parameters) -> bool {
         let mut channels = parameters.existing_channels();
         self.run_up == state.run_up
             && self.emergency_stop == state.emergency_stop
@@ -54,16 +53,16 @@ impl Shared {
 #[derive(Clone, Debug)]
 pub(super) struct Resting {
     /// Who is computed in this cycle.
-    awake: AxisSet,
+    pub awake: AxisSet,
     /// Their units, a bit for each place in the list of units.
-    awake_units: u32,
-    never: bool,
+    pub awake_units: u32,
+    pub never: bool,
     /// Groupings may have been opened or closed.
-    units_stale: bool,
-    alarm_version: u32,
-    shared: Shared,
-    axes: PerAxis<Axis>,
-    groupings: ArrayVec<Grouping, GROUPINGS>,
+    pub units_stale: bool,
+    pub alarm_version: u32,
+    pub shared: Shared,
+    pub axes: PerAxis<Axis>,
+    pub groupings: ArrayVec<Grouping, GROUPINGS>,
 }
 
 impl Resting {
@@ -109,7 +108,7 @@ impl Resting {
 }
 
 impl State {
-    fn shared(&self) -> Shared {
+    pub(super) fn shared(&self) -> Shared {
         Shared {
             run_up: self.run_up,
             mode_groups: self.mode_groups,
@@ -131,69 +130,5 @@ impl State {
         let rest = if self.alarms_wake(resting) { u32::MAX } else { resting.awake_units };
         let index = (rest & u32::MAX.checked_shl(u32::try_from(from).ok()?)?).trailing_zeros() as usize;
         (index < self.units.len()).then_some(index)
-    }
-}
-
-impl Control {
-    /// Computes every axis in every cycle, also those that rest. The results are the same.
-    pub fn never_rest(&mut self) {
-        self.resting.never = true;
-        self.resting.wake_all();
-    }
-
-    /// Something happened to the machine: everybody is computed in the next cycle.
-    pub fn wake_all(&mut self) {
-        self.resting.wake_all();
-    }
-
-    /// The axes that are computed in this cycle: an alarm that comes in the middle of it concerns everybody from there on.
-    #[must_use]
-    pub fn awake(&self) -> AxisSet {
-        if self.state.alarms_wake(&self.resting) { self.parameters.existing } else { self.resting.awake }
-    }
-
-    /// After the stages that concern everybody: who is computed in this cycle.
-    pub(super) fn wake(&mut self, changes: Changes) {
-        let (state, resting) = (&*self.state, &mut *self.resting);
-        let same = resting.shared.is_of(state, &self.parameters);
-        if resting.never || changes.shared || !same || state.alarms_wake(resting) {
-            resting.shared = state.shared();
-            resting.wake_all();
-        }
-        resting.awake = resting.awake.with(changes.axes).and(self.parameters.existing);
-        resting.awake_units = 0;
-        for (index, unit) in state.units.iter().enumerate() {
-            if !resting.awake.and(unit.set).is_empty() {
-                resting.awake = resting.awake.with(unit.set);
-                resting.awake_units |= 1 << index;
-            }
-        }
-    }
-
-    /// At the end of a cycle: who came out of it as it went in, and of whom the iron says that it rests, rests.
-    pub(super) fn rest(&mut self, restless: AxisSet) {
-        let (state, resting) = (&*self.state, &mut *self.resting);
-        let mut awake = restless;
-        if state.alarms_wake(resting) {
-            // One that has just gone by itself held others in this cycle, and will not in the next.
-            resting.wake_all();
-            awake = AxisSet::ALL;
-        }
-        resting.alarm_version = state.alarms.version();
-        for axis in resting.awake.iter() {
-            if state.axes[axis] != resting.axes[axis] {
-                resting.axes[axis] = state.axes[axis].clone();
-                awake.set(axis, true);
-            }
-        }
-        for (now, before) in state.groupings.iter().zip(&mut resting.groupings) {
-            let axes: AxisSet = now.coupling.members().collect();
-            if !resting.awake.and(axes).is_empty() && now != before {
-                resting.units_stale = true;
-                before.clone_from(now);
-                awake = awake.with(axes);
-            }
-        }
-        resting.awake = awake;
     }
 }

@@ -45,9 +45,6 @@ impl Rows {
     }
 }
 
-const _: () = assert!(crate::sinumerik::APPROACH_TRANSITIONS.len() <= u64::BITS as usize);
-const _: () = assert!(crate::sinumerik::GROUPING_TRANSITIONS.len() <= u64::BITS as usize);
-
 /// The rows of both tables by which a control has gone since it was made, of whichever axis and grouping. They decide nothing and
 /// are neither saved nor taken back: they tell what a suite of scenarios has exercised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

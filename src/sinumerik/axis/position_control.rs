@@ -19,8 +19,9 @@
 use crate::motion::velocity_command;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::control::Control;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::parameters::dynamics::ParameterSet;
-use crate::sinumerik::parameters::{AxisParameters, Parameters};
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 

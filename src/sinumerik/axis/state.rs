@@ -6,7 +6,7 @@ use crate::motion::{Feedback, Motion, Setpoint};
 use crate::sinumerik::axis::shaping::Shaping;
 use crate::sinumerik::jog::state::Jogging;
 use crate::sinumerik::monitoring::state::AxisMonitor;
-use crate::sinumerik::parameters::AxisParameters;
+use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::parameters::dynamics::ParameterSet;
 use crate::sinumerik::referencing::state::Approach;
 use crate::units::Position;

@@ -6,7 +6,8 @@
 //! make in the same manner, and is not compared.
 
 use crate::sinumerik::alarms;
-use crate::sinumerik::parameters::{AxisParameters, Parameters};
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};

@@ -77,6 +77,8 @@ pub const TRANSITIONS: &[Transition<Phase>] = &[
     row(Phase::Open, Rule::Closed, Phase::NotSynchronised),
 ];
 
+const _: () = assert!(TRANSITIONS.len() <= u64::BITS as usize);
+
 /// What monitoring found on one synchronous axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct Monitored {

@@ -17,7 +17,8 @@
 use crate::motion::Difference;
 use crate::sinumerik::alarms;
 use crate::sinumerik::gantry::state::Phase;
-use crate::sinumerik::parameters::{Gantry, Parameters};
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::axis::Gantry;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};

@@ -3,9 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 use crate::image::AxisToNck;
-use crate::sinumerik::parameters::{AxisParameters, KeyModes};
+use crate::sinumerik::parameters::KeyModes;
+use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::units::{AxisNumber, Position};
 use crate::variables::EventId;
+
+/// How many handwheels there are.
+pub(in crate::sinumerik) const HANDWHEELS: usize = 3;
 
 /// A machine function of JOG.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -213,9 +217,6 @@ pub(in crate::sinumerik) struct GroupFunction {
     /// Why.
     pub cause: EventId,
 }
-
-/// How many handwheels there are.
-pub(in crate::sinumerik) const HANDWHEELS: usize = 3;
 
 /// One handwheel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -7,7 +7,7 @@
 use crate::source::{Place, decode};
 use crate::units::ChannelNumber;
 
-use super::archive::{Finding, Line, Member, Reading, Severity};
+use super::finding::{Finding, Line, Member, Reading, Severity};
 
 /// Reads a file.
 pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) {

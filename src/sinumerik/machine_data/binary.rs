@@ -8,8 +8,8 @@ use std::path::Path;
 
 use crate::source::{Place, Problem, decode};
 
-use super::archive::{Member, Reading};
 use super::ascii::{Broken, read_text};
+use super::finding::{Member, Reading};
 
 /// Headers are this long, and data are padded to a multiple of it.
 const BLOCK: usize = 512;

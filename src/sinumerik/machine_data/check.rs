@@ -5,7 +5,8 @@
 use crate::source::Place;
 use crate::units::AxisNumber;
 
-use super::archive::{Archive, Finding, Severity};
+use super::archive::Archive;
+use super::finding::{Finding, Severity};
 use super::{Axis, Datum, Owner, Target, by_number};
 
 /// Every finding about an archive.

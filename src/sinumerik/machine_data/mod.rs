@@ -17,6 +17,7 @@ mod binary;
 mod catalogue;
 mod channel;
 mod check;
+mod finding;
 mod general;
 mod setting;
 mod table;
@@ -24,17 +25,18 @@ mod target;
 mod value;
 mod write;
 
-pub use archive::{Archive, Assignment, Finding, Member, Severity, Summary, files_of, refusal};
+pub use archive::{Archive, Summary, files_of};
 pub use axis::Axis;
 pub use catalogue::{by_identifier, by_number, catalogue, nearest_identifier};
 pub use channel::Channel;
 pub use check::check;
 pub(super) use check::unequal_data;
+pub use finding::{Assignment, Finding, Member, Severity, refusal};
 pub use general::General;
 pub use setting::Setting;
-pub use table::{Datum, Effect, Kind, Range, Scope};
+pub use table::{Datum, Effect, Range, Scope};
 pub use target::{Owner, Target};
-pub use value::Value;
+pub use value::{Kind, Value};
 
 use serde::{Deserialize, Serialize};
 

@@ -7,7 +7,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::value::Value;
+use super::value::{Kind, Value};
 
 /// Whose datum it is, which is its prefix in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -56,36 +56,6 @@ impl fmt::Display for Effect {
             Self::NewConf => "NEWCONF",
             Self::Reset => "RESET",
             Self::PowerOn => "POWER ON",
-        })
-    }
-}
-
-/// The type of a datum as the list manual names it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// BOOLEAN: 0 or 1.
-    Boolean,
-    /// BYTE: 0 to 255.
-    Byte,
-    /// DWORD: a whole number of 32 bits with sign.
-    Dword,
-    /// UDWORD: 32 bits, written as `'H0F'`.
-    Udword,
-    /// DOUBLE: a finite number.
-    Double,
-    /// STRING: a text in quotes.
-    String,
-}
-
-impl fmt::Display for Kind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Boolean => "BOOLEAN",
-            Self::Byte => "BYTE",
-            Self::Dword => "DWORD",
-            Self::Udword => "UDWORD",
-            Self::Double => "DOUBLE",
-            Self::String => "STRING",
         })
     }
 }
@@ -271,8 +241,11 @@ macro_rules! whole_number {
         }
     };
 }
+
 whole_number!(u8, Byte, "a whole number from 0 to 255");
+
 whole_number!(i32, Dword, "a whole number of 32 bits");
+
 whole_number!(u32, Udword, "32 bits such as 'H0F'");
 
 impl Scalar for f64 {
@@ -401,4 +374,5 @@ macro_rules! machine_data {
         }
     };
 }
+
 pub(super) use machine_data;

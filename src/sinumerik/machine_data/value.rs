@@ -4,8 +4,6 @@ use std::fmt;
 
 use crate::source::{self, Node, Problem};
 
-use super::table::Kind;
-
 /// A value before it is fitted to the type of a datum, and as it is read back.
 #[derive(serde::Serialize, serde::Deserialize, Clone, Debug, PartialEq)]
 pub enum Value {
@@ -136,6 +134,36 @@ fn export_real(real: f64) -> String {
         }
     }
     real.to_string()
+}
+
+/// The type of a datum as the list manual names it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// BOOLEAN: 0 or 1.
+    Boolean,
+    /// BYTE: 0 to 255.
+    Byte,
+    /// DWORD: a whole number of 32 bits with sign.
+    Dword,
+    /// UDWORD: 32 bits, written as `'H0F'`.
+    Udword,
+    /// DOUBLE: a finite number.
+    Double,
+    /// STRING: a text in quotes.
+    String,
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Boolean => "BOOLEAN",
+            Self::Byte => "BYTE",
+            Self::Dword => "DWORD",
+            Self::Udword => "UDWORD",
+            Self::Double => "DOUBLE",
+            Self::String => "STRING",
+        })
+    }
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@
 //! could differ. A second measuring system that MD30200 does not have changes nothing.
 
 use crate::sinumerik::alarms;
-use crate::sinumerik::parameters::AxisParameters;
+use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};

@@ -22,7 +22,8 @@ pub(super) mod state;
 
 use crate::sinumerik::alarms;
 use crate::sinumerik::control::Control;
-use crate::sinumerik::parameters::{AxisParameters, Parameters};
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, AxisSet};

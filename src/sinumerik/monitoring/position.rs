@@ -15,7 +15,7 @@
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::ControllerState;
 use crate::sinumerik::gantry::state::Phase;
-use crate::sinumerik::parameters::AxisParameters;
+use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};

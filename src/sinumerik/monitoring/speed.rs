@@ -6,7 +6,7 @@
 //! interpolation cycle, from what the encoder tells at its end.
 
 use crate::sinumerik::alarms;
-use crate::sinumerik::parameters::AxisParameters;
+use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};

@@ -4,9 +4,8 @@
 //! names belongs to channel 1; one that several name belongs to the one of MD30550, or to the lowest of them.
 
 use crate::sinumerik::machine_data::MachineData;
-use crate::sinumerik::parameters::{AxisParameters, Parameters};
-use crate::units::{AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel};
-use crate::variables::Place;
+use crate::sinumerik::parameters::axis::AxisParameters;
+use crate::units::{AxisSet, ModeGroupNumber, PerAxis, PerChannel};
 
 /// One channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,44 +34,4 @@ pub(in crate::sinumerik) fn channels(
             reference_needed: needed.map(|(number, _)| number).collect(),
         }
     })
-}
-
-impl Parameters {
-    /// The channels that exist, with their mode groups.
-    pub fn existing_channels(&self) -> impl Iterator<Item = (ChannelNumber, ModeGroupNumber)> {
-        self.channel_list.iter().copied()
-    }
-
-    /// The mode groups that have channels.
-    pub fn existing_mode_groups(&self) -> impl Iterator<Item = ModeGroupNumber> {
-        self.mode_group_list.iter().copied()
-    }
-
-    /// The mode group of a channel.
-    #[must_use]
-    pub fn mode_group(&self, channel: ChannelNumber) -> ModeGroupNumber {
-        self.channels[channel].mode_group.unwrap_or(ModeGroupNumber::FIRST)
-    }
-
-    /// Whether what happens at a place concerns a channel.
-    #[must_use]
-    pub fn concerns_channel(&self, place: Place, channel: ChannelNumber) -> bool {
-        match place {
-            Place::Nck => true,
-            Place::ModeGroup(group) => self.mode_group(channel) == group,
-            Place::Channel(other) => other == channel,
-            Place::Axis(axis) => self.axes[axis].channel == channel,
-        }
-    }
-
-    /// Whether what happens at a place concerns a mode group.
-    #[must_use]
-    pub fn concerns_mode_group(&self, place: Place, group: ModeGroupNumber) -> bool {
-        match place {
-            Place::Nck => true,
-            Place::ModeGroup(other) => other == group,
-            Place::Channel(channel) => self.mode_group(channel) == group,
-            Place::Axis(axis) => self.mode_group(self.axes[axis].channel) == group,
-        }
-    }
 }

@@ -5,11 +5,8 @@
 
 use crate::motion::LONGEST_WINDOW;
 use crate::sinumerik::machine_data::Axis;
-use crate::sinumerik::parameters::mechanics::{Mechanics, Misfit};
+use crate::sinumerik::parameters::mechanics::{Mechanics, Misfit, PARAMETER_SETS};
 use crate::units::{Position, Time};
-
-/// How many parameter sets an axis has.
-pub const PARAMETER_SETS: usize = 6;
 
 /// How the feed-forward's balancing delays the setpoint that the actual value is compared with (MD32620).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

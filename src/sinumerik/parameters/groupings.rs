@@ -7,7 +7,7 @@ use arrayvec::ArrayVec;
 use crate::motion::Coupling;
 use crate::sinumerik::alarms;
 use crate::sinumerik::machine_data::{MachineData, unequal_data};
-use crate::sinumerik::parameters::AxisParameters;
+use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::units::{AxisNumber, ChannelNumber, PerAxis};
 use crate::variables::{AlarmNumber, Parameter, Place};
 

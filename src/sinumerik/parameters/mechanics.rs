@@ -17,8 +17,13 @@
 
 use crate::motion::Feedback;
 use crate::sinumerik::machine_data::Axis;
-use crate::sinumerik::parameters::dynamics::PARAMETER_SETS;
 use crate::units::Position;
+
+/// Values per measuring system, for index 0 and 1.
+pub(in crate::sinumerik) type PerEncoder<T> = [T; 2];
+
+/// How many parameter sets an axis has.
+pub const PARAMETER_SETS: usize = 6;
 
 /// Ways in mm or degrees, with a sign for the direction.
 #[derive(Clone, Copy, Debug, PartialEq)]

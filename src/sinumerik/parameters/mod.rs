@@ -3,6 +3,7 @@
 //! Made anew whenever machine data become active (power on, RESET, NEWCONF); read by every stage, written by none.
 //! Lengths are whole increments, velocities increments per second, times whole cycles.
 
+pub(super) mod axis;
 pub(super) mod channels;
 pub(super) mod dynamics;
 pub(super) mod groupings;
@@ -12,135 +13,14 @@ pub(super) mod overrides;
 
 use arrayvec::ArrayVec;
 
-use crate::sinumerik::machine_data::{Axis, MachineData};
-use crate::sinumerik::parameters::channels::ChannelParameters;
-use crate::sinumerik::parameters::dynamics::{Dynamics, dynamics, jerk};
-use crate::sinumerik::parameters::groupings::Definitions;
-use crate::sinumerik::parameters::mechanics::Mechanics;
-use crate::sinumerik::parameters::monitoring::{Monitoring, monitoring};
+use crate::sinumerik::machine_data::MachineData;
+use crate::sinumerik::parameters::axis::{AxisParameters, AxisPresence, axis};
+use crate::sinumerik::parameters::channels::{ChannelParameters, channels};
+use crate::sinumerik::parameters::groupings::{Definitions, define};
 use crate::sinumerik::parameters::overrides::factor;
-use crate::units::{
-    AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Position, Time,
-};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Time};
 
-/// Values per measuring system, for index 0 and 1.
-pub(super) type PerEncoder<T> = [T; 2];
-
-/// What is known of a machine beside its machine data.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AxisPresence {
-    /// The axis exists: it belongs to the channel, or machine data or the plant name it.
-    pub exists: bool,
-    /// The archive itself says MD30350 = 0 and the axis is simulated: no signals in its data block (E-26).
-    pub silent: bool,
-    /// What its iron is: that of its machine data when the machine was opened.
-    pub iron: Mechanics,
-}
-
-/// The reference point approach of one axis.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Reference {
-    /// MD34000.
-    pub cam_is_active: bool,
-    /// MD34010 as a sign: +1 plus, −1 minus.
-    pub cam_direction: f64,
-    /// MD34020.
-    pub cam_velocity: f64,
-    /// MD34030.
-    pub maximum_cam_distance: Position,
-    /// MD34040.
-    pub marker_velocity: PerEncoder<f64>,
-    /// MD34050: the zero mark is searched from the rising cam edge.
-    pub marker_reverse: PerEncoder<bool>,
-    /// MD34060.
-    pub maximum_marker_distance: PerEncoder<Position>,
-    /// MD34070.
-    pub position_velocity: f64,
-    /// MD34080 + MD34090.
-    pub move_distance: PerEncoder<Position>,
-    /// MD34092.
-    pub cam_shift: PerEncoder<Position>,
-    /// MD34100.
-    pub set_position: [Position; 4],
-    /// MD34110.
-    pub cycle_number: i32,
-    /// MD34200.
-    pub mode: PerEncoder<u8>,
-    /// MD35150 as a share of MD34040.
-    pub creep_tolerance: f64,
-}
-
-/// The gantry data of one axis.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Gantry {
-    /// MD37110.
-    pub warning_limit: Position,
-    /// MD37120.
-    pub trip_limit: Position,
-    /// MD37130.
-    pub trip_limit_not_synchronised: Position,
-    /// MD37140.
-    pub broken_up: bool,
-    /// MD30450.
-    pub concurrent: bool,
-    /// MD37150 bit 1: the synchronous axis is referenced in the leading axis' direction.
-    pub direction_of_leading_axis: bool,
-    /// MD37150 bit 2: no message 10655.
-    pub suppress_message: bool,
-}
-
-/// One axis.
-#[derive(Clone, Debug, PartialEq)]
-pub struct AxisParameters {
-    /// Whether there is such an axis.
-    pub exists: bool,
-    /// No signals in its data block.
-    pub silent: bool,
-    /// MD30300.
-    pub rotary: bool,
-    /// The channel it belongs to.
-    pub channel: ChannelNumber,
-    /// MD30200.
-    pub encoders: u8,
-    /// MD32000.
-    pub maximum_velocity: f64,
-    /// MD32300[0].
-    pub maximum_acceleration: f64,
-    /// MD32301, or MD32300 where that is 0.
-    pub jog_acceleration: f64,
-    /// MD32020, or SD41110 / SD41130 where that is not 0.
-    pub jog_velocity: f64,
-    /// MD32010.
-    pub jog_rapid_velocity: f64,
-    /// MD11330 and SD41010 times MD31090: the ways of INC1 to INC10000 and INCvar.
-    pub increments: [Position; 6],
-    /// MD32080; 0 bounds nothing.
-    pub handwheel_maximum: Position,
-    /// MD32084.
-    pub handwheel_stop_conditions: u32,
-    /// Position control, and what it has per parameter set.
-    pub dynamics: Dynamics,
-    /// MD36020 in cycles.
-    pub positioning_cycles: u64,
-    /// MD36060; where that is 0, what does not move at all is below it.
-    pub standstill_velocity: f64,
-    /// MD36600: a hardware limit switch sets the setpoint velocity to 0 without a ramp.
-    pub limit_without_ramp: bool,
-    /// MD30310: a modulo rotary axis has no software limits.
-    pub modulo: bool,
-    /// MD36100 and MD36120, MD36110 and MD36130.
-    pub software_limits: [[Position; 2]; 2],
-    /// MD32000 / MD36610.
-    pub emergency_deceleration: f64,
-    /// MD36620 in cycles.
-    pub servo_disable_cycles: u64,
-    /// Reference point approach.
-    pub reference: Reference,
-    /// Gantry.
-    pub gantry: Gantry,
-    /// Monitoring.
-    pub(super) monitoring: Monitoring,
-}
+use crate::variables::Place;
 
 /// Everything that is active.
 #[derive(Clone, Debug, PartialEq)]
@@ -210,9 +90,9 @@ impl Parameters {
             axis_override_factors: data.general.ovr_factor_ax_speed,
             binary_override_limit: data.general.ovr_factor_limit_bin,
             existing: axes.iter().filter(|(_, axis)| axis.exists).map(|(number, _)| number).collect(),
-            channels: channels::channels(data, &axes),
+            channels: channels(data, &axes),
             mode_after_power_on: PerModeGroup::from_fn(|group| data.general.operating_mode_default[group.index()]),
-            groupings: groupings::define(data, &axes),
+            groupings: define(data, &axes),
             axes,
         }
     }
@@ -241,94 +121,6 @@ fn servo_cycles(data: &MachineData) -> u32 {
     ratio.max(1).unsigned_abs()
 }
 
-fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresence, cycle: Time) -> AxisParameters {
-    let md = &data.axes[number];
-    let rotary = md.is_rot_ax;
-    // mm/min, or rev/min of 360 degrees.
-    let velocity = |value: f64| value * Position::PER_USER_UNIT / 60.0 * if rotary { 360.0 } else { 1.0 };
-    // m/s², or rev/s².
-    let acceleration = |value: f64| value * Position::PER_USER_UNIT * if rotary { 360.0 } else { 1_000.0 };
-    let cycles = |seconds: f64| {
-        if seconds > 0.0 { Time::from_seconds(seconds).in_cycles(cycle) } else { 0 }
-    };
-    let (linear_setting, rotary_setting) = (data.setting.jog_set_velo, data.setting.jog_rot_ax_set_velo);
-    let setting = if rotary { rotary_setting } else { linear_setting };
-    let maximum_velocity = velocity(md.max_ax_velo);
-    let maximum_acceleration = acceleration(md.max_ax_accel[0]).max(1.0);
-    let jog_acceleration = if md.jog_max_accel > 0.0 { acceleration(md.jog_max_accel) } else { maximum_acceleration };
-    let jerk = jerk(md, acceleration(1.0), [maximum_acceleration, jog_acceleration], cycle);
-    AxisParameters {
-        exists: presence.exists,
-        silent: presence.silent,
-        rotary,
-        channel: data.home_channel(number),
-        encoders: md.num_encs,
-        maximum_velocity,
-        maximum_acceleration,
-        jog_acceleration,
-        jog_velocity: velocity(if setting > 0.0 { setting } else { md.jog_velo }).min(maximum_velocity),
-        jog_rapid_velocity: velocity(md.jog_velo_rapid).min(maximum_velocity),
-        increments: increments(data, md),
-        handwheel_maximum: Position::from_user(md.handwh_max_incr_size),
-        handwheel_stop_conditions: md.handwh_stop_cond,
-        dynamics: dynamics(md, jerk, &presence.iron, &velocity),
-        positioning_cycles: cycles(md.positioning_time),
-        standstill_velocity: velocity(md.standstill_velo_tol).max(f64::MIN_POSITIVE),
-        limit_without_ramp: md.brake_mode_choice == 1,
-        modulo: md.is_rot_ax && md.rot_is_modulo,
-        software_limits: [
-            [md.pos_limit_minus, md.pos_limit_minus2].map(Position::from_user),
-            [md.pos_limit_plus, md.pos_limit_plus2].map(Position::from_user),
-        ],
-        emergency_deceleration: (maximum_velocity / md.ax_emergency_stop_time.max(cycle.seconds())).max(1.0),
-        servo_disable_cycles: cycles(md.servo_disable_delay_time),
-        reference: reference(md, maximum_velocity, &velocity),
-        gantry: gantry(md),
-        monitoring: monitoring(md, cycle),
-    }
-}
-
-fn reference(md: &Axis, maximum_velocity: f64, velocity: &impl Fn(f64) -> f64) -> Reference {
-    let bounded = |value: f64| velocity(value).min(maximum_velocity);
-    Reference {
-        cam_is_active: md.refp_cam_is_active,
-        cam_direction: if md.refp_cam_dir_is_minus { -1.0 } else { 1.0 },
-        cam_velocity: bounded(md.refp_velo_search_cam),
-        maximum_cam_distance: Position::from_user(md.refp_max_cam_dist),
-        marker_velocity: md.refp_velo_search_marker.map(bounded),
-        marker_reverse: md.refp_search_marker_reverse,
-        maximum_marker_distance: md.refp_max_marker_dist.map(Position::from_user),
-        position_velocity: bounded(md.refp_velo_pos),
-        move_distance: std::array::from_fn(|encoder| {
-            Position::from_user(md.refp_move_dist[encoder]) + Position::from_user(md.refp_move_dist_corr[encoder])
-        }),
-        cam_shift: md.refp_cam_shift.map(Position::from_user),
-        set_position: md.refp_set_pos.map(Position::from_user),
-        cycle_number: md.refp_cycle_nr,
-        mode: md.enc_refp_mode,
-        creep_tolerance: md.spind_des_velo_tol,
-    }
-}
-
-/// Bounded as a position is, so that their sums stay exact.
-fn increments(data: &MachineData, md: &Axis) -> [Position; 6] {
-    let [one, ten, hundred, thousand, ten_thousand] = data.general.jog_incr_size_tab;
-    [one, ten, hundred, thousand, ten_thousand, data.setting.jog_var_incr_size]
-        .map(|size| Position::from_user((size * md.jog_incr_weight[0]).clamp(-1e9, 1e9)))
-}
-
-fn gantry(md: &Axis) -> Gantry {
-    Gantry {
-        warning_limit: Position::from_user(md.gantry_pos_tol_warning),
-        trip_limit: Position::from_user(md.gantry_pos_tol_error),
-        trip_limit_not_synchronised: Position::from_user(md.gantry_pos_tol_ref),
-        broken_up: md.gantry_break_up,
-        concurrent: md.is_concurrent_pos_ax,
-        direction_of_leading_axis: md.gantry_function_mask & 2 != 0,
-        suppress_message: md.gantry_function_mask & 4 != 0,
-    }
-}
-
 /// How keys act.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KeyModes {
@@ -336,4 +128,44 @@ pub struct KeyModes {
     pub increment_held: bool,
     /// SD41050: continuous movement runs while its key is held, else until the next press.
     pub continuous_held: bool,
+}
+
+impl Parameters {
+    /// The channels that exist, with their mode groups.
+    pub fn existing_channels(&self) -> impl Iterator<Item = (ChannelNumber, ModeGroupNumber)> {
+        self.channel_list.iter().copied()
+    }
+
+    /// The mode groups that have channels.
+    pub fn existing_mode_groups(&self) -> impl Iterator<Item = ModeGroupNumber> {
+        self.mode_group_list.iter().copied()
+    }
+
+    /// The mode group of a channel.
+    #[must_use]
+    pub fn mode_group(&self, channel: ChannelNumber) -> ModeGroupNumber {
+        self.channels[channel].mode_group.unwrap_or(ModeGroupNumber::FIRST)
+    }
+
+    /// Whether what happens at a place concerns a channel.
+    #[must_use]
+    pub fn concerns_channel(&self, place: Place, channel: ChannelNumber) -> bool {
+        match place {
+            Place::Nck => true,
+            Place::ModeGroup(group) => self.mode_group(channel) == group,
+            Place::Channel(other) => other == channel,
+            Place::Axis(axis) => self.axes[axis].channel == channel,
+        }
+    }
+
+    /// Whether what happens at a place concerns a mode group.
+    #[must_use]
+    pub fn concerns_mode_group(&self, place: Place, group: ModeGroupNumber) -> bool {
+        match place {
+            Place::Nck => true,
+            Place::ModeGroup(other) => other == group,
+            Place::Channel(channel) => self.mode_group(channel) == group,
+            Place::Axis(axis) => self.mode_group(self.axes[axis].channel) == group,
+        }
+    }
 }

@@ -4,8 +4,8 @@
 //! the first parameter set.
 
 use crate::sinumerik::machine_data::Axis;
-use crate::sinumerik::parameters::PerEncoder;
 use crate::sinumerik::parameters::mechanics::Mechanics;
+use crate::sinumerik::parameters::mechanics::PerEncoder;
 use crate::units::{Position, Time};
 
 /// What MD36310 says of an encoder.

@@ -16,7 +16,7 @@ use crate::motion::Motion;
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::log::{Log, axis_bit};
-use crate::sinumerik::parameters::AxisParameters;
+use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::referencing::state::{Approach, Phase, TRANSITIONS};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::transitions::next;

@@ -105,6 +105,8 @@ pub const TRANSITIONS: &[Transition<Phase>] = &[
     row(Phase::ExactStop, Rule::Referenced, Phase::Idle),
 ];
 
+const _: () = assert!(TRANSITIONS.len() <= u64::BITS as usize);
+
 /// The approach of one axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct Approach {
