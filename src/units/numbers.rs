@@ -1,0 +1,229 @@
+//! Numbers of axes, channels and mode groups, which count from one as in the manuals; tables with one place for each number,
+//! and sets of axes.
+
+use std::fmt;
+use std::ops::{Index, IndexMut};
+
+use serde::{Deserialize, Serialize};
+
+/// Makes a number that counts from one, with its largest value.
+macro_rules! number_from_one {
+    ($(#[$doc:meta])* $name:ident, $table:ident, $max:literal) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+        #[serde(try_from = "u8")]
+        pub struct $name(u8);
+
+        /// A saved number is checked when it is read, because it is used as a place in a table.
+        impl TryFrom<u8> for $name {
+            type Error = &'static str;
+            fn try_from(number: u8) -> Result<Self, Self::Error> {
+                Self::new(number).ok_or(concat!("a ", stringify!($name), " is from 1 to ", $max))
+            }
+        }
+
+        impl $name {
+            /// The largest number there is.
+            pub const MAX: u8 = $max;
+            /// Number one.
+            pub const FIRST: Self = Self(1);
+
+            /// The number as the manuals count it, from one; `None` for 0 and beyond the largest.
+            #[must_use]
+            pub const fn new(number: u8) -> Option<Self> {
+                if number >= 1 && number <= $max { Some(Self(number)) } else { None }
+            }
+
+            /// The number as the manuals count it.
+            #[must_use]
+            pub const fn number(self) -> u8 {
+                self.0
+            }
+
+            /// Its place in a table, from zero.
+            #[must_use]
+            pub const fn index(self) -> usize {
+                self.0 as usize - 1
+            }
+
+            /// All of them, ascending.
+            pub fn all() -> impl DoubleEndedIterator<Item = Self> {
+                (1..=$max).map(Self)
+            }
+        }
+
+        impl fmt::Display for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                self.0.fmt(f)
+            }
+        }
+
+        /// One of something for each number.
+        #[derive(
+            Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize,
+            zerocopy::FromBytes, zerocopy::IntoBytes, zerocopy::Immutable, zerocopy::KnownLayout, zerocopy::Unaligned,
+        )]
+        #[repr(transparent)]
+        pub struct $table<T>([T; $max])
+        where
+            [T; $max]: Sized;
+
+        impl<T> $table<T> {
+            /// From a table in ascending order.
+            pub const fn new(table: [T; $max]) -> Self {
+                Self(table)
+            }
+
+            /// One made for each number.
+            pub fn from_fn(make: impl FnMut($name) -> T) -> Self {
+                let mut make = make;
+                Self(std::array::from_fn(|index| {
+                    #[expect(clippy::cast_possible_truncation, reason = "a table has at most 31 places")]
+                    make($name(index as u8 + 1))
+                }))
+            }
+
+            /// One of something else for each.
+            pub fn map<U>(self, make: impl FnMut(T) -> U) -> $table<U> {
+                $table(self.0.map(make))
+            }
+
+            /// Each with its number, ascending.
+            pub fn iter(&self) -> impl Iterator<Item = ($name, &T)> {
+                $name::all().zip(self.0.iter())
+            }
+
+            /// Each with its number, ascending.
+            pub fn iter_mut(&mut self) -> impl Iterator<Item = ($name, &mut T)> {
+                $name::all().zip(self.0.iter_mut())
+            }
+        }
+
+        impl<T: Default> Default for $table<T> {
+            fn default() -> Self {
+                Self(std::array::from_fn(|_| T::default()))
+            }
+        }
+
+        impl<T> Index<$name> for $table<T> {
+            type Output = T;
+            fn index(&self, number: $name) -> &T {
+                &self.0[number.index()]
+            }
+        }
+
+        impl<T> IndexMut<$name> for $table<T> {
+            fn index_mut(&mut self, number: $name) -> &mut T {
+                &mut self.0[number.index()]
+            }
+        }
+    };
+}
+
+number_from_one!(
+    /// Number of a machine axis, 1 to 31; its data block is DB 30 + number.
+    AxisNumber, PerAxis, 31
+);
+
+/// A set of machine axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AxisSet(u32);
+
+impl AxisSet {
+    /// No axis.
+    pub const NONE: Self = Self(0);
+    /// All that there can be.
+    pub const ALL: Self = Self((1 << AxisNumber::MAX) - 1);
+
+    /// One axis.
+    #[must_use]
+    pub const fn of(axis: AxisNumber) -> Self {
+        Self(1 << axis.index())
+    }
+
+    /// Whether nothing is in it.
+    #[must_use]
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Whether it has this axis.
+    #[must_use]
+    pub const fn contains(self, axis: AxisNumber) -> bool {
+        self.0 >> axis.index() & 1 == 1
+    }
+
+    /// Takes an axis in, or out.
+    pub const fn set(&mut self, axis: AxisNumber, member: bool) {
+        self.0 = self.0 & !(1 << axis.index()) | (member as u32) << axis.index();
+    }
+
+    /// What is in either.
+    #[must_use]
+    pub const fn with(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// What is in both.
+    #[must_use]
+    pub const fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    /// Whether all of the other are in it.
+    #[must_use]
+    pub const fn has_all_of(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// Its axes, ascending.
+    pub fn iter(self) -> impl Iterator<Item = AxisNumber> {
+        let mut rest = self.0;
+        std::iter::from_fn(move || {
+            let index = rest.trailing_zeros();
+            rest &= rest.wrapping_sub(1);
+            u8::try_from(index + 1).ok().and_then(AxisNumber::new)
+        })
+    }
+}
+
+impl FromIterator<AxisNumber> for AxisSet {
+    fn from_iter<I: IntoIterator<Item = AxisNumber>>(axes: I) -> Self {
+        axes.into_iter().fold(Self::NONE, |set, axis| set.with(Self::of(axis)))
+    }
+}
+
+number_from_one!(
+    /// Number of a channel, 1 to 10; its data block is DB 20 + number.
+    ChannelNumber, PerChannel, 10
+);
+number_from_one!(
+    /// Number of a mode group, 1 or 2; both live in DB11.
+    ModeGroupNumber, PerModeGroup, 2
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_of_axes_gives_them_back_in_order() {
+        let axes = [31, 1, 8].map(|number| AxisNumber::new(number).unwrap());
+        let mut set: AxisSet = axes.into_iter().collect();
+        assert_eq!(set.iter().map(AxisNumber::number).collect::<Vec<_>>(), [1, 8, 31]);
+        assert!(set.contains(axes[0]) && AxisSet::ALL.has_all_of(set) && !set.has_all_of(AxisSet::ALL));
+        set.set(axes[0], false);
+        assert_eq!(set.iter().last(), Some(axes[2]));
+        assert_eq!(AxisSet::ALL.iter().count(), 31);
+        assert_eq!(AxisSet::NONE.iter().count(), 0);
+    }
+
+    #[test]
+    fn numbers_count_from_one() {
+        assert_eq!(AxisNumber::new(0), None);
+        assert_eq!(AxisNumber::new(32), None);
+        assert_eq!(AxisNumber::new(3).map(AxisNumber::index), Some(2));
+        assert_eq!(postcard::from_bytes(&[31]), Ok(AxisNumber(31)));
+        assert!([0, 32].iter().all(|&byte| postcard::from_bytes::<AxisNumber>(&[byte]).is_err()));
+    }
+}
