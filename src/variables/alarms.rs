@@ -3,11 +3,47 @@
 use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
-use super::{AlarmNumber, Place, RaisedAlarm};
-use crate::units::Time;
+use super::Place;
+use crate::units::{AxisNumber, ChannelNumber, Time};
 
 /// How many alarms can be pending at once.
 const ALARMS: usize = 64;
+
+/// One parameter of an alarm, `%1` to `%4` in its text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Parameter {
+    /// Not used by this alarm.
+    #[default]
+    None,
+    /// A channel, shown by its name.
+    Channel(ChannelNumber),
+    /// A machine axis, shown by its name.
+    Axis(AxisNumber),
+    /// A number: a reason, a code, a grouping.
+    Number(i64),
+    /// A direction, shown as `+` or `-`.
+    Direction(i8),
+}
+
+/// Number of an alarm in the manual's list; from [`AlarmNumber::OWN`] on, one that has only a name of our own (O-18).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct AlarmNumber(pub u32);
+
+impl AlarmNumber {
+    /// The first number that stands for a name of our own and is never shown.
+    pub const OWN: u32 = 1_000_000;
+}
+
+/// An alarm or message that is pending.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RaisedAlarm {
+    /// Which one.
+    pub number: AlarmNumber,
+    /// Whose.
+    pub place: Place,
+    /// `%1` to `%4`.
+    pub parameters: [Parameter; 4],
+}
 
 /// When an alarm came.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -86,7 +122,6 @@ impl Alarms {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::variables::Parameter;
 
     fn alarm(number: u32) -> RaisedAlarm {
         RaisedAlarm { number: AlarmNumber(number), place: Place::Nck, parameters: [Parameter::None; 4] }

@@ -6,29 +6,18 @@
 
 mod alarms;
 mod events;
+mod place;
 mod r_parameters;
 
-pub use alarms::{Alarms, Arrival};
+pub use alarms::{AlarmNumber, Alarms, Arrival, Parameter, RaisedAlarm};
 pub use events::{Event, EventId, Events, Input, Quantity, Rule, RuleNumber, SignalBit};
+pub use place::Place;
 pub use r_parameters::RParameters;
 
 use serde::{Deserialize, Serialize};
 
 use crate::image::Names;
-use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, Position};
-
-/// Whose it is: the place of an alarm, of an event, of a signal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Place {
-    /// The whole control.
-    Nck,
-    /// A mode group.
-    ModeGroup(ModeGroupNumber),
-    /// A channel.
-    Channel(ChannelNumber),
-    /// A machine axis.
-    Axis(AxisNumber),
-}
+use crate::units::{AxisNumber, PerAxis, Position};
 
 /// What one machine axis shows, as the actual-value display and the service-axes view do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -49,42 +38,6 @@ pub struct AxisValues {
     pub encoders: [Position; 2],
     /// The way that is left of a movement that has an end.
     pub distance_to_go: Position,
-}
-
-/// One parameter of an alarm, `%1` to `%4` in its text.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Parameter {
-    /// Not used by this alarm.
-    #[default]
-    None,
-    /// A channel, shown by its name.
-    Channel(ChannelNumber),
-    /// A machine axis, shown by its name.
-    Axis(AxisNumber),
-    /// A number: a reason, a code, a grouping.
-    Number(i64),
-    /// A direction, shown as `+` or `-`.
-    Direction(i8),
-}
-
-/// Number of an alarm in the manual's list; from [`AlarmNumber::OWN`] on, one that has only a name of our own (O-18).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct AlarmNumber(pub u32);
-
-impl AlarmNumber {
-    /// The first number that stands for a name of our own and is never shown.
-    pub const OWN: u32 = 1_000_000;
-}
-
-/// An alarm or message that is pending.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct RaisedAlarm {
-    /// Which one.
-    pub number: AlarmNumber,
-    /// Whose.
-    pub place: Place,
-    /// `%1` to `%4`.
-    pub parameters: [Parameter; 4],
 }
 
 /// Everything that the control shows beside bits.

@@ -30,7 +30,6 @@ const CIRCLES: &[(&[&str], &str)] = &[
     (&["src/s7/server/"], "being removed"),
     (&["src/s7/session/"], "being removed"),
     (&["src/trace/"], "being removed"),
-    (&["src/variables/"], "being removed"),
 ];
 
 #[test]
