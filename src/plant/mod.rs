@@ -5,11 +5,13 @@
 //! [`Plant::tell`] once per interpolation cycle. A new fault is an arm of [`FaultKind`] and what it does in `moving.rs`.
 
 mod definition;
+mod faults;
 mod layout;
 mod moving;
 
 pub use definition::{
     AxisPlant, Bridge, Cam, Db11Byte5Bit2, Drive, EncoderKind, EncoderPlant, Given, Input, LimitSwitch, PlantDefinition,
 };
+pub use faults::{Fault, FaultKind, Switch};
 pub use layout::{Hints, Iron, Layout, RigidOrSoft};
-pub use moving::{Fault, FaultKind, Plant, Switch};
+pub use moving::Plant;
