@@ -1,6 +1,6 @@
 //! Causes in words: the rule that allowed a transition, and the inputs that it tested, with their values.
 
-use super::places::signal_at;
+use super::printable::signal_at;
 use super::{AxisValue, six_decimals};
 use crate::image::Names;
 use crate::units::{AxisNumber, Position};

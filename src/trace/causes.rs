@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::because::{because, input_name, place_name};
 use super::lines::{Line, LineKind};
-use super::places::signal_at;
+use super::printable::signal_at;
 use super::{Trace, six_decimals};
 use crate::image::Names;
 use crate::units::Time;

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use serde_json::Value;
 
-use super::why::is_bit;
+use super::printable::is_bit;
 use crate::source::Problem;
 use crate::units::Time;
 

@@ -1,8 +1,8 @@
 //! A trace as JSON lines. What the lines are and which keys they have stands in the docs of [`super`].
 
 use super::causes::{Cause, CauseInput};
-use super::places::Shown;
-use super::text::by_in_words;
+use super::printable::Shown;
+use super::record::by_in_words;
 use super::{By, Line, LineKind};
 
 /// All lines; events stand before the bits of the NCK that they explain.

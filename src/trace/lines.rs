@@ -5,8 +5,10 @@
 use std::collections::BTreeMap;
 
 use super::because::because;
-use super::places::{Order, Places, Printable, Shown, mask_in_byte, shown};
-use super::{By, Change, Row, Trace, Watch, decimals, place_name};
+use super::places::Places;
+use super::printable::{Order, Printable, Shown, mask_in_byte, shown};
+use super::value::decimals;
+use super::{By, Change, Row, Trace, Watch, place_name};
 use crate::image::{Format, Location, Memory};
 use crate::units::Time;
 use crate::variables::{AlarmNumber, Describe, EventId, Parameter, Place, RaisedAlarm};

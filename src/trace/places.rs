@@ -3,21 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::Watch;
-use crate::image::{Block, Format, Location, Memory, Names, Part, Signal, signals, signals_at};
-use crate::variables::{Place, SignalBit};
-
-/// Something that has one row of its own when it changes.
-#[derive(Clone, Debug)]
-pub(super) struct Printable {
-    pub(super) location: Location,
-    pub(super) symbol: Option<String>,
-    pub(super) address: String,
-    /// Orders rows within a cycle.
-    pub(super) order: Order,
-}
-
-/// Order of addresses: inputs, outputs, flags, timers, counters, data blocks; then number, byte, bit.
-pub(super) type Order = (u8, u32, u32, u32);
+use super::printable::{Printable, mask_in_byte, printable};
+use crate::image::{Format, Location, Names, Part, signals_at};
 
 /// What can be printed of each byte, found once for each byte that changes.
 pub(super) struct Places<'a> {
@@ -61,14 +48,6 @@ impl<'a> Places<'a> {
     }
 }
 
-/// The bits of the byte at `offset` that belong to this place.
-pub(super) fn mask_in_byte(location: Location, offset: u32) -> u8 {
-    if !(location.offset..location.offset + location.bytes()).contains(&offset) {
-        return 0;
-    }
-    if location.width >= 8 { 0xFF } else { (0xFF >> (8 - location.width)) << location.bit }
-}
-
 fn found(names: &Names, watch: &Watch, part: Part, offset: u32) -> Vec<Printable> {
     let mut printables = Vec::new();
     let mut named_bits = 0;
@@ -102,72 +81,4 @@ fn found(names: &Names, watch: &Watch, part: Part, offset: u32) -> Vec<Printable
         }
     }
     printables
-}
-
-pub(super) fn printable(names: &Names, location: Location) -> Printable {
-    let address = names.address(location).to_string();
-    Printable { location, symbol: names.symbol(location), order: order(&address), address }
-}
-
-/// The order of an address, from its text: the letters of its area, then its numbers.
-pub(super) fn order(address: &str) -> Order {
-    let mut numbers = address
-        .split(|c: char| !c.is_ascii_digit())
-        .filter(|digits| !digits.is_empty())
-        .map(|digits| digits.parse().unwrap_or(u32::MAX));
-    let mut next = || numbers.next().unwrap_or(0);
-    match address.as_bytes() {
-        [b'D', b'B', ..] => (5, next(), next(), next()),
-        [first, ..] => {
-            let area = b"IQMTC".iter().position(|letter| letter == first).unwrap_or(5);
-            (u8::try_from(area).unwrap_or(5), 0, next(), next())
-        }
-        [] => (u8::MAX, 0, 0, 0),
-    }
-}
-
-/// The signal of the catalogue at a bit of a block.
-pub(super) fn signal_at(bit: SignalBit) -> Option<&'static Signal> {
-    let block = match bit.place {
-        Place::Nck => Block::Nck,
-        Place::ModeGroup(_) => Block::ModeGroup,
-        Place::Channel(_) => Block::Channel,
-        Place::Axis(_) => Block::Axis,
-    };
-    signals().find(|signal| signal.block == block && signal.byte == bit.byte && signal.bit == bit.bit)
-}
-
-/// The value at a place in a memory.
-pub(super) fn shown(memory: &Memory, location: Location) -> Shown {
-    if location.width == 1 {
-        return Shown::Bit(memory.read(location) != 0);
-    }
-    match location.format {
-        Format::Unsigned => Shown::Unsigned(memory.read(location)),
-        Format::Signed | Format::Real => Shown::Number(memory.value(location)),
-    }
-}
-
-/// A value as a row shows it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shown {
-    /// A bit.
-    Bit(bool),
-    /// A number without sign.
-    Unsigned(u64),
-    /// A number with sign, or a REAL.
-    Number(f64),
-}
-
-impl std::fmt::Display for Shown {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Bit(bit) => write!(f, "{}", u8::from(*bit)),
-            Self::Unsigned(number) => write!(f, "{number}"),
-            // A REAL has 32 bits, so its shortest text is that of its 32 bits.
-            #[expect(clippy::cast_possible_truncation, reason = "it came from 32 bits")]
-            Self::Number(number) if number.fract() != 0.0 => write!(f, "{}", *number as f32),
-            Self::Number(number) => write!(f, "{number}"),
-        }
-    }
 }

@@ -61,6 +61,18 @@ pub enum Change {
     },
 }
 
+/// Who, in one word.
+pub(super) fn by_in_words(by: By) -> &'static str {
+    match by {
+        By::Nck => "nck",
+        By::Plc => "plc",
+        By::Outside => "outside",
+        By::Force => "force",
+        By::Plant => "plant",
+        By::PowerOn => "power on",
+    }
+}
+
 /// One change, and the cycle whose end shows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {

@@ -1,9 +1,11 @@
 //! A trace of a few rows, in all its forms, by literal expectation.
 
 use super::*;
-use crate::image::{Location, Names};
-use crate::units::{ChannelNumber, Position};
-use crate::variables::{AlarmNumber, Input, Parameter, Place, RaisedAlarm, Rule, RuleNumber};
+use crate::image::{Location, Memory, Names};
+use crate::units::{AxisNumber, ChannelNumber, Position, Time};
+use crate::variables::{
+    AlarmNumber, Event, EventId, Input, Parameter, Place, RaisedAlarm, Rule, RuleNumber, Variables,
+};
 
 struct Control(Names);
 

@@ -1,7 +1,8 @@
 //! The trace for people: a head, then one row a change, in aligned columns; and the first difference of two traces, in words.
 
 use super::compare::{self, Reading};
-use super::{By, Line, LineKind};
+use super::record::by_in_words;
+use super::{Line, LineKind};
 use crate::units::Time;
 
 /// The lines above the rows.
@@ -25,18 +26,6 @@ impl std::fmt::Display for Head {
             writeln!(f, "profile   {profile}")?;
         }
         writeln!(f, "cycle     {} ms", self.cycle_time.seconds() * 1e3)
-    }
-}
-
-/// Who, in one word.
-pub(super) fn by_in_words(by: By) -> &'static str {
-    match by {
-        By::Nck => "nck",
-        By::Plc => "plc",
-        By::Outside => "outside",
-        By::Force => "force",
-        By::Plant => "plant",
-        By::PowerOn => "power on",
     }
 }
 

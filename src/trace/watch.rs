@@ -1,7 +1,8 @@
 //! What a trace shows: patterns over symbols and addresses, and the names of values.
 
 use super::AxisValue;
-use super::places::Printable;
+use super::because::place_name;
+use super::printable::Printable;
 use crate::image::{Block, Location, Memory, Names, Part, signals};
 use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
@@ -137,7 +138,7 @@ fn names_of_axes(names: &Names) -> impl Iterator<Item = &str> {
 
 /// Everything that can stand before the point of a symbol, in the order of the data blocks.
 pub(super) fn owners(names: &Names) -> Vec<(Block, String)> {
-    let place = |block, place| (block, super::place_name(place, names));
+    let place = |block, place| (block, place_name(place, names));
     let mut owners = vec![place(Block::Nck, Place::Nck)];
     owners.extend(ModeGroupNumber::all().map(|group| place(Block::ModeGroup, Place::ModeGroup(group))));
     let channels = ChannelNumber::all().filter(|channel| names.channels[*channel].is_some());

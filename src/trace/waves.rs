@@ -4,8 +4,9 @@
 
 use std::collections::BTreeMap;
 
+use super::history::ValueRow;
 use super::lines::LineKind;
-use super::places::{order, printable, shown};
+use super::printable::{order, printable, shown};
 use super::watch::owners;
 use super::{AxisValue, By, Shown, Trace, Watch, place_name};
 use crate::image::Location;
@@ -77,7 +78,7 @@ pub(super) struct Step {
 }
 
 /// Owner, then signals, values, alarms; then the address, or the number of the alarm.
-type Key = (usize, u8, super::places::Order, String);
+type Key = (usize, u8, super::printable::Order, String);
 
 const MEMORY: &str = "memory";
 
@@ -155,7 +156,7 @@ impl Trace {
             };
             let owner = place_name(Place::Axis(watched.axis), names);
             let key = (rows.rank(&owner), 1, (watched.value as u8, 0, 0, 0), String::new());
-            let step = |row: &super::ValueRow| Step {
+            let step = |row: &ValueRow| Step {
                 cycle: row.cycle.saturating_sub(self.first_cycle),
                 level: Level::Value(row.new),
                 by: None,

@@ -8,7 +8,8 @@ use std::fmt::Write as _;
 use serde_json::Value;
 
 use super::causes::{Cause, CauseInput};
-use super::text::by_in_words;
+use super::printable::is_bit;
+use super::record::by_in_words;
 use super::{Line, LineKind, Shown, Trace, Watch};
 use crate::image::Location;
 use crate::source::{Problem, did_you_mean};
@@ -285,9 +286,4 @@ fn plain(value: Option<&Value>) -> String {
         Some(value) => value.to_string(),
         None => String::new(),
     }
-}
-
-/// Whether an address is that of one bit: `DB31.DBX4.7`, `M0.3`.
-pub(super) fn is_bit(address: &str) -> bool {
-    address.rsplit_once('.').is_some_and(|(_, bit)| bit.len() == 1 && bit.as_bytes()[0].is_ascii_digit())
 }

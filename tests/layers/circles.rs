@@ -28,7 +28,6 @@ const CIRCLES: &[(&[&str], &str)] = &[
     (&["src/s7/nck/"], "being removed"),
     (&["src/s7/server/"], "being removed"),
     (&["src/s7/session/"], "being removed"),
-    (&["src/trace/"], "being removed"),
 ];
 
 #[test]

@@ -1,7 +1,7 @@
 //! What is explained beside the rows: notes as numbered flags, alarms with their texts, the colours.
 
+use super::drawing::{Drawing, MARGIN, SMALL_LETTER, Tenths, WIDTH, px, width_of, wrapped};
 use super::scale::Scale;
-use super::{Drawing, MARGIN, Tenths, WIDTH, wrapped};
 use crate::trace::By;
 use crate::trace::waves::{WaveKind, Waves};
 
@@ -59,7 +59,7 @@ impl Legend {
         for (index, ((cycle, text), place)) in self.notes.iter().zip(self.flags(scale)).enumerate() {
             let x = scale.x(*cycle);
             let pole = [(place, lane - 10), (x, lane + 110), (x, bottom)];
-            let path: Vec<_> = pole.iter().map(|(x, y)| format!("{} {}", super::px(*x), super::px(*y))).collect();
+            let path: Vec<_> = pole.iter().map(|(x, y)| format!("{} {}", px(*x), px(*y))).collect();
             drawing.text.push_str(&format!("<path class=\"pole\" d=\"M{}\"/>\n", path.join("L")));
             drawing.rect("flag", (place - FLAG / 2, lane - FLAG - 10), (FLAG, FLAG), text);
             drawing.text("flag-text", (place, lane - 50), &(index + 1).to_string());
@@ -116,7 +116,7 @@ fn colours(drawing: &mut Drawing, waves: &Waves) {
     for (class, text, _) in known.iter().filter(|(.., is_there)| *is_there) {
         drawing.line(&format!("wave {class}"), (x, drawing.y - 40), (x + 240, drawing.y - 40));
         drawing.text("small", (x + 320, drawing.y), text);
-        x += 320 + super::width_of(text, super::SMALL_LETTER) + 320;
+        x += 320 + width_of(text, SMALL_LETTER) + 320;
         debug_assert!(x < WIDTH, "the colours have room in one line");
     }
 }

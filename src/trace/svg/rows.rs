@@ -2,10 +2,12 @@
 
 use std::fmt::Write as _;
 
+use super::drawing::{Drawing, LETTER, MARGIN, SMALL_LETTER, Tenths, escaped, px, width_of};
 use super::scale::Scale;
-use super::{Drawing, LETTER, MARGIN, SMALL_LETTER, Tenths, px, width_of};
+use crate::trace::record::by_in_words;
+use crate::trace::value::decimals;
 use crate::trace::waves::{Level, Step, Wave, WaveKind, Waves};
-use crate::trace::{By, Shown, decimals};
+use crate::trace::{By, Shown};
 
 /// Height of the row of a signal, and of the wave in it.
 const ROW: Tenths = 230;
@@ -91,7 +93,7 @@ fn told(waves: &Waves, wave: &Wave, step: &Step) -> String {
         Level::Signal(_) => "cleared".to_owned(),
         Level::Value(value) => decimals(value),
     };
-    let by = step.by.map(|by| format!(" by {}", crate::trace::text::by_in_words(by))).unwrap_or_default();
+    let by = step.by.map(|by| format!(" by {}", by_in_words(by))).unwrap_or_default();
     let because = step.because.as_ref().map(|because| format!(": {because}")).unwrap_or_default();
     format!("{} s  {} {what}{by}{because}", waves.time(step.cycle), name(wave))
 }
@@ -251,7 +253,7 @@ fn curve(drawing: &mut Drawing, wave: &Wave, scale: &Scale, middle: Tenths) {
     let class = if wave.kind == WaveKind::Value { "value" } else { colour(wave) };
     let _ = writeln!(drawing.text, r#"<path class="wave {class}" d="{path}"><title>{}</title></path>"#, {
         let range = format!("{}: {} to {} {}", name(wave), decimals(least), decimals(most), wave.beside);
-        super::escaped(range.trim_end())
+        escaped(range.trim_end())
     });
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Drawing, SMALL_LETTER, Tenths, px, width_of};
+use super::drawing::{Drawing, SMALL_LETTER, Tenths, px, width_of};
 use crate::trace::waves::Waves;
 use crate::units::Time;
 

@@ -1,0 +1,132 @@
+//! The trace of a run while it grows: rows of the recorder, events, notes and watched values.
+
+use super::value::millionths;
+use super::{AxisValue, Recorder, Row, Watch};
+use crate::image::Memory;
+use crate::units::{AxisNumber, Time};
+use crate::variables::{Event, EventId, Variables};
+
+/// A record that grows while a machine runs.
+#[derive(Clone, Debug)]
+pub struct Trace {
+    /// The memory before the first row.
+    pub(super) start: Memory,
+    pub(super) first_cycle: u64,
+    pub(super) cycle_time: Time,
+    pub(super) rows: Vec<Row>,
+    pub(super) events: Vec<Event>,
+    pub(super) notes: Vec<(u64, String)>,
+    pub(super) watched: Vec<WatchedValue>,
+    pub(super) values: Vec<ValueRow>,
+    pub(super) lost: u64,
+    /// The last cycle that was noted.
+    pub(super) last_cycle: u64,
+}
+
+/// A value that is noted in every cycle in which it changes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WatchedValue {
+    pub(super) axis: AxisNumber,
+    pub(super) value: AxisValue,
+    /// In millionths, as it is shown.
+    pub(super) last: Option<i64>,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ValueRow {
+    pub(super) cycle: u64,
+    pub(super) index: usize,
+    pub(super) old: Option<i64>,
+    pub(super) new: i64,
+}
+
+impl Trace {
+    /// An empty trace that begins with this memory after cycle `cycle`, which counts as time zero.
+    #[must_use]
+    pub fn begin(memory: &Memory, cycle_time: Time, cycle: u64) -> Self {
+        Self {
+            start: memory.clone(),
+            first_cycle: cycle,
+            cycle_time,
+            rows: Vec::new(),
+            events: Vec::new(),
+            notes: Vec::new(),
+            watched: Vec::new(),
+            values: Vec::new(),
+            lost: 0,
+            last_cycle: cycle,
+        }
+    }
+
+    /// Notes these values from now on, in every cycle in which they change.
+    pub fn watch_values(&mut self, watch: &Watch, cycle: u64, variables: &Variables) {
+        self.watched = watch.values().map(|(axis, value)| WatchedValue { axis, value, last: None }).collect();
+        self.values.clear();
+        self.note_values(cycle, variables);
+    }
+
+    /// Takes over what the recorder holds.
+    pub fn extend(&mut self, recorder: &Recorder) {
+        self.rows.extend_from_slice(recorder.rows());
+        self.events.extend_from_slice(recorder.new_events());
+        self.lost = recorder.lost();
+    }
+
+    /// Notes the watched values after a cycle.
+    pub fn note_values(&mut self, cycle: u64, variables: &Variables) {
+        self.last_cycle = self.last_cycle.max(cycle);
+        for (index, watched) in self.watched.iter_mut().enumerate() {
+            let new = millionths(watched.value.of(watched.axis, variables));
+            if watched.last != Some(new) {
+                self.values.push(ValueRow { cycle, index, old: watched.last, new });
+                watched.last = Some(new);
+            }
+        }
+    }
+
+    /// Notes a text that belongs to a cycle.
+    pub fn note(&mut self, cycle: u64, text: impl Into<String>) {
+        self.notes.push((cycle, text.into()));
+    }
+
+    /// The rows as the machine wrote them.
+    #[must_use]
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// The event of this number that was there at the end of a cycle; numbers may begin anew at a power on.
+    #[must_use]
+    pub fn event(&self, id: EventId, cycle: u64) -> Option<&Event> {
+        self.events.get(self.event_index(id, cycle)?)
+    }
+
+    pub(super) fn event_index(&self, id: EventId, cycle: u64) -> Option<usize> {
+        let so_far = self.events.partition_point(|event| event.cycle <= cycle);
+        if !id.is_some() {
+            return None;
+        }
+        self.events[..so_far].iter().rposition(|event| event.id == id)
+    }
+
+    /// The number of an event in this trace, in which numbers never begin anew: from one; zero for none.
+    pub(super) fn event_number(&self, id: EventId, cycle: u64) -> u32 {
+        self.event_index(id, cycle).map_or(0, |index| u32::try_from(index + 1).unwrap_or(0))
+    }
+
+    /// The event of this number in this trace.
+    pub(super) fn event_numbered(&self, number: u32) -> Option<&Event> {
+        self.events.get((number as usize).checked_sub(1)?)
+    }
+
+    /// How many rows the recorder lost because nobody drained it.
+    #[must_use]
+    pub fn lost(&self) -> u64 {
+        self.lost
+    }
+
+    /// The time at the end of a cycle.
+    pub(super) fn time(&self, cycle: u64) -> Time {
+        self.cycle_time.times(cycle.saturating_sub(self.first_cycle))
+    }
+}
