@@ -3,46 +3,12 @@
 use zerocopy::{FromBytes, IntoBytes};
 
 use super::Machine;
-use super::command::Force;
-use super::written::{FIXED, Written};
-use crate::image::{Memory, Part, ToNck, signals_at};
+use super::written::Force;
+use crate::image::{Part, ToNck, signals_at};
 use crate::sinumerik::Changes;
 use crate::trace::{By, Change, Row};
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber};
 use crate::variables::{EventId, Place};
-
-/// The memory as the last record saw it, and what was written from outside since.
-#[derive(Debug)]
-pub(super) struct Before {
-    parts: Vec<(Part, Vec<u8>)>,
-    pub(super) written: Written,
-    /// The PLC's half is another one than at the end of the last cycle.
-    plc_wrote: bool,
-    /// Power was switched off and on in this step.
-    pub(super) power_on: bool,
-    pub(super) last_event: EventId,
-}
-
-impl Before {
-    /// The memory as it is now.
-    pub(super) fn new(memory: &Memory, last_event: EventId) -> Self {
-        let own = memory.blocks.iter().map(|block| Part::Block(block.number));
-        let parts = FIXED.into_iter().chain(own).map(|part| (part, memory.part(part).to_vec())).collect();
-        Self { parts, written: Written::new(memory), plc_wrote: true, power_on: false, last_event }
-    }
-
-    /// Nothing, for a machine that does not go on.
-    #[cfg(feature = "cli")]
-    pub(super) const fn without_room() -> Self {
-        Self {
-            parts: Vec::new(),
-            written: Written::without_room(),
-            plc_wrote: true,
-            power_on: false,
-            last_event: EventId::NONE,
-        }
-    }
-}
 
 impl Machine {
     /// What the PLC's half has other than at the end of the last cycle.

@@ -13,14 +13,18 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `step.rs` holds the order of a step, `open.rs` reads machines, `command.rs` says what can be done to a machine from
-//! outside (it is queued and acts at the edge of the next step), `changes.rs` finds what changed for the record, `saved.rs`
-//! saves, restores and forks.
+//! `step.rs` holds the order of a step, `open.rs` reads machines, `command.rs` lists what can be done to a machine from
+//! outside, `queue.rs` keeps these commands and does them at the edge of the next step, `changes.rs` finds what changed for the
+//! record, `saved.rs` saves, restores and forks.
 
+mod before;
 mod changes;
 mod command;
+mod definition;
 mod describe;
 mod open;
+mod plc;
+mod queue;
 mod saved;
 mod step;
 mod written;
@@ -33,36 +37,22 @@ pub use open::OpenOptions;
 #[cfg(feature = "cli")]
 pub(crate) use saved::Snapshot;
 
-use std::path::Path;
 use std::sync::Arc;
 
 use crate::image::{Memory, Names, OverrideCoding};
 use crate::motion::Feedback;
-use crate::plant::{Layout, Plant};
+use crate::plant::Plant;
 use crate::plc::PlcProgram;
 use crate::sinumerik::Control;
 use crate::sinumerik::machine_data::MachineData;
-use crate::source::Problem;
 use crate::trace::Recorder;
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, Time};
 use crate::variables::{RParameters, RaisedAlarm, Variables};
 
-use changes::Before;
-use command::Force;
-use step::Plc;
-
-/// What the files say of a machine; it never changes after opening and is shared by all forks.
-#[derive(Debug)]
-struct Definition {
-    names: Names,
-    layout: Layout,
-    /// The memory after power on: presets.
-    memory: Memory,
-    /// How often the PLC program runs; in every cycle where it is not said.
-    plc_cycle: Option<Time>,
-    strobe: open::Strobe,
-    warnings: Vec<String>,
-}
+use before::Before;
+use definition::{Definition, override_coding};
+use plc::Plc;
+use written::Force;
 
 /// A machine: a control, its iron and its PLC program.
 pub struct Machine {
@@ -86,22 +76,6 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// Opens a machine: a directory, a single archive file, or the name of a built-in one.
-    ///
-    /// # Errors
-    /// Anything in its files that cannot be used, with file and line.
-    pub fn open(path: impl AsRef<Path>) -> Result<Self, Problem> {
-        Self::open_with(path, OpenOptions::default())
-    }
-
-    /// Opens a machine with a changed plant, another profile or presets for its memory.
-    ///
-    /// # Errors
-    /// As [`Machine::open`].
-    pub fn open_with(path: impl AsRef<Path>, options: OpenOptions) -> Result<Self, Problem> {
-        open::open(path.as_ref(), options)
-    }
-
     /// What was odd in its files but did not hinder, for people.
     #[must_use]
     pub fn warnings(&self) -> &[String] {
@@ -224,7 +198,7 @@ impl Machine {
     /// How overrides are coded, for values such as `"100%"`.
     #[must_use]
     pub fn override_coding(&self) -> OverrideCoding {
-        open::override_coding(self.control.active())
+        override_coding(self.control.active())
     }
 
     /// The record since it was last drained.

@@ -6,12 +6,14 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::changes::Before;
-use super::step::{Plc, first_variables};
-use super::{Definition, Machine};
-use crate::image::{Location, Memory, Names, OverrideCoding, Part, Preset, Profile};
-use crate::plant::{Db11Byte5Bit2, EncoderKind, Hints, Layout, Plant, PlantDefinition};
-use crate::sinumerik::machine_data::{Archive, Finding, MachineData, Owner, Target, files_of, refusal};
+use super::Machine;
+use super::before::Before;
+use super::definition::{Definition, Strobe, override_coding};
+use super::plc::Plc;
+use super::step::first_variables;
+use crate::image::{Memory, Names, Preset, Profile};
+use crate::plant::{EncoderKind, Hints, Layout, Plant, PlantDefinition};
+use crate::sinumerik::machine_data::{Archive, Finding, Owner, Target, files_of, refusal};
 use crate::sinumerik::{AxisPresence, Control, Mechanics};
 use crate::source::{Place, Problem, Table, did_you_mean, read_text};
 use crate::trace::Recorder;
@@ -29,32 +31,6 @@ pub struct OpenOptions {
     pub preset: Option<Preset>,
 }
 
-/// Whose DB11.DBX5.2 is, and DBX25.2 of the second mode group (E-01).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Strobe {
-    fixed: Option<Db11Byte5Bit2>,
-    /// Where DB11.DBB5 and DBB25 lie in the HMI's part.
-    bytes: PerModeGroup<u32>,
-}
-
-impl Strobe {
-    /// The mode groups whose byte a write there makes the HMI's.
-    pub(super) fn touched_by(&self, location: Location) -> impl Iterator<Item = ModeGroupNumber> {
-        let of_the_hmi = location.part == Part::Hmi && self.fixed.is_none();
-        let touched = move |byte: u32| location.offset <= byte && byte < location.offset + location.bytes();
-        ModeGroupNumber::all().filter(move |group| of_the_hmi && touched(self.bytes[*group]))
-    }
-
-    /// `hmi_strobe` fixes it from the start.
-    pub(super) fn apply(&self, control: &mut Control) {
-        if self.fixed == Some(Db11Byte5Bit2::HmiStrobe) {
-            for group in ModeGroupNumber::all() {
-                control.strobe_written(group);
-            }
-        }
-    }
-}
-
 /// A machine in the program itself: file names and contents.
 struct BuiltIn {
     name: &'static str,
@@ -68,15 +44,25 @@ static BUILT_IN: &[BuiltIn] = &[BuiltIn {
     plant: ("plant.toml", include_str!("../../machine_data/g1_example/plant.toml")),
 }];
 
-pub(super) fn override_coding(data: &MachineData) -> OverrideCoding {
-    OverrideCoding {
-        axis_is_gray: data.general.ovr_ax_is_gray_code,
-        feed_is_gray: data.general.ovr_feed_is_gray_code,
-        rapid_traverse_is_gray: data.general.ovr_rapid_is_gray_code,
+impl Machine {
+    /// Opens a machine: a directory, a single archive file, or the name of a built-in one.
+    ///
+    /// # Errors
+    /// Anything in its files that cannot be used, with file and line.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Problem> {
+        Self::open_with(path, OpenOptions::default())
+    }
+
+    /// Opens a machine with a changed plant, another profile or presets for its memory.
+    ///
+    /// # Errors
+    /// As [`Machine::open`].
+    pub fn open_with(path: impl AsRef<Path>, options: OpenOptions) -> Result<Self, Problem> {
+        open(path.as_ref(), options)
     }
 }
 
-pub(super) fn open(path: &Path, options: OpenOptions) -> Result<Machine, Problem> {
+fn open(path: &Path, options: OpenOptions) -> Result<Machine, Problem> {
     let (archive, mut plant) = read(path)?;
     if let Some(over) = options.plant_over {
         plant.merge(over);

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::Machine;
-use super::changes::Before;
-use super::command::{Command, Force};
-use super::step::Plc;
+use super::before::Before;
+use super::plc::Plc;
+use super::written::Force;
+use super::{Command, Machine};
 use crate::image::{Memory, Names};
 use crate::motion::Feedback;
 use crate::plant::Plant;

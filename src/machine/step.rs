@@ -1,53 +1,11 @@
 //! One step, and the PLC in it.
 
-use super::command::Force;
+use super::written::Force;
 use super::{Machine, Switch};
 use crate::motion::Feedback;
-use crate::plc::{PlcIo, PlcProgram};
-use crate::units::{AxisSet, PerAxis, Time};
+use crate::plc::PlcIo;
+use crate::units::{AxisSet, PerAxis};
 use crate::variables::{AxisValues, Variables};
-
-/// The PLC: its program, and whether it runs.
-#[derive(Default)]
-pub(super) struct Plc {
-    pub(super) program: Option<Box<dyn PlcProgram>>,
-    pub(super) stopped: bool,
-    /// OB100 has run since the last start.
-    pub(super) started: bool,
-    /// NC cycles until the next scan.
-    pub(super) wait: u64,
-    pub(super) last_scan: Time,
-    pub(super) fault: Option<String>,
-}
-
-impl Plc {
-    pub(super) fn load(&mut self, program: Box<dyn PlcProgram>) {
-        self.program = Some(program);
-        self.restart();
-    }
-
-    pub(super) fn stop(&mut self) {
-        self.stopped = true;
-    }
-
-    pub(super) fn restart(&mut self) {
-        self.stopped = false;
-        self.started = false;
-        self.wait = 0;
-        self.fault = None;
-    }
-
-    pub(super) fn power_on(&mut self) {
-        if let Some(program) = &mut self.program {
-            program.reset();
-        }
-        self.restart();
-    }
-
-    pub(super) fn fault(&self) -> Option<&str> {
-        self.fault.as_deref()
-    }
-}
 
 impl Machine {
     /// One interpolation cycle. The order of the stages is the specification of who sees whom when.

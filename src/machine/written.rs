@@ -1,11 +1,19 @@
 //! What was written from outside in a step, by place: who changed a bit is asked for each bit that changed, and a client may write
 //! thousands of bytes at once.
 
-use super::command::Force;
+use serde::{Deserialize, Serialize};
+
 use crate::image::{Location, Memory, Part};
 
 /// Room for writes in one step before the list has to grow.
 const WRITES: usize = 256;
+
+/// A forced place.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Force {
+    pub(super) location: Location,
+    pub(super) value: u64,
+}
 
 /// The writes of a step.
 #[derive(Debug)]
