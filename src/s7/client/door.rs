@@ -9,7 +9,7 @@ use tokio::time::Instant;
 
 use super::conversation::{Conversation, Event};
 use super::error::Error;
-use super::link::{Negotiated, by};
+use super::job::{Negotiated, by};
 use super::options::{Options, TPDU};
 use crate::s7::wire::cotp::{ConnectionConfirm, ConnectionRequest};
 use crate::s7::wire::header::{ErrorCode, Message, kind};

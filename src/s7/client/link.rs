@@ -19,13 +19,13 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
-use tokio::sync::{mpsc, oneshot, watch};
-use tokio::time::{Instant, sleep, sleep_until, timeout, timeout_at};
+use tokio::sync::{mpsc, watch};
+use tokio::time::{Instant, sleep, sleep_until, timeout};
 
 use super::conversation::Event;
 use super::door::{Door, open};
 use super::error::Error;
-use super::listeners::Subscribed;
+use super::job::{Failure, InFlight, Job, LinkCommand, Negotiated, Reply, ReplyTo, Subscribed};
 use super::options::Options;
 use crate::s7::wire::header::{ErrorCode, Message, Unreadable, kind};
 use crate::s7::wire::pdu::{Answers, Budget, Pdu};
@@ -35,15 +35,6 @@ use crate::s7::wire::replies::UserData;
 const QUEUE: usize = 64;
 /// After so many requests in a row without an answer nobody is there any more.
 const SILENCES: u32 = 2;
-
-/// What was agreed with a module.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Negotiated {
-    /// Bytes of a PDU.
-    pub pdu: usize,
-    /// Requests on their way at once.
-    pub jobs: usize,
-}
 
 /// How the connection is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -64,68 +55,12 @@ pub enum State {
     },
 }
 
-/// What a task is asked to do.
-#[derive(Debug)]
-pub(super) enum Command {
-    Ask(Job),
-    Subscribe(Subscribed),
-}
-
-/// A request.
-#[derive(Debug)]
-pub(super) struct Job {
-    /// What it is, for errors.
-    pub(super) what: &'static str,
-    /// A job, or user data.
-    pub(super) kind: u8,
-    pub(super) parameter: Vec<u8>,
-    pub(super) data: Vec<u8>,
-    /// The PDU that it needs; it is given back where another connection has a shorter one.
-    pub(super) pdu: usize,
-    /// Whether it may be asked again on another connection.
-    pub(super) repeat: bool,
-    pub(super) asked: Instant,
-    pub(super) reply: ReplyTo,
-}
-
-/// Who waits for an answer.
-#[derive(Debug)]
-pub(super) enum ReplyTo {
-    Caller(oneshot::Sender<Result<Reply, Failure>>),
-    /// The subscription with this identifier.
-    Subscription(u64),
-    /// Nobody.
-    Nobody,
-}
-
-/// An answer.
-#[derive(Debug)]
-pub(super) struct Reply {
-    pub(super) error: ErrorCode,
-    pub(super) parameter: Vec<u8>,
-    pub(super) data: Vec<u8>,
-}
-
-/// Why there is none.
-#[derive(Debug)]
-pub(super) enum Failure {
-    Error(Error),
-    /// It was not sent: the connection has a shorter PDU now.
-    Renegotiated,
-}
-
-#[derive(Debug)]
-struct InFlight {
-    job: Job,
-    sent: Instant,
-}
-
 /// The task.
 #[derive(Debug)]
 pub(super) struct Link {
     address: Arc<str>,
     options: Arc<Options>,
-    commands: mpsc::Receiver<Command>,
+    commands: mpsc::Receiver<LinkCommand>,
     state: watch::Sender<State>,
     pub(super) queue: VecDeque<Job>,
     in_flight: BTreeMap<u16, InFlight>,
@@ -151,7 +86,7 @@ impl Link {
     pub(super) fn new(
         address: Arc<str>,
         options: Arc<Options>,
-        commands: mpsc::Receiver<Command>,
+        commands: mpsc::Receiver<LinkCommand>,
         state: watch::Sender<State>,
     ) -> Self {
         let (queue, in_flight, subscriptions) = (VecDeque::new(), BTreeMap::new(), Vec::new());
@@ -250,10 +185,10 @@ impl Link {
         }
     }
 
-    fn accept(&mut self, command: Command) {
+    fn accept(&mut self, command: LinkCommand) {
         match command {
-            Command::Ask(job) => self.queue.push_back(job),
-            Command::Subscribe(mut subscribed) => {
+            LinkCommand::Ask(job) => self.queue.push_back(job),
+            LinkCommand::Subscribe(mut subscribed) => {
                 self.identifier += 1;
                 subscribed.identifier = self.identifier;
                 self.subscriptions.push(subscribed);
@@ -432,7 +367,7 @@ impl Link {
     }
 
     /// A subscription that comes while there is no connection is asked for with the others.
-    fn accept_later(&mut self, command: Command) {
+    fn accept_later(&mut self, command: LinkCommand) {
         self.accept(command);
         self.queue.retain(|job| !matches!(job.reply, ReplyTo::Subscription(_)));
     }
@@ -452,9 +387,4 @@ fn answers(job: &Job, message: &Message<'_>) -> bool {
         }
         _ => false,
     }
-}
-
-/// The same deadline for everything that is awaited.
-pub(super) async fn by<T>(deadline: Instant, work: impl Future<Output = T>) -> Option<T> {
-    timeout_at(deadline, work).await.ok()
 }

@@ -1,31 +1,15 @@
 //! Subscriptions at the link: asked for on each connection anew, forwarded to whoever listens, ended when he has gone.
 
-use tokio::sync::{mpsc, oneshot};
+use tokio::sync::mpsc;
 use tokio::time::Instant;
 
 use super::error::Error;
-use super::link::{Failure, Job, Link, Reply, ReplyTo};
+use super::job::{Failure, Job, Reply, ReplyTo, Subscribed};
+use super::link::Link;
 use crate::s7::wire::header::{ErrorCode, kind};
 use crate::s7::wire::replies::UserData;
 use crate::s7::wire::requests;
 use crate::s7::wire::user_data::group;
-
-/// A subscription, as long as somebody listens.
-#[derive(Debug)]
-pub(super) struct Subscribed {
-    /// In cycles or on change.
-    pub(super) function: u8,
-    pub(super) payload: Vec<u8>,
-    pub(super) pdu: usize,
-    /// Which of several that belong together.
-    pub(super) group: usize,
-    pub(super) to: mpsc::Sender<(usize, Result<Vec<u8>, Error>)>,
-    /// Told once.
-    pub(super) ready: Option<oneshot::Sender<Result<(), Error>>>,
-    /// Number at the module, while there is a connection.
-    pub(super) number: Option<u8>,
-    pub(super) identifier: u64,
-}
 
 impl Link {
     /// Asks for a subscription, the first time or on another connection.

@@ -37,6 +37,7 @@ mod blocks;
 mod conversation;
 mod door;
 mod error;
+mod job;
 mod link;
 mod listeners;
 mod nc;
@@ -53,7 +54,8 @@ mod tests;
 
 pub use blocks::{BlockCount, BlockDescription, BlockEntry, BlockKind};
 pub use error::Error;
-pub use link::{Negotiated, State};
+pub use job::Negotiated;
+pub use link::State;
 pub use nc::{NcKind, NcVariable};
 pub use options::{Backoff, ConnectionKind, Options, Tsaps, password};
 pub use subscription::{Mode, Subscription, Update};
@@ -69,7 +71,8 @@ use tokio::sync::{Mutex, mpsc, oneshot, watch};
 use tokio::time::Instant;
 
 use crate::s7::wire::header::{ErrorCode, kind};
-use link::{Command, Failure, Job, Link, Reply, ReplyTo};
+use job::{Failure, Job, LinkCommand, Reply, ReplyTo, by};
+use link::Link;
 
 /// How many requests wait for the task; who has more waits itself.
 const COMMANDS: usize = 32;
@@ -77,7 +80,7 @@ const COMMANDS: usize = 32;
 /// A connection to a module. It is closed when the last clone and the last subscription are dropped.
 #[derive(Clone, Debug)]
 pub struct Client {
-    commands: mpsc::Sender<Command>,
+    commands: mpsc::Sender<LinkCommand>,
     state: watch::Receiver<State>,
     options: Arc<Options>,
     /// A module keeps one long answer at a time.
@@ -160,7 +163,7 @@ impl Client {
                 State::Lost { cause, .. } => lost(cause),
                 State::Ended { cause } => return Err(lost(cause)),
             };
-            match link::by(deadline, state.changed()).await {
+            match by(deadline, state.changed()).await {
                 Some(Ok(())) => {}
                 Some(Err(_)) | None => return Err(last),
             }
@@ -175,7 +178,7 @@ impl Client {
         let (asked, reply) = (Instant::now(), ReplyTo::Caller(reply));
         let job = Job { what, kind, parameter, data, pdu, repeat, asked, reply };
         // If the task has ended the answer tells that, too.
-        let _ = self.commands.send(Command::Ask(job)).await;
+        let _ = self.commands.send(LinkCommand::Ask(job)).await;
         answer
     }
 

@@ -6,8 +6,7 @@ use tokio::sync::{mpsc, oneshot};
 
 use super::Client;
 use super::error::Error;
-use super::link::Command;
-use super::listeners::Subscribed;
+use super::job::{LinkCommand, Subscribed};
 use super::plan::{Part, Plan, Purpose, Room, plan};
 use super::value::Value;
 use super::variable::Variable;
@@ -86,7 +85,7 @@ impl Client {
                 number: None,
                 identifier: 0,
             };
-            let _ = self.commands.send(Command::Subscribe(subscribed)).await;
+            let _ = self.commands.send(LinkCommand::Subscribe(subscribed)).await;
             answer.await.unwrap_or_else(|_| Err(self.gone("subscription")))?;
         }
         Ok(Subscription { variables: variables.to_vec(), groups, updates, _client: self.clone() })

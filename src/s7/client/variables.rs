@@ -1,7 +1,7 @@
 //! Read and write: one variable or any number, each with its own result.
 
 use super::error::Error;
-use super::link::{Failure, Negotiated, Reply};
+use super::job::{Failure, Negotiated, Reply};
 use super::plan::{Part, Plan, Purpose, Room, plan};
 use super::value::Value;
 use super::variable::{Memory, Variable};
