@@ -11,13 +11,15 @@ use std::pin::{Pin, pin};
 use std::task::{Context, Poll, ready};
 use std::time::Duration;
 
-use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt, ReadBuf};
+use tokio::io::{AsyncRead, AsyncReadExt, AsyncWriteExt, ReadBuf};
 use tokio::net::TcpStream;
 use tokio::sync::watch;
 use tokio::task::yield_now;
 use tokio::time::{Instant, Interval, MissedTickBehavior, interval, sleep, timeout};
 
+use super::end::End;
 use super::faults::Faulty;
+use super::sending::write;
 use super::strangers::Stranger;
 use super::witness::Witness;
 use super::{Server, Stations};
@@ -46,43 +48,6 @@ thread_local! {
 
 /// Room for what comes and for what is answered. Two clients have one each where one of them waits in the middle of its turn.
 type Space = (Vec<u8>, Option<Answers>);
-
-/// How a conversation ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum End {
-    /// The client has gone.
-    Left,
-    /// The session ended: a disconnect request, or bytes of something else.
-    Closed,
-    /// It asked nothing for too long.
-    Idle,
-    /// It had asked nothing yet, and somebody else needed its place.
-    GaveWay,
-    /// It did not take its answers.
-    Slow,
-    /// The server ends.
-    Server,
-    /// A fault on purpose.
-    Fault,
-}
-
-impl End {
-    pub(super) const ALL: [Self; 7] =
-        [Self::Left, Self::Closed, Self::Idle, Self::GaveWay, Self::Slow, Self::Server, Self::Fault];
-
-    /// In one word, for whoever counts.
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Left => "left",
-            Self::Closed => "closed",
-            Self::Idle => "idle",
-            Self::GaveWay => "gave_way",
-            Self::Slow => "slow",
-            Self::Server => "server",
-            Self::Fault => "fault",
-        }
-    }
-}
 
 /// One client.
 pub(super) struct Conversation<'a, S> {
@@ -335,30 +300,6 @@ impl<'a, S: Stations> Conversation<'a, S> {
     }
 }
 
-/// Sends bytes, within a limit of time.
-pub(super) async fn write(
-    stream: &mut (impl AsyncWrite + Unpin),
-    bytes: &[u8],
-    witness: &mut Witness<'_>,
-    limit: Duration,
-) -> Option<End> {
-    // Nearly always the system takes all at once, and nobody need look at the clock.
-    let taken = poll_fn(|cx| match Pin::new(&mut *stream).poll_write(cx, bytes) {
-        Poll::Ready(Ok(taken)) => Poll::Ready(taken),
-        Poll::Ready(Err(_)) | Poll::Pending => Poll::Ready(0), // it is told again below
-    });
-    let left = &bytes[taken.await..];
-    let written = if left.is_empty() { Ok(Ok(())) } else { timeout(limit, stream.write_all(left)).await };
-    match written {
-        Ok(Ok(())) => {
-            witness.sent(bytes);
-            None
-        }
-        Ok(Err(_)) => Some(End::Left),
-        Err(_) => Some(End::Slow),
-    }
-}
-
 /// Waits for the end of the server.
 async fn until(mut ended: watch::Receiver<bool>) {
     let _ = ended.wait_for(|ended| *ended).await;
@@ -403,18 +344,4 @@ fn job_of(packet: &[u8]) -> Option<u8> {
 /// Whether a packet that has begun would not fit.
 fn is_too_long(bytes: &[u8]) -> bool {
     matches!(bytes, [_, _, high, low, ..] if usize::from(u16::from_be_bytes([*high, *low])) > INPUT)
-}
-
-impl std::fmt::Display for End {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Left => "has left",
-            Self::Closed => "was disconnected: what it sent is no S7 communication",
-            Self::Idle => "was disconnected: it asked nothing for too long",
-            Self::GaveWay => "was disconnected: it had asked nothing yet, and another client needed its place",
-            Self::Slow => "was disconnected: it did not take its answers",
-            Self::Server => "was disconnected: the server ends",
-            Self::Fault => "was disconnected: a fault on purpose",
-        })
-    }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use super::conversation::End;
+use super::end::End;
 use super::refusals::Refused;
 
 /// Counts from the start of a server.

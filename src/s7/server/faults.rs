@@ -21,7 +21,8 @@ use std::time::Duration;
 use tokio::io::AsyncWrite;
 use tokio::time::{Instant, sleep_until};
 
-use super::conversation::{End, write};
+use super::end::End;
+use super::sending::write;
 use super::witness::Witness;
 use crate::s7::session::Failure;
 use crate::s7::wire::cotp;

@@ -10,8 +10,8 @@ use std::time::Duration;
 use tokio::time::Instant;
 
 use super::capture::Recording;
-use super::conversation::End;
 use super::counters::Counters;
+use super::end::End;
 use super::refusals::{asked, refusals, written};
 use crate::s7::wire::cotp::Tpdu;
 use crate::s7::wire::pdu::Answers;
