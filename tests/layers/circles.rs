@@ -24,7 +24,6 @@ const CIRCLES: &[(&[&str], &str)] = &[
     (&["src/scenario/passing.rs", "src/scenario/session.rs"], "being removed"),
     (&["src/cli/"], "being removed"),
     (&["src/s7/nck/"], "being removed"),
-    (&["src/s7/session/"], "being removed"),
 ];
 
 #[test]

@@ -3,7 +3,8 @@
 //! Choice: a type without blocks has an empty list, as in python-snap7's server, and not the error `D20E`, as in snap7's. A real CPU has
 //! blocks of all types, so clients that list one type after another (Node-RED) take a refusal for a failure of all.
 
-use super::{Exchange, Session};
+use super::Session;
+use super::exchange::Exchange;
 use crate::s7::station::{BlockInfo, Station};
 use crate::s7::wire::header::ErrorCode;
 use crate::s7::wire::user_data::{Head, Request};

@@ -1,7 +1,8 @@
 //! The clock of the CPU: read and set. The payload is a reserved byte, the century in BCD, which nobody looks at, and a
 //! DATE_AND_TIME.
 
-use super::{Exchange, Session};
+use super::Session;
+use super::exchange::Exchange;
 use crate::s7::wire::date_and_time::DateAndTime;
 use crate::s7::wire::header::ErrorCode;
 use crate::s7::wire::user_data::{Head, Request};

@@ -7,7 +7,8 @@
 //! Whoever asks for the state that already is gets the acknowledgement with a second byte: `03` runs already, `07` stands
 //! already.
 
-use super::{Exchange, Session};
+use super::Session;
+use super::exchange::Exchange;
 use crate::s7::station::{CpuState, Restart};
 use crate::s7::wire::header::{ErrorCode, function};
 use crate::s7::wire::pdu::Pdu;

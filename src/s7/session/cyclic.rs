@@ -9,14 +9,13 @@
 //! A change is looked for as often as the interval says. Without an interval (factor 0) it is looked for as often as the server
 //! allows.
 
-use super::variables::{budget_of, put_values};
-use super::{Exchange, Session};
-use crate::s7::station::Station;
-use crate::s7::wire::data::{SUCCESS, TransportSize};
+use super::Session;
+use super::exchange::Exchange;
+use super::subscriptions::{CHANGE, Job};
+use super::values::budget_of;
 use crate::s7::wire::header::ErrorCode;
 use crate::s7::wire::items::Items;
-use crate::s7::wire::pdu::{Answers, Budget, Pdu};
-use crate::s7::wire::user_data::{Head, Request, group};
+use crate::s7::wire::user_data::Request;
 use crate::units::Time;
 
 /// How many jobs of this kind a client may have.
@@ -24,84 +23,6 @@ const JOBS: usize = 32;
 
 const CYCLE: u8 = 1;
 const UNSUBSCRIBE: u8 = 4;
-const CHANGE: u8 = 5;
-
-/// The jobs of a client.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Subscriptions {
-    jobs: Vec<Job>,
-}
-
-#[derive(Clone, Debug)]
-struct Job {
-    number: u8,
-    /// In cycles or on change.
-    function: u8,
-    interval: Time,
-    /// When it is due; not before the first tick, which only starts the interval.
-    due: Option<Time>,
-    count: u16,
-    items: Vec<u8>,
-    /// What was sent last.
-    last: Vec<u8>,
-}
-
-impl Subscriptions {
-    pub(super) fn is_empty(&self) -> bool {
-        self.jobs.is_empty()
-    }
-
-    pub(super) fn tick(
-        &mut self,
-        now: Time,
-        shortest: Time,
-        scratch: &mut Vec<u8>,
-        budget: Budget,
-        station: &dyn Station,
-        answers: &mut Answers,
-    ) {
-        for job in &mut self.jobs {
-            let interval = job.interval.max(shortest);
-            let due = *job.due.get_or_insert(now + interval);
-            if now < due {
-                continue;
-            }
-            // From now on, not from when it was due: who is late does not catch up in a burst.
-            job.due = Some(now + interval);
-            let items = Items::new(&job.items, job.count.into()).flatten();
-            let mut pdu = job.head(ErrorCode::NONE).begin_push(answers, budget_of(items, budget));
-            job.put(&mut pdu, scratch, station);
-            let is_changed = pdu.data_mut() != job.last.as_slice();
-            if pdu.is_full() || job.function == CHANGE && !is_changed {
-                pdu.discard();
-                continue;
-            }
-            if is_changed {
-                job.last.clear();
-                job.last.extend_from_slice(pdu.data_mut());
-            }
-            pdu.finish();
-        }
-    }
-}
-
-impl Job {
-    fn head(&self, error: ErrorCode) -> Head {
-        let (function, sequence) = (self.function, self.number);
-        Head { group: group::CYCLIC, function, sequence, unit: 0, more: false, error }
-    }
-
-    /// Appends the data part: count and values.
-    fn put(&self, pdu: &mut Pdu<'_>, scratch: &mut Vec<u8>, station: &dyn Station) {
-        let [high, low] = self.count.to_be_bytes();
-        pdu.put(&[SUCCESS, TransportSize::OCTETS.0, 0, 0, high, low]);
-        put_values(pdu, Items::new(&self.items, self.count.into()).flatten(), scratch, station);
-        let length = pdu.data_length().saturating_sub(4);
-        if let [_, _, high, low, ..] = pdu.data_mut() {
-            [*high, *low] = TransportSize::OCTETS.field(length).to_be_bytes();
-        }
-    }
-}
 
 impl Session {
     pub(super) fn cyclic(

@@ -1,6 +1,6 @@
 //! Requests to read or write that are refused on purpose, for tests of panels. Nothing of them is done.
 
-use super::Exchange;
+use super::exchange::Exchange;
 use crate::s7::wire::data::TransportSize;
 use crate::s7::wire::header::{ErrorCode, function};
 use crate::s7::wire::pdu::Pdu;

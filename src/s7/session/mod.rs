@@ -15,11 +15,15 @@ mod blocks;
 mod clock;
 mod control;
 mod cyclic;
+mod exchange;
 mod failure;
 mod parts;
+mod pending;
 mod security;
+mod subscriptions;
 mod system_state;
 mod upload;
+mod values;
 mod variables;
 
 use super::station::Station;
@@ -30,10 +34,10 @@ use super::wire::tpkt::{self, Packet};
 use super::wire::user_data::{self, Head, Received, Request, group};
 use crate::units::Time;
 
-use cyclic::Subscriptions;
+use exchange::Exchange;
 pub use failure::Failure;
-use parts::Parts;
-use upload::Uploads;
+use pending::{Parts, Uploads};
+use subscriptions::Subscriptions;
 
 /// The shortest PDU that is agreed.
 const SHORTEST_PDU: u16 = 240;
@@ -99,21 +103,6 @@ pub struct Session {
     failure: Option<Failure>,
     /// Requests to read or write so far, on this connection and those before it.
     requests: u64,
-}
-
-/// What every answer needs.
-struct Exchange<'a> {
-    station: &'a mut dyn Station,
-    answers: &'a mut Answers,
-    reference: u16,
-    budget: Budget,
-}
-
-impl Exchange<'_> {
-    /// Refuses a job.
-    fn refuse(&mut self, error: ErrorCode) {
-        Pdu::refuse(self.answers, self.reference, self.budget, error);
-    }
 }
 
 impl Session {

@@ -1,18 +1,11 @@
 //! Long answers of user data, sent in parts: the first with the answer, each further one when the client asks for it. The
 //! last part says so. One answer is kept at a time; a new request forgets it.
 
-use super::{Exchange, Session};
+use super::Session;
+use super::exchange::Exchange;
+use super::pending::Parts;
 use crate::s7::wire::header::ErrorCode;
 use crate::s7::wire::user_data::{Head, Request, payload_room};
-
-/// What has not been sent yet.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Parts {
-    payload: Vec<u8>,
-    sent: usize,
-    /// Group, function and sequence of the answer; none when all is sent.
-    of: Option<[u8; 3]>,
-}
 
 impl Session {
     /// Sends an answer, in as many parts as it needs.

@@ -2,7 +2,8 @@
 //!
 //! On the wire the eight characters are folded: the first two with `55`, each further one with `55` and the folded one two before.
 
-use super::{Exchange, Session};
+use super::Session;
+use super::exchange::Exchange;
 use crate::s7::wire::header::ErrorCode;
 use crate::s7::wire::user_data::Request;
 

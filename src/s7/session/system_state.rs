@@ -18,7 +18,8 @@
 //!
 //! The extract `0Fxx` of a list is its head alone, with the number of records that the list has.
 
-use super::{Exchange, LONGEST_PDU, SHORTEST_PDU, Session};
+use super::exchange::Exchange;
+use super::{LONGEST_PDU, SHORTEST_PDU, Session};
 use crate::image::Area;
 use crate::s7::station::{CpuState, Diagnosis, Station};
 use crate::s7::wire::header::ErrorCode;

@@ -7,27 +7,15 @@
 //! 1F  00 00 00  00 00 00 01                   end       ->  1F
 //! ```
 
+use super::Session;
 use super::blocks::{FOOT, HEAD, head, named, signature};
-use super::{Exchange, Session};
+use super::exchange::Exchange;
+use super::pending::Upload;
 use crate::s7::wire::header::{ErrorCode, function};
 use crate::s7::wire::pdu::Pdu;
 
 /// How many blocks a client may upload at once.
 const AT_ONCE: usize = 4;
-
-/// The uploads that are open.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Uploads {
-    open: Vec<Upload>,
-    last: u8,
-}
-
-#[derive(Clone, Debug)]
-struct Upload {
-    number: u8,
-    content: Vec<u8>,
-    sent: usize,
-}
 
 impl Session {
     pub(super) fn start_upload(&mut self, rest: &[u8], exchange: &mut Exchange<'_>) {
@@ -90,12 +78,6 @@ impl Session {
         let mut pdu = Pdu::ack_data(exchange.answers, exchange.reference, exchange.budget);
         pdu.put(&[function::END_UPLOAD]);
         pdu.finish();
-    }
-}
-
-impl Uploads {
-    fn find(&mut self, number: u8) -> Option<&mut Upload> {
-        self.open.iter_mut().find(|upload| upload.number == number)
     }
 }
 
