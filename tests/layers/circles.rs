@@ -23,7 +23,6 @@ const CIRCLES: &[(&[&str], &str)] = &[
     (&["src/scenario/faults.rs", "src/scenario/steps.rs"], "being removed"),
     (&["src/scenario/passing.rs", "src/scenario/session.rs"], "being removed"),
     (&["src/cli/"], "being removed"),
-    (&["src/s7/nck/"], "being removed"),
 ];
 
 #[test]

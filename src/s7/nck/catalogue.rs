@@ -14,9 +14,10 @@ use super::alarms::{self, Order};
 use super::values::{
     asked, axis, axis_name, axis_number, axis_signal, channel, channel_exists, channel_name, channel_status,
     count_axes, empty, feedrate, flag, geometry_axis, machine_function, measuring_system, mode, number, of_axis,
-    of_channel, only, program_status, seconds, version, zero,
+    of_channel, only, program_status, r_parameter, seconds, version, zero,
 };
-use super::{Kind, NckArea, Shown, Variable, drives, module, r_parameter};
+use super::variable::module;
+use super::{Kind, NckArea, Shown, Variable, drives};
 use crate::image::ChannelToNck;
 use crate::variables::Alarms;
 

@@ -13,166 +13,23 @@ mod catalogue;
 mod data;
 mod drives;
 mod values;
+mod variable;
+mod view;
 
 pub use catalogue::CATALOGUE;
 pub use data::{Control, Datum, MachineData};
 pub(super) use drives::read as read_drive;
-
-use std::borrow::Cow;
+pub use variable::{Kind, NckArea, Shown, Variable};
+pub use view::View;
 
 use super::bridge::Command;
 use super::wire::data::Refusal;
-use super::wire::date_and_time::DateAndTime;
 use super::wire::items::{MeasuringSystem, NckItem};
-use crate::image::{Memory, Names};
-use crate::units::ChannelNumber;
-use crate::variables::{Place, Variables};
+use crate::variables::Place;
 
 use data::put_text;
-
-/// What the values are taken from.
-#[derive(Clone, Copy)]
-pub struct View<'a> {
-    /// The memory after a step.
-    pub memory: &'a Memory,
-    /// The variables after a step.
-    pub variables: &'a Variables,
-    /// What axes and channels are called.
-    pub names: &'a Names,
-    /// Machine data.
-    pub machine_data: Option<&'a dyn MachineData>,
-    /// What else the control knows.
-    pub control: Option<&'a dyn Control>,
-    /// The clock.
-    pub clock: DateAndTime,
-    /// The serial number of the hardware.
-    pub serial_number: &'a str,
-}
-
-impl std::fmt::Debug for View<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("View").finish_non_exhaustive()
-    }
-}
-
-/// Modules by their number on the wire.
-mod module {
-    /// System data.
-    pub(super) const Y: u8 = 0x10;
-    /// R parameters.
-    pub(super) const RP: u8 = 0x15;
-    /// Machine data; of drives on the powerline.
-    pub(super) const M: u8 = 0x1A;
-    /// Diagnosis.
-    pub(super) const DIAGN: u8 = 0x3B;
-    /// Alarms by their time, as they come.
-    pub(super) const SALAC: u8 = 0x54;
-    /// Geometry axes, more of them.
-    pub(super) const SEGA: u8 = 0x70;
-    /// Machine axes, more of them.
-    pub(super) const SEMA: u8 = 0x71;
-    /// Spindles.
-    pub(super) const SSP: u8 = 0x72;
-    /// Geometry axes.
-    pub(super) const SGA: u8 = 0x73;
-    /// Machine axes.
-    pub(super) const SMA: u8 = 0x74;
-    /// Alarms, the last one first.
-    pub(super) const SALAL: u8 = 0x75;
-    /// Alarms, that of the highest priority first.
-    pub(super) const SALAP: u8 = 0x76;
-    /// Alarms by their time.
-    pub(super) const SALA: u8 = 0x77;
-    /// The program pointer.
-    pub(super) const SPARPP: u8 = 0x7A;
-    /// The program.
-    pub(super) const SPARP: u8 = 0x7D;
-    /// How the program is influenced.
-    pub(super) const SINF: u8 = 0x7E;
-    /// States.
-    pub(super) const S: u8 = 0x7F;
-    /// Parameters of SINAMICS drives.
-    pub(super) const DRIVE: u8 = 0x82;
-}
-
-/// Areas by their number on the wire.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NckArea {
-    /// N.
-    Nck,
-    /// B.
-    ModeGroup,
-    /// C.
-    Channel,
-    /// A.
-    Axis,
-    /// V.
-    FeedDrive,
-}
-
-impl NckArea {
-    /// Its number on the wire.
-    pub(in crate::s7) const fn code(self) -> u8 {
-        match self {
-            Self::Nck => 0,
-            Self::ModeGroup => 1,
-            Self::Channel => 2,
-            Self::Axis => 3,
-            Self::FeedDrive => 5,
-        }
-    }
-}
-
-/// How a value is written down.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A word of two bytes.
-    Word,
-    /// A whole number of four bytes.
-    Long,
-    /// A whole number of four bytes without a sign.
-    UnsignedLong,
-    /// A floating point number of eight bytes.
-    Double,
-    /// A length in millimetres or degrees of eight bytes, which the unit of the item changes.
-    Length,
-    /// A floating point number of four bytes, big-endian.
-    DriveReal,
-    /// A `DATE_AND_TIME` of eight bytes.
-    Date,
-    /// A text of so many bytes.
-    Text(usize),
-}
-
-/// A value before it is written down.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shown<'a> {
-    /// A number.
-    Number(f64),
-    /// A text.
-    Text(Cow<'a, str>),
-    /// A point in time; none is all zeros.
-    Date(Option<DateAndTime>),
-}
-
-/// A row of the catalogue.
-#[derive(Clone, Copy, Debug)]
-pub struct Variable {
-    /// Area and name as the list of NC variables has them.
-    pub name: &'static str,
-    /// Whose it is.
-    pub area: NckArea,
-    /// The block type.
-    pub module: u8,
-    /// Its column.
-    pub column: u16,
-    /// How it is written down.
-    pub kind: Kind,
-    /// Who confirms its address, as the head of the catalogue names them.
-    pub source: &'static str,
-    /// Its value for a unit and a line, both from one; none where there is no such row.
-    get: for<'a> fn(&View<'a>, u8, u16) -> Option<Shown<'a>>,
-}
+use values::r_parameter;
+use variable::module;
 
 /// Appends the rows that an item asks for.
 ///
@@ -279,14 +136,6 @@ fn datum<'a>(view: &View<'a>, item: &NckItem, line: u16) -> Result<(Place, Datum
         None if machine_data.datum(place, item.column, 0).is_some() => Err(Refusal::OutOfRange),
         None => Err(Refusal::DoesNotExist),
     }
-}
-
-/// The R parameter of a row: its channel, its number and its value.
-fn r_parameter(view: &View<'_>, unit: u8, line: u16) -> Result<(ChannelNumber, u16, f64), Refusal> {
-    let control = view.control.ok_or(Refusal::DoesNotExist)?;
-    let channel = values::channel_number(view, unit).ok_or(Refusal::OutOfRange)?;
-    let value = control.r_parameter(channel, line - 1).ok_or(Refusal::OutOfRange)?;
-    Ok((channel, line - 1, value))
 }
 
 /// Appends what writing a variable asks of the machine, a command for each row.

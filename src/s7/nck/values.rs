@@ -3,6 +3,7 @@
 
 use super::{Control, Datum, Shown, View};
 use crate::image::{AxisFromNck, ChannelFromNck, ChannelToNck};
+use crate::s7::wire::data::Refusal;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 use crate::variables::{AxisValues, Place};
 
@@ -198,4 +199,12 @@ pub(super) fn is_rotary(view: &View<'_>, line: u16) -> bool {
     let axis = u8::try_from(line).ok().and_then(AxisNumber::new);
     let datum = axis.zip(view.machine_data).and_then(|(axis, data)| data.datum(Place::Axis(axis), 30300, 0));
     datum == Some(Datum::Boolean(true))
+}
+
+/// The R parameter of a row: its channel, its number and its value.
+pub(super) fn r_parameter(view: &View<'_>, unit: u8, line: u16) -> Result<(ChannelNumber, u16, f64), Refusal> {
+    let control = view.control.ok_or(Refusal::DoesNotExist)?;
+    let channel = channel_number(view, unit).ok_or(Refusal::OutOfRange)?;
+    let value = control.r_parameter(channel, line - 1).ok_or(Refusal::OutOfRange)?;
+    Ok((channel, line - 1, value))
 }
