@@ -1,7 +1,6 @@
 //! `opennck alarms`: the alarm catalogue, with the rows that nothing raises yet marked as such.
 
-use super::Format;
-use super::list::List;
+use super::list::{Format, List};
 use super::output::Output;
 use crate::sinumerik::{ALARMS, ALARMS_NOT_RAISED, Alarm};
 

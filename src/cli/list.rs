@@ -1,8 +1,20 @@
 //! Lists for people and programs: the same rows as an aligned table, as JSON, or as CSV.
 
-use super::Format;
+use clap::ValueEnum;
+
 use super::output::Output;
 use crate::source::Problem;
+
+/// How a list is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// Aligned columns.
+    Table,
+    /// A JSON array of objects.
+    Json,
+    /// Comma-separated values with a header.
+    Csv,
+}
 
 /// What stands in a row under a head.
 pub(super) trait Cell {

@@ -30,25 +30,15 @@ mod why;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::plc::{MACHINE_CONTROL_PANEL_LAYOUT, Programs};
+use list::Format;
 use output::Output;
 
 /// What scripts ask for.
 const EXIT_CODES: &str = "Exit codes: 0 all held; 1 an expectation failed, a limit was reached, a trace differs, a golden \
     file is missing, machine data have findings; 2 unusable input.";
-
-/// How a list is printed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// Aligned columns.
-    Table,
-    /// A JSON array of objects.
-    Json,
-    /// Comma-separated values with a header.
-    Csv,
-}
 
 /// An open simulator of the NC/PLC interface of SINUMERIK-style controls.
 ///
@@ -206,7 +196,7 @@ pub fn main(programs: Programs) -> ExitCode {
         Some(Command::Diff { expected, found }) => diff::diff(&expected, &found, &mut output),
         Some(Command::Why { trace, edge }) => why::why(&trace, &edge, &programs, &mut output),
         Some(Command::Flowchart { chart }) => flowchart::flowchart(chart, &mut output),
-        Some(Command::Completions { shell }) => completions::completions(shell, &mut output),
+        Some(Command::Completions { shell }) => completions::completions(shell, &mut Arguments::command(), &mut output),
         Some(Command::MachineData { command: MachineData::Check { machine } }) => {
             machine_data::check(&machine, &mut output)
         }

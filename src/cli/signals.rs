@@ -1,7 +1,6 @@
 //! `opennck signals`: the signal catalogue.
 
-use super::Format;
-use super::list::List;
+use super::list::{Format, List};
 use super::output::Output;
 use crate::image::{Memory, Names, Profile, Signal, Writer, signals as catalogue};
 use crate::scenario::profile_named;

@@ -22,7 +22,6 @@ const CIRCLES: &[(&[&str], &str)] = &[
     (&["src/scenario/expression/"], "being removed: the folder becomes a module beside `scenario`"),
     (&["src/scenario/faults.rs", "src/scenario/steps.rs"], "being removed"),
     (&["src/scenario/passing.rs", "src/scenario/session.rs"], "being removed"),
-    (&["src/cli/"], "being removed"),
 ];
 
 #[test]

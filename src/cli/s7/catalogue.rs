@@ -1,7 +1,6 @@
 //! `opennck s7 nck`: the NC variables that have a name.
 
-use crate::cli::Format;
-use crate::cli::list::List;
+use crate::cli::list::{Format, List};
 use crate::cli::output::Output;
 use crate::s7::client::{NcVariable, Variable};
 use crate::s7::nck::CATALOGUE;

@@ -1,6 +1,5 @@
 //! Why a command has not done what it was called for, and with which exit code it ends.
 
-use super::problem;
 use crate::s7::client::Error;
 use crate::source::Problem;
 
@@ -37,4 +36,9 @@ impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         Self::from(&error)
     }
+}
+
+/// An error of the client as the program tells it.
+pub(super) fn problem(error: &Error) -> Problem {
+    Problem::new(error.to_string(), error.cure())
 }

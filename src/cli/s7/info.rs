@@ -2,8 +2,7 @@
 
 use super::arguments::Host;
 use super::failure::Failure;
-use crate::cli::Format;
-use crate::cli::list::List;
+use crate::cli::list::{Format, List};
 use crate::cli::output::Output;
 use crate::s7::CpuState;
 use crate::s7::client::{BlockKind, Client, Error, Value, Variable};

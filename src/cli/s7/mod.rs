@@ -19,9 +19,8 @@ mod write;
 use clap::Subcommand;
 use tokio::runtime::Builder;
 
-use super::Format;
-use super::output::Output;
-use crate::s7::client::Error;
+use crate::cli::list::Format;
+use crate::cli::output::Output;
 use crate::source::Problem;
 
 const ADDRESSES: &str = "Addresses:
@@ -151,9 +150,4 @@ pub(super) fn run(command: &Command, output: &mut Output) -> u8 {
         output.error(failure.problem);
         failure.code
     })
-}
-
-/// An error of the client as the program tells it.
-fn problem(error: &Error) -> Problem {
-    Problem::new(error.to_string(), error.cure())
 }

@@ -5,8 +5,7 @@ use super::cells::{Cell, cells, meant};
 use super::failure::Failure;
 use super::targets::{Dictionary, Target};
 use super::{rows, sources};
-use crate::cli::Format;
-use crate::cli::list::List;
+use crate::cli::list::{Format, List};
 use crate::cli::output::Output;
 use crate::s7::client::{Error, Value};
 

@@ -2,8 +2,7 @@
 
 use super::arguments::Host;
 use super::failure::Failure;
-use crate::cli::Format;
-use crate::cli::list::List;
+use crate::cli::list::{Format, List};
 use crate::cli::output::Output;
 
 pub(super) async fn szl(host: &Host, id: u16, index: u16, format: Format, output: &mut Output) -> Result<u8, Failure> {

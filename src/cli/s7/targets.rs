@@ -4,7 +4,7 @@
 //! names: those of a machine, those that the NCK tells, or AX1, AX2…, CHAN1… as `opennck signals` lists them.
 
 use super::arguments::{Host, Names as Arguments};
-use super::failure::Failure;
+use super::failure::{Failure, problem};
 use crate::image::{Address, Location, Memory, Names, OverrideCoding, Part, Width};
 use crate::machine::Machine;
 use crate::s7::client::{Client, Error, Memory as Place, NcVariable, Value, Variable};
@@ -128,7 +128,7 @@ impl Dictionary {
                     Ok(Target { variable, shown, symbol: String::new(), location: None, coding: self.coding })
                 }
                 (Err(_), Some(Err(problem))) if is_symbol(text) => Err(problem),
-                (Err(error), _) => Err(super::problem(&error)),
+                (Err(error), _) => Err(problem(&error)),
             },
         }
     }
@@ -187,7 +187,7 @@ impl Dictionary {
         } else {
             Value::List(each)
         };
-        value.encode(&target.variable).map_err(|error| super::problem(&error))?;
+        value.encode(&target.variable).map_err(|error| problem(&error))?;
         Ok(value)
     }
 

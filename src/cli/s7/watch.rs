@@ -11,7 +11,7 @@ use super::cells::{Cell, cells};
 use super::failure::Failure;
 use super::sources::{self, Source};
 use super::targets::{Dictionary, Target};
-use crate::cli::Format;
+use crate::cli::list::Format;
 use crate::cli::output::Output;
 use crate::s7::client::{Error, Mode, State, Value};
 use crate::source::Problem;

@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::sources::Source;
 use super::targets::{Dictionary, Target};
 use super::{read, rows, sources};
-use crate::cli::Format;
+use crate::cli::list::Format;
 use crate::cli::output::Output;
 use crate::s7::client::{Error, Value, Variable};
 use crate::source::Problem;
