@@ -4,56 +4,18 @@
 //! of them at the same edge, so nobody sees half of what a request wrote. A bit of the NCK takes what is written, as on a
 //! control, and loses it at the NCK's next publication (SIG-11).
 
+use super::command::Command;
 use super::directory::{Directory, bytes_of_pages};
-use super::nck::{self, Control, MachineData};
+use super::nck::{self, ControlValues, MachineData};
 use super::protected::Protected;
 use super::station::{
-    Areas, BlockInfo, Blocks, Cpu, CpuState, Diagnosis, Identity, NcVariables, Protection, Restart, Value, Write,
+    Areas, BlockInfo, Blocks, Cpu, CpuState, Diagnosis, Identity, NcVariables, Protection, Restart, Write, WrittenValue,
 };
 use super::wire::data::Refusal;
 use super::wire::date_and_time::DateAndTime;
 use super::wire::items::{DriveItem, NckItem};
 use crate::image::{Address, Area, Format, Location, Memory, Names, Width};
-use crate::units::ChannelNumber;
-use crate::variables::{Place, Variables};
-
-/// What a client asks of the machine, for the edge of its next step.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Command {
-    /// Writes bits once.
-    Write {
-        /// Which.
-        location: Location,
-        /// Raw value.
-        value: u64,
-    },
-    /// Stores a machine datum.
-    MachineDatum {
-        /// Whose.
-        place: Place,
-        /// Its number.
-        number: u16,
-        /// The index in its array, from 0.
-        index: u16,
-        /// Its value.
-        value: f64,
-    },
-    /// Writes an R parameter.
-    RParameter {
-        /// Whose.
-        channel: ChannelNumber,
-        /// `R number`.
-        number: u16,
-        /// Its value.
-        value: f64,
-    },
-    /// The PLC stops.
-    PlcStop,
-    /// The PLC restarts.
-    PlcStart(Restart),
-    /// The clock of the CPU is set.
-    SetClock(DateAndTime),
-}
+use crate::variables::Variables;
 
 /// What a server knows besides memory and variables.
 #[derive(Clone, Copy)]
@@ -75,7 +37,7 @@ pub struct Machinery<'a> {
     /// Machine data; none where there is none of them to be seen.
     pub machine_data: Option<&'a dyn MachineData>,
     /// What the control knows beside them: overrides, R parameters, motors, alarms; none where it is not to be seen.
-    pub control: Option<&'a dyn Control>,
+    pub control: Option<&'a dyn ControlValues>,
     /// How many clients may be connected at once.
     pub connections: u16,
 }
@@ -225,12 +187,12 @@ impl Areas for Bridge<'_> {
     fn write(&mut self, writes: &[Write<'_>]) {
         for write in writes {
             match *write {
-                Write::Area { area, byte, value: Value::Bit { bit, value } } => {
+                Write::Area { area, byte, value: WrittenValue::Bit { bit, value } } => {
                     if let Some(location) = self.locate(area, byte, Width::Bit(bit)) {
                         self.commands.push(Command::Write { location, value: u64::from(value) });
                     }
                 }
-                Write::Area { area, byte, value: Value::Bytes { bytes, element } } => {
+                Write::Area { area, byte, value: WrittenValue::Bytes { bytes, element } } => {
                     let step = u32::try_from(element.max(1)).unwrap_or(1);
                     for (index, bytes) in (0..).zip(bytes.chunks(element.max(1))) {
                         self.write_element(area, byte + index * step, bytes);

@@ -27,6 +27,7 @@ pub mod wire;
 
 mod bridge;
 pub mod client;
+mod command;
 mod directory;
 mod protected;
 pub mod server;
@@ -36,13 +37,14 @@ mod station;
 #[cfg(test)]
 mod tests;
 
-pub use bridge::{Bridge, Command, Machinery};
+pub use bridge::{Bridge, Machinery};
+pub use command::Command;
 pub use directory::Directory;
 pub use protected::Protected;
 pub use session::{Connection, Failure, Session, Settings};
 pub use station::{
-    Areas, BlockInfo, Blocks, Cpu, CpuState, Diagnosis, Identity, NcVariables, Protection, Restart, Station, Value,
-    Write,
+    Areas, BlockInfo, Blocks, Cpu, CpuState, Diagnosis, Identity, NcVariables, Protection, Restart, Station, Write,
+    WrittenValue,
 };
 pub use wire::data::Refusal;
 pub use wire::date_and_time::DateAndTime;

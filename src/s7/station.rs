@@ -48,7 +48,7 @@ pub enum Write<'a> {
         /// The first byte.
         byte: u32,
         /// What.
-        value: Value<'a>,
+        value: WrittenValue<'a>,
     },
     /// An NC variable.
     Variable {
@@ -61,7 +61,7 @@ pub enum Write<'a> {
 
 /// What is written into the memory of the PLC.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Value<'a> {
+pub enum WrittenValue<'a> {
     /// One bit.
     Bit {
         /// Which bit of the byte.

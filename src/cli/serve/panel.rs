@@ -74,7 +74,7 @@ impl nck::MachineData for Panel<'_> {
     }
 }
 
-impl nck::Control for Panel<'_> {
+impl nck::ControlValues for Panel<'_> {
     fn time(&self) -> Time {
         self.0.time()
     }

@@ -19,7 +19,7 @@ pub trait MachineData {
 }
 
 /// What the control knows that is no bit, no variable and no machine datum.
-pub trait Control {
+pub trait ControlValues {
     /// Simulated time, by which alarms have theirs.
     fn time(&self) -> Time;
 

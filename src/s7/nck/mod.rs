@@ -17,12 +17,12 @@ mod variable;
 mod view;
 
 pub use catalogue::CATALOGUE;
-pub use data::{Control, Datum, MachineData};
+pub use data::{ControlValues, Datum, MachineData};
 pub(super) use drives::read as read_drive;
 pub use variable::{Kind, NckArea, Shown, Variable};
 pub use view::View;
 
-use super::bridge::Command;
+use super::command::Command;
 use super::wire::data::Refusal;
 use super::wire::items::{MeasuringSystem, NckItem};
 use crate::variables::Place;

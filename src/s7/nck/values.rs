@@ -1,7 +1,7 @@
 //! Where the values of the catalogue come from. A control that runs no program shows no tool (T0), no program name and no
 //! program state; so does this one. A geometry axis is the machine axis of the same number.
 
-use super::{Control, Datum, Shown, View};
+use super::{ControlValues, Datum, Shown, View};
 use crate::image::{AxisFromNck, ChannelFromNck, ChannelToNck};
 use crate::s7::wire::data::Refusal;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
@@ -168,7 +168,7 @@ pub(super) fn of_axis<'a>(
     view: &View<'a>,
     unit: u8,
     line: u16,
-    get: fn(&dyn Control, AxisNumber) -> f64,
+    get: fn(&dyn ControlValues, AxisNumber) -> f64,
 ) -> Option<Shown<'a>> {
     channel_exists(view, unit)?;
     Some(Shown::Number(get(view.control?, axis_number(view, line)?)))
@@ -179,7 +179,7 @@ pub(super) fn of_channel<'a>(
     view: &View<'a>,
     unit: u8,
     line: u16,
-    get: fn(&dyn Control, ChannelNumber) -> f64,
+    get: fn(&dyn ControlValues, ChannelNumber) -> f64,
 ) -> Option<Shown<'a>> {
     only(line)?;
     Some(Shown::Number(get(view.control?, channel_number(view, unit)?)))

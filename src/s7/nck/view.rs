@@ -1,6 +1,6 @@
 //! What the values of NC variables are taken from.
 
-use super::{Control, MachineData};
+use super::{ControlValues, MachineData};
 use crate::image::{Memory, Names};
 use crate::s7::wire::date_and_time::DateAndTime;
 use crate::variables::Variables;
@@ -17,7 +17,7 @@ pub struct View<'a> {
     /// Machine data.
     pub machine_data: Option<&'a dyn MachineData>,
     /// What else the control knows.
-    pub control: Option<&'a dyn Control>,
+    pub control: Option<&'a dyn ControlValues>,
     /// The clock.
     pub clock: DateAndTime,
     /// The serial number of the hardware.

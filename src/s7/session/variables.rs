@@ -7,7 +7,7 @@ use arrayvec::ArrayVec;
 use super::Session;
 use super::exchange::Exchange;
 use super::values::{budget_of, put_values};
-use crate::s7::station::{Station, Value, Write};
+use crate::s7::station::{Station, Write, WrittenValue};
 use crate::s7::wire::data::{Refusal, SUCCESS, TransportSize, Type, Values};
 use crate::s7::wire::header::{ErrorCode, function};
 use crate::s7::wire::items::{AnyItem, Item, Items};
@@ -107,8 +107,8 @@ fn accepted<'a>(
             }
             station.may_write(item.area, item.byte, item.span())?;
             let value = match (item.kind, value) {
-                (Type::Bit, [value]) => Value::Bit { bit: item.bit, value: value & 1 == 1 },
-                _ => Value::Bytes { bytes: value, element: item.kind.bytes() },
+                (Type::Bit, [value]) => WrittenValue::Bit { bit: item.bit, value: value & 1 == 1 },
+                _ => WrittenValue::Bytes { bytes: value, element: item.kind.bytes() },
             };
             Ok(Write::Area { area: item.area, byte: item.byte, value })
         }

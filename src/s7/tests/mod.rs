@@ -17,7 +17,7 @@ use proptest::sample::Index;
 use super::station::{CpuState, Diagnosis, Protection};
 use super::{Answers, Bridge, Command, Connection, DateAndTime, Directory, Machinery, Session, Settings};
 use crate::image::{Bytes, DataBlock, Memory, Names, Profile};
-use crate::s7::nck::{Control, MachineData};
+use crate::s7::nck::{ControlValues, MachineData};
 use crate::units::{AxisNumber, ChannelNumber, Time};
 use crate::variables::Variables;
 
@@ -62,7 +62,7 @@ struct Client {
     names: Names,
     directory: Directory,
     machine_data: Option<Box<dyn MachineData>>,
-    control: Option<Box<dyn Control>>,
+    control: Option<Box<dyn ControlValues>>,
     state: CpuState,
     clock: DateAndTime,
     protection: Protection,

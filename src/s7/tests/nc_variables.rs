@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use super::{Client, hex};
 use crate::s7::Command;
-use crate::s7::nck::{CATALOGUE, Control, Datum, MachineData};
+use crate::s7::nck::{CATALOGUE, ControlValues, Datum, MachineData};
 use crate::s7::wire::data::Refusal;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position, Time};
 use crate::variables::{AlarmNumber, Parameter, Place, RaisedAlarm};
@@ -45,7 +45,7 @@ fn client() -> Client {
 /// At 4 s: overrides, R parameters, motors; 10652 goes by itself, the others by RESET.
 struct Knows;
 
-impl Control for Knows {
+impl ControlValues for Knows {
     fn time(&self) -> Time {
         Time::from_millis(4000)
     }
