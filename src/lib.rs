@@ -46,7 +46,8 @@
 //!
 //! # Rooms, and who may import whom
 //!
-//! Each room is a folder, and `tests/layers.rs` holds this table against every import.
+//! Each room is a folder, and `tests/layers.rs` holds this table against every import. Files import each other in no circle, also
+//! within a room; the same test finds circles, and lists the few that remain.
 //!
 //! | room | what it is | it may import |
 //! |---|---|---|
