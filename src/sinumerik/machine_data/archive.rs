@@ -13,8 +13,8 @@ use crate::units::AxisNumber;
 
 use super::catalogue::{by_identifier, by_number, nearest_identifier};
 use super::finding::{Assignment, Finding, Line, Member, Reading, Severity};
+use super::named::{resolve, split_indices};
 use super::table::Datum;
-use super::target::{resolve, split_indices};
 use super::{MachineData, Owner, Target, Value, ascii, binary};
 
 /// What was done with the files.

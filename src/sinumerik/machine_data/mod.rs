@@ -19,6 +19,7 @@ mod channel;
 mod check;
 mod finding;
 mod general;
+mod named;
 mod setting;
 mod table;
 mod target;
@@ -121,15 +122,6 @@ impl MachineData {
     pub fn channel(&self, name: &str) -> Option<ChannelNumber> {
         let by_name = self.channels.iter().find(|(_, channel)| channel.chan_name == name && !name.is_empty());
         by_name.map(|(number, _)| number).or_else(|| ChannelNumber::new(numbered(&name.to_ascii_uppercase(), "CHAN")?))
-    }
-
-    /// Reads which value is meant: `34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `$MA_REFP_SET_POS[2,AX3]`,
-    /// `REFP_SET_POS[2,XF]`. Without an index it is index 0, without a channel it is channel 1.
-    ///
-    /// # Errors
-    /// The datum, axis, channel or index is unknown; the problem names the nearest known one.
-    pub fn parse_target(&self, text: &str) -> Result<Target, Problem> {
-        target::parse(text, self)
     }
 
     /// The value there.

@@ -1,0 +1,104 @@
+//! Reads which value of which machine datum a name means.
+//!
+//! People write `34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `$MA_REFP_SET_POS[2,AX3]` or `REFP_SET_POS[2,XF]`.
+//! An axis is meant by its machine axis name (MD10000, exact case) or by `AXn`, a channel by its name (MD20000) or by
+//! `CHANn`; without a channel it is channel 1, without an index it is index 0.
+
+use super::MachineData;
+use super::catalogue::{by_identifier, by_number, nearest_identifier};
+use super::table::{Datum, Scope};
+use super::target::{Owner, Target, bad_index, unknown_number};
+use crate::source::{Problem, did_you_mean};
+use crate::units::ChannelNumber;
+
+impl MachineData {
+    /// Reads which value is meant: `34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `$MA_REFP_SET_POS[2,AX3]`,
+    /// `REFP_SET_POS[2,XF]`. Without an index it is index 0, without a channel it is channel 1.
+    ///
+    /// # Errors
+    /// The datum, axis, channel or index is unknown; the problem names the nearest known one.
+    pub fn parse_target(&self, text: &str) -> Result<Target, Problem> {
+        parse(text, self)
+    }
+}
+
+/// Reads a target; names of axes and channels are those of `data`.
+fn parse(text: &str, data: &MachineData) -> Result<Target, Problem> {
+    let text = text.trim();
+    let (name, indices) = split_indices(text).ok_or_else(|| {
+        Problem::new(
+            format!("expected a machine datum such as `34090[XF]`, found `{text}`"),
+            "write the number or identifier, then the index and axis in brackets",
+        )
+    })?;
+    let datum = match name.parse() {
+        Ok(number) => by_number(number).ok_or_else(|| unknown_number(number))?,
+        Err(_) => by_identifier(name).ok_or_else(|| unknown_identifier(name))?,
+    };
+    resolve(datum, &indices, ChannelNumber::FIRST, data)
+}
+
+/// Takes `NAME[a,b]` apart; `None` where the brackets are not closed or hold more than two.
+pub(super) fn split_indices(text: &str) -> Option<(&str, Vec<&str>)> {
+    let Some((name, rest)) = text.split_once('[') else {
+        return (!text.is_empty() && !text.contains(']')).then(|| (text, Vec::new()));
+    };
+    let inside = rest.trim_end().strip_suffix(']')?;
+    let indices: Vec<_> = inside.split(',').map(str::trim).collect();
+    let sound = !name.trim().is_empty() && indices.len() <= 2 && indices.iter().all(|index| !index.is_empty());
+    (sound && !inside.contains(['[', ']'])).then(|| (name.trim(), indices))
+}
+
+/// The target that the brackets mean; `channel` is meant where they name none.
+pub(super) fn resolve(
+    datum: &'static Datum,
+    indices: &[&str],
+    channel: ChannelNumber,
+    data: &MachineData,
+) -> Result<Target, Problem> {
+    let is_number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let (number, name) = match *indices {
+        [] => ("0", None),
+        [number] if is_number(number) => (number, None),
+        [name] => ("0", Some(name)),
+        [number, name, ..] => (number, Some(name)),
+    };
+    let owner = match (datum.scope, name) {
+        (Scope::General | Scope::Setting, None) => Owner::Nck,
+        (Scope::Channel, None) => Owner::Channel(channel),
+        (Scope::Channel, Some(name)) => Owner::Channel(data.channel(name).ok_or_else(|| unknown_channel(datum, name))?),
+        (Scope::Axis, Some(name)) => Owner::Axis(data.axis(name).ok_or_else(|| unknown_axis(datum, name, data))?),
+        (Scope::General | Scope::Setting, Some(name)) => return Err(bad_index(datum, name)),
+        (Scope::Axis, None) => {
+            return Err(Problem::new(
+                format!("expected a machine axis in the brackets of {datum}, found none"),
+                format!("write `{}[AX1]`, or the name of the machine axis", datum.identifier),
+            ));
+        }
+    };
+    let index = number.parse().ok().filter(|index| *index < datum.count).ok_or_else(|| bad_index(datum, number))?;
+    Ok(Target { datum, owner, index })
+}
+
+fn unknown_axis(datum: &Datum, name: &str, data: &MachineData) -> Problem {
+    let names = data.general.axconf_machax_name_tab.iter().map(String::as_str);
+    Problem::new(
+        format!("expected a machine axis name (MD10000) or AX1 to AX31 for {datum}, found `{name}`"),
+        did_you_mean(name, names, "names are compared in exact case"),
+    )
+}
+
+fn unknown_identifier(name: &str) -> Problem {
+    let cure = nearest_identifier(name).map_or_else(
+        || "the catalogue of machine data lists the known ones".to_owned(),
+        |near| format!("did you mean `{near}`?"),
+    );
+    Problem::new(format!("expected a known machine datum, found `{name}`"), cure)
+}
+
+fn unknown_channel(datum: &Datum, name: &str) -> Problem {
+    Problem::new(
+        format!("expected a channel name (MD20000) or CHAN1 to CHAN10 for {datum}, found `{name}`"),
+        "names are compared in exact case",
+    )
+}
