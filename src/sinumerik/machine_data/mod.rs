@@ -42,7 +42,7 @@ pub use value::{Kind, Value};
 use serde::{Deserialize, Serialize};
 
 use crate::source::Problem;
-use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, Time};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel};
 
 use table::Table;
 
@@ -74,13 +74,6 @@ impl Default for MachineData {
 }
 
 impl MachineData {
-    /// The interpolation cycle, MD10050 times MD10070: one step of the simulator (O-22).
-    #[must_use]
-    pub fn interpolation_cycle(&self) -> Time {
-        let ratio = u64::try_from(self.general.ipo_sysclock_time_ratio).unwrap_or(1);
-        Time::from_seconds(self.general.sysclock_cycle_time).times(ratio)
-    }
-
     /// The machine axis of this name (MD10000, exact case) or `AXn`.
     #[must_use]
     pub fn axis(&self, name: &str) -> Option<AxisNumber> {

@@ -2,7 +2,9 @@
 
 use proptest::prelude::*;
 
+use crate::sinumerik::parameters::cycle_time;
 use crate::source::Place;
+use crate::units::Time;
 
 use super::*;
 
@@ -93,7 +95,7 @@ mod values {
 
     #[test]
     fn the_interpolation_cycle_is_md10050_times_md10070() {
-        assert_eq!(MachineData::default().interpolation_cycle(), Time::from_millis(12));
+        assert_eq!(cycle_time(&MachineData::default()), Time::from_millis(12));
     }
 }
 
@@ -662,7 +664,7 @@ mod worked_example {
         assert_eq!(check(&archive), []);
         let given = AxisNumber::all().filter(|axis| archive.given_axis(*axis));
         assert_eq!(given.collect::<Vec<_>>(), [axis(1), axis(2), axis(3)]);
-        assert_eq!(archive.data.interpolation_cycle(), Time::from_millis(2));
+        assert_eq!(cycle_time(&archive.data), Time::from_millis(2));
         assert_eq!(archive.data.axis("XF"), Some(axis(3)));
     }
 
