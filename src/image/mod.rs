@@ -24,22 +24,17 @@
 mod address;
 mod bytes;
 mod catalogue;
-mod db10;
-mod db11;
-mod db21;
-mod db31;
 mod location;
-mod machine_functions;
 #[cfg(feature = "mapped")]
 pub mod mapped;
 mod memory;
 mod names;
 mod override_switch;
-mod parts;
 mod places;
 mod preset;
 mod profile_828d;
 mod signal;
+mod sinumerik;
 mod table;
 mod value;
 
@@ -49,15 +44,14 @@ mod tests;
 pub use address::{Address, Area, Format, Width};
 pub use bytes::Bytes;
 pub use catalogue::{ByteSignals, clear_signals, signals, signals_at};
-pub use db10::{NckFromNck, NckHmi, NckToNck};
-pub use db11::{ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck};
-pub use db21::{ChannelFromNck, ChannelHmi, ChannelToNck};
-pub use db31::{AxisFromNck, AxisToNck};
 pub use location::{Location, Part, Profile};
 pub use memory::{Blocks, DataBlock, Memory, Parts};
 pub use names::{Names, meaning};
 pub use override_switch::{OverrideCoding, override_code};
-pub use parts::{FromNck, Hmi, Plain, ToNck};
 pub use preset::Preset;
 pub use signal::{Block, Kind, Signal, Writer};
+pub use sinumerik::{
+    AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi,
+    ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Plain, ToNck,
+};
 pub use value::raw_value;

@@ -1,6 +1,6 @@
 //! DB21 to DB30: a channel each. The PLC writes bytes 0 to 21, the HMI 24 and 25, the NCK 32 to 53.
 
-use super::table::signals;
+use crate::image::table::signals;
 
 signals! {
     /// DB21 bytes 0 to 21: what the PLC tells the channel.

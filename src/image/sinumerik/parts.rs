@@ -5,11 +5,12 @@ use zerocopy::{FromBytes, FromZeros, Immutable, IntoBytes, KnownLayout, Unaligne
 
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 
-use super::bytes::read_part;
 use super::{
     AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck,
-    NckFromNck, NckHmi, NckToNck, places,
+    NckFromNck, NckHmi, NckToNck,
 };
+use crate::image::bytes::read_part;
+use crate::image::places;
 
 /// What the PLC writes to the NCK. The plain bytes of the interface blocks, which the catalogue does not name, lie
 /// behind it.
@@ -58,10 +59,10 @@ pub struct Hmi {
 #[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]
 pub struct Plain {
-    pub(super) nck: [u8; places::PLAIN_NCK],
-    pub(super) mode_groups: [u8; places::PLAIN_MODE_GROUPS],
-    pub(super) channels: PerChannel<[u8; places::PLAIN_CHANNEL]>,
-    pub(super) axes: PerAxis<[u8; places::PLAIN_AXIS]>,
+    pub(in crate::image) nck: [u8; places::PLAIN_NCK],
+    pub(in crate::image) mode_groups: [u8; places::PLAIN_MODE_GROUPS],
+    pub(in crate::image) channels: PerChannel<[u8; places::PLAIN_CHANNEL]>,
+    pub(in crate::image) axes: PerAxis<[u8; places::PLAIN_AXIS]>,
 }
 
 impl ToNck {

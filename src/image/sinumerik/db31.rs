@@ -4,7 +4,7 @@
 //! (E-02), the measuring systems are 1.5 and 1.6 (E-03), 12.2 and 12.3 the second *software* limit switches (E-04),
 //! minus comes before plus (E-05).
 
-use super::table::signals;
+use crate::image::table::signals;
 
 signals! {
     /// DB31 bytes 0 to 29: what the PLC tells the axis.

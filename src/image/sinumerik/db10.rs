@@ -1,6 +1,6 @@
 //! DB10: the NCK as a whole. The PLC writes bytes 56 and 57, the HMI 97 to 103, the NCK 68 to 96 and 104 to 109.
 
-use super::table::signals;
+use crate::image::table::signals;
 
 signals! {
     /// DB10 bytes 56 and 57: what the PLC tells the NCK.

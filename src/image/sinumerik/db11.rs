@@ -4,7 +4,7 @@
 //! G1 calls DBX5.2 "active machine function REF"; by the list manual it is the HMI's strobe and 7.2 is the active
 //! function. Here 5.2 lies among the HMI's bytes; the control mirrors 7.2 to it until an HMI writes there (E-01).
 
-use super::table::signals;
+use crate::image::table::signals;
 
 signals! {
     /// DB11 bytes 0 to 2 (second group 20 to 22): what the PLC tells the mode group.
