@@ -17,7 +17,9 @@
 //! ```
 //!
 //! A signal is a row of a `signals!` table ([`Signal`]); from the row come accessor, documentation, symbol and address.
-//! An [`Address`] is the STEP 7 notation, a [`Location`] the place in memory it stands for, [`Names`] the names of this
+//! The row is also a
+//! constant, by the name of its getter: [`axis_to_nck::controller_enable`] is DBX2.1 of an axis, for whoever needs a bit
+//! as data. An [`Address`] is the STEP 7 notation, a [`Location`] the place in memory it stands for, [`Names`] the names of this
 //! machine. The 828D ([`Profile::Sinumerik828d`]) is the same memory under other data block numbers, not a second
 //! model. What the catalogue does not name is plain memory that everybody may use.
 
@@ -52,6 +54,8 @@ pub use preset::Preset;
 pub use signal::{Block, Kind, Signal, Writer};
 pub use sinumerik::{
     AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi,
-    ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Plain, ToNck,
+    ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Plain, ToNck, axis_from_nck, axis_to_nck, channel_from_nck,
+    channel_hmi, channel_to_nck, mode_group_from_nck, mode_group_hmi, mode_group_to_nck, nck_from_nck, nck_hmi,
+    nck_to_nck,
 };
 pub use value::raw_value;

@@ -2,6 +2,10 @@
 //! from the row: getter, setter, documentation with the address, the entry of the catalogue, and a check at compile
 //! time that the rows ascend, do not overlap and stay inside the run.
 //!
+//! The head of a run names the structure, the module of its constants, the kind of block, the writer and the bytes:
+//! `pub struct AxisToNck, axis_to_nck: Axis, Plc, 0 to 29;`. The module has one [`Signal`] for each row, called as its
+//! getter: `axis_to_nck::controller_enable.byte` is 2, also in constants.
+//!
 //! A bit row reads `bool, getter, setter: byte, bit;`, a group of bits `u8, getter, setter: byte, high to low;`. A
 //! number that spans bytes is never a bit row: it stands in the block `numbers` at the end of the run and is read and
 //! written big-endian, most significant byte first, as STEP 7 does.
@@ -12,7 +16,7 @@ use super::signal::{Kind, Signal};
 macro_rules! signals {
     (
         $(#[doc = $about:literal])+
-        pub struct $name:ident: $block:ident, $writer:ident, $first:literal to $last:literal;
+        pub struct $name:ident, $constants:ident: $block:ident, $writer:ident, $first:literal to $last:literal;
         $(
             $(#[doc = $doc:literal])+
             $kind:ident, $get:ident, $set:ident: $byte:literal, $high:literal $(to $low:literal)?;
@@ -65,16 +69,30 @@ macro_rules! signals {
             /// The last byte of the run in its data block.
             pub const LAST: u16 = $last;
             /// The signals of the run: bits in address order, then numbers in address order.
-            pub const SIGNALS: &'static [$crate::image::Signal] = &[
-                $($crate::image::table::bits(
-                    stringify!($get), $crate::image::Block::$block, $crate::image::Writer::$writer,
-                    stringify!($kind), $byte, &[$high $(, $low)?], concat!($($doc),+),
-                ),)*
-                $($($crate::image::table::number(
-                    stringify!($number_get), $crate::image::Block::$block, $crate::image::Writer::$writer,
-                    stringify!($number), $number_byte, concat!($($number_doc),+),
-                ),)*)?
-            ];
+            pub const SIGNALS: &'static [$crate::image::Signal] =
+                &[$($constants::$get,)* $($($constants::$number_get,)*)?];
+        }
+
+        #[doc = concat!("The signals of [`", stringify!($name), "`] as constants, by the name of their getter.")]
+        #[allow(non_upper_case_globals, reason = "a constant is called as its getter")]
+        pub mod $constants {
+            use $crate::image::{Block, Signal, Writer};
+            $(
+                $(#[doc = $doc])+
+                #[doc = concat!("\n\nByte ", $byte, ", bit ", $high $(, " to ", $low)?, ".")]
+                pub const $get: Signal = $crate::image::table::bits(
+                    stringify!($get), Block::$block, Writer::$writer, stringify!($kind), $byte, &[$high $(, $low)?],
+                    concat!($($doc),+),
+                );
+            )*
+            $($(
+                $(#[doc = $number_doc])+
+                #[doc = concat!("\n\nFrom byte ", $number_byte, ", big-endian.")]
+                pub const $number_get: Signal = $crate::image::table::number(
+                    stringify!($number_get), Block::$block, Writer::$writer, stringify!($number), $number_byte,
+                    concat!($($number_doc),+),
+                );
+            )*)?
         }
 
         impl Default for $name {

@@ -4,7 +4,7 @@ use crate::image::table::signals;
 
 signals! {
     /// DB10 bytes 56 and 57: what the PLC tells the NCK.
-    pub struct NckToNck: Nck, Plc, 56 to 57;
+    pub struct NckToNck, nck_to_nck: Nck, Plc, 56 to 57;
 
     /// Emergency stop: 1 starts the emergency stop sequence of the NCK.
     bool, emergency_stop, set_emergency_stop: 56, 1;
@@ -25,7 +25,7 @@ signals! {
 
 signals! {
     /// DB10 bytes 68 to 109: what the NCK tells the PLC. Bytes 97 to 103 in between are the HMI's, see [`NckHmi`].
-    pub struct NckFromNck: Nck, Nck, 68 to 109;
+    pub struct NckFromNck, nck_from_nck: Nck, Nck, 68 to 109;
 
     /// Handwheel 1 moved: counter of its pulses, signed (two's complement), running over at 127 and -128.
     u8, handwheel_1_moved, set_handwheel_1_moved: 68, 7 to 0;
@@ -65,7 +65,7 @@ signals! {
 
 signals! {
     /// DB10 bytes 97 to 103: what the HMI tells the PLC.
-    pub struct NckHmi: Nck, Hmi, 97 to 103;
+    pub struct NckHmi, nck_hmi: Nck, Hmi, 97 to 103;
 
     /// Channel number of the geometry axis for handwheel 1, binary.
     u8, handwheel_1_channel_number, set_handwheel_1_channel_number: 97, 3 to 0;

@@ -8,7 +8,7 @@ use crate::image::table::signals;
 
 signals! {
     /// DB11 bytes 0 to 2 (second group 20 to 22): what the PLC tells the mode group.
-    pub struct ModeGroupToNck: ModeGroup, Plc, 0 to 2;
+    pub struct ModeGroupToNck, mode_group_to_nck: ModeGroup, Plc, 0 to 2;
 
     /// Mode AUTOMATIC: 1 requests it; JOG wins over MDI, MDI over AUTOMATIC.
     bool, mode_automatic, set_mode_automatic: 0, 0;
@@ -53,7 +53,7 @@ signals! {
 signals! {
     /// DB11 bytes 4 and 5 (second group 24 and 25): what the operator selects on the HMI; programs copy it to bytes 0
     /// and 1.
-    pub struct ModeGroupHmi: ModeGroup, Hmi, 4 to 5;
+    pub struct ModeGroupHmi, mode_group_hmi: ModeGroup, Hmi, 4 to 5;
 
     /// AUTOMATIC selected on the HMI: 1 = strobe.
     bool, automatic_selected, set_automatic_selected: 4, 0;
@@ -71,7 +71,7 @@ signals! {
 
 signals! {
     /// DB11 bytes 6 to 8 (second group 26 to 28): what the mode group tells the PLC.
-    pub struct ModeGroupFromNck: ModeGroup, Nck, 6 to 8;
+    pub struct ModeGroupFromNck, mode_group_from_nck: ModeGroup, Nck, 6 to 8;
 
     /// Active mode AUTOMATIC: 1 = active.
     bool, active_mode_automatic, set_active_mode_automatic: 6, 0;

@@ -4,7 +4,7 @@ use crate::image::table::signals;
 
 signals! {
     /// DB21 bytes 0 to 21: what the PLC tells the channel.
-    pub struct ChannelToNck: Channel, Plc, 0 to 21;
+    pub struct ChannelToNck, channel_to_nck: Channel, Plc, 0 to 21;
 
     /// Activate DRF: 1 = handwheel offsets in AUTOMATIC.
     bool, activate_drf, set_activate_drf: 0, 3;
@@ -158,7 +158,7 @@ signals! {
 
 signals! {
     /// DB21 bytes 24 and 25: what the operator selects on the HMI; programs copy it to bytes 0 and 6.
-    pub struct ChannelHmi: Channel, Hmi, 24 to 25;
+    pub struct ChannelHmi, channel_hmi: Channel, Hmi, 24 to 25;
 
     /// DRF selected on the HMI: 1 = yes.
     bool, drf_selected, set_drf_selected: 24, 3;
@@ -172,7 +172,7 @@ signals! {
 
 signals! {
     /// DB21 bytes 32 to 53: what the channel tells the PLC.
-    pub struct ChannelFromNck: Channel, Nck, 32 to 53;
+    pub struct ChannelFromNck, channel_from_nck: Channel, Nck, 32 to 53;
 
     /// Action block active: 1 = yes.
     bool, action_block_active, set_action_block_active: 32, 3;

@@ -8,7 +8,7 @@ use crate::image::table::signals;
 
 signals! {
     /// DB31 bytes 0 to 29: what the PLC tells the axis.
-    pub struct AxisToNck: Axis, Plc, 0 to 29;
+    pub struct AxisToNck, axis_to_nck: Axis, Plc, 0 to 29;
 
     /// Feed override: position of the switch in Gray code (MD12000 = 1) or per cent in binary; position 1 = 0 %.
     u8, feed_override, set_feed_override: 0, 7 to 0;
@@ -158,7 +158,7 @@ signals! {
 
 signals! {
     /// DB31 bytes 60 to 102: what the axis tells the PLC.
-    pub struct AxisFromNck: Axis, Nck, 60 to 102;
+    pub struct AxisFromNck, axis_from_nck: Axis, Nck, 60 to 102;
 
     /// Spindle, no axis: 1 = spindle, 0 = axis.
     bool, spindle_no_axis, set_spindle_no_axis: 60, 0;

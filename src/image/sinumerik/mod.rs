@@ -7,8 +7,10 @@ mod db31;
 mod machine_functions;
 mod parts;
 
-pub use db10::{NckFromNck, NckHmi, NckToNck};
-pub use db11::{ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck};
-pub use db21::{ChannelFromNck, ChannelHmi, ChannelToNck};
-pub use db31::{AxisFromNck, AxisToNck};
+pub use db10::{NckFromNck, NckHmi, NckToNck, nck_from_nck, nck_hmi, nck_to_nck};
+pub use db11::{
+    ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, mode_group_from_nck, mode_group_hmi, mode_group_to_nck,
+};
+pub use db21::{ChannelFromNck, ChannelHmi, ChannelToNck, channel_from_nck, channel_hmi, channel_to_nck};
+pub use db31::{AxisFromNck, AxisToNck, axis_from_nck, axis_to_nck};
 pub use parts::{FromNck, Hmi, Plain, ToNck};

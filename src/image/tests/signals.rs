@@ -8,7 +8,8 @@ use zerocopy::{FromBytes, Immutable, IntoBytes};
 use crate::image::table::Accessors;
 use crate::image::{
     AxisFromNck, AxisToNck, Block, ChannelFromNck, ChannelHmi, ChannelToNck, Kind, Memory, ModeGroupFromNck,
-    ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Signal, Writer, signals, signals_at,
+    ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Signal, Writer, axis_from_nck, axis_to_nck, signals,
+    signals_at,
 };
 
 use super::{PARTS, all_names, data_block, full_of, names};
@@ -302,4 +303,15 @@ fn a_program_writes_its_own_side_from_what_it_reads_on_the_other() {
     let Memory { to_nck, from_nck, .. } = &mut memory;
     to_nck.axis(x).set_start_gantry_synchronization(from_nck.axis(x).gantry_synchronization_ready_to_start());
     assert_eq!(data_block(&memory, 31, 148)[29], 0b0001_0000);
+}
+
+/// A constant is the row of the table, and can be used where a constant is needed.
+#[test]
+fn a_row_is_a_constant_by_the_name_of_its_getter() {
+    const ENABLE: Signal = axis_to_nck::controller_enable;
+    const READY: (u16, u8) = (axis_from_nck::gantry_synchronization_ready_to_start.byte, 4);
+    assert_eq!((ENABLE.name, ENABLE.block, ENABLE.writer), ("controller_enable", Block::Axis, Writer::Plc));
+    assert_eq!((ENABLE.byte, ENABLE.bit, ENABLE.kind.width()), (2, 1, 1));
+    assert_eq!(READY, (101, 4));
+    assert!(signals().any(|signal| *signal == ENABLE));
 }
