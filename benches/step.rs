@@ -142,7 +142,7 @@ fn jogging_machine() -> Machine {
         machine.step();
         machine.drain();
     }
-    let moving = &machine.memory().from_nck.axes[AxisNumber::FIRST];
+    let moving = &machine.memory().from_nck().axes[AxisNumber::FIRST];
     assert!(moving.traverse_command_plus() || moving.traverse_command_minus(), "AX1 does not move");
     assert_eq!(machine.names().axes.iter().filter(|(_, name)| name.is_some()).count(), 31);
     assert_eq!(machine.variables().alarms.count(), 0, "{:?}", machine.variables().alarms);

@@ -53,7 +53,7 @@
 //! |---|---|---|
 //! | [`units`] | time in whole nanoseconds, positions in whole nanometres, numbers of axes and channels | nothing |
 //! | [`source`] | files with lines, TOML as a tree, and problems that say where, what and what to do | nothing |
-//! | [`image`] | THE INTERFACE: bytes by writer, signals, symbols, addresses, presets | `source`, `units` |
+//! | [`image`] | THE INTERFACE: bytes by writer, signals, symbols, addresses, presets, for any control; the tables of the SINUMERIK | `source`, `units` |
 //! | [`variables`] | what the control shows besides bits: values, alarms, events with causes | `image`, `units` |
 //! | [`motion`] | the axis: setpoints, position control, drive, encoder, the coupling of a gantry | `units` |
 //! | [`sinumerik`] | THE CONTROL of the gantry manual, with its machine data and alarms | `image`, `motion`, `source`, `units`, `variables` |
@@ -103,7 +103,8 @@
 //!
 //! | I want to add | I do | and see |
 //! |---|---|---|
-//! | a signal | a row in `image/db10.rs`, `db11.rs`, `db21.rs` or `db31.rs`, in address order | accessor, docs, symbol, trace column; overlaps stop the build |
+//! | a signal | a row in `db10.rs`, `db11.rs`, `db21.rs` or `db31.rs` of `image/sinumerik/`, in address order | accessor, constant, docs, symbol, trace column; overlaps stop the build |
+//! | an interface of another control | a static [`image::Interface`] with its tables, as `tests/own_interface.rs` does | symbols, addresses, presets, mapped image; gaps and foreign bytes stop the build |
 //! | its value | a line in `sinumerik/publish.rs`, its cause in `sinumerik/causes.rs` | golden traces that show it |
 //! | a machine datum | a row in `sinumerik/machine_data/`, a field in `sinumerik/parameters/axis.rs` | its number and name are read, checked and written |
 //! | an alarm | a row in `sinumerik/alarms/mod.rs`, a `raise` where it happens | `alarm(N)` in scenarios, its text in traces |

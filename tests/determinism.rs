@@ -101,9 +101,9 @@ fn the_timeline_of_these_tests_does_reference_synchronise_and_lose_it() {
     let mut machine = machine();
     let x = machine.axis("X").expect("an axis");
     run_to(&mut machine, 4_390);
-    assert!(machine.memory().from_nck.axes[x].gantry_grouping_is_synchronized());
+    assert!(machine.memory().from_nck().axes[x].gantry_grouping_is_synchronized());
     run_to(&mut machine, CYCLES);
-    assert!(!machine.memory().from_nck.axes[x].gantry_grouping_is_synchronized());
+    assert!(!machine.memory().from_nck().axes[x].gantry_grouping_is_synchronized());
 }
 
 #[test]

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use opennck::cli::serve::{Exchange, Keeper, Live, LiveOptions, MappedPlc, Speed};
 use opennck::image::mapped::{Look, MappedImage, PlcImage, Rules, State, Step};
-use opennck::image::{Area, Memory, Names};
+use opennck::image::{Area, Memory, Names, SINUMERIK};
 use opennck::machine::{self, Machine};
 use opennck::plc::{PlcProgram, gantry_start};
 use opennck::scenario::{Failure, Session};
@@ -136,7 +136,7 @@ fn hammer(file: &File, answers: u64, start: impl FnOnce()) {
     while taken < answers {
         assert!(begin.elapsed() < LONG, "{taken} answers to {cycle} steps");
         cycle += 1;
-        for db in Memory::STANDARD_BLOCKS {
+        for db in SINUMERIK.tables().standard_blocks.iter().copied() {
             memory.blocks.get_mut(db).unwrap().fill(u8::try_from(cycle % 251).unwrap());
         }
         nc.publish(&memory, Step { cycle, time: Time::ZERO, since_last: Time::ZERO }, false);
@@ -160,7 +160,7 @@ fn nobody_takes_half_a_step_or_half_an_answer() {
         plc = Some(soft_plc(&file.0, |plc| {
             let start = |plc: &PlcImage, db| plc.offset(Area::DataBlock(db), 0).unwrap();
             let value = plc.image()[start(plc, 2)];
-            for db in Memory::STANDARD_BLOCKS {
+            for db in SINUMERIK.tables().standard_blocks.iter().copied() {
                 let start = start(plc, db);
                 let block = &mut plc.image_mut()[start..start + Memory::STANDARD_LENGTH];
                 assert!(block.iter().all(|byte| *byte == value), "half a step");
@@ -451,7 +451,7 @@ fn a_silent_plc_raises_2000_and_another_one_restarts_the_plc() {
         let alarm =
             || live.with(|machine| machine.variables().alarms.iter().any(|alarm| alarm.number == AlarmNumber(2000)));
         let stopped = || live.with(|machine| machine.is_plc_stopped());
-        let ready = || live.with(|machine| machine.memory().from_nck.nck.nc_ready());
+        let ready = || live.with(|machine| machine.memory().from_nck().nck.nc_ready());
         wait("the control runs up without a PLC process", ready);
         let mut scans = 0;
         let first = soft_plc(&file.0, move |plc| {

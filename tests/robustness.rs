@@ -8,7 +8,7 @@
 
 use std::cell::Cell;
 
-use opennck::image::{Location, Part, Writer, signals};
+use opennck::image::{Location, Part, SINUMERIK, Writer};
 use opennck::machine::{
     ApproachPhase, Command, DatumValue, Fault, FaultKind, GroupingPhase, Machine, Switch, TakenTransitions,
 };
@@ -206,9 +206,10 @@ impl Bench {
             opennck::image::Block::Channel => channels.clone(),
             _ => vec![1],
         };
-        let signals: Vec<_> = signals()
+        let signals: Vec<_> = SINUMERIK
+            .signals()
             .filter(|signal| signal.writer == Writer::Plc)
-            .flat_map(|signal| blocks(signal.block).into_iter().filter_map(|number| signal.location(number)))
+            .flat_map(|signal| blocks(signal.block).into_iter().filter_map(|number| SINUMERIK.location(signal, number)))
             .collect();
         assert!(signals.iter().all(|location| location.part == Part::ToNck));
         let at = |address: &str| machine.names().resolve(machine.memory(), address).unwrap();
@@ -543,11 +544,11 @@ impl Bench {
     fn check_axes(&mut self) -> Result<(), TestCaseError> {
         let memory = self.machine.memory();
         let enabled = |axis: AxisNumber| {
-            let signals = &memory.to_nck.axes[axis];
+            let signals = &memory.to_nck().axes[axis];
             signals.controller_enable() && signals.pulse_enable()
         };
         for &axis in &self.axes {
-            let signals = &memory.from_nck.axes[axis];
+            let signals = &memory.from_nck().axes[axis];
             let minus_and_plus = signals.traverse_command_minus() && signals.traverse_command_plus();
             ensure(!minus_and_plus, self, || format!("64.6 and 64.7 of axis {}", axis.number()))?;
             let values = &self.machine.variables().axes[axis];
@@ -606,13 +607,13 @@ impl Bench {
     fn check_synchronism(&self) -> Result<(), TestCaseError> {
         let (memory, variables) = (self.machine.memory(), self.machine.variables());
         for grouping in &self.groupings {
-            if !memory.from_nck.axes[grouping.leader].gantry_grouping_is_synchronized() {
+            if !memory.from_nck().axes[grouping.leader].gantry_grouping_is_synchronized() {
                 continue;
             }
             for (&axis, target) in grouping.followers.iter().zip(&grouping.trip_limits) {
                 let apart = variables.axes[axis].synchronism_difference.abs().user();
                 let limit = value(&self.machine, target);
-                let told = memory.from_nck.axes[axis].gantry_trip_limit_exceeded()
+                let told = memory.from_nck().axes[axis].gantry_trip_limit_exceeded()
                     && variables.alarms.find(AlarmNumber(10653), Some(Place::Axis(axis))).is_some();
                 ensure(apart <= limit + 1e-9 || told, self, || {
                     format!("axis {} is {apart} apart, MD37120 = {limit}, and nothing says so", axis.number())

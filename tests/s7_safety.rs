@@ -329,7 +329,7 @@ fn strict_slots_and_a_short_pdu_are_kept() {
 
 #[test]
 fn an_828d_is_served_under_its_numbers() {
-    let options = OpenOptions { profile: Profile::Sinumerik828d, ..OpenOptions::default() };
+    let options = OpenOptions { profile: Profile::SINUMERIK_828D, ..OpenOptions::default() };
     let live = Live::start(Machine::open_with("g1_example", options).unwrap(), Speed::default());
     let (_window, address) = window(&live, WindowOptions::default());
     let mut client = client(address);

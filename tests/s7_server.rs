@@ -25,7 +25,9 @@ const READ: [u8; 31] =
 fn live() -> Live {
     let live = Live::start(Machine::open("g1_example").expect("it is built in"), Speed::default());
     wait("the run-up", || {
-        live.with(|machine| machine.axis("X").is_some_and(|x| machine.memory().from_nck.axes[x].gantry_leading_axis()))
+        live.with(|machine| {
+            machine.axis("X").is_some_and(|x| machine.memory().from_nck().axes[x].gantry_leading_axis())
+        })
     });
     live
 }

@@ -47,7 +47,7 @@ struct Rights {
 }
 
 thread_local! {
-    static WORLDS: [World; 2] = [Profile::Sinumerik840dSl, Profile::Sinumerik828d].map(World::new);
+    static WORLDS: [World; 2] = [Profile::SINUMERIK_840D_SL, Profile::SINUMERIK_828D].map(World::new);
 }
 
 impl World {

@@ -2,7 +2,7 @@
 
 use super::list::{Format, List};
 use super::output::Output;
-use crate::image::{Memory, Names, Profile, Signal, Writer, signals as catalogue};
+use crate::image::{Memory, Names, Profile, Signal, Writer};
 use crate::scenario::profile_named;
 use crate::units::{AxisNumber, ChannelNumber};
 
@@ -25,26 +25,24 @@ fn rows(profile: Profile) -> Vec<Vec<String>> {
     let mut names = Names { profile, ..Names::default() };
     names.axes[AxisNumber::FIRST] = Some("AX1".to_owned());
     names.channels[ChannelNumber::FIRST] = Some("CHAN1".to_owned());
-    let memory = Memory::new();
-    catalogue().filter_map(|signal| row(signal, &names, &memory)).collect()
+    let memory = Memory::of(profile.interface());
+    profile.interface().signals().filter_map(|signal| row(signal, &names, &memory)).collect()
 }
 
 /// The address in the block of the first axis or channel, which the list shows: DB35.DBX29.4 is looked up in DB31.
 fn of_the_first(filter: &str, profile: Profile) -> String {
-    let block =
-        filter.get(..2).filter(|letters| profile == Profile::Sinumerik840dSl && letters.eq_ignore_ascii_case("DB"));
-    let rest = block.map_or("", |_| &filter[2..]);
+    let Some(rest) = filter.get(..2).filter(|letters| letters.eq_ignore_ascii_case("DB")).map(|_| &filter[2..]) else {
+        return filter.to_owned();
+    };
     let digits = rest.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(rest.len());
-    match rest[..digits].parse() {
-        Ok(32..=61) => format!("DB31{}", &rest[digits..]),
-        Ok(22..=30) => format!("DB21{}", &rest[digits..]),
-        _ => filter.to_owned(),
-    }
+    let number: Option<u16> = rest[..digits].parse().ok();
+    let behind_the_first = number.and_then(|db| Some(db - (u16::from(profile.block_of(db)?.1) - 1)));
+    behind_the_first.map_or_else(|| filter.to_owned(), |first| format!("DB{first}{}", &rest[digits..]))
 }
 
 /// Nothing for a signal that the profile does not show.
 fn row(signal: &'static Signal, names: &Names, memory: &Memory) -> Option<Vec<String>> {
-    let location = signal.location(1)?;
+    let location = names.interface().location(signal, 1)?;
     let address = names.address(location);
     memory.locate(&address, names.profile).ok()?;
     let writer = match signal.writer {

@@ -13,7 +13,6 @@ use super::output::Output;
 use crate::golden::{Case, Outcome, Update, cases, scenario_files};
 use crate::machine::TakenTransitions;
 use crate::plc::Programs;
-use crate::scenario::profile_name;
 use crate::source::{Problem, unreadable};
 
 /// What was said on the command line.
@@ -47,7 +46,7 @@ pub(super) fn test(paths: &[PathBuf], options: &Options, programs: &Programs, ou
             Ok(cases) => {
                 let several = cases.len() > 1;
                 work.extend(cases.into_iter().map(|case| {
-                    let name = if several { format!("{name} ({})", profile_name(case.profile)) } else { name.clone() };
+                    let name = if several { format!("{name} ({})", case.profile.name()) } else { name.clone() };
                     (name, Work::Case(Box::new(case)))
                 }));
             }

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use crate::image::Profile;
 use crate::machine::TakenTransitions;
 use crate::plc::Programs;
-use crate::scenario::{Compare, Failure, Finished, Scenario, profile_name};
+use crate::scenario::{Compare, Failure, Finished, Scenario};
 use crate::source::{Place, Problem, unreadable};
 use crate::trace::{difference, difference_in_sequence};
 use crate::units::Time;
@@ -149,7 +149,7 @@ pub fn cases(file: &Path) -> Result<Vec<Case>, Problem> {
         .into_iter()
         .enumerate()
         .map(|(index, profile)| {
-            let extension = if index == 0 { "snap".to_owned() } else { format!("{}.snap", profile_name(profile)) };
+            let extension = if index == 0 { "snap".to_owned() } else { format!("{}.snap", profile.name()) };
             Case { scenario: scenario.clone(), profile, snap: file.with_extension(extension) }
         })
         .collect())
@@ -270,7 +270,7 @@ fn report(dir: &Path, programs: &Programs, update: Update) -> String {
                     count += 1;
                     let outcome = case.run(programs, update);
                     if !outcome.is_good() {
-                        wrong.push(format!("{} ({})\n{outcome}", file.display(), profile_name(case.profile)));
+                        wrong.push(format!("{} ({})\n{outcome}", file.display(), case.profile.name()));
                     }
                 }
             }

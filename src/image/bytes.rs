@@ -113,6 +113,43 @@ impl<'de> Deserialize<'de> for Bytes {
     }
 }
 
+/// The bytes of a part of the interface. There are always as many as the interface says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PartBytes(Box<[u8]>);
+
+impl PartBytes {
+    pub(super) fn zeroed(length: usize) -> Self {
+        Self(vec![0; length].into())
+    }
+}
+
+impl Deref for PartBytes {
+    type Target = [u8];
+    #[inline]
+    fn deref(&self) -> &[u8] {
+        &self.0
+    }
+}
+
+impl DerefMut for PartBytes {
+    #[inline]
+    fn deref_mut(&mut self) -> &mut [u8] {
+        &mut self.0
+    }
+}
+
+impl Serialize for PartBytes {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_bytes(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for PartBytes {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        read(deserializer).map(|bytes| Self(bytes.into()))
+    }
+}
+
 /// Reads bytes in whichever form the format stored them.
 fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<u8>, D::Error> {
     struct AnyBytes;
@@ -138,16 +175,4 @@ fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<u8>, D::Error>
     }
 
     deserializer.deserialize_bytes(AnyBytes)
-}
-
-/// Reads a part of the interface, whose length is fixed.
-pub(super) fn read_part<'de, D, T>(deserializer: D) -> Result<T, D::Error>
-where
-    D: Deserializer<'de>,
-    T: zerocopy::FromBytes,
-{
-    let bytes = read(deserializer)?;
-    T::read_from_bytes(&bytes).map_err(|_| {
-        D::Error::custom(format!("expected {} bytes of the interface, found {}", size_of::<T>(), bytes.len()))
-    })
 }

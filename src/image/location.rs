@@ -4,16 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use super::Format;
 
-/// Under which numbers the interface blocks are known.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Profile {
-    /// SINUMERIK 840D sl: DB10, DB11, DB21 to DB30, DB31 to DB61.
-    #[default]
-    Sinumerik840dSl,
-    /// SINUMERIK 828D: DB1800, DB2600, DB2700, DB3000, DB3100, DB3200, DB3300, DB3800 to DB3807, DB3900 to DB3907.
-    Sinumerik828d,
-}
-
 /// A piece of the memory; each interface part has one writer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Part {

@@ -3,12 +3,11 @@
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use zerocopy::IntoBytes;
 
 use crate::source::Problem;
 
-use super::places::{self, Run};
-use super::{Address, Area, Bytes, Format, FromNck, Hmi, Location, Part, Profile, ToNck, Width};
+use super::interface::Run;
+use super::{Address, Area, Bytes, Format, Interface, Location, Part, PartBytes, Profile, Width};
 
 /// An own data block of the PLC program.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -54,14 +53,17 @@ impl Blocks {
 }
 
 /// All memory that PLC programs, HMIs and the NCK share. A clone shares the plain areas until one side writes them.
+///
+/// The parts of the interface are bytes; [`to_nck`](Memory::to_nck()) and its like show them as the structures of the
+/// SINUMERIK, and the [`Interface`] says what is where in those of any control.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
     /// What the PLC writes to the NCK.
-    pub to_nck: ToNck,
+    pub to_nck: PartBytes,
     /// What the NCK writes.
-    pub from_nck: FromNck,
+    pub from_nck: PartBytes,
     /// What the HMI writes.
-    pub hmi: Hmi,
+    pub hmi: PartBytes,
     /// I.
     pub inputs: Bytes,
     /// Q.
@@ -95,42 +97,44 @@ impl Parts for Memory {
     }
 }
 
-impl Default for Memory {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 impl Memory {
-    /// Data blocks of the basic program that exist as plain memory where no image declares them (O-24).
-    pub const STANDARD_BLOCKS: [u16; 10] = [2, 4, 5, 7, 18, 19, 20, 71, 72, 73];
-    /// How many bytes each of them has.
+    /// How many bytes each of the standard blocks of an interface has.
     pub const STANDARD_LENGTH: usize = 256;
 
     /// Everything 0: the interface, M 256, I 128, Q 128, T 64, C 64 bytes, and the standard blocks (O-24).
     #[must_use]
-    pub fn new() -> Self {
-        let block = |number| DataBlock { number, name: None, bytes: Bytes::zeroed(Self::STANDARD_LENGTH) };
+    pub fn of(interface: &Interface) -> Self {
+        let block = |&number| DataBlock { number, name: None, bytes: Bytes::zeroed(Self::STANDARD_LENGTH) };
+        let tables = interface.tables();
+        let mut standard: Vec<_> = tables.standard_blocks.iter().map(block).collect();
+        standard.sort_by_key(|block| block.number);
         Self {
-            to_nck: ToNck::default(),
-            from_nck: FromNck::default(),
-            hmi: Hmi::default(),
+            to_nck: PartBytes::zeroed(tables.to_nck),
+            from_nck: PartBytes::zeroed(tables.from_nck),
+            hmi: PartBytes::zeroed(tables.hmi),
             inputs: Bytes::zeroed(128),
             outputs: Bytes::zeroed(128),
             flags: Bytes::zeroed(256),
             timers: Bytes::zeroed(64),
             counters: Bytes::zeroed(64),
-            blocks: Blocks(Self::STANDARD_BLOCKS.into_iter().map(block).collect()),
+            blocks: Blocks(standard),
         }
+    }
+
+    /// Whether its parts are as long as those of an interface.
+    #[must_use]
+    pub fn fits(&self, interface: &Interface) -> bool {
+        let tables = interface.tables();
+        (self.to_nck.len(), self.from_nck.len(), self.hmi.len()) == (tables.to_nck, tables.from_nck, tables.hmi)
     }
 
     /// The bytes of a part; none for a block that does not exist.
     #[must_use]
     pub fn part(&self, part: Part) -> &[u8] {
         match part {
-            Part::ToNck => self.to_nck.as_bytes(),
-            Part::FromNck => self.from_nck.as_bytes(),
-            Part::Hmi => self.hmi.as_bytes(),
+            Part::ToNck => &self.to_nck,
+            Part::FromNck => &self.from_nck,
+            Part::Hmi => &self.hmi,
             Part::Inputs => &self.inputs,
             Part::Outputs => &self.outputs,
             Part::Flags => &self.flags,
@@ -143,9 +147,9 @@ impl Memory {
     /// The bytes of a part, to be written.
     pub fn part_mut(&mut self, part: Part) -> &mut [u8] {
         match part {
-            Part::ToNck => self.to_nck.as_mut_bytes(),
-            Part::FromNck => self.from_nck.as_mut_bytes(),
-            Part::Hmi => self.hmi.as_mut_bytes(),
+            Part::ToNck => &mut self.to_nck,
+            Part::FromNck => &mut self.from_nck,
+            Part::Hmi => &mut self.hmi,
             Part::Inputs => &mut self.inputs,
             Part::Outputs => &mut self.outputs,
             Part::Flags => &mut self.flags,
@@ -172,7 +176,8 @@ impl Memory {
             _ => u32::from(address.byte),
         };
         let bytes = u32::from(width).div_ceil(8);
-        let run = places::run(self, address.area, byte, bytes, profile)
+        let run = self
+            .run(address.area, byte, bytes, profile)
             .map_err(|problem| Problem { what: format!("{address}: {}", problem.what), ..problem })?;
         if run.left < bytes {
             return Err(Problem::new(
@@ -181,7 +186,7 @@ impl Memory {
             ));
         }
         let mut location = Location { part: run.part, offset: run.offset, bit, width, format: Format::Unsigned };
-        location.format = address.format.unwrap_or_else(|| super::catalogue::usual_format(location));
+        location.format = address.format.unwrap_or_else(|| profile.interface().usual_format(location));
         Ok(location)
     }
 
@@ -268,6 +273,6 @@ impl Memory {
         let (Ok(done), Ok(length)) = (done, length) else {
             return Err(Problem::new("expected at most 65536 bytes at once, found more", "read less"));
         };
-        places::run(self, area, start.saturating_add(done), length - done, profile)
+        self.run(area, start.saturating_add(done), length - done, profile)
     }
 }

@@ -16,46 +16,55 @@
 //! assert!(to_nck.axes[x].start_gantry_synchronization()); // DB31.DBX29.4
 //! ```
 //!
-//! A signal is a row of a `signals!` table ([`Signal`]); from the row come accessor, documentation, symbol and address.
-//! The row is also a
-//! constant, by the name of its getter: [`axis_to_nck::controller_enable`] is DBX2.1 of an axis, for whoever needs a bit
-//! as data. An [`Address`] is the STEP 7 notation, a [`Location`] the place in memory it stands for, [`Names`] the names of this
-//! machine. The 828D ([`Profile::Sinumerik828d`]) is the same memory under other data block numbers, not a second
-//! model. What the catalogue does not name is plain memory that everybody may use.
+//! **The interface is data.** An [`Interface`] says which kinds of block a control has (the control as a whole, mode groups,
+//! channels, axes) and how many of each, whose each byte is, which signals there are, what blocks are called and under which
+//! data block numbers the PLC sees them. [`Memory`], [`Names`], [`Preset`], [`Profile`] and the mapped image work on it and know
+//! no control. [`SINUMERIK`] is the one that is there; `sinumerik/` has its tables and the structures [`ToNck`], [`FromNck`] and
+//! [`Hmi`] over its bytes. Another control brings a static of its own, with its own [`signals!`](crate::signals) tables and, for
+//! PLC programs, its own structures ([`Layout`]).
+//!
+//! A signal is a row of a `signals!` table ([`Signal`]); from the row come accessor, documentation, symbol and address. The row
+//! is also a constant, by the name of its getter: [`axis_to_nck::controller_enable`] is DBX2.1 of an axis, for whoever needs a
+//! bit as data. An [`Address`] is the STEP 7 notation, a [`Location`] the place in memory it stands for, [`Names`] the names of
+//! this machine. The 828D ([`Profile::SINUMERIK_828D`]) is the same memory under other data block numbers, not a second
+//! model. What no signal names is plain memory that everybody may use.
 
 mod address;
 mod bytes;
-mod catalogue;
+mod interface;
+mod layout;
 mod location;
 #[cfg(feature = "mapped")]
 pub mod mapped;
 mod memory;
 mod names;
+mod numbering;
 mod override_switch;
-mod places;
 mod preset;
-mod profile_828d;
 mod signal;
 mod sinumerik;
-mod table;
+#[doc(hidden)]
+pub mod table;
 mod value;
 
 #[cfg(test)]
 mod tests;
 
 pub use address::{Address, Area, Format, Width};
-pub use bytes::Bytes;
-pub use catalogue::{ByteSignals, clear_signals, signals, signals_at};
-pub use location::{Location, Part, Profile};
+pub use bytes::{Bytes, PartBytes};
+pub use interface::{BlockTable, ByteRange, ByteSignals, Interface, Override, SwitchSignals, Tables};
+pub use layout::{AsBytes, Layout, View};
+pub use location::{Location, Part};
 pub use memory::{Blocks, DataBlock, Memory, Parts};
-pub use names::{Names, meaning};
+pub use names::Names;
+pub use numbering::{Numbering, Profile, Window};
 pub use override_switch::{OverrideCoding, override_code};
 pub use preset::Preset;
 pub use signal::{Block, Kind, Signal, Writer};
 pub use sinumerik::{
     AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi,
-    ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Plain, ToNck, axis_from_nck, axis_to_nck, channel_from_nck,
-    channel_hmi, channel_to_nck, mode_group_from_nck, mode_group_hmi, mode_group_to_nck, nck_from_nck, nck_hmi,
-    nck_to_nck,
+    ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Plain, SINUMERIK, Sinumerik, ToNck, axis_from_nck, axis_to_nck,
+    channel_from_nck, channel_hmi, channel_to_nck, mode_group_from_nck, mode_group_hmi, mode_group_to_nck,
+    nck_from_nck, nck_hmi, nck_to_nck,
 };
 pub use value::raw_value;

@@ -1,30 +1,28 @@
 //! The names of one machine: its axes and channels, and the profile under which its interface blocks are known.
 
-use serde::{Deserialize, Serialize};
-
 use crate::source::{Problem, did_you_mean};
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel};
 
-use super::catalogue::{touching, usual_format};
-use super::{
-    Address, Area, Block, Location, Memory, Part, Profile, Signal, Width, Writer, profile_828d, signals, signals_at,
-};
+use super::{Address, Area, Block, Interface, Location, Memory, Part, Profile, Width, Writer};
 
-/// What a machine calls its axes (MD10000) and channels (MD20000).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+/// What a machine calls its axes and channels, and whose interface under which numbers it has.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
     /// Machine axis names; `None` for axes that do not exist.
     pub axes: PerAxis<Option<String>>,
     /// Channel names; `None` for channels that do not exist.
     pub channels: PerChannel<Option<String>>,
-    /// Under which numbers the interface blocks are known.
+    /// The interface, and under which numbers its blocks are known.
     pub profile: Profile,
 }
 
-const NCK: &str = "nck";
-const MODE_GROUPS: [&str; 2] = ["mode_group_1", "mode_group_2"];
-
 impl Names {
+    /// The interface that the names are of.
+    #[must_use]
+    pub fn interface(&self) -> &'static Interface {
+        self.profile.interface()
+    }
+
     /// The number of an axis.
     #[must_use]
     pub fn axis(&self, name: &str) -> Option<AxisNumber> {
@@ -37,14 +35,23 @@ impl Names {
         self.channels.iter().find(|(_, other)| other.as_deref() == Some(name)).map(|(number, _)| number)
     }
 
-    /// Everything that can stand before the dot of a symbol.
-    fn owners(&self) -> impl Iterator<Item = (&str, Block, u8)> {
-        let axes = self.axes.iter().filter_map(|(n, name)| Some((name.as_deref()?, Block::Axis, n.number())));
-        let channels =
-            self.channels.iter().filter_map(|(n, name)| Some((name.as_deref()?, Block::Channel, n.number())));
-        let groups =
-            [(NCK, Block::Nck, 1), (MODE_GROUPS[0], Block::ModeGroup, 1), (MODE_GROUPS[1], Block::ModeGroup, 2)];
-        groups.into_iter().chain(channels).chain(axes)
+    /// Everything that can stand before the dot of a symbol, with its block: in the order of the kinds of block.
+    pub fn owners(&self) -> impl Iterator<Item = (&str, Block, u8)> {
+        self.interface().tables().blocks.iter().flat_map(move |table| {
+            let numbers = 1..=table.count;
+            numbers.filter_map(move |number| Some((self.owner(table.block, number)?, table.block, number)))
+        })
+    }
+
+    /// What stands before the dot of a block's symbols; `None` for a block that has no name.
+    #[must_use]
+    pub fn owner(&self, block: Block, number: u8) -> Option<&str> {
+        let by_the_machine = match block {
+            Block::Nck | Block::ModeGroup => None,
+            Block::Channel => ChannelNumber::new(number).and_then(|channel| self.channels[channel].as_deref()),
+            Block::Axis => AxisNumber::new(number).and_then(|axis| self.axes[axis].as_deref()),
+        };
+        self.interface().fixed_name(block, number).or(by_the_machine)
     }
 
     /// Whether every name says one thing.
@@ -52,16 +59,17 @@ impl Names {
     /// # Errors
     /// Two axes or channels have the same name, or a name is taken, or could not stand before a dot.
     pub fn check(&self) -> Result<(), Problem> {
+        let named_in = self.interface().tables().named_in;
         let mut seen: Vec<(&str, Block, u8)> = Vec::new();
         for (name, block, number) in self.owners() {
-            let what = described(block, number);
+            let what = self.interface().described(block, number);
             if let Some((_, other, other_number)) = seen.iter().find(|(other, ..)| *other == name) {
                 return Err(Problem::new(
                     format!(
                         "expected different names, found `{name}` for {} and for {what}",
-                        described(*other, *other_number)
+                        self.interface().described(*other, *other_number)
                     ),
-                    "rename one of them (MD10000, MD20000)",
+                    format!("rename one of them ({named_in})"),
                 ));
             }
             let letters = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -71,7 +79,7 @@ impl Names {
                     format!(
                         "expected a name of letters, digits and _ that is no data block, found `{name}` for {what}"
                     ),
-                    "rename it (MD10000, MD20000)",
+                    format!("rename it ({named_in})"),
                 ));
             }
             seen.push((name, block, number));
@@ -99,13 +107,16 @@ impl Names {
             let cure = did_you_mean(owner, known.iter().copied(), "upper and lower case count");
             return Err(Problem::new(format!("expected one of `{}`, found `{owner}`", known.join("`, `")), cure));
         };
-        let mut of_block = signals().filter(|signal| signal.block == block);
-        let found = of_block.find(|signal| signal.name == name).and_then(|signal| signal.location(number));
+        let of_block = || self.interface().signals().filter(|signal| signal.block == block);
+        let found = of_block().find(|signal| signal.name == name);
+        let found = found.and_then(|signal| self.interface().location(signal, number));
         found.ok_or_else(|| {
-            let known = signals().filter(|signal| signal.block == block).map(|signal| signal.name);
-            let cure = did_you_mean(name, known, "`opennck signals` lists them all");
+            let cure = did_you_mean(name, of_block().map(|signal| signal.name), "`opennck signals` lists them all");
             Problem::new(
-                format!("expected a signal of `{owner}` ({}), found `{owner}.{name}`", described(block, number)),
+                format!(
+                    "expected a signal of `{owner}` ({}), found `{owner}.{name}`",
+                    self.interface().described(block, number)
+                ),
                 cure,
             )
         })
@@ -117,11 +128,13 @@ impl Names {
         if !self.owners().any(|(name, ..)| name == owner) {
             return problem;
         }
-        let cure = did_you_mean(&signal.to_ascii_lowercase(), signals().map(|s| s.name), "write X.controller_enable");
+        let example = format!("write {}", self.interface().tables().example);
+        let known = self.interface().signals().map(|signal| signal.name);
+        let cure = did_you_mean(&signal.to_ascii_lowercase(), known, &example);
         Problem::new(format!("expected a signal name in lower case behind `{owner}.`, found `{text}`"), cure)
     }
 
-    /// The address of a place as this machine's profile writes it. What the 828D does not show has its 840D sl address.
+    /// The address of a place as this machine's profile writes it. What it does not show has its usual address.
     #[must_use]
     pub fn address(&self, location: Location) -> Address {
         let offset = u16::try_from(location.offset).unwrap_or(u16::MAX);
@@ -145,56 +158,30 @@ impl Names {
             32 => Width::Double,
             width => Width::Bits { first: location.bit, last: location.bit + width - 1 },
         };
-        let is_usual = location.format == usual_format(location);
+        let is_usual = location.format == self.interface().usual_format(location);
         let format = (!is_usual && location.width > 8).then_some(location.format);
         Address { area, byte, width, format }
     }
 
     fn data_block_byte(&self, location: Location) -> (u16, u16) {
-        let Some(at) = signals_at(location.part, location.offset) else {
+        let Some(at) = self.interface().signals_at(location.part, location.offset) else {
             return (0, 0);
         };
-        let shown = match self.profile {
-            Profile::Sinumerik840dSl => None,
-            Profile::Sinumerik828d => profile_828d::shown(at.block, at.number, at.byte),
-        };
-        shown.unwrap_or((at.data_block, at.byte))
+        let usual = || self.interface().profiles().find_map(|profile| profile.shown(at.block, at.number, at.byte));
+        self.profile.shown(at.block, at.number, at.byte).or_else(usual).unwrap_or_default()
     }
 
     /// The symbol of a place, `X.controller_enable`, if exactly one signal lies there and its owner has a name.
     #[must_use]
     pub fn symbol(&self, location: Location) -> Option<String> {
-        let (number, signal) = exactly(location)?;
-        let (owner, ..) = self.owners().find(|(_, block, other)| (*block, *other) == (signal.block, number))?;
+        let (number, signal) = self.interface().exactly(location)?;
+        let owner = self.owner(signal.block, number)?;
         Some(format!("{owner}.{}", signal.name))
     }
 
     /// Who writes the signals of the catalogue at a place; `None` for plain memory.
     #[must_use]
     pub fn writer(&self, location: Location) -> Option<Writer> {
-        touching(location).next().map(|(_, signal)| signal.writer)
-    }
-}
-
-/// What the signal means that fills a place, with its 1 and 0.
-#[must_use]
-pub fn meaning(location: Location) -> Option<&'static str> {
-    exactly(location).map(|(_, signal)| signal.doc)
-}
-
-/// The signal that fills a place, with the number of its block.
-fn exactly(location: Location) -> Option<(u8, &'static Signal)> {
-    touching(location).find(|(number, signal)| {
-        let place = |l: Location| (l.part, l.offset, l.bit, l.width);
-        signal.location(*number).map(place) == Some(place(location))
-    })
-}
-
-fn described(block: Block, number: u8) -> String {
-    match block {
-        Block::Nck => "the NCK".to_owned(),
-        Block::ModeGroup => format!("mode group {number}"),
-        Block::Channel => format!("channel {number}"),
-        Block::Axis => format!("axis {number}"),
+        self.interface().touching(location).next().map(|(_, signal)| signal.writer)
     }
 }

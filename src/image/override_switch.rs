@@ -1,6 +1,6 @@
 //! The override switches: which code a percentage has on the interface.
 
-use super::{Block, Location, Part, signals_at};
+use super::{Interface, Location, Override, SINUMERIK};
 
 /// The per cent of the positions of the switch, from position 1: the defaults of MD12010. The positions behind the
 /// last one count as 120 % as well.
@@ -22,7 +22,9 @@ pub fn override_code(percent: u16, gray: bool) -> Option<u8> {
 /// Which overrides are coded as positions in Gray code; all of them unless machine data say otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OverrideCoding {
-    /// Axial feed override, MD12000.
+    /// The interface, which says where overrides are.
+    pub interface: &'static Interface,
+    /// Axial feed override; on a SINUMERIK, MD12000.
     pub axis_is_gray: bool,
     /// Feed override of the channel, MD12020.
     pub feed_is_gray: bool,
@@ -32,23 +34,20 @@ pub struct OverrideCoding {
 
 impl Default for OverrideCoding {
     fn default() -> Self {
-        Self { axis_is_gray: true, feed_is_gray: true, rapid_traverse_is_gray: true }
+        Self { interface: &SINUMERIK, axis_is_gray: true, feed_is_gray: true, rapid_traverse_is_gray: true }
     }
 }
 
 impl OverrideCoding {
     /// Whether the override at a place is coded in Gray; `None` if no override lies there.
     pub(super) fn at(self, location: Location) -> Option<bool> {
-        if location.part != Part::ToNck || location.width != 8 {
-            return None;
-        }
-        let byte = signals_at(location.part, location.offset)?;
-        match (byte.block, byte.byte) {
-            (Block::Axis, 0) => Some(self.axis_is_gray),
-            (Block::Channel, 4) => Some(self.feed_is_gray),
-            (Block::Channel, 5) => Some(self.rapid_traverse_is_gray),
-            _ => None,
-        }
+        let (_, signal) = self.interface.exactly(location)?;
+        let (_, which) = self.interface.tables().overrides.iter().find(|(other, _)| other == signal)?;
+        Some(match which {
+            Override::Axis => self.axis_is_gray,
+            Override::Feed => self.feed_is_gray,
+            Override::RapidTraverse => self.rapid_traverse_is_gray,
+        })
     }
 
     /// The per cent of a code at a place; `None` if no override lies there, or the code is of no position.

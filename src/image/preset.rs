@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use crate::source::{Node, Place, Problem, Table, Value, read_text};
 
-use super::places::is_interface;
 use super::{Bytes, DataBlock, Location, Memory, Names, OverrideCoding, Writer, raw_value};
 
 /// A PLC image as read from its file; names and addresses are looked up when a memory is made from it.
@@ -132,7 +131,7 @@ impl Memory {
     /// A block has the number of an interface block, values overlap or do not fit, a name or address does not exist,
     /// or a bit of the NCK is to be set; at its place in the file.
     pub fn from_preset(preset: &Preset, names: &Names, coding: OverrideCoding) -> Result<Self, Problem> {
-        let mut memory = Self::new();
+        let mut memory = Self::of(names.interface());
         let Self { flags, inputs, outputs, timers, counters, .. } = &mut memory;
         for (area, size) in [flags, inputs, outputs, timers, counters].into_iter().zip(preset.areas) {
             if let Some(size) = size {
@@ -140,7 +139,7 @@ impl Memory {
             }
         }
         for DeclaredBlock { place, block, .. } in &preset.blocks {
-            if is_interface(block.number, names.profile) {
+            if names.profile.has(block.number) {
                 return Err(place.problem(
                     format!("expected the number of an own block, found DB{}, an interface block", block.number),
                     "use another number; starting values of the interface go into [interface]",

@@ -1,8 +1,5 @@
 //! One row of the interface as data: what a signal is called, where it lies and who writes it.
 
-use super::places::{DB11_STRIDE, place};
-use super::{Format, Location};
-
 /// Who writes a signal; everybody may read it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Writer {
@@ -14,41 +11,17 @@ pub enum Writer {
     Hmi,
 }
 
-/// The kinds of interface block.
+/// What a block of signals belongs to. An interface has some of these kinds, and says how many blocks of each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Block {
-    /// The NCK as a whole, DB10.
+    /// The control as a whole.
     Nck,
-    /// A mode group; both live in DB11, the second 20 bytes above the first.
+    /// A mode group.
     ModeGroup,
-    /// A channel, DB21 to DB30.
+    /// A channel.
     Channel,
-    /// A machine axis or spindle, DB31 to DB61.
+    /// A machine axis or spindle.
     Axis,
-}
-
-impl Block {
-    /// How many blocks of this kind there are.
-    #[must_use]
-    pub const fn count(self) -> u8 {
-        match self {
-            Self::Nck => 1,
-            Self::ModeGroup => 2,
-            Self::Channel => 10,
-            Self::Axis => 31,
-        }
-    }
-
-    /// The data block of number `number` (from one) on the 840D sl.
-    #[must_use]
-    pub const fn data_block(self, number: u8) -> u16 {
-        match self {
-            Self::Nck => 10,
-            Self::ModeGroup => 11,
-            Self::Channel => 20 + number as u16,
-            Self::Axis => 30 + number as u16,
-        }
-    }
 }
 
 /// What a signal is made of.
@@ -94,7 +67,7 @@ pub struct Signal {
     pub name: &'static str,
     /// The kind of block it lies in.
     pub block: Block,
-    /// The byte in its block; in a mode group, the byte in the group's 20 bytes.
+    /// The byte in its block, counted from the block's own start.
     pub byte: u16,
     /// The lowest bit in the byte.
     pub bit: u8,
@@ -104,28 +77,4 @@ pub struct Signal {
     pub writer: Writer,
     /// What it means, with its 1 and 0.
     pub doc: &'static str,
-}
-
-impl Signal {
-    /// Where the signal lies for block number `number` of its kind, from one; `None` if there is no such block.
-    #[must_use]
-    pub fn location(&self, number: u8) -> Option<Location> {
-        if number == 0 || number > self.block.count() {
-            return None;
-        }
-        let byte = self.data_block_byte(number);
-        let run = place(self.block, number, byte)?;
-        let format = if self.kind == Kind::Real { Format::Real } else { Format::Unsigned };
-        let (bit, width) = (self.bit, self.kind.width());
-        Some(Location { part: run.part, offset: run.offset, bit, width, format })
-    }
-
-    /// The byte in the data block of the 840D sl for block number `number`.
-    #[must_use]
-    pub const fn data_block_byte(&self, number: u8) -> u16 {
-        match self.block {
-            Block::ModeGroup => self.byte + DB11_STRIDE * (number as u16 - 1),
-            Block::Nck | Block::Channel | Block::Axis => self.byte,
-        }
-    }
 }

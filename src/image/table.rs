@@ -10,9 +10,11 @@
 //! number that spans bytes is never a bit row: it stands in the block `numbers` at the end of the run and is read and
 //! written big-endian, most significant byte first, as STEP 7 does.
 
-use super::signal::{Kind, Signal};
+use super::{Block, Kind, Signal, Writer};
 
-/// Makes the bytes of one run, with accessors, and its part of the catalogue.
+/// Makes the bytes of one run, with accessors, constants and its part of the catalogue. Where it is used, the crates
+/// `bitfield` and `zerocopy` must be there, too.
+#[macro_export]
 macro_rules! signals {
     (
         $(#[doc = $about:literal])+
@@ -103,22 +105,6 @@ macro_rules! signals {
 
         const _: () = $crate::image::table::check($name::SIGNALS, $first, $last);
 
-        #[cfg(test)]
-        impl $crate::image::table::Accessors for $name {
-            #[rustfmt::skip]
-            fn accessors() -> Vec<$crate::image::table::Accessor<Self>> {
-                use $crate::image::table::Raw;
-                vec![
-                    $((stringify!($get), |run| run.$get().raw(), |run, raw| run.$set(Raw::of(raw))),)*
-                    $($((
-                        stringify!($number_get),
-                        |run| run.$number_get().raw(),
-                        |run, raw| run.$number_set(Raw::of(raw)),
-                    ),)*)?
-                ]
-            }
-        }
-
         impl bitfield::BitRange<u8> for $name {
             #[inline]
             fn bit_range(&self, high: usize, low: usize) -> u8 {
@@ -136,13 +122,58 @@ macro_rules! signals {
         }
     };
 }
-pub(super) use signals;
+
+/// The tables of this module: as [`signals!`](crate::signals), and tests can call every row.
+macro_rules! tested_signals {
+    ($($rows:tt)*) => {
+        $crate::signals! { $($rows)* }
+        #[cfg(test)]
+        $crate::image::table::accessors! { $($rows)* }
+    };
+}
+pub(super) use tested_signals as signals;
+
+/// The rows of a run as a test calls them.
+#[cfg(test)]
+macro_rules! accessors {
+    (
+        $(#[doc = $about:literal])+
+        pub struct $name:ident, $constants:ident: $block:ident, $writer:ident, $first:literal to $last:literal;
+        $(
+            $(#[doc = $doc:literal])+
+            $kind:ident, $get:ident, $set:ident: $byte:literal, $high:literal $(to $low:literal)?;
+        )*
+        $(numbers {$(
+            $(#[doc = $number_doc:literal])+
+            $number:ident, $number_get:ident, $number_set:ident: $number_byte:literal;
+        )*})?
+    ) => {
+        impl $crate::image::table::Accessors for $name {
+            #[rustfmt::skip]
+            fn accessors() -> Vec<$crate::image::table::Accessor<Self>> {
+                use $crate::image::table::Raw;
+                vec![
+                    $((stringify!($get), |run| run.$get().raw(), |run, raw| run.$set(Raw::of(raw))),)*
+                    $($((
+                        stringify!($number_get),
+                        |run| run.$number_get().raw(),
+                        |run, raw| run.$number_set(Raw::of(raw)),
+                    ),)*)?
+                ]
+            }
+        }
+    };
+}
+#[cfg(test)]
+pub(super) use accessors;
 
 /// The catalogue entry of a bit row.
-pub(super) const fn bits(
+#[doc(hidden)]
+#[must_use]
+pub const fn bits(
     name: &'static str,
-    block: super::Block,
-    writer: super::Writer,
+    block: Block,
+    writer: Writer,
     kind: &str,
     byte: u16,
     span: &[u8],
@@ -161,10 +192,12 @@ pub(super) const fn bits(
 }
 
 /// The catalogue entry of a number row.
-pub(super) const fn number(
+#[doc(hidden)]
+#[must_use]
+pub const fn number(
     name: &'static str,
-    block: super::Block,
-    writer: super::Writer,
+    block: Block,
+    writer: Writer,
     kind: &str,
     byte: u16,
     doc: &'static str,
@@ -180,7 +213,8 @@ pub(super) const fn number(
 
 /// Holds at compile time: rows ascend, neighbours do not overlap, all stay inside the run, and no number touches
 /// another row.
-pub(super) const fn check(rows: &[Signal], first: u16, last: u16) {
+#[doc(hidden)]
+pub const fn check(rows: &[Signal], first: u16, last: u16) {
     let mut index = 0;
     while index < rows.len() {
         let row = &rows[index];

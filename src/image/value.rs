@@ -72,7 +72,13 @@ fn real(number: f64, node: &Node) -> Result<u64, Problem> {
 
 fn per_cent(text: &str, node: &Node, location: Location, coding: OverrideCoding) -> Result<u64, Problem> {
     let Some(gray) = coding.at(location) else {
-        return Err(node.expected("a plain number", "only feed_override and rapid_traverse_override take per cent"));
+        let mut takers: Vec<_> = coding.interface.tables().overrides.iter().map(|(signal, _)| signal.name).collect();
+        takers.dedup();
+        let cure = match &takers[..] {
+            [] => "no signal of this control takes per cent".to_owned(),
+            takers => format!("only {} take per cent", takers.join(" and ")),
+        };
+        return Err(node.expected("a plain number", &cure));
     };
     let code = text.trim().parse().ok().and_then(|percent| override_code(percent, gray));
     code.map(u64::from).ok_or_else(|| {

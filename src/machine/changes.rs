@@ -1,35 +1,28 @@
 //! What changed in a step, for the record: whole parts are compared first, then their bytes.
 
-use zerocopy::{FromBytes, IntoBytes};
-
 use super::Machine;
 use super::written::Force;
-use crate::image::{Part, ToNck, signals_at};
+use crate::image::{Interface, Location, Part};
 use crate::sinumerik::Changes;
 use crate::trace::{By, Change, Row};
-use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber};
+use crate::units::AxisSet;
 use crate::variables::{EventId, Place};
 
 impl Machine {
     /// What the PLC's half has other than at the end of the last cycle.
     pub(super) fn plc_changes(&mut self) -> Changes {
         let before = self.before.parts.iter().find(|(part, _)| *part == Part::ToNck);
-        let before = before.and_then(|(_, bytes)| ToNck::ref_from_bytes(bytes).ok());
-        let now = &self.memory.to_nck;
+        let now: &[u8] = &self.memory.to_nck;
         self.before.plc_wrote = true;
-        let Some(before) = before else {
+        let Some((_, before)) = before else {
             return Changes { axes: AxisSet::ALL, shared: true };
         };
         if now == before {
             self.before.plc_wrote = false;
             return Changes { axes: AxisSet::NONE, shared: false };
         }
-        let same = |now: &[u8], before: &[u8]| now == before;
-        let shared = !same(now.nck.as_bytes(), before.nck.as_bytes())
-            || !same(now.mode_groups.as_bytes(), before.mode_groups.as_bytes())
-            || !same(now.channels.as_bytes(), before.channels.as_bytes());
-        let changed = |axis: &AxisNumber| !same(now.axes[*axis].as_bytes(), before.axes[*axis].as_bytes());
-        Changes { axes: AxisNumber::all().filter(changed).collect(), shared }
+        let (axes, shared) = self.definition.names.interface().plc_changes(before, now);
+        Changes { axes, shared }
     }
 
     /// Writes from outside that the PLC program overwrote in this step.
@@ -78,7 +71,8 @@ impl Machine {
     }
 
     fn record_byte(&mut self, part: Part, offset: u32, old: u8, new: u8) {
-        let owner = (part == Part::FromNck || part == Part::Hmi).then(|| place_of(part, offset)).flatten();
+        let interface = self.definition.names.interface();
+        let owner = (part == Part::FromNck || part == Part::Hmi).then(|| place_of(interface, part, offset)).flatten();
         let (mut by, mut causes) = ([By::Plc; 8], [EventId::NONE; 8]);
         for bit in 0..8_u8 {
             if (old ^ new) >> bit & 1 == 0 {
@@ -105,7 +99,11 @@ impl Machine {
         }
         match part {
             Part::FromNck => {
-                return if written.is_some() && !is_signal(part, offset, bit) { By::Outside } else { By::Nck };
+                return if written.is_some() && !is_signal(self.definition.names.interface(), part, offset, bit) {
+                    By::Outside
+                } else {
+                    By::Nck
+                };
             }
             Part::ToNck if self.is_switch(offset, bit) => return By::Plant,
             _ => {}
@@ -123,20 +121,10 @@ impl Machine {
         }
     }
 
-    /// 12.7, 12.0 or 12.1 of an axis whose switch is not wired.
+    /// The signal of a switch that is not wired to an input.
     fn is_switch(&self, offset: u32, bit: u8) -> bool {
-        let Some((Place::Axis(axis), 12)) = place_of(Part::ToNck, offset) else {
-            return false;
-        };
-        let Some(iron) = &self.definition.layout.axes[axis] else {
-            return false;
-        };
-        match bit {
-            7 => iron.cam.as_ref().is_some_and(|cam| cam.input.is_none()),
-            1 => iron.limit_plus.as_ref().is_some_and(|limit| limit.input.is_none()),
-            0 => iron.limit_minus.as_ref().is_some_and(|limit| limit.input.is_none()),
-            _ => false,
-        }
+        let is_here = |location: &Location| (location.offset, location.bit) == (offset, bit);
+        self.definition.unwired.iter().any(|(_, _, location)| is_here(location))
     }
 
     fn record_alarms(&mut self) {
@@ -163,22 +151,14 @@ impl Machine {
     }
 }
 
-/// Whose block a byte is in, and which byte of the block it is; of the second mode group, counted from its own start.
-fn place_of(part: Part, offset: u32) -> Option<(Place, u16)> {
-    use crate::image::Block;
-    let found = signals_at(part, offset)?;
-    let place = match found.block {
-        Block::Nck => Place::Nck,
-        Block::ModeGroup => Place::ModeGroup(ModeGroupNumber::new(found.number)?),
-        Block::Channel => Place::Channel(ChannelNumber::new(found.number)?),
-        Block::Axis => Place::Axis(AxisNumber::new(found.number)?),
-    };
-    let own = if found.block == Block::ModeGroup && found.number == 2 { found.byte - 20 } else { found.byte };
-    Some((place, own))
+/// Whose block a byte is in, and which byte of the block it is.
+fn place_of(interface: &'static Interface, part: Part, offset: u32) -> Option<(Place, u16)> {
+    let found = interface.signals_at(part, offset)?;
+    Some((Place::of_block(found.block, found.number)?, found.byte))
 }
 
-fn is_signal(part: Part, offset: u32, bit: u8) -> bool {
-    signals_at(part, offset).is_some_and(|found| {
+fn is_signal(interface: &'static Interface, part: Part, offset: u32, bit: u8) -> bool {
+    interface.signals_at(part, offset).is_some_and(|found| {
         found.signals.iter().any(|signal| {
             let width = signal.kind.width();
             width >= 8 || (signal.bit..signal.bit + width).contains(&bit)

@@ -1,16 +1,18 @@
 //! What the files say of a machine.
 
-use crate::image::{Location, Memory, Names, OverrideCoding, Part};
-use crate::plant::{Db11Byte5Bit2, Layout};
+use crate::image::{Location, Memory, Names, OverrideCoding, Part, SINUMERIK};
+use crate::plant::{Db11Byte5Bit2, Layout, Switch};
 use crate::sinumerik::Control;
 use crate::sinumerik::machine_data::MachineData;
-use crate::units::{ModeGroupNumber, PerModeGroup, Time};
+use crate::units::{AxisNumber, ModeGroupNumber, PerModeGroup, Time};
 
 /// What the files say of a machine; it never changes after opening and is shared by all forks.
 #[derive(Debug)]
 pub(super) struct Definition {
     pub(super) names: Names,
     pub(super) layout: Layout,
+    /// Bits of the PLC's part that stand for switches that are not wired.
+    pub(super) unwired: Vec<(AxisNumber, Switch, Location)>,
     /// The memory after power on: presets.
     pub(super) memory: Memory,
     /// How often the PLC program runs; in every cycle where it is not said.
@@ -47,6 +49,7 @@ impl Strobe {
 
 pub(super) fn override_coding(data: &MachineData) -> OverrideCoding {
     OverrideCoding {
+        interface: &SINUMERIK,
         axis_is_gray: data.general.ovr_ax_is_gray_code,
         feed_is_gray: data.general.ovr_feed_is_gray_code,
         rapid_traverse_is_gray: data.general.ovr_rapid_is_gray_code,

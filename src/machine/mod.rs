@@ -9,7 +9,7 @@
 //!     machine.step();
 //! }
 //! let x = machine.axis("X").ok_or("the example has an axis X")?;
-//! assert!(machine.memory().from_nck.axes[x].gantry_leading_axis()); // DB31.DBX101.6
+//! assert!(machine.memory().from_nck().axes[x].gantry_leading_axis()); // DB31.DBX101.6
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -39,7 +39,7 @@ pub(crate) use saved::Snapshot;
 
 use std::sync::Arc;
 
-use crate::image::{Memory, Names, OverrideCoding};
+use crate::image::{Location, Memory, Names, OverrideCoding};
 use crate::motion::Feedback;
 use crate::plant::Plant;
 use crate::plc::PlcProgram;
@@ -126,13 +126,13 @@ impl Machine {
     /// The override of an axis that acts, in per cent.
     #[must_use]
     pub fn axis_override(&self, axis: AxisNumber) -> f64 {
-        self.control.axis_override(&self.memory.to_nck.axes[axis])
+        self.control.axis_override(&self.memory.to_nck().axes[axis])
     }
 
     /// The overrides of a channel that act, in per cent: feed and rapid traverse.
     #[must_use]
     pub fn channel_overrides(&self, channel: ChannelNumber) -> [f64; 2] {
-        self.control.channel_overrides(&self.memory.to_nck.channels[channel])
+        self.control.channel_overrides(&self.memory.to_nck().channels[channel])
     }
 
     /// The speed of the motor of an axis in rev/min, behind pitch and gear.

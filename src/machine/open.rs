@@ -11,8 +11,8 @@ use super::before::Before;
 use super::definition::{Definition, Strobe, override_coding};
 use super::plc::Plc;
 use super::step::first_variables;
-use crate::image::{Memory, Names, Preset, Profile};
-use crate::plant::{EncoderKind, Hints, Layout, Plant, PlantDefinition};
+use crate::image::{Location, Memory, Names, Preset, Profile, SwitchSignals};
+use crate::plant::{EncoderKind, Hints, Layout, Plant, PlantDefinition, Switch};
 use crate::sinumerik::machine_data::{Archive, Finding, Owner, Target, files_of, refusal};
 use crate::sinumerik::{AxisPresence, Control, Mechanics};
 use crate::source::{Place, Problem, Table, did_you_mean, read_text};
@@ -88,7 +88,15 @@ fn open(path: &Path, options: OpenOptions) -> Result<Machine, Problem> {
     let mut warnings: Vec<String> = archive.findings.iter().map(Finding::to_string).collect();
     warnings.extend(not_modelled(&control, &names, &plant));
     let strobe = Strobe { fixed: plant.db11_5_2, bytes: strobe_bytes(&memory) };
-    let definition = Definition { plc_cycle: plant.plc_cycle, layout, names, memory: memory.clone(), strobe, warnings };
+    let definition = Definition {
+        plc_cycle: plant.plc_cycle,
+        unwired: unwired(&layout, &names),
+        layout,
+        names,
+        memory: memory.clone(),
+        strobe,
+        warnings,
+    };
     Ok(assemble(definition, control, memory))
 }
 
@@ -200,6 +208,21 @@ fn layout(plant: &PlantDefinition, archive: &Archive, control: &Control, names: 
     Layout::new(plant, &names.axes, &hints, &groupings)
 }
 
+/// The signals that the simulator itself sets because their switches lead to no input: cams, then limit switches.
+fn unwired(layout: &Layout, names: &Names) -> Vec<(AxisNumber, Switch, Location)> {
+    let Some(SwitchSignals { cam, limit_plus, limit_minus }) = names.interface().tables().switches else {
+        return Vec::new();
+    };
+    let signals = [(Switch::Cam, cam), (Switch::LimitPlus, limit_plus), (Switch::LimitMinus, limit_minus)];
+    let each = signals.into_iter().zip(layout.unwired).flat_map(|((switch, signal), axes)| {
+        axes.iter().filter_map(move |axis| {
+            let location = names.interface().location(&signal, axis.number())?;
+            Some((axis, switch, location))
+        })
+    });
+    each.collect()
+}
+
 fn check_plc_cycle(plc_cycle: Option<Time>, cycle: Time, place: &Place) -> Result<(), Problem> {
     match plc_cycle {
         Some(plc) if plc.nanos() % cycle.nanos() != 0 || plc < cycle => Err(place.problem(
@@ -213,7 +236,7 @@ fn check_plc_cycle(plc_cycle: Option<Time>, cycle: Time, place: &Place) -> Resul
 fn strobe_bytes(memory: &Memory) -> PerModeGroup<u32> {
     PerModeGroup::new(["DB11.DBB5", "DB11.DBB25"]).map(|address| {
         let address = address.parse().ok();
-        let location = address.and_then(|address| memory.locate(&address, Profile::Sinumerik840dSl).ok());
+        let location = address.and_then(|address| memory.locate(&address, Profile::SINUMERIK_840D_SL).ok());
         location.map_or(u32::MAX, |location| location.offset)
     })
 }

@@ -15,15 +15,15 @@ use crate::plc::PlcProgram;
 use crate::sinumerik::SavedControl;
 use crate::source::Problem;
 use crate::trace::Recorder;
-use crate::units::{PerAxis, Time};
+use crate::units::{PerAxis, PerChannel, Time};
 use crate::variables::{Alarms, EventId, RParameters, Variables};
 
 /// Which form of saved machine this is.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 
 #[derive(Serialize, Deserialize)]
-struct SavedV5 {
-    names: Names,
+struct SavedV6 {
+    names: SavedNames,
     control: SavedControl,
     plant: Plant,
     memory: Memory,
@@ -37,6 +37,26 @@ struct SavedV5 {
     /// The last event that the record has; those before the first step are recorded with it.
     recorded: EventId,
     plc: SavedPlc,
+}
+
+/// Of which machine it is.
+#[derive(PartialEq, Serialize, Deserialize)]
+struct SavedNames {
+    interface: String,
+    profile: String,
+    axes: PerAxis<Option<String>>,
+    channels: PerChannel<Option<String>>,
+}
+
+impl SavedNames {
+    fn of(names: &Names) -> Self {
+        Self {
+            interface: names.interface().tables().name.to_owned(),
+            profile: names.profile.name().to_owned(),
+            axes: names.axes.clone(),
+            channels: names.channels.clone(),
+        }
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -54,8 +74,8 @@ impl Machine {
     #[must_use]
     #[expect(clippy::missing_panics_doc, reason = "plain data is always written")]
     pub fn save(&self) -> Vec<u8> {
-        let saved = SavedV5 {
-            names: self.definition.names.clone(),
+        let saved = SavedV6 {
+            names: SavedNames::of(&self.definition.names),
             control: self.control.save(),
             plant: self.plant.clone(),
             memory: self.memory.clone(),
@@ -88,10 +108,13 @@ impl Machine {
         let damaged =
             |what: String| Problem::new(what, "restore what `save` of this version gave, on the same machine");
         let content = content(bytes).map_err(damaged)?;
-        let saved: SavedV5 = postcard::from_bytes(content)
+        let saved: SavedV6 = postcard::from_bytes(content)
             .map_err(|error| damaged(format!("expected a saved machine, found damaged bytes: {error}")))?;
-        if saved.names != self.definition.names {
+        if saved.names != SavedNames::of(&self.definition.names) {
             return Err(damaged("expected a saved machine with the same axes and channels, found others".to_owned()));
+        }
+        if !saved.memory.fits(self.definition.names.interface()) {
+            return Err(damaged("expected a saved machine with the same interface, found another".to_owned()));
         }
         match (&mut self.plc.program, &saved.plc.program) {
             (None, None) => {}

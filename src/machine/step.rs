@@ -1,7 +1,8 @@
 //! One step, and the PLC in it.
 
+use super::Machine;
 use super::written::Force;
-use super::{Machine, Switch};
+use crate::image::{AsBytes, FromNck, Hmi};
 use crate::motion::Feedback;
 use crate::plc::PlcIo;
 use crate::units::{AxisSet, PerAxis};
@@ -22,9 +23,9 @@ impl Machine {
         self.sense_unwired_switches();
         self.apply_forces();
         // The control decides.
-        self.control.select_handwheels(&self.memory.hmi.nck);
+        self.control.select_handwheels(&self.memory.hmi().nck);
         let changes = self.plc_changes();
-        self.control.decide(self.cycle, &self.memory.to_nck, changes, taken.cancel);
+        self.control.decide(self.cycle, self.memory.to_nck(), changes, taken.cancel);
         // Position control, drives and mechanics.
         let axes = self.definition.layout.with_bridged(self.control.awake());
         self.move_axes(axes);
@@ -34,7 +35,8 @@ impl Machine {
         self.control.observe(&self.feedback, axes);
         let restless = self.plant.restless(axes);
         let memory = &mut self.memory;
-        self.control.publish(&mut memory.from_nck, &mut memory.hmi, &mut self.variables, restless);
+        let (from_nck, hmi) = (FromNck::of_mut(&mut memory.from_nck), Hmi::of_mut(&mut memory.hmi));
+        self.control.publish(from_nck, hmi, &mut self.variables, restless);
         self.variables.alarms.date(self.time);
         self.record();
     }
@@ -54,7 +56,7 @@ impl Machine {
             return;
         };
         let memory = &mut self.memory;
-        let mut io = PlcIo {
+        let mut io = PlcIo::<AsBytes> {
             to_nck: &mut memory.to_nck,
             from_nck: &memory.from_nck,
             hmi: &memory.hmi,
@@ -86,21 +88,10 @@ impl Machine {
         }
     }
 
-    /// Switches without an input: the simulator itself sets 12.7, 12.1 and 12.0 after the PLC scan.
+    /// Switches without an input: the simulator itself sets their signals after the PLC scan.
     fn sense_unwired_switches(&mut self) {
-        let to_nck = &mut self.memory.to_nck;
-        let [cams, plus, minus] = self.definition.layout.unwired;
-        for axis in cams.iter() {
-            let pressed = self.plant.pressed(Switch::Cam).contains(axis);
-            to_nck.axes[axis].set_deceleration_reference_point_approach(pressed);
-        }
-        for axis in plus.iter() {
-            let pressed = self.plant.pressed(Switch::LimitPlus).contains(axis);
-            to_nck.axes[axis].set_hardware_limit_switch_plus(pressed);
-        }
-        for axis in minus.iter() {
-            let pressed = self.plant.pressed(Switch::LimitMinus).contains(axis);
-            to_nck.axes[axis].set_hardware_limit_switch_minus(pressed);
+        for &(axis, switch, location) in &self.definition.unwired {
+            self.memory.write(location, self.plant.pressed(switch).contains(axis).into());
         }
     }
 

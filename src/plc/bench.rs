@@ -1,6 +1,6 @@
 //! A test bench: a program on a memory, scan by scan.
 
-use crate::image::{Location, Memory, Names, Profile};
+use crate::image::{AsBytes, Location, Memory, Names, Profile};
 use crate::plc::{PlcFault, PlcIo, PlcProgram};
 use crate::units::{AxisNumber, Time};
 
@@ -32,7 +32,7 @@ impl Bench {
     }
 
     fn at(&self, address: &str) -> Location {
-        self.memory.locate(&address.parse().unwrap(), Profile::Sinumerik840dSl).unwrap()
+        self.memory.locate(&address.parse().unwrap(), Profile::SINUMERIK_840D_SL).unwrap()
     }
 
     /// One scan, 10 ms after the last one.
@@ -41,7 +41,7 @@ impl Bench {
         program.scan(&mut self.io())
     }
 
-    pub(super) fn io(&mut self) -> PlcIo<'_> {
+    pub(super) fn io(&mut self) -> PlcIo<'_, AsBytes> {
         let Memory { to_nck, from_nck, hmi, inputs, outputs, flags, timers, counters, blocks } = &mut self.memory;
         PlcIo {
             to_nck,

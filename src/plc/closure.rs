@@ -5,19 +5,20 @@ use std::sync::Arc;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::image::{AsBytes, Layout, Sinumerik};
 use crate::source::Problem;
 
 use super::{PlcFault, PlcIo, PlcProgram};
 
-type Code<S> = Arc<dyn Fn(&mut S, &mut PlcIo<'_>) -> Result<(), PlcFault> + Send + Sync>;
+type Code<S, L> = Arc<dyn Fn(&mut S, &mut PlcIo<'_, L>) -> Result<(), PlcFault> + Send + Sync>;
 
 /// A closure and the state it works on. The code is shared between forks, the state is not.
-pub struct ClosureProgram<S> {
+pub struct ClosureProgram<S, L: Layout = Sinumerik> {
     name: String,
     initial: S,
     state: S,
-    startup: Option<Code<S>>,
-    scan: Code<S>,
+    startup: Option<Code<S, L>>,
+    scan: Code<S, L>,
 }
 
 /// A program from a closure that runs once in each PLC cycle; `state` is all that it remembers.
@@ -47,16 +48,34 @@ pub fn program_with_fault<S>(
 where
     S: Clone + Serialize + DeserializeOwned + Send + 'static,
 {
-    ClosureProgram { name: name.into(), initial: state.clone(), state, startup: None, scan: Arc::new(scan) }
+    program_for(name, state, scan)
 }
 
-impl<S> ClosureProgram<S>
+/// As [`program_with_fault`], for a control of another layout: `program_for::<_, Own>("name", (), |(), io| …)`.
+pub fn program_for<S, L: Layout>(
+    name: impl Into<String>,
+    state: S,
+    scan: impl Fn(&mut S, &mut PlcIo<'_, L>) -> Result<(), PlcFault> + Send + Sync + 'static,
+) -> ClosureProgram<S, L>
 where
     S: Clone + Serialize + DeserializeOwned + Send + 'static,
 {
+    ClosureProgram { name: name.into(), initial: state.clone(), state, startup: None, scan: Arc::new(scan) }
+}
+
+impl<S, L: Layout> ClosureProgram<S, L>
+where
+    S: Clone + Serialize + DeserializeOwned + Send + 'static,
+{
+    /// The parts as structures of the control that it is written for.
+    fn io<'a>(name: &str, io: &'a mut PlcIo<'_, AsBytes>) -> Result<PlcIo<'a, L>, PlcFault> {
+        let found = io.names.interface();
+        io.typed().ok_or_else(|| PlcFault::new(format!("`{name}` is written for another interface than {found:?}")))
+    }
+
     /// Runs this closure after power on, before the first scan (OB100).
     #[must_use]
-    pub fn on_startup(mut self, startup: impl Fn(&mut S, &mut PlcIo<'_>) + Send + Sync + 'static) -> Self {
+    pub fn on_startup(mut self, startup: impl Fn(&mut S, &mut PlcIo<'_, L>) + Send + Sync + 'static) -> Self {
         self.startup = Some(Arc::new(move |state, io| {
             startup(state, io);
             Ok(())
@@ -71,7 +90,7 @@ where
     }
 }
 
-impl<S> PlcProgram for ClosureProgram<S>
+impl<S, L: Layout> PlcProgram for ClosureProgram<S, L>
 where
     S: Clone + Serialize + DeserializeOwned + Send + 'static,
 {
@@ -79,15 +98,15 @@ where
         &self.name
     }
 
-    fn startup(&mut self, io: &mut PlcIo<'_>) -> Result<(), PlcFault> {
+    fn startup(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
         match &self.startup {
-            Some(startup) => startup(&mut self.state, io),
+            Some(startup) => startup(&mut self.state, &mut Self::io(&self.name, io)?),
             None => Ok(()),
         }
     }
 
-    fn scan(&mut self, io: &mut PlcIo<'_>) -> Result<(), PlcFault> {
-        (self.scan)(&mut self.state, io)
+    fn scan(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
+        (self.scan)(&mut self.state, &mut Self::io(&self.name, io)?)
     }
 
     fn save(&self) -> Vec<u8> {

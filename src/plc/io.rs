@@ -2,18 +2,21 @@
 
 use zerocopy::IntoBytes;
 
-use crate::image::{Blocks, Bytes, FromNck, Hmi, Names, Part, Parts, ToNck};
+use crate::image::{AsBytes, Blocks, Bytes, Layout, Names, Part, Parts, Sinumerik, View};
 use crate::units::{AxisNumber, ChannelNumber, Time};
 
 /// The PLC's view of the memory during one scan: its own side to write, the others' to read.
+///
+/// The three parts of the interface are structures of a control, of the SINUMERIK where nothing is said, or the bytes that
+/// they are (`PlcIo<'_, AsBytes>`), which [`typed`](PlcIo::typed) makes structures of.
 #[derive(Debug)]
-pub struct PlcIo<'a> {
+pub struct PlcIo<'a, L: Layout = Sinumerik> {
     /// What the PLC writes to the NCK.
-    pub to_nck: &'a mut ToNck,
+    pub to_nck: &'a mut L::ToNck,
     /// What the NCK writes.
-    pub from_nck: &'a FromNck,
+    pub from_nck: &'a L::FromNck,
     /// What the HMI writes.
-    pub hmi: &'a Hmi,
+    pub hmi: &'a L::Hmi,
     /// I: `io.inputs.bit(3, 4)` is I3.4.
     pub inputs: &'a Bytes,
     /// Q: `io.outputs.set_bit(4, 0, true)` sets Q4.0.
@@ -36,7 +39,7 @@ pub struct PlcIo<'a> {
     pub names: &'a Names,
 }
 
-impl<'a> PlcIo<'a> {
+impl<'a, L: Layout> PlcIo<'a, L> {
     /// The number of the machine axis of this name.
     #[must_use]
     pub fn axis(&self, name: &str) -> Option<AxisNumber> {
@@ -50,14 +53,39 @@ impl<'a> PlcIo<'a> {
     }
 
     /// The numbers of all axes that the machine has, ascending; a loop over them may write.
-    pub fn axes(&self) -> impl Iterator<Item = AxisNumber> + use<'a> {
+    pub fn axes(&self) -> impl Iterator<Item = AxisNumber> + use<'a, L> {
         let names = self.names;
         names.axes.iter().filter(|(_, name)| name.is_some()).map(|(number, _)| number)
     }
 }
 
+impl PlcIo<'_, AsBytes> {
+    /// The same with the parts as structures of a control; `None` where the machine has the interface of another.
+    #[must_use]
+    pub fn typed<L: Layout>(&mut self) -> Option<PlcIo<'_, L>> {
+        if !L::is_of(self.names.interface()) {
+            return None;
+        }
+        Some(PlcIo {
+            to_nck: L::ToNck::of_bytes_mut(self.to_nck)?,
+            from_nck: L::FromNck::of_bytes(self.from_nck)?,
+            hmi: L::Hmi::of_bytes(self.hmi)?,
+            inputs: self.inputs,
+            outputs: self.outputs,
+            flags: self.flags,
+            timers: self.timers,
+            counters: self.counters,
+            blocks: self.blocks,
+            cycle: self.cycle,
+            time: self.time,
+            cycle_time: self.cycle_time,
+            names: self.names,
+        })
+    }
+}
+
 /// All of the memory to read, the PLC's own to write.
-impl Parts for PlcIo<'_> {
+impl<L: Layout> Parts for PlcIo<'_, L> {
     fn part(&self, part: Part) -> &[u8] {
         match part {
             Part::ToNck => self.to_nck.as_bytes(),

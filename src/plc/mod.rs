@@ -17,6 +17,8 @@
 //! # let _ = delayed;
 //! ```
 //!
+//! Programs for another control than the SINUMERIK are closures over its own structures, or over bytes: [`program_for`].
+//!
 //! The machine calls [`PlcProgram::startup`] once after power on (OB100) and [`PlcProgram::scan`] in each PLC cycle
 //! (OB1); between two scans nobody else writes to the PLC's side but queued commands and forces.
 
@@ -31,7 +33,7 @@ mod registry;
 mod tests;
 
 pub use blocks::{FallingEdge, OffDelay, OnDelay, ResetDominantLatch, RisingEdge, SetDominantLatch};
-pub use closure::{ClosureProgram, program, program_with_fault};
+pub use closure::{ClosureProgram, program, program_for, program_with_fault};
 pub use io::PlcIo;
 pub use programs::{
     LimitEdgeMarker, MACHINE_CONTROL_PANEL_LAYOUT, MachineControlPanel, enable_all, gantry_start, limit_edge_marker,
@@ -39,6 +41,7 @@ pub use programs::{
 };
 pub use registry::Programs;
 
+use crate::image::AsBytes;
 use crate::source::Problem;
 
 /// The PLC program cannot go on: the PLC stops, and the NCK misses its sign of life (alarm 2000).
@@ -57,7 +60,8 @@ impl PlcFault {
     }
 }
 
-/// A program of the PLC, of whatever kind.
+/// A program of the PLC, of whatever kind. It sees the parts of the interface as bytes, whichever control they are of;
+/// [`PlcIo::typed`] gives the structures of one.
 pub trait PlcProgram: Send {
     /// What it is called.
     fn name(&self) -> &str;
@@ -66,13 +70,13 @@ pub trait PlcProgram: Send {
     ///
     /// # Errors
     /// The program cannot start; the PLC stays in stop.
-    fn startup(&mut self, io: &mut PlcIo<'_>) -> Result<(), PlcFault>;
+    fn startup(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault>;
 
     /// OB1: runs once in each PLC cycle.
     ///
     /// # Errors
     /// The program cannot go on; the PLC stops.
-    fn scan(&mut self, io: &mut PlcIo<'_>) -> Result<(), PlcFault>;
+    fn scan(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault>;
 
     /// All that the program remembers, as bytes.
     fn save(&self) -> Vec<u8>;

@@ -5,7 +5,7 @@
 //! control, and loses it at the NCK's next publication (SIG-11).
 
 use super::command::Command;
-use super::directory::{Directory, bytes_of_pages};
+use super::directory::Directory;
 use super::nck::{self, ControlValues, MachineData};
 use super::protected::Protected;
 use super::station::{
@@ -217,9 +217,9 @@ impl Blocks for Bridge<'_> {
     fn read_block(&self, number: u16, into: &mut [u8]) {
         if self.read(Area::DataBlock(number), 0, into).is_err() {
             // A block of the 828D has gaps, where nothing is looked for: the machine stands meanwhile.
-            for byte in bytes_of_pages() {
-                if let Some(value) = into.get_mut(usize::from(byte)) {
-                    let _ = self.read(Area::DataBlock(number), byte.into(), std::slice::from_mut(value));
+            for (first, end) in self.names.profile.spans(number) {
+                if let Some(bytes) = into.get_mut(first.into()..end.into()) {
+                    let _ = self.read(Area::DataBlock(number), first.into(), bytes);
                 }
             }
         }

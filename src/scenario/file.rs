@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use super::duration::Duration;
-use crate::image::Profile;
+use crate::image::{Profile, SINUMERIK};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean, read_text};
 use crate::units::Time;
 
@@ -138,28 +138,15 @@ impl Scenario {
 /// # Errors
 /// It is no profile.
 pub fn profile_named(name: &str) -> Result<Profile, Problem> {
-    match name {
-        "840d_sl" => Ok(Profile::Sinumerik840dSl),
-        "828d" => Ok(Profile::Sinumerik828d),
-        _ => {
-            // A shortened name is nearer to the name it begins than any count of letters says.
-            let cure = if name.starts_with("840") || name.is_empty() {
-                "profiles are 840d_sl and 828d".to_owned()
-            } else {
-                did_you_mean(name, ["840d_sl", "828d"], "profiles are 840d_sl and 828d")
-            };
-            Err(Problem::new(format!("expected a profile, found `{name}`"), cure))
-        }
-    }
-}
-
-/// The word for a profile.
-#[must_use]
-pub fn profile_name(profile: Profile) -> &'static str {
-    match profile {
-        Profile::Sinumerik840dSl => "840d_sl",
-        Profile::Sinumerik828d => "828d",
-    }
+    SINUMERIK.profile(name).ok_or_else(|| {
+        // A shortened name is nearer to the name it begins than any count of letters says.
+        let cure = if name.starts_with("840") || name.is_empty() {
+            "profiles are 840d_sl and 828d".to_owned()
+        } else {
+            did_you_mean(name, ["840d_sl", "828d"], "profiles are 840d_sl and 828d")
+        };
+        Problem::new(format!("expected a profile, found `{name}`"), cure)
+    })
 }
 
 pub(super) fn named(node: &Node, what: &str) -> Result<Named, Problem> {
@@ -177,7 +164,7 @@ pub(super) fn duration(node: &Node, what: &str) -> Result<Duration, Problem> {
 
 fn profiles(node: Option<Node>) -> Result<Vec<Profile>, Problem> {
     let Some(node) = node else {
-        return Ok(vec![Profile::Sinumerik840dSl]);
+        return Ok(vec![Profile::default()]);
     };
     let place = node.place.clone();
     let mut profiles = Vec::new();

@@ -22,7 +22,7 @@ mod values;
 pub use duration::Duration;
 pub use expression::{Expression, Moment, Scope, View};
 pub use failure::{Failure, Missed};
-pub use file::{Compare, Named, Scenario, profile_name, profile_named};
+pub use file::{Compare, Named, Scenario, profile_named};
 pub use operator::{Operator, State};
 pub use run::{Finished, Prepared};
 pub use session::Session;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use super::file::{Named, Scenario, profile_name};
+use super::file::{Named, Scenario};
 use super::operator::{Operator, Plan};
 use super::passing::Next;
 use super::session::{Condition, Session};
@@ -49,7 +49,7 @@ impl Scenario {
         let head = Head {
             title: self.title.clone(),
             machine: self.machine.text.clone(),
-            profile: (profile != Profile::default()).then(|| profile_name(profile).to_owned()),
+            profile: (profile != Profile::default()).then(|| profile.name().to_owned()),
             cycle_time: machine.cycle_time(),
         };
         // Only now: what is wrong with the file is said first.

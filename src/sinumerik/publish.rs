@@ -2,7 +2,7 @@
 //!
 //! Signals are set axis by axis (SIG-09). What somebody else wrote into a bit of the NCK is overwritten here (SIG-11).
 
-use crate::image::{AxisFromNck, FromNck, Hmi, clear_signals};
+use crate::image::{AxisFromNck, FromNck, Hmi};
 use crate::motion::Motion;
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::control::Control;
@@ -21,7 +21,7 @@ impl Control {
         let mut shown = self.awake();
         let (parameters, state) = (&*self.parameters, &mut *self.state);
         if std::mem::take(&mut state.overwritten) {
-            clear_signals(from_nck);
+            from_nck.clear_signals();
             shown = parameters.existing;
         }
         state.publish_nck(from_nck);

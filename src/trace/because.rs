@@ -9,10 +9,14 @@ use crate::variables::{AlarmNumber, Describe, Event, Input, Place, Quantity};
 /// Whose it is, by name: `X`, `CHAN1`, `mode_group_1`, `nck`.
 #[must_use]
 pub fn place_name(place: Place, names: &Names) -> String {
+    let (block, number) = place.block();
+    if let Some(name) = names.owner(block, number) {
+        return name.to_owned();
+    }
     match place {
         Place::Nck => "nck".to_owned(),
         Place::ModeGroup(group) => format!("mode_group_{group}"),
-        Place::Channel(channel) => names.channels[channel].clone().unwrap_or_else(|| format!("CHAN{channel}")),
+        Place::Channel(channel) => format!("CHAN{channel}"),
         Place::Axis(axis) => axis_name(axis, names),
     }
 }
@@ -36,7 +40,7 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
         Input::None => None,
         Input::Bit(signal, value) => {
             let owner = place_name(signal.place, names);
-            let name = signal_at(signal).map_or_else(
+            let name = signal_at(signal, names.interface()).map_or_else(
                 || format!("{owner} byte {} bit {}", signal.byte, signal.bit),
                 |known| format!("{owner}.{}", known.name),
             );

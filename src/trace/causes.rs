@@ -46,14 +46,9 @@ impl CauseInput {
         Some(match *input {
             Input::None => return None,
             Input::Bit(bit, value) => {
-                let signal = signal_at(bit)?;
-                let number = match bit.place {
-                    Place::Nck => 1,
-                    Place::ModeGroup(group) => group.number(),
-                    Place::Channel(channel) => channel.number(),
-                    Place::Axis(axis) => axis.number(),
-                };
-                let location = signal.location(number)?;
+                let signal = signal_at(bit, names.interface())?;
+                let (_, number) = bit.place.block();
+                let location = names.interface().location(signal, number)?;
                 let address = names.address(location).to_string();
                 Self::Signal { address, symbol: names.symbol(location), value }
             }

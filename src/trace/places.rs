@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Watch;
 use super::printable::{Printable, mask_in_byte, printable};
-use crate::image::{Format, Location, Names, Part, signals_at};
+use crate::image::{Format, Location, Names, Part, Signal};
 
 /// What can be printed of each byte, found once for each byte that changes.
 pub(super) struct Places<'a> {
@@ -51,8 +51,10 @@ impl<'a> Places<'a> {
 fn found(names: &Names, watch: &Watch, part: Part, offset: u32) -> Vec<Printable> {
     let mut printables = Vec::new();
     let mut named_bits = 0;
-    let byte = signals_at(part, offset);
-    let signals = byte.iter().flat_map(|byte| byte.signals.iter().map(|signal| signal.location(byte.number)));
+    let interface = names.interface();
+    let byte = interface.signals_at(part, offset);
+    let location = |signal: &&Signal, number| interface.location(signal, number);
+    let signals = byte.iter().flat_map(|byte| byte.signals.iter().map(|signal| location(signal, byte.number)));
     for location in signals.flatten() {
         named_bits |= mask_in_byte(location, offset);
         let printable = printable(names, location);

@@ -1,7 +1,7 @@
 //! One thing that a trace can print, with its address, its symbol and its value.
 
-use crate::image::{Block, Format, Location, Memory, Names, Signal, signals};
-use crate::variables::{Place, SignalBit};
+use crate::image::{Format, Interface, Location, Memory, Names, Signal};
+use crate::variables::SignalBit;
 
 /// Something that has one row of its own when it changes.
 #[derive(Clone, Debug)]
@@ -52,14 +52,9 @@ pub(super) fn is_bit(address: &str) -> bool {
 }
 
 /// The signal of the catalogue at a bit of a block.
-pub(super) fn signal_at(bit: SignalBit) -> Option<&'static Signal> {
-    let block = match bit.place {
-        Place::Nck => Block::Nck,
-        Place::ModeGroup(_) => Block::ModeGroup,
-        Place::Channel(_) => Block::Channel,
-        Place::Axis(_) => Block::Axis,
-    };
-    signals().find(|signal| signal.block == block && signal.byte == bit.byte && signal.bit == bit.bit)
+pub(super) fn signal_at(bit: SignalBit, interface: &'static Interface) -> Option<&'static Signal> {
+    let (block, _) = bit.place.block();
+    interface.signals().find(|signal| signal.block == block && signal.byte == bit.byte && signal.bit == bit.bit)
 }
 
 /// The value at a place in a memory.

@@ -1,12 +1,10 @@
 //! What a trace shows: patterns over symbols and addresses, and the names of values.
 
 use super::AxisValue;
-use super::because::place_name;
 use super::printable::Printable;
-use crate::image::{Block, Location, Memory, Names, Part, signals};
+use crate::image::{Location, Memory, Names, Part, Signal};
 use crate::source::{Problem, did_you_mean, nearest};
-use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
-use crate::variables::Place;
+use crate::units::AxisNumber;
 
 /// What a trace shows; by default every signal of the catalogue and every input and output that changed, and no values.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -87,21 +85,20 @@ impl Chosen {
             return Ok(());
         }
         if !looks_like_addresses(entry) {
-            let owners = owners(names);
-            let matching = signals().any(|signal| {
-                owners
-                    .iter()
-                    .any(|(block, owner)| *block == signal.block && matches(entry, &format!("{owner}.{}", signal.name)))
-            });
+            let fits = |signal: &Signal| {
+                let mut owners = names.owners().filter(|(_, block, _)| *block == signal.block);
+                owners.any(|(owner, ..)| matches(entry, &format!("{owner}.{}", signal.name)))
+            };
+            let matching = names.interface().signals().any(fits);
             if !matching {
                 let head = entry.split('.').next().unwrap_or(entry);
-                let known = owners.iter().map(|(_, owner)| owner.as_str());
+                let known = || names.owners().map(|(owner, ..)| owner);
                 let fallback = "patterns are like `X.*` or `DB31.DBX101.*`";
                 return Err(Problem::new(
                     format!("expected a pattern that fits a signal, found `{entry}`"),
-                    match known.clone().any(|owner| owner == head) {
+                    match known().any(|owner| owner == head) {
                         true => fallback.to_owned(),
-                        false => did_you_mean(head, known, fallback),
+                        false => did_you_mean(head, known(), fallback),
                     },
                 ));
             }
@@ -134,17 +131,6 @@ fn axes(names: &Names) -> impl Iterator<Item = (AxisNumber, &str)> {
 
 fn names_of_axes(names: &Names) -> impl Iterator<Item = &str> {
     axes(names).map(|(_, name)| name)
-}
-
-/// Everything that can stand before the point of a symbol, in the order of the data blocks.
-pub(super) fn owners(names: &Names) -> Vec<(Block, String)> {
-    let place = |block, place| (block, place_name(place, names));
-    let mut owners = vec![place(Block::Nck, Place::Nck)];
-    owners.extend(ModeGroupNumber::all().map(|group| place(Block::ModeGroup, Place::ModeGroup(group))));
-    let channels = ChannelNumber::all().filter(|channel| names.channels[*channel].is_some());
-    owners.extend(channels.map(|channel| place(Block::Channel, Place::Channel(channel))));
-    owners.extend(axes(names).map(|(axis, _)| place(Block::Axis, Place::Axis(axis))));
-    owners
 }
 
 /// Whether a pattern is about addresses: `DB33.…`, `M10.*`, `IB*`, `*`.

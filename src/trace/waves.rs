@@ -7,7 +7,6 @@ use std::collections::BTreeMap;
 use super::history::ValueRow;
 use super::lines::LineKind;
 use super::printable::{order, printable, shown};
-use super::watch::owners;
 use super::{AxisValue, By, Shown, Trace, Watch, place_name};
 use crate::image::Location;
 use crate::units::Time;
@@ -116,7 +115,7 @@ impl Trace {
     /// One row for each signal, value and alarm that the watch shows.
     pub(super) fn waves(&self, describe: &dyn Describe, watch: &Watch) -> Waves {
         let names = describe.names();
-        let owners = owners(names).into_iter().map(|(_, name)| name).collect();
+        let owners = names.owners().map(|(name, ..)| name.to_owned()).collect();
         let mut rows = Rows { owners, rows: BTreeMap::new() };
         for &location in watch.locations() {
             let printable = printable(names, location);

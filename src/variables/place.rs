@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::image::Block;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 
 /// Whose it is: the place of an alarm, of an event, of a signal.
@@ -15,4 +16,28 @@ pub enum Place {
     Channel(ChannelNumber),
     /// A machine axis.
     Axis(AxisNumber),
+}
+
+impl Place {
+    /// The place behind a block of the interface; `None` for a number that there cannot be.
+    #[must_use]
+    pub fn of_block(block: Block, number: u8) -> Option<Self> {
+        Some(match block {
+            Block::Nck => Self::Nck,
+            Block::ModeGroup => Self::ModeGroup(ModeGroupNumber::new(number)?),
+            Block::Channel => Self::Channel(ChannelNumber::new(number)?),
+            Block::Axis => Self::Axis(AxisNumber::new(number)?),
+        })
+    }
+
+    /// The block of the interface that it has: its kind and its number.
+    #[must_use]
+    pub fn block(self) -> (Block, u8) {
+        match self {
+            Self::Nck => (Block::Nck, 1),
+            Self::ModeGroup(group) => (Block::ModeGroup, group.number()),
+            Self::Channel(channel) => (Block::Channel, channel.number()),
+            Self::Axis(axis) => (Block::Axis, axis.number()),
+        }
+    }
 }

@@ -16,6 +16,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use opennck::cli::serve::{Limits, Live, LiveOptions, Recording, Window};
+use opennck::image::AsBytes;
 use opennck::machine::Machine;
 use opennck::plc::{PlcFault, PlcIo, PlcProgram, Programs};
 use opennck::scenario::{Heading, Scenario};
@@ -104,14 +105,14 @@ fn an_operator_at_a_panel_is_recorded_and_runs_again() {
     let recorded = Recorded::start("panel", "20", Some("enable_all"));
     let mut client = recorded.client();
     let [x, y] = ["X", "Y"].map(|name| recorded.live.with(|machine| machine.axis(name)).unwrap());
-    recorded.wait("the run-up", |machine| machine.memory().from_nck.axes[x].position_controller_active());
+    recorded.wait("the run-up", |machine| machine.memory().from_nck().axes[x].position_controller_active());
     // JOG with machine function REF, then the traversing key plus of the gantry, as in the worked example.
     client.write_bit(S7_AREA_DB, 11, 0, 2, true).unwrap();
     client.write_bit(S7_AREA_DB, 11, 1, 2, true).unwrap();
     client.write_bit(S7_AREA_DB, 31, 4, 7, true).unwrap();
-    recorded.wait("the travel", |machine| machine.memory().from_nck.axes[x].traverse_command_plus());
+    recorded.wait("the travel", |machine| machine.memory().from_nck().axes[x].traverse_command_plus());
     client.write_bit(S7_AREA_DB, 31, 4, 7, false).unwrap();
-    recorded.wait("the references", |machine| machine.memory().from_nck.axes[x].referenced_synchronized_1());
+    recorded.wait("the references", |machine| machine.memory().from_nck().axes[x].referenced_synchronized_1());
     // A second client writes flags, a REAL of its block and a machine datum, and moves Y.
     let mut other = Bare::connect(recorded.address());
     let panel = (DB, 19);
@@ -125,7 +126,7 @@ fn an_operator_at_a_panel_is_recorded_and_runs_again() {
     assert_eq!(other.write(&items), [0xFF; 5]);
     recorded.wait("a millimetre", |machine| machine.variables().axes[y].position.user() > 1.0);
     client.write_bit(S7_AREA_DB, 32, 4, 7, false).unwrap();
-    recorded.wait("rest", |machine| machine.memory().from_nck.axes[y].axis_stationary());
+    recorded.wait("rest", |machine| machine.memory().from_nck().axes[y].axis_stationary());
     let text = recorded.runs_again();
     for said in [
         "plc = \"enable_all\"",
@@ -295,7 +296,7 @@ impl PlcProgram for Witness {
         "witness"
     }
 
-    fn startup(&mut self, _: &mut PlcIo<'_>) -> Result<(), PlcFault> {
+    fn startup(&mut self, _: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
         Ok(())
     }
 
@@ -313,7 +314,7 @@ impl PlcProgram for Witness {
 
     fn reset(&mut self) {}
 
-    fn scan(&mut self, io: &mut PlcIo<'_>) -> Result<(), PlcFault> {
+    fn scan(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
         let block = io.blocks.get(2).map_or(&[][..], |bytes| bytes);
         let is_whole = block[..200].iter().chain(&io.flags[..100]).all(|byte| *byte == block[0]);
         self.torn.fetch_add(u64::from(!is_whole), Ordering::Relaxed);

@@ -4,7 +4,7 @@ use serde_json::Value as Json;
 
 use super::targets::Target;
 use crate::cli::list;
-use crate::image::{Width, meaning};
+use crate::image::Width;
 use crate::s7::client::{Error, Memory as Place, Value, Variable};
 
 /// A cell of a list.
@@ -69,7 +69,7 @@ fn json(variable: &Variable, value: &Value) -> Json {
 /// What the signal of a place means, and of an override its per cent.
 pub(super) fn meant(target: &Target, value: &Result<Value, Error>) -> String {
     let Some(location) = target.location else { return String::new() };
-    let meaning = meaning(location).unwrap_or_default();
+    let meaning = target.coding.interface.meaning(location).unwrap_or_default();
     let percent = match value {
         Ok(Value::Byte(code)) => target.coding.percent(location, *code),
         _ => None,

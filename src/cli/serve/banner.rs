@@ -4,7 +4,6 @@ use std::net::SocketAddr;
 
 use super::opening::Opened;
 use super::{Arguments, Terms};
-use crate::scenario::profile_name;
 
 /// The machine, its program and its files.
 pub(super) fn machine(opened: &Opened, arguments: &Arguments) -> String {
@@ -17,7 +16,7 @@ pub(super) fn machine(opened: &Opened, arguments: &Arguments) -> String {
     let axes: Vec<_> = machine.names().axes.iter().filter_map(|(_, name)| name.clone()).collect();
     let cycle = machine.cycle_time().seconds() * 1000.0;
     let mut text = format!("{}: axes {}, a cycle of {cycle} ms, {plc}\n", opened.path.display(), axes.join(", "));
-    text += &format!("profile {}", profile_name(machine.names().profile));
+    text += &format!("profile {}", machine.names().profile.name());
     match &opened.image {
         Some(file) => text += &format!(", PLC image {}", file.display()),
         None => text += ", no PLC image",

@@ -19,6 +19,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use super::live::{Live, Shared};
+use crate::image::AsBytes;
 use crate::image::mapped::{Look, MappedImage, Refusal, Rules, State, Step};
 use crate::machine::{Command, Machine};
 use crate::plc::{PlcFault, PlcIo, PlcProgram};
@@ -107,7 +108,7 @@ impl MappedPlc {
         Ok(())
     }
 
-    fn take_newest(&mut self, io: &mut PlcIo<'_>) -> Result<(), PlcFault> {
+    fn take_newest(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
         let mut image = lock(&self.image);
         let since = self.last_scan.elapsed();
         match image.look(self.least) {
@@ -131,7 +132,7 @@ impl MappedPlc {
     }
 
     /// Publishes a step and waits for its answer.
-    fn take_answer(&mut self, step: Step, io: &mut PlcIo<'_>) -> Result<(), PlcFault> {
+    fn take_answer(&mut self, step: Step, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
         let mut image = lock(&self.image);
         let mut number = publish(&mut image, io, step, true);
         let start = Instant::now();
@@ -177,7 +178,7 @@ impl PlcProgram for MappedPlc {
         "mapped image"
     }
 
-    fn startup(&mut self, _: &mut PlcIo<'_>) -> Result<(), PlcFault> {
+    fn startup(&mut self, _: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
         self.least = lock(&self.image).start();
         self.silent = Duration::ZERO;
         self.refusal = None;
@@ -185,7 +186,7 @@ impl PlcProgram for MappedPlc {
         Ok(())
     }
 
-    fn scan(&mut self, io: &mut PlcIo<'_>) -> Result<(), PlcFault> {
+    fn scan(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
         let lock_step = self.exchange.lock_step;
         if lock_step && !self.is_watched {
             self.is_watched = lock(&self.image).plc_starts() != self.plc_starts;
@@ -343,7 +344,7 @@ impl Said {
 }
 
 /// Publishes a step of the PLC in RUN. It says so after the step is there: until then the newest one is of before the start.
-fn publish(image: &mut MappedImage, io: &PlcIo<'_>, step: Step, waits: bool) -> u64 {
+fn publish(image: &mut MappedImage, io: &PlcIo<'_, AsBytes>, step: Step, waits: bool) -> u64 {
     let number = image.publish(io, step, waits);
     image.state(State::Run);
     number

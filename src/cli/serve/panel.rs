@@ -102,9 +102,10 @@ impl nck::ControlValues for Panel<'_> {
 
 /// What the PLC of a control is called.
 pub(super) fn identity(machine: &Machine) -> Identity<'static> {
-    match machine.names().profile {
-        Profile::Sinumerik840dSl => Identity::SINUMERIK_840D_SL,
-        Profile::Sinumerik828d => Identity::SINUMERIK_828D,
+    if machine.names().profile == Profile::SINUMERIK_828D {
+        Identity::SINUMERIK_828D
+    } else {
+        Identity::SINUMERIK_840D_SL
     }
 }
 

@@ -2,10 +2,8 @@
 
 use super::fields::section;
 use super::words::field;
-use crate::image::places::{self, is_interface};
-use crate::image::{Area, Block, Memory, Names, Part, Parts, Profile};
+use crate::image::{Area, Memory, Names, Part, Parts, Profile};
 use crate::source::Problem;
-use crate::units::{AxisNumber, ChannelNumber};
 
 /// Who writes the bytes of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,10 +62,11 @@ impl Layout {
         let mut layout = Self { sections: Vec::new(), pieces: Vec::new(), length: 0 };
         let own = |db| memory.blocks.get(db).map_or(0, |bytes| bytes.len());
         for db in 1..=u16::MAX {
-            let spans =
-                if is_interface(db, names.profile) { places::spans(db, names.profile) } else { vec![(0, own(db))] };
+            let is_interface = names.profile.has(db);
+            let spans = names.profile.spans(db).into_iter().map(|(first, end)| (first.into(), end.into()));
+            let own = (!is_interface).then(|| (0, own(db)));
             let name = name(memory, names, db);
-            for (first, end) in spans {
+            for (first, end) in spans.chain(own) {
                 layout.append(memory, names.profile, Area::DataBlock(db), first, end, &name)?;
             }
         }
@@ -91,7 +90,7 @@ impl Layout {
         let number = |number: usize| u32::try_from(number).expect("an area has at most 65535 bytes");
         let mut byte = first;
         while byte < end {
-            let run = places::run(memory, area, number(byte), 1, profile)?;
+            let run = memory.run(area, number(byte), 1, profile)?;
             let length = (run.left as usize).min(end - byte);
             let writer = match run.part {
                 Part::FromNck => Source::Nck,
@@ -156,18 +155,15 @@ impl Layout {
 
 /// What the axis, channel or own block behind a data block is called.
 fn name(memory: &Memory, names: &Names, db: u16) -> String {
-    let name = match places::block_of(db, names.profile) {
-        Some((Block::Axis, number)) => AxisNumber::new(number).and_then(|axis| names.axes[axis].clone()),
-        Some((Block::Channel, number)) => {
-            ChannelNumber::new(number).and_then(|channel| names.channels[channel].clone())
-        }
-        Some((Block::Nck | Block::ModeGroup, _)) => None,
-        None => {
-            let own = memory.blocks.iter().find(|block| block.number == db);
-            own.and_then(|block| block.name.as_deref().map(str::to_owned))
-        }
+    let Some((block, number)) = names.profile.block_of(db) else {
+        let own = memory.blocks.iter().find(|block| block.number == db);
+        return own.and_then(|block| block.name.as_deref()).unwrap_or_default().to_owned();
     };
-    name.unwrap_or_default()
+    // A fixed name says no more than the number of the data block.
+    match names.interface().fixed_name(block, number) {
+        Some(_) => String::new(),
+        None => names.owner(block, number).unwrap_or_default().to_owned(),
+    }
 }
 
 fn kind(area: Area) -> (&'static str, u16) {

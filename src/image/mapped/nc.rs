@@ -8,7 +8,7 @@ use std::sync::atomic::{Ordering, fence};
 use super::fields::{MAGIC, SLOTS, VERSION, answer, header, section, step};
 use super::layout::{Layout, Section};
 use super::words::{Torn, WORD, Words, field, next};
-use crate::image::{Memory, Names, Parts, Profile};
+use crate::image::{Memory, Names, Parts};
 use crate::source::{Place, Problem};
 use crate::units::Time;
 
@@ -141,13 +141,9 @@ impl MappedImage {
         fence(Ordering::Release);
         let table = layout.table();
         words.write(header::END, &table);
-        let profile = match names.profile {
-            Profile::Sinumerik840dSl => 840,
-            Profile::Sinumerik828d => 828,
-        };
         for (offset, value) in [
             (header::FILE_BYTES, geometry.file_bytes as u64),
-            (header::PROFILE, profile),
+            (header::PROFILE, names.profile.number()),
             (header::SECTIONS, layout.sections.len() as u64),
             (header::SECTION_TABLE, header::END as u64),
             (header::SECTION_BYTES, section::BYTES as u64),

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::{
     Look, MAGIC, MappedImage, PlcImage, Refusal, Rules, Section, Source, State, Step, answer, header, section, step,
 };
-use crate::image::{Area, Memory, Names, Profile};
+use crate::image::{Area, Memory, Names, Profile, SINUMERIK};
 use crate::units::{AxisNumber, Time};
 
 const RULES: Rules = Rules { lock_step: false, time_out: Time::from_millis(100) };
@@ -80,7 +80,7 @@ fn sections_have_one_writer_and_step_7_addresses() {
     assert_eq!(spans, [(0, 60, Source::Plc, "X"), (60, 43, Source::Nck, "X"), (103, 45, Source::Plc, "X")]);
     let hmi: Vec<_> = of(10).iter().filter(|s| s.writer == Source::Hmi).map(|s| (s.first, s.length)).collect();
     assert_eq!(hmi, [(97, 7)]);
-    for db in (10..=11).chain(21..=61).chain(Memory::STANDARD_BLOCKS) {
+    for db in (10..=11).chain(21..=61).chain(SINUMERIK.tables().standard_blocks.iter().copied()) {
         let first = of(db)[0];
         assert_eq!((first.first, first.offset % 8), (0, 0), "DB{db}");
         assert!(of(db).iter().all(|s| s.offset == first.offset + s.first), "DB{db} lies in one piece");
@@ -92,7 +92,7 @@ fn sections_have_one_writer_and_step_7_addresses() {
 #[test]
 fn the_828d_has_its_own_blocks_with_their_gaps() {
     let file = File::new("828d");
-    let names = Names { profile: Profile::Sinumerik828d, ..names() };
+    let names = Names { profile: Profile::SINUMERIK_828D, ..names() };
     let nc = MappedImage::create(&file.0, &Memory::new(), &names, RULES).unwrap();
     let spans = |db| {
         let of = nc.sections().iter().filter(move |s| s.area == Area::DataBlock(db));
@@ -114,7 +114,7 @@ fn a_step_arrives_whole_and_its_answer_is_taken_where_the_plc_changed_something(
     let mut memory = Memory::new();
     let (mut nc, mut plc) = both(&file, &memory);
     let x = AxisNumber::FIRST;
-    memory.from_nck.axes[x].set_gantry_synchronization_ready_to_start(true); // DB31.DBX101.4
+    memory.from_nck_mut().axes[x].set_gantry_synchronization_ready_to_start(true); // DB31.DBX101.4
     memory.flags.set_byte(10, 0b0001);
     let number = nc.publish(&memory, step(7), false);
     assert_eq!(plc.next_step(), Some(number));
@@ -128,8 +128,8 @@ fn a_step_arrives_whole_and_its_answer_is_taken_where_the_plc_changed_something(
     memory.flags.set_byte(10, 0b0100); // an HMI was there meanwhile: M10.0 off, M10.2 on
     assert_eq!(nc.look(number), Look::Answer(number));
     nc.take(&mut memory);
-    assert!(memory.to_nck.axes[x].start_gantry_synchronization());
-    assert!(memory.from_nck.axes[x].gantry_synchronization_ready_to_start());
+    assert!(memory.to_nck().axes[x].start_gantry_synchronization());
+    assert!(memory.from_nck().axes[x].gantry_synchronization_ready_to_start());
     assert_eq!(memory.flags.byte(10), 0b0110);
     assert_eq!(nc.look(number), Look::Nothing);
 }

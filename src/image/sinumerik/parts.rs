@@ -1,16 +1,13 @@
 //! The interface by writer: three pieces of contiguous bytes, without padding.
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use zerocopy::{FromBytes, FromZeros, Immutable, IntoBytes, KnownLayout, Unaligned};
 
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 
 use super::{
     AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck,
-    NckFromNck, NckHmi, NckToNck,
+    NckFromNck, NckHmi, NckToNck, SINUMERIK, places,
 };
-use crate::image::bytes::read_part;
-use crate::image::places;
 
 /// What the PLC writes to the NCK. The plain bytes of the interface blocks, which the catalogue does not name, lie
 /// behind it.
@@ -59,10 +56,10 @@ pub struct Hmi {
 #[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]
 pub struct Plain {
-    pub(in crate::image) nck: [u8; places::PLAIN_NCK],
-    pub(in crate::image) mode_groups: [u8; places::PLAIN_MODE_GROUPS],
-    pub(in crate::image) channels: PerChannel<[u8; places::PLAIN_CHANNEL]>,
-    pub(in crate::image) axes: PerAxis<[u8; places::PLAIN_AXIS]>,
+    pub(super) nck: [u8; places::PLAIN_NCK],
+    pub(super) mode_groups: [u8; places::PLAIN_MODE_GROUPS],
+    pub(super) channels: PerChannel<[u8; places::PLAIN_CHANNEL]>,
+    pub(super) axes: PerAxis<[u8; places::PLAIN_AXIS]>,
 }
 
 impl ToNck {
@@ -88,6 +85,11 @@ impl ToNck {
 }
 
 impl FromNck {
+    /// Sets every signal to 0 and leaves plain memory alone: the control publishes anew what somebody else overwrote.
+    pub fn clear_signals(&mut self) {
+        SINUMERIK.clear_signals(self.as_mut_bytes());
+    }
+
     /// DB10.
     #[must_use]
     pub fn nck(&self) -> &NckFromNck {
@@ -169,38 +171,31 @@ impl PartialEq for Hmi {
     }
 }
 
-impl Serialize for ToNck {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_bytes(self.as_bytes())
-    }
-}
+/// Views of the bytes of a part.
+macro_rules! views {
+    ($($part:ident),+) => {$(
+        impl $part {
+            /// These bytes as the structure.
+            ///
+            /// # Panics
+            /// They are those of another control.
+            #[must_use]
+            #[inline]
+            pub fn of(bytes: &[u8]) -> &Self {
+                Self::ref_from_bytes(bytes).expect(FOREIGN)
+            }
 
-impl Serialize for FromNck {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_bytes(self.as_bytes())
-    }
+            /// These bytes as the structure, to be written.
+            ///
+            /// # Panics
+            /// They are those of another control.
+            #[inline]
+            pub fn of_mut(bytes: &mut [u8]) -> &mut Self {
+                Self::mut_from_bytes(bytes).expect(FOREIGN)
+            }
+        }
+    )+};
 }
+views!(ToNck, FromNck, Hmi);
 
-impl Serialize for Hmi {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_bytes(self.as_bytes())
-    }
-}
-
-impl<'de> Deserialize<'de> for ToNck {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        read_part(deserializer)
-    }
-}
-
-impl<'de> Deserialize<'de> for FromNck {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        read_part(deserializer)
-    }
-}
-
-impl<'de> Deserialize<'de> for Hmi {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        read_part(deserializer)
-    }
-}
+const FOREIGN: &str = "the memory of a SINUMERIK has the parts of its interface";

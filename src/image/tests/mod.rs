@@ -9,11 +9,21 @@ mod signals;
 
 use crate::units::{AxisNumber, ChannelNumber};
 
-use super::{Area, Memory, Names, Part, Profile};
+use super::{Area, Location, Memory, Names, Part, Profile, SINUMERIK, Signal};
 
-const SL: Profile = Profile::Sinumerik840dSl;
-const D828: Profile = Profile::Sinumerik828d;
+const SL: Profile = Profile::SINUMERIK_840D_SL;
+const D828: Profile = Profile::SINUMERIK_828D;
 const PARTS: [Part; 3] = [Part::ToNck, Part::FromNck, Part::Hmi];
+
+/// All signals.
+fn signals() -> impl Iterator<Item = &'static Signal> {
+    SINUMERIK.signals()
+}
+
+/// Where a signal of a block lies that there is.
+fn location(signal: &Signal, number: u8) -> Location {
+    SINUMERIK.location(signal, number).unwrap()
+}
 
 /// Axes X, Y, XF and channels CHAN1, CHAN2.
 fn names() -> Names {
@@ -34,7 +44,7 @@ fn names_828d() -> Names {
 /// Every axis and channel named, A1 to A31 and K1 to K10.
 fn all_names() -> Names {
     let mut names = Names::default();
-    for (number, name) in names.axes.iter_mut() {
+    for (number, name) in names.axes.iter_mut().take(31) {
         *name = Some(format!("A{number}"));
     }
     for (number, name) in names.channels.iter_mut() {

@@ -1,8 +1,8 @@
 //! The 828D shows the same memory under its own numbers.
 
-use crate::image::{Block, Memory, signals};
+use crate::image::{Block, Memory};
 
-use super::{all_names, names, names_828d};
+use super::{all_names, location, names, names_828d, signals};
 
 /// Address on the 840D sl, address on the 828D, copied from the manuals by hand; axis XF is axis 3.
 const EQUIVALENT: &[(&str, &str)] = &[
@@ -103,7 +103,7 @@ fn every_signal_has_an_address_that_leads_back_or_keeps_its_840d_sl_address() {
     for signal in signals() {
         let count = if signal.block == Block::Axis { 8 } else { 1 };
         for number in 1..=count {
-            let location = signal.location(number).unwrap();
+            let location = location(signal, number);
             let address = names.address(location);
             match memory.locate(&address, super::D828) {
                 Ok(back) => {

@@ -7,12 +7,12 @@ use zerocopy::{FromBytes, Immutable, IntoBytes};
 
 use crate::image::table::Accessors;
 use crate::image::{
-    AxisFromNck, AxisToNck, Block, ChannelFromNck, ChannelHmi, ChannelToNck, Kind, Memory, ModeGroupFromNck,
-    ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, Signal, Writer, axis_from_nck, axis_to_nck, signals,
-    signals_at,
+    AxisFromNck, AxisToNck, Block, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Kind, Memory, ModeGroupFromNck,
+    ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, SINUMERIK, Signal, ToNck, Writer, axis_from_nck,
+    axis_to_nck,
 };
 
-use super::{PARTS, all_names, data_block, full_of, names};
+use super::{PARTS, all_names, data_block, full_of, location, names, signals};
 
 /// The bits of a run as one long number per bit, so that a stray write shows.
 fn bits(bytes: &[u8]) -> Vec<bool> {
@@ -106,8 +106,8 @@ fn names_are_unique_in_their_block_and_every_signal_says_what_it_means() {
 fn writing_a_signal_of_any_block_changes_no_other_bit_of_the_whole_memory() {
     let empty = full_of(0xA5);
     for signal in signals() {
-        for number in 1..=signal.block.count() {
-            let location = signal.location(number).unwrap();
+        for number in 1..=SINUMERIK.count(signal.block) {
+            let location = location(signal, number);
             let old = empty.read(location);
             let new = !old & location.mask();
             let mut memory = empty.clone();
@@ -130,14 +130,19 @@ fn writing_a_signal_of_any_block_changes_no_other_bit_of_the_whole_memory() {
 fn every_signal_of_every_block_is_found_by_its_symbol_and_by_its_address() {
     let (memory, names) = (Memory::new(), all_names());
     for signal in signals() {
-        for number in 1..=signal.block.count() {
-            let location = signal.location(number).unwrap();
+        for number in 1..=SINUMERIK.count(signal.block) {
+            let location = location(signal, number);
             let symbol = names.symbol(location).unwrap();
             assert_eq!(names.resolve(&memory, &symbol).unwrap(), location, "{symbol}");
             let address = names.address(location).to_string();
             assert_eq!(names.resolve(&memory, &address).unwrap(), location, "{symbol} {address}");
             assert_eq!(names.writer(location), Some(signal.writer), "{symbol}");
-            let data_block = signal.block.data_block(number);
+            let data_block = match signal.block {
+                Block::Nck => 10,
+                Block::ModeGroup => 11,
+                Block::Channel => 20 + u16::from(number),
+                Block::Axis => 30 + u16::from(number),
+            };
             assert!(address.starts_with(&format!("DB{data_block}.")), "{symbol} {address}");
         }
     }
@@ -149,15 +154,17 @@ fn every_byte_of_the_parts_knows_its_data_block() {
     for part in PARTS {
         for offset in 0..memory.part(part).len() {
             let offset = u32::try_from(offset).unwrap();
-            let Some(byte) = signals_at(part, offset) else {
+            let Some(byte) = SINUMERIK.signals_at(part, offset) else {
                 continue;
             };
-            let address = format!("DB{}.DBB{}", byte.data_block, byte.byte).parse().unwrap();
+            let (data_block, byte) = super::SL.shown(byte.block, byte.number, byte.byte).unwrap();
+            let address = format!("DB{data_block}.DBB{byte}").parse().unwrap();
             let location = memory.locate(&address, super::SL).unwrap();
             assert_eq!((location.part, location.offset), (part, offset), "{address}");
         }
     }
-    let referenced = signals_at(names().resolve(&memory, "XF.referenced_synchronized_1").unwrap().part, 268 + 2 * 43);
+    let referenced =
+        SINUMERIK.signals_at(names().resolve(&memory, "XF.referenced_synchronized_1").unwrap().part, 268 + 2 * 43);
     let names: Vec<_> = referenced.unwrap().signals.iter().map(|signal| signal.name).collect();
     assert_eq!(names[4..6], ["referenced_synchronized_1", "referenced_synchronized_2"]);
 }
@@ -299,8 +306,9 @@ fn numbers_lie_where_the_manuals_print_them_big_endian() {
 fn a_program_writes_its_own_side_from_what_it_reads_on_the_other() {
     let mut memory = Memory::new();
     let x = crate::units::AxisNumber::FIRST;
-    memory.from_nck.axes[x].set_gantry_synchronization_ready_to_start(true);
+    memory.from_nck_mut().axes[x].set_gantry_synchronization_ready_to_start(true);
     let Memory { to_nck, from_nck, .. } = &mut memory;
+    let (to_nck, from_nck) = (ToNck::of_mut(to_nck), FromNck::of(from_nck));
     to_nck.axis(x).set_start_gantry_synchronization(from_nck.axis(x).gantry_synchronization_ready_to_start());
     assert_eq!(data_block(&memory, 31, 148)[29], 0b0001_0000);
 }

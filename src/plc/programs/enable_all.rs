@@ -48,8 +48,8 @@ mod tests {
         let mut bench = Bench::with_axes(&["X"]);
         let mut program = enable_all();
         bench.scan(&mut program).unwrap();
-        bench.memory.to_nck.axes[AxisNumber::FIRST].set_pulse_enable(false);
+        bench.memory.to_nck_mut().axes[AxisNumber::FIRST].set_pulse_enable(false);
         bench.scan(&mut program).unwrap();
-        assert!(bench.memory.to_nck.axes[AxisNumber::FIRST].pulse_enable());
+        assert!(bench.memory.to_nck().axes[AxisNumber::FIRST].pulse_enable());
     }
 }

@@ -80,7 +80,7 @@ pub const CATALOGUE: &[Variable] = &[
     // The configuration.
     row!("C/Y/numMachAxes",                    Channel,   Y,      0x0003, Word,      "T",       |v, c, l| only(l).and_then(|()| count_axes(v, c))),
     row!("C/Y/numSpindles",                    Channel,   Y,      0x0004, Word,      "T",       |v, c, l| zero(v, c, l)),
-    row!("N/Y/basicLengthUnit",                Nck,       Y,      0x0002, Word,      "T",       |v, _, l| only(l).map(|()| flag(v.memory.from_nck.nck.inch_measuring_system_active()))),
+    row!("N/Y/basicLengthUnit",                Nck,       Y,      0x0002, Word,      "T",       |v, _, l| only(l).map(|()| flag(v.memory.from_nck().nck.inch_measuring_system_active()))),
     row!("N/Y/maxnumAlarms",                   Nck,       Y,      0x0013, Word,      "T",       |_, _, l| only(l).map(|()| number(Alarms::CAPACITY))),
     // The mode group.
     row!("B/State/opMode",                     ModeGroup, S,      0x0003, Word,      "F T C",   |v, b, l| only(l).and_then(|()| mode(v, b))),

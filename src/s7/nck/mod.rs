@@ -88,7 +88,7 @@ fn put_variable(
         (Kind::Date, Shown::Date(date)) => into.extend_from_slice(&date.map_or([0; 8], |date| date.bytes())),
         (Kind::Double, Shown::Number(value)) => into.extend_from_slice(&value.to_le_bytes()),
         (Kind::Length, Shown::Number(value)) => {
-            let shows_inch = view.memory.from_nck.nck.inch_measuring_system_active();
+            let shows_inch = view.memory.from_nck().nck.inch_measuring_system_active();
             let is_inch = match item.system {
                 MeasuringSystem::Inch => true,
                 MeasuringSystem::Metric => false,

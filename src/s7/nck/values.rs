@@ -80,13 +80,13 @@ pub(super) fn count_axes<'a>(view: &View<'a>, unit: u8) -> Option<Shown<'a>> {
 
 pub(super) fn channel<'a>(view: &View<'a>, unit: u8, line: u16, get: fn(&ChannelFromNck) -> f64) -> Option<Shown<'a>> {
     only(line)?;
-    Some(Shown::Number(get(&view.memory.from_nck.channels[channel_number(view, unit)?])))
+    Some(Shown::Number(get(&view.memory.from_nck().channels[channel_number(view, unit)?])))
 }
 
 /// A function that the PLC asks for.
 pub(super) fn asked<'a>(view: &View<'a>, unit: u8, line: u16, get: fn(&ChannelToNck) -> bool) -> Option<Shown<'a>> {
     only(line)?;
-    Some(flag(get(&view.memory.to_nck.channels[channel_number(view, unit)?])))
+    Some(flag(get(&view.memory.to_nck().channels[channel_number(view, unit)?])))
 }
 
 pub(super) fn zero<'a>(view: &View<'a>, unit: u8, line: u16) -> Option<Shown<'a>> {
@@ -99,7 +99,7 @@ pub(super) fn empty<'a>(view: &View<'a>, unit: u8, line: u16) -> Option<Shown<'a
 
 /// 0 JOG, 1 MDA, 2 AUTOMATIC.
 pub(super) fn mode<'a>(view: &View<'a>, unit: u8) -> Option<Shown<'a>> {
-    let group = &view.memory.from_nck.mode_groups[ModeGroupNumber::new(unit)?];
+    let group = &view.memory.from_nck().mode_groups[ModeGroupNumber::new(unit)?];
     let mode = match (group.active_mode_automatic(), group.active_mode_mdi()) {
         (true, _) => 2.0,
         (false, true) => 1.0,
@@ -110,7 +110,7 @@ pub(super) fn mode<'a>(view: &View<'a>, unit: u8) -> Option<Shown<'a>> {
 
 /// 0 none, 1 REPOS, 2 TEACH IN, 3 REF, of the first mode group.
 pub(super) fn machine_function<'a>(view: &View<'a>) -> Option<Shown<'a>> {
-    let group = &view.memory.from_nck.mode_groups[ModeGroupNumber::FIRST];
+    let group = &view.memory.from_nck().mode_groups[ModeGroupNumber::FIRST];
     let functions = [
         (group.active_machine_function_ref(), 3.0),
         (group.active_machine_function_teach_in(), 2.0),
@@ -144,7 +144,7 @@ pub(super) fn program_status(from: &ChannelFromNck) -> f64 {
 /// What a signal of the axis says, as a number.
 pub(super) fn axis_signal<'a>(view: &View<'a>, unit: u8, line: u16, get: fn(&AxisFromNck) -> u8) -> Option<Shown<'a>> {
     channel_exists(view, unit)?;
-    Some(Shown::Number(get(&view.memory.from_nck.axes[axis_number(view, line)?]).into()))
+    Some(Shown::Number(get(&view.memory.from_nck().axes[axis_number(view, line)?]).into()))
 }
 
 /// The active measuring system, 0 for none.

@@ -141,7 +141,7 @@ impl Client {
     }
 
     fn on_828d(mut self) -> Self {
-        self.names.profile = Profile::Sinumerik828d;
+        self.names.profile = Profile::SINUMERIK_828D;
         self.directory = Directory::of(&self.memory, self.names.profile);
         self
     }

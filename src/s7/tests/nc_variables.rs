@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::{Client, hex};
+use crate::image::{FromNck, Memory};
 use crate::s7::Command;
 use crate::s7::nck::{CATALOGUE, ControlValues, Datum, MachineData};
 use crate::s7::wire::data::Refusal;
@@ -14,7 +15,7 @@ use crate::variables::{AlarmNumber, Parameter, Place, RaisedAlarm};
 /// at 3 s.
 fn client() -> Client {
     let mut client = Client::at_the_nck(960);
-    client.memory = crate::image::Memory::new();
+    client.memory = Memory::new();
     let mut axes = AxisNumber::all();
     let (x, y) = (axes.next().unwrap(), axes.next().unwrap());
     let values = &mut client.variables.axes;
@@ -115,7 +116,7 @@ fn inches_are_those_of_the_item_or_of_the_control() {
     let mut client = client();
     assert_eq!(read(&mut client, "84 41 00 03 00 01 74 01"), double(&[2.54 / 25.4]));
     assert_eq!(read(&mut client, "83 41 00 03 00 01 74 01"), double(&[2.54]));
-    client.memory.from_nck.nck.set_inch_measuring_system_active(true);
+    client.memory.from_nck_mut().nck.set_inch_measuring_system_active(true);
     assert_eq!(read(&mut client, "82 41 00 03 00 01 74 01"), double(&[2.54 / 25.4]));
     assert_eq!(read(&mut client, "83 41 00 03 00 01 74 01"), double(&[2.54]));
     assert_eq!(read(&mut client, "82 01 00 02 00 01 10 01"), "FF 09 00 02 01 00");
@@ -147,8 +148,8 @@ fn mode_function_and_states_come_from_the_interface() {
         assert_eq!(read(&mut client, "82 41 00 0C 00 01 7F 01"), format!("FF 09 00 02 {function} 00"));
         assert_eq!(read(&mut client, "82 41 00 0B 00 01 7F 01"), format!("FF 09 00 02 {channel} 00"));
         assert_eq!(read(&mut client, "82 41 00 0D 00 01 7F 01"), format!("FF 09 00 02 {program} 00"));
-        let group = &mut client.memory.from_nck.mode_groups[ModeGroupNumber::FIRST];
-        let channel = &mut client.memory.from_nck.channels[ChannelNumber::FIRST];
+        let FromNck { mode_groups, channels, .. } = client.memory.from_nck_mut();
+        let (group, channel) = (&mut mode_groups[ModeGroupNumber::FIRST], &mut channels[ChannelNumber::FIRST]);
         if mode == "00" {
             group.set_active_mode_automatic(true);
             group.set_active_machine_function_ref(true);
@@ -227,7 +228,7 @@ fn overrides_are_per_cent() {
 fn what_the_service_display_of_an_axis_shows_is_there() {
     let mut client = client();
     let y = AxisNumber::new(2).unwrap();
-    let signals = &mut client.memory.from_nck.axes[y];
+    let signals = &mut client.memory.from_nck_mut().axes[y];
     signals.set_active_controller_parameter_set(2);
     signals.set_active_drive_data_set(1);
     signals.set_position_measuring_system_2_activated(true);

@@ -198,7 +198,7 @@ fn a_bit_of_the_nck_takes_what_is_written() {
     let answer = client.write(&["01 00 01 00 1F 84 00 03 2D"], "00 03 00 01 00");
     assert_eq!(answer, "00 02 00 01 00 00 05 01 FF");
     client.step();
-    assert!(!client.memory.from_nck.axes[crate::units::AxisNumber::FIRST].gantry_grouping_is_synchronized());
+    assert!(!client.memory.from_nck().axes[crate::units::AxisNumber::FIRST].gantry_grouping_is_synchronized());
 }
 
 #[test]

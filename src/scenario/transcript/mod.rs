@@ -12,8 +12,6 @@ use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine, Switch};
 use crate::source::{Table, Value as SourceValue};
 use crate::units::{AxisNumber, Position};
 
-use super::file::profile_name;
-
 /// The bound on simulated time: a transcript does not know how long it will become.
 const LIMIT: &str = "8760h";
 
@@ -70,7 +68,7 @@ impl Transcript {
     pub fn begin(heading: &Heading<'_>) -> Self {
         let mut text = format!("title = {}\nmachine = {}\n", quoted(heading.title), quoted(heading.machine));
         if heading.profile != Profile::default() {
-            text += &format!("profile = {}\n", quoted(profile_name(heading.profile)));
+            text += &format!("profile = {}\n", quoted(heading.profile.name()));
         }
         for (key, value) in [("plc", heading.plc), ("plc_image", heading.plc_image)] {
             if let Some(value) = value {

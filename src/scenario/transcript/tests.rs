@@ -12,7 +12,7 @@ use crate::units::ChannelNumber;
 const HEADING: Heading<'_> = Heading {
     title: "All \"commands\"",
     machine: "g1_example",
-    profile: Profile::Sinumerik840dSl,
+    profile: Profile::SINUMERIK_840D_SL,
     plc: None,
     plc_image: None,
     watch: None,
@@ -117,7 +117,7 @@ fn every_command_comes_back() {
 /// Every byte of every part, with all widths, under both profiles.
 #[test]
 fn every_place_comes_back() {
-    for profile in [Profile::Sinumerik840dSl, Profile::Sinumerik828d] {
+    for profile in [Profile::SINUMERIK_840D_SL, Profile::SINUMERIK_828D] {
         let heading = Heading { profile, ..HEADING };
         let options = crate::machine::OpenOptions { profile, ..Default::default() };
         let machine = Machine::open_with("g1_example", options).unwrap();

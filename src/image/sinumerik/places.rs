@@ -1,0 +1,110 @@
+//! Data blocks as tables of ranges over the memory by writer: which byte of DB31 is which byte of whom.
+
+use std::mem::offset_of;
+
+use super::{
+    AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi,
+    ModeGroupToNck, NckFromNck, NckHmi, NckToNck, ToNck,
+};
+use crate::image::{Block, BlockTable, ByteRange, Part};
+
+/// Plain bytes of DB10: 0 to 55, 58 to 67, 110 to 271.
+pub(super) const PLAIN_NCK: usize = 56 + 10 + 162;
+/// Plain bytes of DB11: 3, 9 to 19, 23, 29 to 63.
+pub(super) const PLAIN_MODE_GROUPS: usize = 1 + 11 + 1 + 35;
+/// Plain bytes of DB21: 22 and 23, 26 to 31, 54 to 415.
+pub(super) const PLAIN_CHANNEL: usize = 2 + 6 + 362;
+/// Plain bytes of DB31: 30 to 59, 103 to 147.
+pub(super) const PLAIN_AXIS: usize = 30 + 45;
+
+pub(super) static BLOCKS: [BlockTable; 4] = [
+    BlockTable { block: Block::Nck, count: 1, names: &["nck"], called: "the NCK", apart: None, ranges: &NCK },
+    // The second mode group lies 20 bytes above the first.
+    BlockTable {
+        block: Block::ModeGroup,
+        count: 2,
+        names: &["mode_group_1", "mode_group_2"],
+        called: "mode group",
+        apart: Some(20),
+        ranges: &MODE_GROUPS,
+    },
+    BlockTable { block: Block::Channel, count: 10, names: &[], called: "channel", apart: None, ranges: &CHANNEL },
+    BlockTable { block: Block::Axis, count: 31, names: &[], called: "axis", apart: None, ranges: &AXIS },
+];
+
+const fn range(first: u16, last: u16, part: Part, base: usize, stride: usize) -> ByteRange {
+    ByteRange::signals(first, last, part, base, stride)
+}
+
+const fn plain(first: u16, last: u16, base: usize, stride: usize) -> ByteRange {
+    ByteRange::plain(first, last, base, stride)
+}
+
+const NCK_PLAIN: usize = offset_of!(ToNck, plain.nck);
+#[rustfmt::skip]
+static NCK: [ByteRange; 7] = [
+    plain(0, 55, NCK_PLAIN, 0),
+    range(56, 57, Part::ToNck, offset_of!(ToNck, nck), 0),
+    plain(58, 67, NCK_PLAIN + 56, 0),
+    range(68, 96, Part::FromNck, offset_of!(FromNck, nck), 0),
+    range(97, 103, Part::Hmi, offset_of!(Hmi, nck), 0),
+    range(104, 109, Part::FromNck, offset_of!(FromNck, nck) + (104 - 68), 0),
+    plain(110, 271, NCK_PLAIN + 66, 0),
+];
+
+const GROUPS_PLAIN: usize = offset_of!(ToNck, plain.mode_groups);
+#[rustfmt::skip]
+static MODE_GROUPS: [ByteRange; 10] = [
+    range(0, 2, Part::ToNck, offset_of!(ToNck, mode_groups), 0),
+    plain(3, 3, GROUPS_PLAIN, 0),
+    range(4, 5, Part::Hmi, offset_of!(Hmi, mode_groups), 0),
+    range(6, 8, Part::FromNck, offset_of!(FromNck, mode_groups), 0),
+    plain(9, 19, GROUPS_PLAIN + 1, 0),
+    range(20, 22, Part::ToNck, offset_of!(ToNck, mode_groups) + size_of::<ModeGroupToNck>(), 0),
+    plain(23, 23, GROUPS_PLAIN + 12, 0),
+    range(24, 25, Part::Hmi, offset_of!(Hmi, mode_groups) + size_of::<ModeGroupHmi>(), 0),
+    range(26, 28, Part::FromNck, offset_of!(FromNck, mode_groups) + size_of::<ModeGroupFromNck>(), 0),
+    plain(29, 63, GROUPS_PLAIN + 13, 0),
+];
+
+const CHANNEL_PLAIN: usize = offset_of!(ToNck, plain.channels);
+#[rustfmt::skip]
+static CHANNEL: [ByteRange; 6] = [
+    range(0, 21, Part::ToNck, offset_of!(ToNck, channels), size_of::<ChannelToNck>()),
+    plain(22, 23, CHANNEL_PLAIN, PLAIN_CHANNEL),
+    range(24, 25, Part::Hmi, offset_of!(Hmi, channels), size_of::<ChannelHmi>()),
+    plain(26, 31, CHANNEL_PLAIN + 2, PLAIN_CHANNEL),
+    range(32, 53, Part::FromNck, offset_of!(FromNck, channels), size_of::<ChannelFromNck>()),
+    plain(54, 415, CHANNEL_PLAIN + 8, PLAIN_CHANNEL),
+];
+
+const AXIS_PLAIN: usize = offset_of!(ToNck, plain.axes);
+#[rustfmt::skip]
+static AXIS: [ByteRange; 4] = [
+    range(0, 29, Part::ToNck, offset_of!(ToNck, axes), size_of::<AxisToNck>()),
+    plain(30, 59, AXIS_PLAIN, PLAIN_AXIS),
+    range(60, 102, Part::FromNck, offset_of!(FromNck, axes), size_of::<AxisFromNck>()),
+    plain(103, 147, AXIS_PLAIN + 30, PLAIN_AXIS),
+];
+
+const _: () = {
+    // The bytes of the runs, as the manual counts them.
+    assert!(NckToNck::FIRST == 56 && size_of::<NckToNck>() == 2);
+    assert!(NckFromNck::FIRST == 68 && size_of::<NckFromNck>() == 42);
+    assert!(NckHmi::FIRST == 97 && size_of::<NckHmi>() == 7);
+    assert!(ModeGroupToNck::FIRST == 0 && size_of::<ModeGroupToNck>() == 3);
+    assert!(ModeGroupHmi::FIRST == 4 && size_of::<ModeGroupHmi>() == 2);
+    assert!(ModeGroupFromNck::FIRST == 6 && size_of::<ModeGroupFromNck>() == 3);
+    assert!(ChannelToNck::FIRST == 0 && size_of::<ChannelToNck>() == 22);
+    assert!(ChannelHmi::FIRST == 24 && size_of::<ChannelHmi>() == 2);
+    assert!(ChannelFromNck::FIRST == 32 && size_of::<ChannelFromNck>() == 22);
+    assert!(AxisToNck::FIRST == 0 && size_of::<AxisToNck>() == 30);
+    assert!(AxisFromNck::FIRST == 60 && size_of::<AxisFromNck>() == 43);
+    // The parts, without padding and in this order.
+    assert!(offset_of!(ToNck, mode_groups) == 2 && offset_of!(ToNck, channels) == 8);
+    assert!(offset_of!(ToNck, axes) == 228 && offset_of!(ToNck, plain) == 1158);
+    assert!(size_of::<ToNck>() == 1158 + PLAIN_NCK + PLAIN_MODE_GROUPS + 10 * PLAIN_CHANNEL + 31 * PLAIN_AXIS);
+    assert!(offset_of!(FromNck, mode_groups) == 42 && offset_of!(FromNck, channels) == 48);
+    assert!(offset_of!(FromNck, axes) == 268 && size_of::<FromNck>() == 268 + 31 * 43);
+    assert!(offset_of!(Hmi, mode_groups) == 7 && offset_of!(Hmi, channels) == 11 && size_of::<Hmi>() == 31);
+};
