@@ -13,7 +13,7 @@ use super::plc::Plc;
 use super::step::first_variables;
 use crate::image::{Location, Memory, Names, Preset, Profile, SwitchSignals};
 use crate::plant::{EncoderKind, Hints, Layout, Plant, PlantDefinition, Switch};
-use crate::sinumerik::machine_data::{Archive, Finding, Owner, Target, files_of, refusal};
+use crate::sinumerik::machine_data::{Archive, Finding, MachineData, Owner, Target, files_of, refusal};
 use crate::sinumerik::{AxisPresence, Control, Mechanics};
 use crate::source::{Place, Problem, Table, did_you_mean, read_text};
 use crate::trace::Recorder;
@@ -69,7 +69,7 @@ fn open(path: &Path, options: OpenOptions) -> Result<Machine, Problem> {
     }
     let plant_place = plant.place.clone();
     let plant = PlantDefinition::read(plant)?;
-    let all: Vec<&str> = AxisNumber::all().map(|axis| archive.data.axis_name(axis)).collect();
+    let all: Vec<&str> = MachineData::axis_numbers().map(|axis| archive.data.axis_name(axis)).collect();
     plant.check_names(&all)?;
     let presence = presence(&archive, &plant);
     let control = Control::new(archive.data.clone(), presence);
@@ -169,10 +169,10 @@ fn presence(archive: &Archive, plant: &PlantDefinition) -> PerAxis<AxisPresence>
     let channels: Vec<ChannelNumber> =
         ChannelNumber::all().filter(|&channel| data.mode_group(channel).is_some()).collect();
     let in_channel = |axis: AxisNumber| channels.iter().any(|&channel| data.channel_knows(channel, axis));
-    let in_plant = |axis: AxisNumber| plant.axes.contains_key(data.axis_name(axis));
+    let in_plant = |axis: AxisNumber| MachineData::is_axis(axis) && plant.axes.contains_key(data.axis_name(axis));
     let said = channels.iter().any(|&channel| archive.is_given_for(20070, Owner::Channel(channel)));
     let named = |axis: AxisNumber| in_plant(axis) || if said { in_channel(axis) } else { archive.given_axis(axis) };
-    let any = AxisNumber::all().any(named);
+    let any = MachineData::axis_numbers().any(named);
     PerAxis::from_fn(|axis| {
         let simulated = data.axes[axis].ctrlout_type == 0 && !data.axes[axis].simu_ax_vdi_output;
         let says_so = Target::new(30350, Owner::Axis(axis), 0).is_ok_and(|target| archive.is_given(&target));

@@ -48,7 +48,12 @@ macro_rules! number_from_one {
 
             /// All of them, ascending.
             pub fn all() -> impl DoubleEndedIterator<Item = Self> {
-                (1..=$max).map(Self)
+                Self::up_to($max)
+            }
+
+            /// The first `count` of them, ascending; all where it is more.
+            pub fn up_to(count: u8) -> impl DoubleEndedIterator<Item = Self> {
+                (1..=count.min($max)).map(Self)
             }
         }
 
@@ -78,7 +83,7 @@ macro_rules! number_from_one {
             pub fn from_fn(make: impl FnMut($name) -> T) -> Self {
                 let mut make = make;
                 Self(std::array::from_fn(|index| {
-                    #[expect(clippy::cast_possible_truncation, reason = "a table has at most 31 places")]
+                    #[expect(clippy::cast_possible_truncation, reason = "a table has at most 32 places")]
                     make($name(index as u8 + 1))
                 }))
             }
@@ -121,8 +126,8 @@ macro_rules! number_from_one {
 }
 
 number_from_one!(
-    /// Number of a machine axis, 1 to 31; its data block is DB 30 + number.
-    AxisNumber, PerAxis, 31
+    /// Number of a machine axis, 1 to 32; a control may have fewer.
+    AxisNumber, PerAxis, 32
 );
 
 /// A set of machine axes.
@@ -133,7 +138,7 @@ impl AxisSet {
     /// No axis.
     pub const NONE: Self = Self(0);
     /// All that there can be.
-    pub const ALL: Self = Self((1 << AxisNumber::MAX) - 1);
+    pub const ALL: Self = Self(u32::MAX >> (u32::BITS - AxisNumber::MAX as u32));
 
     /// One axis.
     #[must_use]
@@ -208,22 +213,23 @@ mod tests {
 
     #[test]
     fn a_set_of_axes_gives_them_back_in_order() {
-        let axes = [31, 1, 8].map(|number| AxisNumber::new(number).unwrap());
+        let axes = [32, 1, 8].map(|number| AxisNumber::new(number).unwrap());
         let mut set: AxisSet = axes.into_iter().collect();
-        assert_eq!(set.iter().map(AxisNumber::number).collect::<Vec<_>>(), [1, 8, 31]);
+        assert_eq!(set.iter().map(AxisNumber::number).collect::<Vec<_>>(), [1, 8, 32]);
         assert!(set.contains(axes[0]) && AxisSet::ALL.has_all_of(set) && !set.has_all_of(AxisSet::ALL));
         set.set(axes[0], false);
         assert_eq!(set.iter().last(), Some(axes[2]));
-        assert_eq!(AxisSet::ALL.iter().count(), 31);
+        assert_eq!(AxisSet::ALL.iter().count(), 32);
         assert_eq!(AxisSet::NONE.iter().count(), 0);
     }
 
     #[test]
     fn numbers_count_from_one() {
         assert_eq!(AxisNumber::new(0), None);
-        assert_eq!(AxisNumber::new(32), None);
+        assert_eq!(AxisNumber::new(33), None);
+        assert_eq!(AxisNumber::up_to(2).chain(AxisNumber::up_to(99)).count(), 34);
         assert_eq!(AxisNumber::new(3).map(AxisNumber::index), Some(2));
-        assert_eq!(postcard::from_bytes(&[31]), Ok(AxisNumber(31)));
-        assert!([0, 32].iter().all(|&byte| postcard::from_bytes::<AxisNumber>(&[byte]).is_err()));
+        assert_eq!(postcard::from_bytes(&[32]), Ok(AxisNumber(32)));
+        assert!([0, 33].iter().all(|&byte| postcard::from_bytes::<AxisNumber>(&[byte]).is_err()));
     }
 }

@@ -5,7 +5,7 @@
 
 use super::arguments::{Host, Names as Arguments};
 use super::failure::{Failure, problem};
-use crate::image::{Address, Location, Memory, Names, OverrideCoding, Part, Width};
+use crate::image::{Address, Block, Location, Memory, Names, OverrideCoding, Part, Width};
 use crate::machine::Machine;
 use crate::s7::client::{Client, Error, Memory as Place, NcVariable, Value, Variable};
 use crate::scenario::profile_named;
@@ -78,7 +78,7 @@ impl Dictionary {
             return Ok(Self { names, memory, coding: machine.override_coding(), is_known: true });
         }
         let mut names = Names { profile, ..Names::default() };
-        for axis in AxisNumber::all() {
+        for axis in AxisNumber::up_to(profile.interface().count(Block::Axis)) {
             names.axes[axis] = Some(format!("AX{}", axis.number()));
         }
         for channel in ChannelNumber::all() {
@@ -159,10 +159,11 @@ impl Dictionary {
         let mut names = Names { profile: self.names.profile, ..Names::default() };
         // Which channels there are comes first (MD10010): a name of one that does not exist would be refused, and stand in the
         // control's log.
-        let axes = AxisNumber::all().map(|axis| format!("N/$MN_AXCONF_MACHAX_NAME_TAB[{}]", axis.number()));
+        let all = || AxisNumber::up_to(names.interface().count(Block::Axis));
+        let axes = all().map(|axis| format!("N/$MN_AXCONF_MACHAX_NAME_TAB[{}]", axis.number()));
         let mut values = read(nck, axes.chain([format!("N/M/10010[1..{}]", ChannelNumber::all().count())])).await;
         let mode_groups = values.pop().flatten();
-        for (axis, told) in AxisNumber::all().zip(values) {
+        for (axis, told) in all().zip(values) {
             names.axes[axis] = told.and_then(name);
         }
         let channels: Vec<_> =

@@ -20,7 +20,7 @@ pub struct ToNck {
     pub mode_groups: PerModeGroup<ModeGroupToNck>,
     /// DB21 to DB30.
     pub channels: PerChannel<ChannelToNck>,
-    /// DB31 to DB61.
+    /// DB31 to DB61; the last axis number has no data block.
     pub axes: PerAxis<AxisToNck>,
     /// Bytes without a name.
     pub plain: Plain,

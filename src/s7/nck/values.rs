@@ -2,7 +2,7 @@
 //! program state; so does this one. A geometry axis is the machine axis of the same number.
 
 use super::{ControlValues, Datum, Shown, View};
-use crate::image::{AxisFromNck, ChannelFromNck, ChannelToNck};
+use crate::image::{AxisFromNck, Block, ChannelFromNck, ChannelToNck};
 use crate::s7::wire::data::Refusal;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 use crate::variables::{AxisValues, Place};
@@ -56,6 +56,9 @@ pub(super) fn geometry_axis<'a>(
 pub(super) fn axis_name<'a>(view: &View<'a>, line: u16) -> Option<Shown<'a>> {
     // A table of names has a row for each axis that there could be; rows of others are empty.
     let number = AxisNumber::new(u8::try_from(line).ok()?)?;
+    if number.number() > view.names.interface().count(Block::Axis) {
+        return None;
+    }
     Some(Shown::Text(view.names.axes[number].as_deref().unwrap_or("").into()))
 }
 

@@ -7,7 +7,7 @@ use crate::units::AxisNumber;
 
 use super::archive::Archive;
 use super::finding::{Finding, Severity};
-use super::{Axis, Datum, Owner, Target, by_number};
+use super::{Axis, Datum, MachineData, Owner, Target, by_number};
 
 /// Every finding about an archive.
 #[must_use]
@@ -15,7 +15,7 @@ pub fn check(archive: &Archive) -> Vec<Finding> {
     let mut findings = archive.findings.clone();
     cycles(archive, &mut findings);
     names(archive, &mut findings);
-    for axis in AxisNumber::all() {
+    for axis in MachineData::axis_numbers() {
         gantry_code(archive, axis, &mut findings);
         monitoring_order(archive, axis, &mut findings);
         if archive.data.axes[axis].gantry_axis_type != 0 {
@@ -75,9 +75,9 @@ fn cycles(archive: &Archive, findings: &mut Vec<Finding>) {
 
 /// Names of machine axes that two axes have, or that hide the `AXn` of another axis.
 fn names(archive: &Archive, findings: &mut Vec<Finding>) {
-    for axis in AxisNumber::all() {
+    for axis in MachineData::axis_numbers() {
         let name = archive.data.axis_name(axis);
-        let logical = AxisNumber::all().find(|other| *other != axis && name == format!("AX{other}"));
+        let logical = MachineData::axis_numbers().find(|other| *other != axis && name == format!("AX{other}"));
         if let Some(other) = logical {
             let what = format!("expected another name than `{name}`, which means axis {other}, for axis {axis}");
             let cure = "name it AXn with its own number, or otherwise";
@@ -151,7 +151,9 @@ fn monitoring_order(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Find
 fn gantry_dynamics(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>) {
     let axes = &archive.data.axes;
     let Some(grouping @ 1..=8) = axes[axis].gantry_axis_type.checked_sub(10) else { return };
-    let Some(leader) = AxisNumber::all().find(|&other| axes[other].gantry_axis_type == grouping) else { return };
+    let Some(leader) = MachineData::axis_numbers().find(|&other| axes[other].gantry_axis_type == grouping) else {
+        return;
+    };
     let [leading, name] = [leader, axis].map(|axis| archive.data.axis_name(axis));
     for (datum, [wanted, found]) in unequal_data(&axes[leader], &axes[axis]) {
         let what = format!("DYN-03: expected {wanted} for axis {name}, as leading axis {leading} has, found {found}");

@@ -41,6 +41,7 @@ pub use value::{Kind, Value};
 
 use serde::{Deserialize, Serialize};
 
+use crate::image::{Block, SINUMERIK};
 use crate::source::Problem;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel};
 
@@ -74,18 +75,30 @@ impl Default for MachineData {
 }
 
 impl MachineData {
+    /// The machine axes that there can be: MD10000 has a name for each.
+    pub fn axis_numbers() -> impl DoubleEndedIterator<Item = AxisNumber> {
+        AxisNumber::up_to(SINUMERIK.count(Block::Axis))
+    }
+
+    /// Whether it is one of them.
+    #[must_use]
+    pub fn is_axis(axis: AxisNumber) -> bool {
+        axis.number() <= SINUMERIK.count(Block::Axis)
+    }
+
     /// The machine axis of this name (MD10000, exact case) or `AXn`.
     #[must_use]
     pub fn axis(&self, name: &str) -> Option<AxisNumber> {
-        let by_name = AxisNumber::all().find(|axis| self.axis_name(*axis) == name && !name.is_empty());
+        let by_name = Self::axis_numbers().find(|axis| self.axis_name(*axis) == name && !name.is_empty());
         // The language of the archives knows no case: `ax3` is AX3. Names keep theirs.
-        by_name.or_else(|| AxisNumber::new(numbered(&name.to_ascii_uppercase(), "AX")?))
+        let number = || AxisNumber::new(numbered(&name.to_ascii_uppercase(), "AX")?);
+        by_name.or_else(|| number().filter(|axis| Self::is_axis(*axis)))
     }
 
-    /// The name of a machine axis (MD10000).
+    /// The name of a machine axis (MD10000); empty for one that there cannot be.
     #[must_use]
     pub fn axis_name(&self, axis: AxisNumber) -> &str {
-        &self.general.axconf_machax_name_tab[axis.index()]
+        self.general.axconf_machax_name_tab.get(axis.index()).map_or("", String::as_str)
     }
 
     /// MD10010: the mode group of a channel; `None` for a channel that does not exist. Channel 1 always exists.

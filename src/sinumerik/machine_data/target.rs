@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::image::{Block, SINUMERIK};
 use crate::source::Problem;
 use crate::units::{AxisNumber, ChannelNumber};
 
@@ -53,7 +54,7 @@ impl Target {
         let fits = match datum.scope {
             Scope::General | Scope::Setting => owner == Owner::Nck,
             Scope::Channel => matches!(owner, Owner::Channel(_)),
-            Scope::Axis => matches!(owner, Owner::Axis(_)),
+            Scope::Axis => matches!(owner, Owner::Axis(axis) if axis.number() <= SINUMERIK.count(Block::Axis)),
         };
         if !fits {
             return Err(Problem::new(

@@ -67,7 +67,7 @@ mod values {
     #[test]
     fn thirty_one_axis_names_are_unique() {
         let data = MachineData::default();
-        for number in AxisNumber::all() {
+        for number in MachineData::axis_numbers() {
             assert_eq!(data.axis(data.axis_name(number)), Some(number));
             assert_eq!(data.axis(&format!("AX{number}")), Some(number));
         }
@@ -662,7 +662,7 @@ mod worked_example {
     fn the_example_loads_as_it_stands_and_has_no_findings() {
         let archive = example();
         assert_eq!(check(&archive), []);
-        let given = AxisNumber::all().filter(|axis| archive.given_axis(*axis));
+        let given = MachineData::axis_numbers().filter(|axis| archive.given_axis(*axis));
         assert_eq!(given.collect::<Vec<_>>(), [axis(1), axis(2), axis(3)]);
         assert_eq!(cycle_time(&archive.data), Time::from_millis(2));
         assert_eq!(archive.data.axis("XF"), Some(axis(3)));
