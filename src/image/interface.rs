@@ -193,6 +193,9 @@ impl Interface {
             }
             run += 1;
         }
+        if let Some(SwitchSignals { cam, limit_plus, limit_minus }) = tables.switches {
+            assert!(is_of_the_plc(cam) && is_of_the_plc(limit_plus) && is_of_the_plc(limit_minus));
+        }
         Self { tables, index: OnceLock::new() }
     }
 
@@ -460,6 +463,11 @@ const fn check_block(tables: &Tables, table: &BlockTable) {
         next = range.last + 1;
         index += 1;
     }
+}
+
+/// Whether it is a bit of an axis that the PLC writes.
+const fn is_of_the_plc(signal: Signal) -> bool {
+    matches!((signal.block, signal.writer, signal.kind), (Block::Axis, Writer::Plc, Kind::Bit))
 }
 
 /// A signal lies in one range of its block, in the part of its writer.

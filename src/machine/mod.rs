@@ -39,7 +39,7 @@ pub(crate) use saved::Snapshot;
 
 use std::sync::Arc;
 
-use crate::image::{Location, Memory, Names, OverrideCoding};
+use crate::image::{Memory, Names, OverrideCoding};
 use crate::motion::Feedback;
 use crate::plant::Plant;
 use crate::plc::PlcProgram;

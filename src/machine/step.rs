@@ -91,7 +91,10 @@ impl Machine {
     /// Switches without an input: the simulator itself sets their signals after the PLC scan.
     fn sense_unwired_switches(&mut self) {
         for &(axis, switch, location) in &self.definition.unwired {
-            self.memory.write(location, self.plant.pressed(switch).contains(axis).into());
+            if let Some(byte) = self.memory.to_nck.get_mut(location.offset as usize) {
+                let pressed = u8::from(self.plant.pressed(switch).contains(axis));
+                *byte = *byte & !(1 << location.bit) | pressed << location.bit;
+            }
         }
     }
 
