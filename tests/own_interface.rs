@@ -137,7 +137,7 @@ fn coding() -> OverrideCoding {
 
 /// Axes A1 to the last.
 fn names() -> Names {
-    let profile = OWN.profile("own").unwrap();
+    let profile = Profile::named(&OWN, "own").unwrap();
     let mut names = Names { profile, ..Names::default() };
     for (number, name) in names.axes.iter_mut() {
         *name = Some(format!("A{number}"));
@@ -178,7 +178,7 @@ fn nothing_of_the_sinumerik_is_there() {
     assert!(refused("platform.power").contains("expected a signal of `platform` (the platform)"));
     assert!(refused("DB600.DBB5").contains("5 bytes of DB600"));
     assert!(memory.blocks.iter().next().is_none() && memory.part(Part::Hmi).is_empty());
-    assert!(!memory.fits(&SINUMERIK) && OWN.profile("840d_sl").is_none());
+    assert!(!memory.fits(&SINUMERIK) && Profile::named(&OWN, "840d_sl").is_none());
     let twice = Names { profile: names.profile, ..Names::default() };
     assert_eq!(twice.owners().collect::<Vec<_>>(), [("platform", Block::Nck, 1)]);
     assert_eq!(Profile::default().interface().tables().name, "sinumerik");

@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::Part;
+use super::{Format, Part};
 use crate::source::Problem;
 
 /// What an address starts from.
@@ -66,17 +66,6 @@ pub enum Width {
     Word,
     /// Four bytes, most significant first.
     Double,
-}
-
-/// How bits make a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub enum Format {
-    /// A whole number from 0.
-    Unsigned,
-    /// A whole number in two's complement: INT or DINT.
-    Signed,
-    /// A floating point number of 32 bits.
-    Real,
 }
 
 /// A STEP 7 absolute address.

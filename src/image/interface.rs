@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use crate::units::{AxisNumber, AxisSet};
 
-use super::{Block, Format, Kind, Location, Numbering, Part, Profile, Signal, Writer};
+use super::{Block, Format, Kind, Location, Numbering, Part, Signal, Writer};
 
 /// What a control says of its interface.
 #[derive(Debug)]
@@ -203,17 +203,6 @@ impl Interface {
     #[must_use]
     pub fn tables(&self) -> &Tables {
         &self.tables
-    }
-
-    /// Its profiles: the interface under each of its numberings, the usual one first.
-    pub fn profiles(&'static self) -> impl Iterator<Item = Profile> {
-        (0..self.tables.numberings.len()).map(move |index| Profile::new(self, index))
-    }
-
-    /// The profile of this name.
-    #[must_use]
-    pub fn profile(&'static self, name: &str) -> Option<Profile> {
-        self.profiles().find(|profile| profile.name() == name)
     }
 
     /// How many blocks of a kind there are.

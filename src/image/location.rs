@@ -2,8 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Format;
-
 /// A piece of the memory; each interface part has one writer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Part {
@@ -25,6 +23,17 @@ pub enum Part {
     Counters,
     /// An own data block of the PLC program, by its number.
     Block(u16),
+}
+
+/// How bits make a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum Format {
+    /// A whole number from 0.
+    Unsigned,
+    /// A whole number in two's complement: INT or DINT.
+    Signed,
+    /// A floating point number of 32 bits.
+    Real,
 }
 
 /// Some bits in memory and how to read them as a number.

@@ -40,7 +40,9 @@ mod memory;
 mod names;
 mod numbering;
 mod override_switch;
+mod places;
 mod preset;
+mod profile;
 mod signal;
 mod sinumerik;
 #[doc(hidden)]
@@ -50,16 +52,17 @@ mod value;
 #[cfg(test)]
 mod tests;
 
-pub use address::{Address, Area, Format, Width};
+pub use address::{Address, Area, Width};
 pub use bytes::{Bytes, PartBytes};
 pub use interface::{BlockTable, ByteRange, ByteSignals, Interface, Override, SwitchSignals, Tables};
 pub use layout::{AsBytes, Layout, View};
-pub use location::{Location, Part};
+pub use location::{Format, Location, Part};
 pub use memory::{Blocks, DataBlock, Memory, Parts};
 pub use names::Names;
-pub use numbering::{Numbering, Profile, Window};
+pub use numbering::{Numbering, Window};
 pub use override_switch::{OverrideCoding, override_code};
 pub use preset::Preset;
+pub use profile::Profile;
 pub use signal::{Block, Kind, Signal, Writer};
 pub use sinumerik::{
     AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi,

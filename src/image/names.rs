@@ -167,7 +167,7 @@ impl Names {
         let Some(at) = self.interface().signals_at(location.part, location.offset) else {
             return (0, 0);
         };
-        let usual = || self.interface().profiles().find_map(|profile| profile.shown(at.block, at.number, at.byte));
+        let usual = || Profile::all(self.interface()).find_map(|profile| profile.shown(at.block, at.number, at.byte));
         self.profile.shown(at.block, at.number, at.byte).or_else(usual).unwrap_or_default()
     }
 

@@ -138,7 +138,7 @@ impl Scenario {
 /// # Errors
 /// It is no profile.
 pub fn profile_named(name: &str) -> Result<Profile, Problem> {
-    SINUMERIK.profile(name).ok_or_else(|| {
+    Profile::named(&SINUMERIK, name).ok_or_else(|| {
         // A shortened name is nearer to the name it begins than any count of letters says.
         let cure = if name.starts_with("840") || name.is_empty() {
             "profiles are 840d_sl and 828d".to_owned()

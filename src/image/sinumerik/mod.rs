@@ -4,6 +4,7 @@ mod db10;
 mod db11;
 mod db21;
 mod db31;
+mod interface;
 mod machine_functions;
 mod parts;
 mod places;
@@ -15,114 +16,5 @@ pub use db11::{
 };
 pub use db21::{ChannelFromNck, ChannelHmi, ChannelToNck, channel_from_nck, channel_hmi, channel_to_nck};
 pub use db31::{AxisFromNck, AxisToNck, axis_from_nck, axis_to_nck};
+pub use interface::{SINUMERIK, Sinumerik};
 pub use parts::{FromNck, Hmi, Plain, ToNck};
-
-use super::{Interface, Layout, Memory, Override, SwitchSignals, Tables};
-
-/// The interface of the SINUMERIK: one NCK, two mode groups, ten channels, 31 axes.
-pub static SINUMERIK: Interface = Interface::new(Tables {
-    name: "sinumerik",
-    blocks: &places::BLOCKS,
-    signals: &[
-        NckToNck::SIGNALS,
-        NckFromNck::SIGNALS,
-        NckHmi::SIGNALS,
-        ModeGroupToNck::SIGNALS,
-        ModeGroupHmi::SIGNALS,
-        ModeGroupFromNck::SIGNALS,
-        ChannelToNck::SIGNALS,
-        ChannelHmi::SIGNALS,
-        ChannelFromNck::SIGNALS,
-        AxisToNck::SIGNALS,
-        AxisFromNck::SIGNALS,
-    ],
-    to_nck: size_of::<ToNck>(),
-    from_nck: size_of::<FromNck>(),
-    hmi: size_of::<Hmi>(),
-    numberings: &profiles::NUMBERINGS,
-    // Those of the basic program (O-24).
-    standard_blocks: &[2, 4, 5, 7, 18, 19, 20, 71, 72, 73],
-    overrides: &[
-        (axis_to_nck::feed_override, Override::Axis),
-        (channel_to_nck::feed_override, Override::Feed),
-        (channel_to_nck::rapid_traverse_override, Override::RapidTraverse),
-    ],
-    switches: Some(SwitchSignals {
-        cam: axis_to_nck::deceleration_reference_point_approach,
-        limit_plus: axis_to_nck::hardware_limit_switch_plus,
-        limit_minus: axis_to_nck::hardware_limit_switch_minus,
-    }),
-    named_in: "MD10000, MD20000",
-    example: "X.controller_enable",
-});
-
-/// The parts as the structures of the SINUMERIK.
-#[derive(Clone, Copy, Debug)]
-pub struct Sinumerik;
-
-impl Layout for Sinumerik {
-    type ToNck = ToNck;
-    type FromNck = FromNck;
-    type Hmi = Hmi;
-
-    fn is_of(interface: &Interface) -> bool {
-        *interface == SINUMERIK
-    }
-}
-
-/// The memory of a SINUMERIK.
-impl Default for Memory {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl Memory {
-    /// The memory of a SINUMERIK, everything 0.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::of(&SINUMERIK)
-    }
-
-    /// What the PLC writes to the NCK of a SINUMERIK.
-    ///
-    /// # Panics
-    /// It is the memory of another control; so do the next five.
-    #[must_use]
-    #[inline]
-    pub fn to_nck(&self) -> &ToNck {
-        ToNck::of(&self.to_nck)
-    }
-
-    /// What the PLC writes to the NCK of a SINUMERIK, to be written.
-    #[inline]
-    pub fn to_nck_mut(&mut self) -> &mut ToNck {
-        ToNck::of_mut(&mut self.to_nck)
-    }
-
-    /// What the NCK of a SINUMERIK writes.
-    #[must_use]
-    #[inline]
-    pub fn from_nck(&self) -> &FromNck {
-        FromNck::of(&self.from_nck)
-    }
-
-    /// What the NCK of a SINUMERIK writes, to be written.
-    #[inline]
-    pub fn from_nck_mut(&mut self) -> &mut FromNck {
-        FromNck::of_mut(&mut self.from_nck)
-    }
-
-    /// What the HMI of a SINUMERIK writes.
-    #[must_use]
-    #[inline]
-    pub fn hmi(&self) -> &Hmi {
-        Hmi::of(&self.hmi)
-    }
-
-    /// What the HMI of a SINUMERIK writes, to be written.
-    #[inline]
-    pub fn hmi_mut(&mut self) -> &mut Hmi {
-        Hmi::of_mut(&mut self.hmi)
-    }
-}

@@ -6,8 +6,17 @@ use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChann
 
 use super::{
     AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck,
-    NckFromNck, NckHmi, NckToNck, SINUMERIK, places,
+    NckFromNck, NckHmi, NckToNck,
 };
+
+/// Plain bytes of DB10: 0 to 55, 58 to 67, 110 to 271.
+pub(super) const PLAIN_NCK: usize = 56 + 10 + 162;
+/// Plain bytes of DB11: 3, 9 to 19, 23, 29 to 63.
+pub(super) const PLAIN_MODE_GROUPS: usize = 1 + 11 + 1 + 35;
+/// Plain bytes of DB21: 22 and 23, 26 to 31, 54 to 415.
+pub(super) const PLAIN_CHANNEL: usize = 2 + 6 + 362;
+/// Plain bytes of DB31: 30 to 59, 103 to 147.
+pub(super) const PLAIN_AXIS: usize = 30 + 45;
 
 /// What the PLC writes to the NCK. The plain bytes of the interface blocks, which the catalogue does not name, lie
 /// behind it.
@@ -56,10 +65,10 @@ pub struct Hmi {
 #[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]
 pub struct Plain {
-    pub(super) nck: [u8; places::PLAIN_NCK],
-    pub(super) mode_groups: [u8; places::PLAIN_MODE_GROUPS],
-    pub(super) channels: PerChannel<[u8; places::PLAIN_CHANNEL]>,
-    pub(super) axes: PerAxis<[u8; places::PLAIN_AXIS]>,
+    pub(super) nck: [u8; PLAIN_NCK],
+    pub(super) mode_groups: [u8; PLAIN_MODE_GROUPS],
+    pub(super) channels: PerChannel<[u8; PLAIN_CHANNEL]>,
+    pub(super) axes: PerAxis<[u8; PLAIN_AXIS]>,
 }
 
 impl ToNck {
@@ -85,11 +94,6 @@ impl ToNck {
 }
 
 impl FromNck {
-    /// Sets every signal to 0 and leaves plain memory alone: the control publishes anew what somebody else overwrote.
-    pub fn clear_signals(&mut self) {
-        SINUMERIK.clear_signals(self.as_mut_bytes());
-    }
-
     /// DB10.
     #[must_use]
     pub fn nck(&self) -> &NckFromNck {

@@ -2,20 +2,12 @@
 
 use std::mem::offset_of;
 
+use super::parts::{PLAIN_AXIS, PLAIN_CHANNEL, PLAIN_MODE_GROUPS, PLAIN_NCK};
 use super::{
     AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi,
     ModeGroupToNck, NckFromNck, NckHmi, NckToNck, ToNck,
 };
 use crate::image::{Block, BlockTable, ByteRange, Part};
-
-/// Plain bytes of DB10: 0 to 55, 58 to 67, 110 to 271.
-pub(super) const PLAIN_NCK: usize = 56 + 10 + 162;
-/// Plain bytes of DB11: 3, 9 to 19, 23, 29 to 63.
-pub(super) const PLAIN_MODE_GROUPS: usize = 1 + 11 + 1 + 35;
-/// Plain bytes of DB21: 22 and 23, 26 to 31, 54 to 415.
-pub(super) const PLAIN_CHANNEL: usize = 2 + 6 + 362;
-/// Plain bytes of DB31: 30 to 59, 103 to 147.
-pub(super) const PLAIN_AXIS: usize = 30 + 45;
 
 pub(super) static BLOCKS: [BlockTable; 4] = [
     BlockTable { block: Block::Nck, count: 1, names: &["nck"], called: "the NCK", apart: None, ranges: &NCK },

@@ -1,22 +1,7 @@
 //! The data block numbers of the SINUMERIK: those of the 840D sl, and those of the 828D, which shows the same memory as
 //! windows of bytes. The 828D has one mode group, one channel and eight axes, axis *n* with index *n* − 1.
 
-use super::SINUMERIK;
-use crate::image::{Block, Numbering, Profile, Window};
-
-impl Profile {
-    /// SINUMERIK 840D sl: DB10, DB11, DB21 to DB30, DB31 to DB61.
-    pub const SINUMERIK_840D_SL: Self = Self::new(&SINUMERIK, 0);
-    /// SINUMERIK 828D: DB1800, DB2600, DB2700, DB3000, DB3100, DB3200, DB3300, DB3800 to DB3807, DB3900 to DB3907.
-    pub const SINUMERIK_828D: Self = Self::new(&SINUMERIK, 1);
-}
-
-/// What is meant where nobody says it.
-impl Default for Profile {
-    fn default() -> Self {
-        Self::SINUMERIK_840D_SL
-    }
-}
+use crate::image::{Block, Numbering, Window};
 
 pub(super) static NUMBERINGS: [Numbering; 2] = [
     Numbering {
