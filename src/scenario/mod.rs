@@ -7,7 +7,6 @@
 //! a scenario.
 
 mod duration;
-mod expression;
 mod failure;
 mod faults;
 mod file;
@@ -20,7 +19,6 @@ mod transcript;
 mod values;
 
 pub use duration::Duration;
-pub use expression::{Expression, Moment, Scope, View};
 pub use failure::{Failure, Missed};
 pub use file::{Compare, Named, Scenario, profile_named};
 pub use operator::{Operator, State};

@@ -5,10 +5,10 @@
 
 use std::borrow::Cow;
 
-use super::expression::{Expression, Moment, View};
 use super::failure::{Failure, Missed};
 use super::session::Condition;
 use super::steps::Action;
+use crate::expression::{Expression, Moment, View};
 use crate::image::{Location, Memory};
 use crate::machine::{Command, Machine};
 use crate::trace::place_name;

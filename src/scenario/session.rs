@@ -6,11 +6,11 @@
 use std::path::Path;
 
 use super::duration::Duration;
-use super::expression::{Expression, Scope};
 use super::failure::Failure;
 use super::passing::{Book, Next};
 use super::steps::{Action, axis_named, check_captured_name, writable};
 use super::values::Setting;
+use crate::expression::{Expression, Scope};
 use crate::image::Location;
 use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine};
 use crate::plc::PlcProgram;

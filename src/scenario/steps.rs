@@ -2,9 +2,9 @@
 
 use std::ops::RangeInclusive;
 
-use super::expression::{Expression, Scope};
 use super::faults::fault;
 use super::file::{duration, not_available, texts};
+use crate::expression::{Expression, Scope};
 use crate::image::{Location, Writer, raw_value};
 use crate::machine::{Command, DatumValue, Machine};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
