@@ -60,7 +60,7 @@
 //! | [`plc`] | THE PROGRAM: closures over the PLC's side, small blocks, ready programs | `image`, `source`, `units` |
 //! | [`plant`] | THE IRON: slides, bridges, cams, switches, faults | `motion`, `source`, `units` |
 //! | [`trace`] | THE RECORD: what changed when and why, as text and JSON lines | `image`, `source`, `units`, `variables` |
-//! | [`expression`] | EXPRESSIONS over signals, values and alarms: read once, looked at in every cycle | `image`, `source`, `trace`, `units`, `variables` |
+//! | [`expression`] | EXPRESSIONS over signals, values and alarms: read once, looked at in every cycle | `image`, `source`, `units`, `variables` |
 //! | [`machine`] | ONE STEP, and open, queue, power, save, restore, fork | `image`, `motion`, `plant`, `plc`, `sinumerik`, `source`, `trace`, `units`, `variables` |
 //! | [`scenario`] | files that act, and the session that tests in Rust use | `expression`, `image`, `machine`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`golden`] | scenarios below a folder, each against its golden trace | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units` |

@@ -18,7 +18,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("plc", &["image", "source", "units"]),
     ("plant", &["motion", "source", "units"]),
     ("trace", &["image", "source", "units", "variables"]),
-    ("expression", &["image", "source", "trace", "units", "variables"]),
+    ("expression", &["image", "source", "units", "variables"]),
     ("machine", &["image", "motion", "plant", "plc", "sinumerik", "source", "trace", "units", "variables"]),
     ("scenario", &["expression", "image", "machine", "plc", "source", "trace", "units", "variables"]),
     ("golden", &["image", "machine", "plc", "scenario", "source", "trace", "units"]),

@@ -7,11 +7,12 @@
 mod parse;
 mod tokens;
 
-use crate::image::{Location, Memory, Names};
+use crate::image::{Location, Memory};
 use crate::source::Problem;
-use crate::trace::{AxisValue, place_name, six_decimals};
 use crate::units::{AxisNumber, Time};
-use crate::variables::{AlarmNumber, Describe, Parameter, Place, Variables};
+use crate::variables::{
+    AlarmNumber, AxisValue, Describe, Parameter, Place, Variables, axis_name, place_name, six_decimals,
+};
 
 /// What the names of an expression can mean.
 #[derive(Clone, Copy)]
@@ -222,7 +223,7 @@ impl Term {
                 let address = names.address(*location);
                 names.symbol(*location).map_or_else(|| address.to_string(), |symbol| format!("{symbol} ({address})"))
             }
-            Self::Value(axis, value) => format!("{}.{value}", axis_name(names, *axis)),
+            Self::Value(axis, value) => format!("{}.{value}", axis_name(*axis, names)),
             Self::Time => "time".to_owned(),
             Self::Captured(_, name) => name.clone(),
             Self::Alarm(alarm, None) => format!("alarm({})", describe.alarm_name(*alarm)),
@@ -247,10 +248,6 @@ impl Term {
 /// A value for a message: six decimals for what is measured, as short as possible for the rest.
 fn shown(value: f64, measured: bool) -> String {
     if measured { six_decimals(value) } else { format!("{value}") }
-}
-
-fn axis_name(names: &Names, axis: AxisNumber) -> String {
-    place_name(Place::Axis(axis), names)
 }
 
 impl Operator {

@@ -3,9 +3,8 @@
 use super::tokens::{Token, mistake, tokens};
 use super::{Operator, Scope, Term};
 use crate::source::{Problem, did_you_mean, nearest};
-use crate::trace::AxisValue;
 use crate::units::{AxisNumber, ChannelNumber};
-use crate::variables::{AlarmNumber, Place};
+use crate::variables::{AlarmNumber, AxisValue, Place};
 
 /// How deep parentheses may be nested.
 const DEPTH: usize = 100;

@@ -1,6 +1,7 @@
 //! Expressions by table: values, precedence, names, mistakes.
 
 use super::*;
+use crate::image::Names;
 use crate::units::{ChannelNumber, Position};
 use crate::variables::{RaisedAlarm, Rule, RuleNumber};
 

@@ -11,9 +11,8 @@ use super::steps::Action;
 use crate::expression::{Expression, Moment, View};
 use crate::image::{Location, Memory};
 use crate::machine::{Command, Machine};
-use crate::trace::place_name;
 use crate::units::Time;
-use crate::variables::{Describe, Variables};
+use crate::variables::{Describe, Variables, place_name};
 
 /// What a session keeps beside its machine.
 #[derive(Clone, Debug)]

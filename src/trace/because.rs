@@ -1,29 +1,8 @@
 //! Causes in words: the rule that allowed a transition, and the inputs that it tested, with their values.
 
 use super::printable::signal_at;
-use super::{AxisValue, six_decimals};
-use crate::image::Names;
-use crate::units::{AxisNumber, Position};
-use crate::variables::{AlarmNumber, Describe, Event, Input, Place, Quantity};
-
-/// Whose it is, by name: `X`, `CHAN1`, `mode_group_1`, `nck`.
-#[must_use]
-pub fn place_name(place: Place, names: &Names) -> String {
-    let (block, number) = place.block();
-    if let Some(name) = names.owner(block, number) {
-        return name.to_owned();
-    }
-    match place {
-        Place::Nck => "nck".to_owned(),
-        Place::ModeGroup(group) => format!("mode_group_{group}"),
-        Place::Channel(channel) => format!("CHAN{channel}"),
-        Place::Axis(axis) => axis_name(axis, names),
-    }
-}
-
-fn axis_name(axis: AxisNumber, names: &Names) -> String {
-    names.axes[axis].clone().unwrap_or_else(|| format!("AX{axis}"))
-}
+use crate::units::Position;
+use crate::variables::{AlarmNumber, AxisValue, Describe, Event, Input, Quantity, axis_name, place_name, six_decimals};
 
 /// The rule, what it says where the inputs do not say it, and the inputs: `REF-11: MD37110[XF] = 0`,
 /// `REF-31: reference cam reached, X.deceleration_reference_point_approach = 1`.

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use super::because::{because, input_name, place_name};
+use super::Trace;
+use super::because::{because, input_name};
 use super::lines::{Line, LineKind};
 use super::printable::signal_at;
-use super::{Trace, six_decimals};
 use crate::image::Names;
 use crate::units::Time;
-use crate::variables::{AlarmNumber, Describe, Event, Input, Place};
+use crate::variables::{AlarmNumber, Describe, Event, Input, Place, place_name, six_decimals};
 
 /// An event: a transition of the control, with its rule, its inputs and the event that led to it.
 #[derive(Clone, Debug, PartialEq)]

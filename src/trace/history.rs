@@ -1,10 +1,10 @@
 //! The trace of a run while it grows: rows of the recorder, events, notes and watched values.
 
 use super::value::millionths;
-use super::{AxisValue, Recorder, Row, Watch};
+use super::{Recorder, Row, Watch};
 use crate::image::Memory;
 use crate::units::{AxisNumber, Time};
-use crate::variables::{Event, EventId, Variables};
+use crate::variables::{AxisValue, Event, EventId, Variables};
 
 /// A record that grows while a machine runs.
 #[derive(Clone, Debug)]

@@ -8,10 +8,10 @@ use super::because::because;
 use super::places::Places;
 use super::printable::{Order, Printable, Shown, mask_in_byte, shown};
 use super::value::decimals;
-use super::{By, Change, Row, Trace, Watch, place_name};
+use super::{By, Change, Row, Trace, Watch};
 use crate::image::{Format, Location, Memory};
 use crate::units::Time;
-use crate::variables::{AlarmNumber, Describe, EventId, Parameter, Place, RaisedAlarm};
+use crate::variables::{AlarmNumber, Describe, EventId, Parameter, Place, RaisedAlarm, place_name};
 
 /// One line of a trace.
 #[derive(Clone, Debug, PartialEq)]

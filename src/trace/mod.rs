@@ -47,14 +47,12 @@ mod watch;
 mod waves;
 mod why;
 
-pub use because::place_name;
 pub use compare::{Comparison, Reading};
 pub use history::Trace;
 pub use lines::{AlarmLine, Line, LineKind, SignalLine};
 pub use printable::Shown;
 pub use record::{By, Change, Recorder, Row};
 pub use text::{Head, difference, difference_in_sequence};
-pub use value::{AxisValue, six_decimals};
 pub use watch::Watch;
 pub use why::Story;
 

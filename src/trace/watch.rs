@@ -1,10 +1,10 @@
 //! What a trace shows: patterns over symbols and addresses, and the names of values.
 
-use super::AxisValue;
 use super::printable::Printable;
 use crate::image::{Location, Memory, Names, Part, Signal};
 use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::AxisNumber;
+use crate::variables::AxisValue;
 
 /// What a trace shows; by default every signal of the catalogue and every input and output that changed, and no values.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -7,10 +7,10 @@ use std::collections::BTreeMap;
 use super::history::ValueRow;
 use super::lines::LineKind;
 use super::printable::{order, printable, shown};
-use super::{AxisValue, By, Shown, Trace, Watch, place_name};
+use super::{By, Shown, Trace, Watch};
 use crate::image::Location;
 use crate::units::Time;
-use crate::variables::{Describe, Place};
+use crate::variables::{AxisValue, Describe, Place, place_name};
 
 /// All rows of a trace, in the order of owners and addresses.
 #[derive(Clone, Debug)]

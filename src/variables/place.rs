@@ -1,8 +1,8 @@
-//! The places of a control: itself, its mode groups, channels and machine axes.
+//! The places of a control: itself, its mode groups, channels and machine axes, and their names.
 
 use serde::{Deserialize, Serialize};
 
-use crate::image::Block;
+use crate::image::{Block, Names};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 
 /// Whose it is: the place of an alarm, of an event, of a signal.
@@ -40,4 +40,25 @@ impl Place {
             Self::Axis(axis) => (Block::Axis, axis.number()),
         }
     }
+}
+
+/// Whose it is, by name: `X`, `CHAN1`, `mode_group_1`, `nck`.
+#[must_use]
+pub fn place_name(place: Place, names: &Names) -> String {
+    let (block, number) = place.block();
+    if let Some(name) = names.owner(block, number) {
+        return name.to_owned();
+    }
+    match place {
+        Place::Nck => "nck".to_owned(),
+        Place::ModeGroup(group) => format!("mode_group_{group}"),
+        Place::Channel(channel) => format!("CHAN{channel}"),
+        Place::Axis(axis) => axis_name(axis, names),
+    }
+}
+
+/// The name of a machine axis; `AX` and its number where it has none.
+#[must_use]
+pub fn axis_name(axis: AxisNumber, names: &Names) -> String {
+    names.axes[axis].clone().unwrap_or_else(|| format!("AX{axis}"))
 }
