@@ -61,7 +61,7 @@
 //! | [`plant`] | THE IRON: slides, bridges, cams, switches, faults | `motion`, `source`, `units` |
 //! | [`trace`] | THE RECORD: what changed when and why, as text and JSON lines | `image`, `source`, `units`, `variables` |
 //! | [`expression`] | EXPRESSIONS over signals, values and alarms: read once, looked at in every cycle | `image`, `source`, `units`, `variables` |
-//! | [`machine`] | ONE STEP, and open, queue, power, save, restore, fork | `image`, `motion`, `plant`, `plc`, `sinumerik`, `source`, `trace`, `units`, `variables` |
+//! | [`machine`] | ONE STEP, and open, queue, power, save, restore, fork | `expression`, `image`, `motion`, `plant`, `plc`, `sinumerik`, `source`, `trace`, `units`, `variables` |
 //! | [`scenario`] | files that act, and the session that tests in Rust use | `expression`, `image`, `machine`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`golden`] | scenarios below a folder, each against its golden trace | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units` |
 //! | [`s7`] | THE WINDOW: S7 communication, wire formats, sessions without a socket, a server on TCP (feature `s7`) | `image`, `units`, `variables` |

@@ -19,7 +19,10 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("plant", &["motion", "source", "units"]),
     ("trace", &["image", "source", "units", "variables"]),
     ("expression", &["image", "source", "units", "variables"]),
-    ("machine", &["image", "motion", "plant", "plc", "sinumerik", "source", "trace", "units", "variables"]),
+    (
+        "machine",
+        &["expression", "image", "motion", "plant", "plc", "sinumerik", "source", "trace", "units", "variables"],
+    ),
     ("scenario", &["expression", "image", "machine", "plc", "source", "trace", "units", "variables"]),
     ("golden", &["image", "machine", "plc", "scenario", "source", "trace", "units"]),
     ("s7", &["image", "units", "variables"]),

@@ -1,8 +1,31 @@
-//! Expressions over the interface: `X.gantry_synchronization_ready_to_start && alarm(10654)`.
+//! EXPRESSIONS over the interface: `X.gantry_synchronization_ready_to_start && alarm(10654)`.
 //!
-//! Numbers are `f64`, and 0 is false. Operators and their precedence are Rust's; comparisons do not chain. Names
-//! are looked up once, when the expression is read, so an unknown one is refused before anything runs and
-//! looking at an expression in every cycle costs a few comparisons and allocates nothing.
+//! Numbers are `f64`, and 0 is false. Operators and their precedence are Rust's; comparisons do not chain.
+//!
+//! # Contract
+//!
+//! A caller meets this module twice.
+//!
+//! 1. **Reading.** [`Expression::parse`] looks up every name in a [`Scope`]. The scope is a trait, implemented where the names are
+//!    known: `Machine` knows signals, axes, channels and alarms, a scenario adds its captured values. An
+//!    unknown name is refused here, before anything runs, and the nearest known name is in the error. The result holds
+//!    places in memory and numbers, no names to look up.
+//! 2. **Evaluation.** [`Expression::value`] and [`Expression::holds`] read a [`View`]: three borrowed [`Moment`]s of the same machine
+//!    that the expression was read for. Nothing is allocated, copied or kept, and the same view gives the same value. A caller
+//!    that keeps no history passes [`View::at`], in which no edge occurs.
+//!
+//! | in an expression | means | read from |
+//! |---|---|---|
+//! | `X.controller_enable`, `DB31.DBX2.1`, `MD24:REAL` | [`Scope::signal`] | [`Moment::memory`] of `now` |
+//! | `X.position` | [`AxisValue`] of an axis in [`Scope::describe`] | [`Moment::variables`] of `now` |
+//! | `alarm(10654)`, `alarm(10651, X)`, `alarm_parameter(10651, 1)`, `alarms()` | alarms in [`Scope::describe`] | [`Moment::variables`] of `now` |
+//! | `time` | seconds since the caller's time zero | [`Moment::time`] of `now` |
+//! | any other plain name | [`Scope::named_values`] | [`Moment::named_values`] of `now` |
+//! | `rose(…)`, `fell(…)` | an edge between two cycles | the same of `before` and `last` |
+//! | `abs`, `min`, `max` | arithmetic | |
+//!
+//! `now` can be ahead of `last`: a scenario sees in it what it wrote and no cycle has taken up yet. A caller that evaluates edges has
+//! to provide `before`, the state one cycle earlier; [`Expression::looks_back`] says whether it is needed.
 
 mod parse;
 mod tokens;
@@ -14,15 +37,22 @@ use crate::variables::{
     AlarmNumber, AxisValue, Describe, Parameter, Place, Variables, axis_name, place_name, six_decimals,
 };
 
-/// What the names of an expression can mean.
-#[derive(Clone, Copy)]
-pub struct Scope<'a> {
-    /// The memory, which knows the own data blocks and their lengths.
-    pub memory: &'a Memory,
-    /// Axis and channel names, and the control's names for alarms.
-    pub describe: &'a dyn Describe,
-    /// Names of values that earlier steps captured.
-    pub captured: &'a [String],
+/// What the names of an expression mean.
+pub trait Scope {
+    /// The names of axes and channels, and the alarms of the control.
+    fn describe(&self) -> &dyn Describe;
+
+    /// The place in memory of a symbol or an address.
+    ///
+    /// # Errors
+    /// There is no such signal; the cure names the nearest known one.
+    fn signal(&self, name: &str) -> Result<Location, Problem>;
+
+    /// The names of values that the caller gives beside the machine, such as captured values or constants, in the order of
+    /// [`Moment::named_values`].
+    fn named_values(&self) -> &[String] {
+        &[]
+    }
 }
 
 /// Everything that an expression looks at, at one moment.
@@ -32,10 +62,10 @@ pub struct Moment<'a> {
     pub memory: &'a Memory,
     /// Axis values and alarms.
     pub variables: &'a Variables,
-    /// Since the start of the scenario.
+    /// Since the caller's time zero, such as the start of a scenario.
     pub time: Time,
-    /// The captured values, in the order of [`Scope::captured`].
-    pub captured: &'a [f64],
+    /// The caller's own values, in the order of [`Scope::named_values`]; one that is not there yet has no value (NaN).
+    pub named_values: &'a [f64],
 }
 
 /// Now, and the last two cycles, between which edges are found.
@@ -47,6 +77,14 @@ pub struct View<'a> {
     pub last: Moment<'a>,
     /// After the cycle before it.
     pub before: Moment<'a>,
+}
+
+impl<'a> View<'a> {
+    /// One moment without a history, in which nothing rises or falls.
+    #[must_use]
+    pub fn at(now: Moment<'a>) -> Self {
+        Self { now, last: now, before: now }
+    }
 }
 
 /// An expression whose names have been looked up.
@@ -80,7 +118,7 @@ enum Term {
     Signal(Location),
     Value(AxisNumber, AxisValue),
     Time,
-    Captured(usize, String),
+    Named(usize, String),
     Alarm(AlarmNumber, Option<Place>),
     AlarmParameter(AlarmNumber, usize),
     Alarms,
@@ -96,7 +134,7 @@ impl Expression {
     ///
     /// # Errors
     /// It is not one, or a name in it is unknown; the problem names the nearest known one.
-    pub fn parse(source: &str, scope: Scope<'_>) -> Result<Self, Problem> {
+    pub fn parse(source: &str, scope: &dyn Scope) -> Result<Self, Problem> {
         Ok(Self { source: source.trim().to_owned(), root: parse::parse(source.trim(), scope)? })
     }
 
@@ -142,9 +180,9 @@ fn number(truth: bool) -> f64 {
     if truth { 1.0 } else { 0.0 }
 }
 
-/// The captured value; one that was not captured yet has no value.
-fn captured(moment: &Moment<'_>, index: usize) -> f64 {
-    moment.captured.get(index).copied().unwrap_or(f64::NAN)
+/// A value of the caller; one that is not there yet has no value.
+fn named_value(moment: &Moment<'_>, index: usize) -> f64 {
+    moment.named_values.get(index).copied().unwrap_or(f64::NAN)
 }
 
 fn parameter(parameter: Parameter) -> f64 {
@@ -165,7 +203,7 @@ impl Term {
             Self::Signal(location) => now.memory.value(*location),
             Self::Value(axis, value) => value.of(*axis, now.variables),
             Self::Time => now.time.seconds(),
-            Self::Captured(index, _) => captured(now, *index),
+            Self::Named(index, _) => named_value(now, *index),
             Self::Alarm(alarm, place) => number(now.variables.alarms.find(*alarm, *place).is_some()),
             Self::AlarmParameter(alarm, index) => {
                 let raised = now.variables.alarms.find(*alarm, None);
@@ -192,7 +230,7 @@ impl Term {
             | Self::Signal(_)
             | Self::Value(..)
             | Self::Time
-            | Self::Captured(..)
+            | Self::Named(..)
             | Self::Alarm(..)
             | Self::AlarmParameter(..)
             | Self::Alarms => [None, None],
@@ -225,7 +263,7 @@ impl Term {
             }
             Self::Value(axis, value) => format!("{}.{value}", axis_name(*axis, names)),
             Self::Time => "time".to_owned(),
-            Self::Captured(_, name) => name.clone(),
+            Self::Named(_, name) => name.clone(),
             Self::Alarm(alarm, None) => format!("alarm({})", describe.alarm_name(*alarm)),
             Self::Alarm(alarm, Some(place)) => {
                 format!("alarm({}, {})", describe.alarm_name(*alarm), place_name(*place, names))

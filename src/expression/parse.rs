@@ -18,10 +18,10 @@ struct Parser<'a> {
     at: usize,
     depth: usize,
     inside_edge: bool,
-    scope: Scope<'a>,
+    scope: &'a dyn Scope,
 }
 
-pub(super) fn parse(source: &str, scope: Scope<'_>) -> Result<Term, Problem> {
+pub(super) fn parse(source: &str, scope: &dyn Scope) -> Result<Term, Problem> {
     let words = tokens(source)?;
     let mut parser = Parser { source, words, at: 0, depth: 0, inside_edge: false, scope };
     let term = parser.expression(0)?;
@@ -195,13 +195,13 @@ impl Parser<'_> {
         let whole = self.expected("the number of an alarm");
         match self.next() {
             Token::Number(number) => {
-                let known = |alarm: &AlarmNumber| self.scope.describe.has_alarm(*alarm);
+                let known = |alarm: &AlarmNumber| self.scope.describe().has_alarm(*alarm);
                 whole_number(number, AlarmNumber::OWN - 1).map(AlarmNumber).filter(known).ok_or_else(|| Problem {
                     cure: "`opennck alarms` lists the alarms of the control".to_owned(),
                     ..whole
                 })
             }
-            Token::Quoted(name) => self.scope.describe.alarm_number(&name).ok_or_else(|| Problem {
+            Token::Quoted(name) => self.scope.describe().alarm_number(&name).ok_or_else(|| Problem {
                 cure: "see the alarms of this control, or give a number".to_owned(),
                 ..whole
             }),
@@ -227,12 +227,11 @@ impl Parser<'_> {
         let Token::Name(name) = self.next() else {
             return Err(problem);
         };
-        let names = self.scope.describe.names();
-        if let Some(axis) = axis_named(&self.scope, &name) {
+        let names = self.scope.describe().names();
+        if let Some(axis) = names.axis(&name) {
             return Ok(Place::Axis(axis));
         }
-        let channel = ChannelNumber::all().find(|channel| names.channels[*channel].as_deref() == Some(&name));
-        channel.map(Place::Channel).ok_or_else(|| {
+        names.channel(&name).map(Place::Channel).ok_or_else(|| {
             let axes = AxisNumber::all().filter_map(|axis| names.axes[axis].as_deref());
             let channels = ChannelNumber::all().filter_map(|channel| names.channels[channel].as_deref());
             let known: Vec<_> = axes.chain(channels).collect();
@@ -241,32 +240,33 @@ impl Parser<'_> {
         })
     }
 
-    /// `time`, a captured value, `X.position`, a symbol, an address.
+    /// `time`, a value of the caller, `X.position`, a symbol, an address.
     fn name(&self, name: &str, column: usize) -> Result<Term, Problem> {
         if name == "time" {
             return Ok(Term::Time);
         }
-        if let Some(index) = self.scope.captured.iter().position(|captured| captured == name) {
-            return Ok(Term::Captured(index, name.to_owned()));
+        if let Some(index) = self.scope.named_values().iter().position(|named| named == name) {
+            return Ok(Term::Named(index, name.to_owned()));
         }
         let problem = mistake(self.source, column, "a known name", &format!("`{name}`"));
         if FUNCTIONS.contains(&name) {
             return Err(Problem { cure: format!("a function has parentheses: `{name}(…)`"), ..problem });
         }
-        let axis_and_value =
-            name.rsplit_once('.').and_then(|(head, tail)| axis_named(&self.scope, head).map(|axis| (axis, head, tail)));
+        let axis_and_value = name
+            .rsplit_once('.')
+            .and_then(|(head, tail)| self.scope.describe().names().axis(head).map(|axis| (axis, head, tail)));
         if let Some((axis, _, tail)) = axis_and_value
             && let Some(value) = AxisValue::named(tail)
         {
             return Ok(Term::Value(axis, value));
         }
-        match self.scope.describe.names().resolve(self.scope.memory, name) {
+        match self.scope.signal(name) {
             Ok(location) => Ok(Term::Signal(location)),
             Err(unknown) => {
                 let values = AxisValue::ALL.map(AxisValue::name);
                 let near_value = axis_and_value
                     .and_then(|(_, head, tail)| nearest(tail, values).map(|value| format!("{head}.{value}")));
-                let own = self.scope.captured.iter().map(String::as_str).chain(["time"]);
+                let own = self.scope.named_values().iter().map(String::as_str).chain(["time"]);
                 let cure = match (near_value, nearest(name, own)) {
                     (Some(near), _) => format!("did you mean `{near}`?"),
                     (None, Some(near)) if !name.contains('.') => format!("did you mean `{near}`?"),
@@ -277,10 +277,6 @@ impl Parser<'_> {
             }
         }
     }
-}
-
-fn axis_named(scope: &Scope<'_>, name: &str) -> Option<AxisNumber> {
-    AxisNumber::all().find(|axis| scope.describe.names().axes[*axis].as_deref() == Some(name))
 }
 
 /// A number that is whole, not negative and not above `largest`.

@@ -39,6 +39,25 @@ impl Describe for Machine {
     }
 }
 
+/// The names of the machine, its memory, and a value of the caller.
+struct Known {
+    machine: Machine,
+    memory: Memory,
+    named_values: [String; 1],
+}
+
+impl Scope for Known {
+    fn describe(&self) -> &dyn Describe {
+        &self.machine
+    }
+    fn signal(&self, name: &str) -> Result<Location, Problem> {
+        self.machine.0.resolve(&self.memory, name)
+    }
+    fn named_values(&self) -> &[String] {
+        &self.named_values
+    }
+}
+
 /// A memory and variables in which every name of the tests has a value of its own.
 fn state(machine: &Machine) -> (Memory, Variables) {
     let mut memory = Memory::new();
@@ -72,17 +91,15 @@ fn state(machine: &Machine) -> (Memory, Variables) {
 }
 
 fn parsed(source: &str) -> Result<Expression, Problem> {
-    let machine = Machine::new();
-    let (memory, _) = state(&machine);
-    let captured = ["start".to_owned()];
-    Expression::parse(source, Scope { memory: &memory, describe: &machine, captured: &captured })
+    let named_values = ["start".to_owned()];
+    Expression::parse(source, &Known { machine: Machine::new(), memory: Memory::new(), named_values })
 }
 
 fn value(source: &str) -> f64 {
     let machine = Machine::new();
     let (memory, variables) = state(&machine);
-    let now = Moment { memory: &memory, variables: &variables, time: Time::from_millis(1_500), captured: &[7.0] };
-    parsed(source).unwrap_or_else(|problem| panic!("{problem}")).value(&View { now, last: now, before: now })
+    let now = Moment { memory: &memory, variables: &variables, time: Time::from_millis(1_500), named_values: &[7.0] };
+    parsed(source).unwrap_or_else(|problem| panic!("{problem}")).value(&View::at(now))
 }
 
 #[test]
@@ -121,7 +138,7 @@ fn numbers_are_read_with_base_point_and_underscore() {
 }
 
 #[test]
-fn names_mean_signals_addresses_values_and_captured_values() {
+fn names_mean_signals_addresses_values_and_named_values() {
     for (source, expected) in [
         ("X.traversing_key_plus", 1.0),
         ("DB31.DBX4.7", 1.0),
@@ -167,16 +184,16 @@ fn an_edge_lies_between_the_last_two_cycles_and_not_in_pending_writes() {
     let machine = Machine::new();
     let (memory, variables) = state(&machine);
     let empty = Memory::new();
-    let at = |memory| Moment { memory, variables: &variables, time: Time::ZERO, captured: &[] };
-    let scope = Scope { memory: &empty, describe: &machine, captured: &[] };
-    let rose = Expression::parse("rose(M10.3 && time == 0)", scope).unwrap();
-    let fell = Expression::parse("fell(M10.3)", scope).unwrap();
+    let at = |memory| Moment { memory, variables: &variables, time: Time::ZERO, named_values: &[] };
+    let rose = parsed("rose(M10.3 && time == 0)").unwrap();
+    let fell = parsed("fell(M10.3)").unwrap();
     let up = View { now: at(&empty), last: at(&memory), before: at(&empty) };
     assert!(rose.holds(&up) && !fell.holds(&up));
     let down = View { now: at(&memory), last: at(&empty), before: at(&memory) };
     assert!(!rose.holds(&down) && fell.holds(&down));
     let only_written = View { now: at(&memory), last: at(&empty), before: at(&empty) };
     assert!(!rose.holds(&only_written) && !fell.holds(&only_written));
+    assert!(!rose.holds(&View::at(at(&memory))) && !fell.holds(&View::at(at(&empty))));
     assert!(rose.looks_back() && !parsed("M10.3").unwrap().looks_back());
 }
 
@@ -237,9 +254,9 @@ fn nesting_has_an_end() {
 fn the_operands_of_a_failed_expression_are_shown_once_each_with_symbol_and_address() {
     let machine = Machine::new();
     let (memory, variables) = state(&machine);
-    let now = Moment { memory: &memory, variables: &variables, time: Time::ZERO, captured: &[7.0] };
+    let now = Moment { memory: &memory, variables: &variables, time: Time::ZERO, named_values: &[7.0] };
     let source = "X.traversing_key_plus && M10.3 && X.position > start && alarm(10651, X) && !X.traversing_key_plus";
-    let lines = parsed(source).unwrap().operands(&View { now, last: now, before: now }, &machine);
+    let lines = parsed(source).unwrap().operands(&View::at(now), &machine);
     assert_eq!(
         lines,
         [

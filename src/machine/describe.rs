@@ -1,8 +1,10 @@
-//! The texts behind the numbers of this machine's control.
+//! The texts behind the numbers of this machine's control, and what names mean in expressions over it.
 
 use super::Machine;
-use crate::image::Names;
+use crate::expression::Scope;
+use crate::image::{Location, Names};
 use crate::sinumerik::{ALARMS_NOT_RAISED, Alarm, Rule as ControlRule};
+use crate::source::Problem;
 use crate::units::AxisNumber;
 use crate::variables::{AlarmNumber, Describe, Parameter, RaisedAlarm, Rule, RuleNumber};
 
@@ -40,6 +42,16 @@ impl Describe for Machine {
 
     fn is_rotary(&self, axis: AxisNumber) -> bool {
         self.machine_data().axes[axis].is_rot_ax
+    }
+}
+
+impl Scope for Machine {
+    fn describe(&self) -> &dyn Describe {
+        self
+    }
+
+    fn signal(&self, name: &str) -> Result<Location, Problem> {
+        self.names().resolve(&self.memory, name)
     }
 }
 

@@ -10,6 +10,7 @@ mod duration;
 mod failure;
 mod faults;
 mod file;
+mod naming;
 mod operator;
 mod passing;
 mod run;

@@ -238,7 +238,7 @@ impl Book {
             memory: machine.memory(),
             variables: machine.variables(),
             time: self.time(machine),
-            captured: &self.captured,
+            named_values: &self.captured,
         }
     }
 
@@ -249,7 +249,7 @@ impl Book {
             memory: &before.memory,
             variables: &before.variables,
             time: before.time,
-            captured: &self.captured,
+            named_values: &self.captured,
         });
         look(&View { now, last, before })
     }

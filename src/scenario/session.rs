@@ -7,10 +7,11 @@ use std::path::Path;
 
 use super::duration::Duration;
 use super::failure::Failure;
+use super::naming::Known;
 use super::passing::{Book, Next};
 use super::steps::{Action, axis_named, check_captured_name, writable};
 use super::values::Setting;
-use crate::expression::{Expression, Scope};
+use crate::expression::Expression;
 use crate::image::Location;
 use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine};
 use crate::plc::PlcProgram;
@@ -375,8 +376,6 @@ impl Session {
     }
 
     fn expression(&self, source: &str) -> Result<Expression, Problem> {
-        let scope =
-            Scope { memory: self.machine.memory(), describe: &self.machine, captured: &self.book.captured_names };
-        Expression::parse(source, scope)
+        Expression::parse(source, &Known { machine: &self.machine, captured: &self.book.captured_names })
     }
 }

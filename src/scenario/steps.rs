@@ -4,7 +4,8 @@ use std::ops::RangeInclusive;
 
 use super::faults::fault;
 use super::file::{duration, not_available, texts};
-use crate::expression::{Expression, Scope};
+use super::naming::Known;
+use crate::expression::Expression;
 use crate::image::{Location, Writer, raw_value};
 use crate::machine::{Command, DatumValue, Machine};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
@@ -83,8 +84,8 @@ impl<'a> Reader<'a> {
 
     /// An expression with all names known so far.
     pub(super) fn expression(&self, source: &str, place: &Place) -> Result<Expression, Problem> {
-        let scope = Scope { memory: self.machine.memory(), describe: self.machine, captured: &self.captured };
-        Expression::parse(source, scope).map_err(|problem| problem.at(place))
+        let known = Known { machine: self.machine, captured: &self.captured };
+        Expression::parse(source, &known).map_err(|problem| problem.at(place))
     }
 
     pub(super) fn step(&mut self, mut table: Table) -> Result<Step, Problem> {
