@@ -1,6 +1,6 @@
 //! The faults of the verbs `fault` and `clear_fault`: `{ axis = "XF", kind = "block" }`.
 
-use super::steps::axis_named;
+use super::naming::axis_named;
 use crate::machine::{Fault, FaultKind, Machine, Switch};
 use crate::source::{Node, Problem, Value, did_you_mean};
 use crate::units::Position;

@@ -1,9 +1,10 @@
 //! What names mean in a scenario: those of its machine, and those of the values that its steps captured.
 
 use crate::expression::Scope;
-use crate::image::Location;
+use crate::image::{Location, Writer};
 use crate::machine::Machine;
-use crate::source::Problem;
+use crate::source::{Problem, did_you_mean};
+use crate::units::AxisNumber;
 use crate::variables::Describe;
 
 /// The names of a machine and of the values captured so far.
@@ -24,4 +25,50 @@ impl Scope for Known<'_> {
     fn named_values(&self) -> &[String] {
         self.captured
     }
+}
+
+/// The axis of this name.
+pub(super) fn axis_named(machine: &Machine, name: &str) -> Result<AxisNumber, Problem> {
+    let axes = &machine.names().axes;
+    AxisNumber::all().find(|axis| axes[*axis].as_deref() == Some(name)).ok_or_else(|| {
+        let known: Vec<_> = AxisNumber::all().filter_map(|axis| axes[axis].as_deref()).collect();
+        let fallback = format!("machine axes are {}", known.join(", "));
+        Problem::new(
+            format!("expected a machine axis, found `{name}`"),
+            did_you_mean(name, known.iter().copied(), &fallback),
+        )
+    })
+}
+
+/// A captured value has a plain name that means nothing else.
+pub(super) fn check_captured_name(name: &str) -> Result<(), Problem> {
+    let plain = name.starts_with(|c: char| c.is_alphabetic() || c == '_')
+        && name.chars().all(|c| c.is_alphanumeric() || c == '_');
+    if plain && name != "time" {
+        Ok(())
+    } else {
+        Err(Problem::new(
+            format!("expected a plain name for a captured value, found `{name}`"),
+            "use letters, digits and underscores, and not `time`",
+        ))
+    }
+}
+
+/// The place of any signal: a client of the control can write each of them, and the NCK takes its own back.
+pub(super) fn place_named(machine: &Machine, name: &str) -> Result<Location, Problem> {
+    machine.names().resolve(machine.memory(), name)
+}
+
+/// The place of a signal that something other than the NCK writes.
+pub(super) fn writable(machine: &Machine, name: &str) -> Result<Location, Problem> {
+    let names = machine.names();
+    let location = names.resolve(machine.memory(), name)?;
+    if names.writer(location) == Some(Writer::Nck) {
+        let what = names.symbol(location).map_or_else(|| name.to_owned(), |symbol| format!("{symbol} ({name})"));
+        return Err(Problem::new(
+            format!("expected a signal that the PLC or the operator panel writes, found {what}, which the NCK writes"),
+            "the NCK would write it anew in the same cycle; `expect` it instead",
+        ));
+    }
+    Ok(location)
 }

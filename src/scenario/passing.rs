@@ -6,11 +6,11 @@
 use std::borrow::Cow;
 
 use super::failure::{Failure, Missed};
-use super::session::Condition;
 use super::steps::Action;
 use crate::expression::{Expression, Moment, View};
 use crate::image::{Location, Memory};
 use crate::machine::{Command, Machine};
+use crate::source::Place;
 use crate::units::Time;
 use crate::variables::{Describe, Variables, place_name};
 
@@ -36,6 +36,15 @@ pub(super) struct Shown {
     pub(super) memory: Memory,
     pub(super) variables: Variables,
     pub(super) time: Time,
+}
+
+/// What must hold in every cycle.
+#[derive(Clone, Debug)]
+pub(super) struct Condition {
+    pub(super) expression: Expression,
+    /// `always` or, if false, `never`.
+    pub(super) wanted: bool,
+    pub(super) place: Option<Place>,
 }
 
 /// How an action goes on.

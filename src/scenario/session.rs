@@ -7,15 +7,15 @@ use std::path::Path;
 
 use super::duration::Duration;
 use super::failure::Failure;
-use super::naming::Known;
+use super::naming::{Known, axis_named, check_captured_name, writable};
 use super::passing::{Book, Next};
-use super::steps::{Action, axis_named, check_captured_name, writable};
+use super::steps::Action;
 use super::values::Setting;
 use crate::expression::Expression;
 use crate::image::Location;
 use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine};
 use crate::plc::PlcProgram;
-use crate::source::{Place, Problem};
+use crate::source::Problem;
 use crate::trace::{Head, Trace, Watch};
 use crate::units::Time;
 
@@ -35,15 +35,6 @@ pub struct Session {
     pub(super) trace: Trace,
     pub(super) watch: Watch,
     pub(super) book: Book,
-}
-
-/// What must hold in every cycle.
-#[derive(Clone, Debug)]
-pub(super) struct Condition {
-    pub(super) expression: Expression,
-    /// `always` or, if false, `never`.
-    pub(super) wanted: bool,
-    pub(super) place: Option<Place>,
 }
 
 impl Session {

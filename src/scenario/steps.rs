@@ -4,12 +4,12 @@ use std::ops::RangeInclusive;
 
 use super::faults::fault;
 use super::file::{duration, not_available, texts};
-use super::naming::Known;
+use super::naming::{Known, check_captured_name, place_named, writable};
 use crate::expression::Expression;
-use crate::image::{Location, Writer, raw_value};
+use crate::image::{Location, raw_value};
 use crate::machine::{Command, DatumValue, Machine};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
-use crate::units::{AxisNumber, ChannelNumber, Time};
+use crate::units::{ChannelNumber, Time};
 
 /// A step, ready to run.
 #[derive(Debug)]
@@ -387,50 +387,4 @@ fn whole<T: TryFrom<i64> + PartialOrd>(node: &Node, what: &str, range: RangeIncl
         _ => None,
     };
     number.ok_or_else(|| node.expected(what, "write a whole number"))
-}
-
-/// The axis of this name.
-pub(super) fn axis_named(machine: &Machine, name: &str) -> Result<AxisNumber, Problem> {
-    let axes = &machine.names().axes;
-    AxisNumber::all().find(|axis| axes[*axis].as_deref() == Some(name)).ok_or_else(|| {
-        let known: Vec<_> = AxisNumber::all().filter_map(|axis| axes[axis].as_deref()).collect();
-        let fallback = format!("machine axes are {}", known.join(", "));
-        Problem::new(
-            format!("expected a machine axis, found `{name}`"),
-            did_you_mean(name, known.iter().copied(), &fallback),
-        )
-    })
-}
-
-/// A captured value has a plain name that means nothing else.
-pub(super) fn check_captured_name(name: &str) -> Result<(), Problem> {
-    let plain = name.starts_with(|c: char| c.is_alphabetic() || c == '_')
-        && name.chars().all(|c| c.is_alphanumeric() || c == '_');
-    if plain && name != "time" {
-        Ok(())
-    } else {
-        Err(Problem::new(
-            format!("expected a plain name for a captured value, found `{name}`"),
-            "use letters, digits and underscores, and not `time`",
-        ))
-    }
-}
-
-/// The place of a signal, whoever writes it: a client of the control can write any, and the NCK takes its own back.
-fn place_named(machine: &Machine, name: &str) -> Result<Location, Problem> {
-    machine.names().resolve(machine.memory(), name)
-}
-
-/// The place of a signal that something other than the NCK writes.
-pub(super) fn writable(machine: &Machine, name: &str) -> Result<Location, Problem> {
-    let names = machine.names();
-    let location = names.resolve(machine.memory(), name)?;
-    if names.writer(location) == Some(Writer::Nck) {
-        let what = names.symbol(location).map_or_else(|| name.to_owned(), |symbol| format!("{symbol} ({name})"));
-        return Err(Problem::new(
-            format!("expected a signal that the PLC or the operator panel writes, found {what}, which the NCK writes"),
-            "the NCK would write it anew in the same cycle; `expect` it instead",
-        ));
-    }
-    Ok(location)
 }
