@@ -44,7 +44,7 @@ impl Plan {
     }
 
     /// The cycle has passed.
-    pub(super) fn end_cycle(&mut self, book: &mut Book, machine: &Machine) -> Result<(), Failure> {
+    pub(super) fn end_cycle(&mut self, book: &Book, machine: &Machine) -> Result<(), Failure> {
         let ended = book.end_cycle(machine);
         if let (Err(stopped), Some(step)) = (ended, self.steps.get(self.index)) {
             return Err(book.stopped(&stopped, &step.action, self.passed, machine).at(&step.place));
@@ -106,12 +106,13 @@ impl Operator {
         notes
     }
 
-    /// After each step.
+    /// After each step, before the machine's record is drained: edges are found in the record.
     pub fn look(&mut self, machine: &Machine) {
-        if self.state == State::Acting
-            && let Err(failure) = self.plan.end_cycle(&mut self.book, machine)
-        {
-            self.state = State::Failed(failure);
+        if self.state == State::Acting {
+            self.book.note_changes(machine);
+            if let Err(failure) = self.plan.end_cycle(&self.book, machine) {
+                self.state = State::Failed(failure);
+            }
         }
     }
 

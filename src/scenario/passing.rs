@@ -1,7 +1,7 @@
 //! How time passes in a session: cycle by cycle, what a step does before each, what must hold in each, and what a failure says.
 //!
-//! Nothing here steps a machine. Whoever does asks a [`Book`] before each cycle how an action goes on and tells it after each that
-//! the cycle is over; so the same actions run as fast as they can, for a file or a test, and in real time, where others step.
+//! Nothing here steps a machine. The caller that does asks a [`Book`] before each cycle how an action goes on, and calls it after each
+//! cycle; so the same actions run as fast as they can, for a file or a test, and in real time, where others step.
 
 use std::borrow::Cow;
 
@@ -11,8 +11,9 @@ use crate::expression::{Expression, Moment, View};
 use crate::image::{Location, Memory};
 use crate::machine::{Command, Machine};
 use crate::source::Place;
+use crate::trace::Past;
 use crate::units::Time;
-use crate::variables::{Describe, Variables, place_name};
+use crate::variables::{Describe, place_name};
 
 /// What a session keeps beside its machine.
 #[derive(Clone, Debug)]
@@ -27,15 +28,14 @@ pub(super) struct Book {
     /// Bound on the cycles of this session.
     pub(super) limit: Option<u64>,
     /// What was shown one cycle ago, kept where an expression looks back.
-    before: Option<Box<Shown>>,
+    before: Option<Box<Before>>,
 }
 
-/// What the machine showed after a cycle.
+/// What the machine showed one cycle ago.
 #[derive(Clone, Debug)]
-pub(super) struct Shown {
-    pub(super) memory: Memory,
-    pub(super) variables: Variables,
-    pub(super) time: Time,
+struct Before {
+    past: Past,
+    time: Time,
 }
 
 /// What must hold in every cycle.
@@ -72,13 +72,13 @@ impl Book {
             captured: Vec::new(),
             conditions: Vec::new(),
             limit: None,
-            before: Some(Box::new(Shown::of(machine, Time::ZERO))),
+            before: Some(Box::new(Before::new(machine, Time::ZERO))),
         }
     }
 
     /// Whether the state before the last cycle is kept; needed where an expression has `rose` or `fell`.
     pub(super) fn look_back(&mut self, wanted: bool, machine: &Machine) {
-        self.before = wanted.then(|| Box::new(Shown::of(machine, self.time(machine))));
+        self.before = wanted.then(|| Box::new(Before::new(machine, self.time(machine))));
     }
 
     /// Since the start of the session.
@@ -164,14 +164,22 @@ impl Book {
         }
         let time = self.time(machine);
         if let Some(before) = &mut self.before {
-            **before = Shown::of(machine, time);
+            before.past.begin_step(machine.memory(), machine.variables(), machine.cycle());
+            before.time = time;
         }
         Ok(())
     }
 
-    /// After a cycle: what must hold in it.
-    pub(super) fn end_cycle(&mut self, machine: &Machine) -> Result<(), Stopped> {
+    /// After a cycle, before its record is drained: notes what it changed.
+    pub(super) fn note_changes(&mut self, machine: &Machine) {
         self.pending.clear();
+        if let Some(before) = &mut self.before {
+            before.past.end_step(machine.recorder(), machine.cycle());
+        }
+    }
+
+    /// After a cycle and [`Book::note_changes`]: what must hold in it.
+    pub(super) fn end_cycle(&self, machine: &Machine) -> Result<(), Stopped> {
         let broken = self.conditions.iter().position(|condition| {
             self.with_view(self.last(machine), machine, |view| condition.expression.holds(view)) != condition.wanted
         });
@@ -255,8 +263,8 @@ impl Book {
     fn with_view<T>(&self, now: Moment<'_>, machine: &Machine, look: impl FnOnce(&View<'_>) -> T) -> T {
         let last = self.last(machine);
         let before = self.before.as_ref().map_or(last, |before| Moment {
-            memory: &before.memory,
-            variables: &before.variables,
+            memory: before.past.memory(),
+            variables: before.past.variables(),
             time: before.time,
             named_values: &self.captured,
         });
@@ -304,8 +312,8 @@ fn waited(cycles: u64, expression: &Expression, machine: &Machine) -> String {
     format!("waited {} s for `{}`", machine.cycle_time().times(cycles), expression.source())
 }
 
-impl Shown {
-    pub(super) fn of(machine: &Machine, time: Time) -> Self {
-        Self { memory: machine.memory().clone(), variables: machine.variables().clone(), time }
+impl Before {
+    fn new(machine: &Machine, time: Time) -> Self {
+        Self { past: Past::new(machine.memory(), machine.variables(), machine.cycle()), time }
     }
 }

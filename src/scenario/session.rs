@@ -358,6 +358,7 @@ impl Session {
     pub(super) fn cycle(&mut self) {
         self.machine.step();
         self.trace.extend(self.machine.recorder());
+        self.book.note_changes(&self.machine);
         self.machine.drain();
         self.trace.note_values(self.machine.cycle(), self.machine.variables());
     }

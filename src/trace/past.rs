@@ -1,0 +1,137 @@
+//! The state one cycle earlier: what a machine showed before its last step, kept up to date from the rows of the record.
+//!
+//! An expression with `rose` or `fell` compares two cycles. A caller that evaluates one calls [`Past::begin_step`] before each
+//! step and [`Past::end_step`] after it. The memory is copied once at the start; afterwards only the bytes that changed are.
+
+use super::{Change, Recorder};
+use crate::image::{Memory, Part};
+use crate::variables::Variables;
+
+/// What a machine showed before its last step.
+#[derive(Clone, Debug)]
+pub struct Past {
+    memory: Memory,
+    variables: Variables,
+    /// The bytes that the last step changed, with their new values; `memory` has the old ones.
+    changed: Vec<(Part, u32, u8)>,
+    /// The cycle at the end of which `changed` is true.
+    cycle: u64,
+    /// How many rows the recorder had lost then.
+    lost: u64,
+    /// Whether `changed` is all that differs.
+    is_complete: bool,
+}
+
+impl Past {
+    /// Begins with the memory and the variables after a cycle, before which nothing was different.
+    #[must_use]
+    pub fn new(memory: &Memory, variables: &Variables, cycle: u64) -> Self {
+        Self {
+            memory: memory.clone(),
+            variables: variables.clone(),
+            changed: Vec::new(),
+            cycle,
+            lost: 0,
+            is_complete: true,
+        }
+    }
+
+    /// The memory one cycle earlier.
+    #[must_use]
+    pub fn memory(&self) -> &Memory {
+        &self.memory
+    }
+
+    /// The variables one cycle earlier.
+    #[must_use]
+    pub fn variables(&self) -> &Variables {
+        &self.variables
+    }
+
+    /// Before a step: takes over what the machine shows after this cycle. Allocates nothing unless rows of the record were lost, a
+    /// cycle passed without [`Past::end_step`], or a PLC program made a data block, of whose bytes there are no rows.
+    pub fn begin_step(&mut self, memory: &Memory, variables: &Variables, cycle: u64) {
+        let has_same_blocks = self.memory.blocks.iter().count() == memory.blocks.iter().count();
+        if self.is_complete && self.cycle == cycle && has_same_blocks {
+            for (part, offset, new) in self.changed.drain(..) {
+                if let Some(byte) = self.memory.part_mut(part).get_mut(offset as usize) {
+                    *byte = new;
+                }
+            }
+        } else {
+            self.memory = memory.clone();
+            (self.cycle, self.is_complete) = (cycle, true);
+            self.changed.clear();
+        }
+        self.variables.axes = variables.axes;
+        if self.variables.alarms != variables.alarms {
+            self.variables.alarms = variables.alarms.clone();
+        }
+    }
+
+    /// After the step that makes this cycle, before its record is drained: notes which bytes it changed.
+    pub fn end_step(&mut self, recorder: &Recorder, cycle: u64) {
+        self.changed.clear();
+        for row in recorder.rows().iter().rev().take_while(|row| row.cycle == cycle) {
+            match row.change {
+                Change::Byte { part, offset, new, .. } => self.changed.push((part, offset, new)),
+                Change::Alarm { .. } | Change::Overwritten { .. } => {}
+            }
+        }
+        self.is_complete = cycle == self.cycle + 1 && recorder.lost() == self.lost;
+        (self.cycle, self.lost) = (cycle, recorder.lost());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::{By, Row};
+    use crate::variables::EventId;
+
+    fn flag(cycle: u64, offset: u32, old: u8, new: u8) -> Row {
+        let (part, by, causes) = (Part::Flags, [By::Plc; 8], [EventId::NONE; 8]);
+        Row { cycle, change: Change::Byte { part, offset, old, new, by, causes } }
+    }
+
+    #[test]
+    fn the_memory_follows_one_cycle_behind_by_rows_alone() {
+        let (mut memory, variables, mut recorder) = (Memory::new(), Variables::default(), Recorder::default());
+        let mut past = Past::new(&memory, &variables, 7);
+        for (cycle, new) in [(8, 1), (9, 3), (10, 3)] {
+            past.begin_step(&memory, &variables, cycle - 1);
+            let old = memory.flags.byte(20);
+            memory.flags.set_byte(20, new);
+            if new != old {
+                recorder.push(flag(cycle, 20, old, new)); // never drained: rows of earlier cycles do not count
+            }
+            past.end_step(&recorder, cycle);
+            assert_eq!(past.memory().flags.byte(20), old, "cycle {cycle}");
+        }
+        past.begin_step(&memory, &variables, 10);
+        assert_eq!(past.memory(), &memory);
+    }
+
+    #[test]
+    fn what_has_no_rows_is_copied_as_a_whole() {
+        let (mut memory, variables, recorder) = (Memory::new(), Variables::default(), Recorder::default());
+        let mut past = Past::new(&memory, &variables, 0);
+        past.begin_step(&memory, &variables, 0);
+        memory.flags.set_byte(20, 1);
+        past.begin_step(&memory, &variables, 1); // `end_step` was forgotten
+        assert_eq!(past.memory(), &memory);
+        let number = 1_000;
+        memory.blocks.put(crate::image::DataBlock { number, name: None, bytes: vec![1; 4].into() });
+        past.end_step(&recorder, 2);
+        past.begin_step(&memory, &variables, 2);
+        assert_eq!(past.memory(), &memory);
+        let mut full = Recorder::default();
+        for _ in 0..=Recorder::ROWS {
+            full.push(flag(3, 20, 1, 2));
+        }
+        memory.flags.set_byte(21, 1); // the row of which was lost
+        past.end_step(&full, 3);
+        past.begin_step(&memory, &variables, 3);
+        assert_eq!(past.memory(), &memory);
+    }
+}
