@@ -12,11 +12,8 @@ pub enum Duration {
     Cycles(u64),
 }
 
-/// The units of a duration with their seconds.
-const UNITS: [(&str, f64); 5] = [("us", 1e-6), ("ms", 1e-3), ("s", 1.0), ("min", 60.0), ("h", 3600.0)];
-
 impl Duration {
-    /// Reads `<number>us|ms|s|min|h` or `<n>cycles`.
+    /// Reads `<n>cycles`, or a number and a unit as [`Time::parse_saturating`] does.
     ///
     /// # Errors
     /// It is neither.
@@ -28,15 +25,11 @@ impl Duration {
             )
         };
         let trimmed = text.trim();
-        let digits = trimmed.find(|c: char| c != '.' && !c.is_ascii_digit()).unwrap_or(trimmed.len());
-        let (number, unit) = trimmed.split_at(digits);
-        let unit = unit.trim_start();
-        if unit == "cycles" || unit == "cycle" {
-            return number.parse().map(Self::Cycles).map_err(|_| problem());
-        }
-        let (_, seconds) = UNITS.iter().find(|(name, _)| *name == unit).ok_or_else(problem)?;
-        let number: f64 = number.parse().map_err(|_| problem())?;
-        Ok(Self::Time(Time::from_seconds(number * seconds)))
+        let read = match trimmed.strip_suffix("cycles").or_else(|| trimmed.strip_suffix("cycle")) {
+            Some(number) => whole_number(number.trim_end()).map(Self::Cycles),
+            None => Time::parse_saturating(trimmed).map(Self::Time),
+        };
+        read.ok_or_else(problem)
     }
 
     /// How many cycles it takes.
@@ -58,6 +51,11 @@ impl Duration {
     }
 }
 
+/// Digits only: no sign.
+fn whole_number(text: &str) -> Option<u64> {
+    text.bytes().all(|digit| digit.is_ascii_digit()).then(|| text.parse().ok()).flatten()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,6 +73,7 @@ mod tests {
             ("10cycles", 10),
             ("0s", 1),
             ("0cycles", 1),
+            (" 3 cycle ", 3),
         ] {
             assert_eq!(Duration::parse(text).unwrap().cycles(cycle), cycles, "{text}");
         }
@@ -82,7 +81,7 @@ mod tests {
 
     #[test]
     fn what_is_no_duration_is_refused() {
-        for text in ["", "5", "ms", "-1s", "1.2.3s", "5 days", "1.5cycles", "1e3s"] {
+        for text in ["", "5", "ms", "-1s", "1.2.3s", "5 days", "1.5cycles", "1e3s", "+5cycles", "cycles"] {
             assert!(Duration::parse(text).is_err(), "{text}");
         }
     }

@@ -41,8 +41,14 @@ impl Time {
     /// Reads a number and its unit, `us`, `ms`, `s`, `min` or `h`: `10ms`, `0.5 s`. `None` where it is something
     /// else, negative, or beyond 292 years.
     #[must_use]
-    #[expect(clippy::cast_possible_truncation, reason = "the value is checked to be in range before")]
     pub fn parse(text: &str) -> Option<Self> {
+        Self::parse_saturating(text).filter(|time| time.0 < 9_200_000_000_000_000_000)
+    }
+
+    /// Reads as [`Time::parse`]; a time beyond 292 years is the longest one.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "float to integer casts saturate, as documented")]
+    pub fn parse_saturating(text: &str) -> Option<Self> {
         let text = text.trim();
         let end = text.find(|letter: char| !letter.is_ascii_digit() && letter != '.')?;
         let (number, unit) = text.split_at(end);
@@ -54,8 +60,7 @@ impl Time {
             "h" => 3_600e9,
             _ => return None,
         };
-        let nanos = (number.parse::<f64>().ok()? * nanos_per_unit).round();
-        (nanos < 9.2e18).then_some(Self(nanos as i64))
+        Some(Self((number.parse::<f64>().ok()? * nanos_per_unit).round() as i64))
     }
 
     /// Whole nanoseconds.
@@ -137,6 +142,7 @@ mod tests {
         for text in ["10", "ms", "", "-1s", "1e3s", "1.2.3s", "5cycles", "9999999999h", "inf s"] {
             assert_eq!(Time::parse(text), None, "{text}");
         }
+        assert_eq!(Time::parse_saturating("9999999999h"), Some(Time::from_nanos(i64::MAX)));
     }
 
     #[test]

@@ -8,11 +8,14 @@ use clap::ValueEnum;
 use super::failure::Failure;
 use crate::s7::client::{Client, ConnectionKind, Options, Tsaps, password};
 use crate::source::Problem;
+use crate::units::Time;
 
 /// The port of S7 communication.
 const PORT: u16 = 102;
 /// How long an answer may take that is not needed.
 const SOON: Duration = Duration::from_secs(1);
+/// The longest time that can be given: a day.
+const LONGEST: Time = Time::from_millis(86_400_000);
 
 /// Whom to call, and how.
 #[derive(Debug, clap::Args)]
@@ -140,20 +143,13 @@ fn tsaps(text: &str) -> Result<Tsaps, String> {
 /// `100ms`, `1.5s`, `2min`.
 pub(super) fn duration(text: &str) -> Result<Duration, String> {
     let wrong = || format!("expected a time such as 100ms, 1.5s or 2min, found {text}");
-    let digits = text.find(|c: char| !c.is_ascii_digit() && c != '.').ok_or_else(wrong)?;
-    let (number, unit) = text.split_at(digits);
-    let unit = match unit {
-        "ms" => 0.001,
-        "s" => 1.0,
-        "min" => 60.0,
-        "h" => 3600.0,
-        _ => return Err(wrong()),
-    };
-    let seconds = number.parse::<f64>().map_err(|_| wrong())? * unit;
-    match Duration::try_from_secs_f64(seconds) {
-        Ok(duration) if !duration.is_zero() && seconds <= 86_400.0 => Ok(duration),
-        _ => Err(wrong()),
+    // Without spaces and microseconds: what waits for a network needs neither.
+    let is_plain = !text.contains(char::is_whitespace) && !text.ends_with("us");
+    let time = is_plain.then(|| Time::parse(text)).flatten().ok_or_else(wrong)?;
+    if time == Time::ZERO || time > LONGEST {
+        return Err(wrong());
     }
+    Ok(Duration::from_nanos(time.nanos().unsigned_abs()))
 }
 
 pub(super) fn hexadecimal(text: &str) -> Result<u16, String> {
@@ -186,7 +182,7 @@ mod tests {
     fn times_have_a_unit() {
         assert_eq!(duration("100ms"), Ok(Duration::from_millis(100)));
         assert_eq!(duration("1.5s"), Ok(Duration::from_millis(1500)));
-        for wrong in ["", "5", "0s", "-1s", "1 s", "s", "1e9h", "2days"] {
+        for wrong in ["", "5", "0s", "-1s", "1 s", "s", "1e9h", "2days", "5us", "25h"] {
             assert!(duration(wrong).is_err(), "{wrong}");
         }
     }
