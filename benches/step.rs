@@ -2,12 +2,14 @@
 //! and the worked example, from opening to its last row. `benches/README.md` says how to run it and what it gave.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
+use opennck::image::Profile;
 use opennck::machine::Machine;
 use opennck::plc::{ClosureProgram, Programs, program};
+use opennck::scenario::{Prepared, Scenario};
 use opennck::units::{AxisNumber, Time};
 
 /// Steps of one sample: two seconds of the machine, one to and one fro.
@@ -124,19 +126,48 @@ fn worked_example(bencher: Bencher<'_, '_>) {
     });
 }
 
+/// A scenario of one step that lets time pass on the machine of `step`, with ten conditions that must hold in every cycle.
+#[divan::bench]
+fn scenario_with_ten_conditions(bencher: Bencher<'_, '_>) {
+    run_scenario(bencher, &TEN_CONDITIONS);
+}
+
+/// The peer: the same scenario without conditions.
+#[divan::bench]
+fn scenario_without_conditions(bencher: Bencher<'_, '_>) {
+    run_scenario(bencher, &[]);
+}
+
+/// Signals, values, alarms and time, and edges of them. AX1, AX2 and AX3 are called X1, Y1 and Z1.
+const TEN_CONDITIONS: [&str; 10] = [
+    "alarms() > 0",
+    "alarm(10653, Y1) || alarm(10652)",
+    "Y1.gantry_warning_limit_exceeded",
+    "X1.traverse_command_plus && X1.traverse_command_minus",
+    "abs(Y1.synchronism_difference) > 0.5",
+    "X1.velocity > 2010",
+    "time > 1.5 && !X1.position_controller_active",
+    "rose(Z1.traverse_command_plus)",
+    "fell(X1.position_controller_active && !alarm(10653))",
+    "rose(Z1.position > 1)",
+];
+
+fn run_scenario(bencher: Bencher<'_, '_>, never: &[&str]) {
+    let machine = directory_of_31_axes();
+    let text =
+        format!("machine = {machine:?}\nplc = \"jogging\"\nnever = {never:?}\n[[step]]\nrun = \"{STEPS}cycles\"\n");
+    let scenario = Scenario::parse(&text, Path::new("bench.toml")).expect("the scenario is a good one");
+    let programs = Programs::ready().with("jogging", |_| Ok(jogging_program().boxed()));
+    let prepare = || scenario.prepare(Profile::default(), &programs).expect("the scenario is a good one");
+    if let Some(failure) = prepare().run().failure {
+        panic!("{failure}");
+    }
+    bencher.counter(ItemsCount::new(STEPS)).with_inputs(prepare).bench_local_values(Prepared::run);
+}
+
 /// 31 axes, of which AX1 leads AX2, with a program that enables all and jogs the gantry to and fro each second.
 fn jogging_machine() -> Machine {
-    let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("thirty_one_axes");
-    fs::create_dir_all(&directory).expect("the target directory is ours");
-    let mut archive = String::from("CHANDATA(1)\nN10050 $MN_SYSCLOCK_CYCLE_TIME=0.002\n");
-    for axis in 1..=31 {
-        archive += &format!("N30130 $MA_CTRLOUT_TYPE[AX{axis}]=1\nN30200 $MA_NUM_ENCS[AX{axis}]=1\n");
-        archive += &format!("N30240 $MA_ENC_TYPE[0,AX{axis}]=1\nN32020 $MA_JOG_VELO[AX{axis}]=2000\n");
-    }
-    archive += "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1\nN37100 $MA_GANTRY_AXIS_TYPE[AX2]=11\n";
-    archive += "N37120 $MA_GANTRY_POS_TOL_ERROR[AX2]=1\nN37130 $MA_GANTRY_POS_TOL_REF[AX2]=1\nM17\n";
-    fs::write(directory.join("thirty_one_axes.tea"), archive).expect("the target directory is ours");
-    let mut machine = Machine::open(&directory).expect("the archive is a good one");
+    let mut machine = Machine::open(directory_of_31_axes()).expect("the archive is a good one");
     machine.load_program(jogging_program().boxed());
     for _ in 0..STEPS {
         machine.step();
@@ -147,6 +178,20 @@ fn jogging_machine() -> Machine {
     assert_eq!(machine.names().axes.iter().filter(|(_, name)| name.is_some()).count(), 31);
     assert_eq!(machine.variables().alarms.count(), 0, "{:?}", machine.variables().alarms);
     machine
+}
+
+fn directory_of_31_axes() -> PathBuf {
+    let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("thirty_one_axes");
+    fs::create_dir_all(&directory).expect("the target directory is ours");
+    let mut archive = String::from("CHANDATA(1)\nN10050 $MN_SYSCLOCK_CYCLE_TIME=0.002\n");
+    for axis in 1..=31 {
+        archive += &format!("N30130 $MA_CTRLOUT_TYPE[AX{axis}]=1\nN30200 $MA_NUM_ENCS[AX{axis}]=1\n");
+        archive += &format!("N30240 $MA_ENC_TYPE[0,AX{axis}]=1\nN32020 $MA_JOG_VELO[AX{axis}]=2000\n");
+    }
+    archive += "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1\nN37100 $MA_GANTRY_AXIS_TYPE[AX2]=11\n";
+    archive += "N37120 $MA_GANTRY_POS_TOL_ERROR[AX2]=1\nN37130 $MA_GANTRY_POS_TOL_REF[AX2]=1\nM17\n";
+    fs::write(directory.join("thirty_one_axes.tea"), archive).expect("the target directory is ours");
+    directory
 }
 
 fn jogging_program() -> ClosureProgram<()> {
