@@ -1,7 +1,8 @@
 //! From words to terms: operator precedence parsing, and the looking up of names.
 
+use super::scope::Scope;
+use super::term::{Operator, Term};
 use super::tokens::{Token, mistake, tokens};
-use super::{Operator, Scope, Term};
 use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber};
 use crate::variables::{AlarmNumber, AxisValue, Place};

@@ -1,9 +1,9 @@
 //! Expressions by table: values, precedence, names, mistakes.
 
 use super::*;
-use crate::image::Names;
-use crate::units::{ChannelNumber, Position};
-use crate::variables::{RaisedAlarm, Rule, RuleNumber};
+use crate::image::{Location, Memory, Names};
+use crate::units::{AxisNumber, ChannelNumber, Position, Time};
+use crate::variables::{AlarmNumber, Parameter, Place, RaisedAlarm, Rule, RuleNumber, Variables};
 
 /// Axes X and X2, channel CHAN1; one alarm without a number.
 struct Machine(Names);

@@ -15,9 +15,6 @@ use crate::{report, rust};
 /// Circles that stand: files, or folders with all that is below them, and the reason.
 const CIRCLES: &[(&[&str], &str)] = &[
     (&["src/cli/serve/"], "being removed: the folder becomes a module beside `cli`"),
-    (&["src/scenario/expression/"], "being removed: the folder becomes a module beside `scenario`"),
-    (&["src/scenario/faults.rs", "src/scenario/steps.rs"], "being removed"),
-    (&["src/scenario/passing.rs", "src/scenario/session.rs"], "being removed"),
 ];
 
 #[test]

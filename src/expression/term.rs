@@ -1,0 +1,217 @@
+//! The terms of an expression: what they are worth at a moment, and what a person calls their operands.
+
+use super::view::{Moment, View};
+use crate::image::Location;
+use crate::units::AxisNumber;
+use crate::variables::{AlarmNumber, AxisValue, Describe, Parameter, Place, axis_name, place_name, six_decimals};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Operator {
+    Or,
+    And,
+    Equal,
+    NotEqual,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Minimum,
+    Maximum,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Term {
+    Number(f64),
+    Signal(Location),
+    Value(AxisNumber, AxisValue),
+    Time,
+    Named(usize, String),
+    Alarm(AlarmNumber, Option<Place>),
+    AlarmParameter(AlarmNumber, usize),
+    Alarms,
+    Edge { rising: bool, of: Box<Self> },
+    Not(Box<Self>),
+    Negative(Box<Self>),
+    Absolute(Box<Self>),
+    Pair(Operator, Box<Self>, Box<Self>),
+}
+
+/// 0 is false; so is what has no value, as 0/0.
+pub(super) fn truth(value: f64) -> bool {
+    value != 0.0 && !value.is_nan()
+}
+
+fn number(truth: bool) -> f64 {
+    if truth { 1.0 } else { 0.0 }
+}
+
+/// A value of the caller; one that is not there yet has no value.
+fn named_value(moment: &Moment<'_>, index: usize) -> f64 {
+    moment.named_values.get(index).copied().unwrap_or(f64::NAN)
+}
+
+fn parameter(parameter: Parameter) -> f64 {
+    match parameter {
+        Parameter::None => 0.0,
+        Parameter::Channel(channel) => f64::from(channel.number()),
+        Parameter::Axis(axis) => f64::from(axis.number()),
+        Parameter::Number(number) => number as f64,
+        Parameter::Direction(direction) => f64::from(direction),
+    }
+}
+
+impl Term {
+    pub(super) fn value(&self, view: &View<'_>) -> f64 {
+        let now = &view.now;
+        match self {
+            Self::Number(number) => *number,
+            Self::Signal(location) => now.memory.value(*location),
+            Self::Value(axis, value) => value.of(*axis, now.variables),
+            Self::Time => now.time.seconds(),
+            Self::Named(index, _) => named_value(now, *index),
+            Self::Alarm(alarm, place) => number(now.variables.alarms.find(*alarm, *place).is_some()),
+            Self::AlarmParameter(alarm, index) => {
+                let raised = now.variables.alarms.find(*alarm, None);
+                raised.map_or(0.0, |raised| parameter(raised.parameters[*index]))
+            }
+            Self::Alarms => now.variables.alarms.count() as f64,
+            Self::Edge { rising, of } => {
+                let last = truth(of.value(&View { now: view.last, ..*view }));
+                let before = truth(of.value(&View { now: view.before, ..*view }));
+                number(last != before && last == *rising)
+            }
+            Self::Not(of) => number(!truth(of.value(view))),
+            Self::Negative(of) => -of.value(view),
+            Self::Absolute(of) => of.value(view).abs(),
+            Self::Pair(operator, left, right) => operator.apply(left.value(view), || right.value(view)),
+        }
+    }
+
+    fn children(&self) -> [Option<&Self>; 2] {
+        match self {
+            Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) => [Some(of), None],
+            Self::Pair(_, left, right) => [Some(left), Some(right)],
+            Self::Number(_)
+            | Self::Signal(_)
+            | Self::Value(..)
+            | Self::Time
+            | Self::Named(..)
+            | Self::Alarm(..)
+            | Self::AlarmParameter(..)
+            | Self::Alarms => [None, None],
+        }
+    }
+
+    pub(super) fn any(&self, test: &dyn Fn(&Self) -> bool) -> bool {
+        test(self) || self.children().into_iter().flatten().any(|child| child.any(test))
+    }
+
+    pub(super) fn operands(&self, view: &View<'_>, describe: &dyn Describe, lines: &mut Vec<String>) {
+        if let Some(name) = self.name(describe) {
+            let line = format!("{name} = {}", shown(self.value(view), matches!(self, Self::Value(..))));
+            if !lines.contains(&line) {
+                lines.push(line);
+            }
+        }
+        for child in self.children().into_iter().flatten() {
+            child.operands(view, describe, lines);
+        }
+    }
+
+    /// What a person calls this operand; nothing for what is no operand.
+    fn name(&self, describe: &dyn Describe) -> Option<String> {
+        let names = describe.names();
+        let name = match self {
+            Self::Signal(location) => {
+                let address = names.address(*location);
+                names.symbol(*location).map_or_else(|| address.to_string(), |symbol| format!("{symbol} ({address})"))
+            }
+            Self::Value(axis, value) => format!("{}.{value}", axis_name(*axis, names)),
+            Self::Time => "time".to_owned(),
+            Self::Named(_, name) => name.clone(),
+            Self::Alarm(alarm, None) => format!("alarm({})", describe.alarm_name(*alarm)),
+            Self::Alarm(alarm, Some(place)) => {
+                format!("alarm({}, {})", describe.alarm_name(*alarm), place_name(*place, names))
+            }
+            Self::AlarmParameter(alarm, index) => {
+                format!("alarm_parameter({}, {})", describe.alarm_name(*alarm), index + 1)
+            }
+            Self::Alarms => "alarms()".to_owned(),
+            Self::Number(_)
+            | Self::Edge { .. }
+            | Self::Not(_)
+            | Self::Negative(_)
+            | Self::Absolute(_)
+            | Self::Pair(..) => return None,
+        };
+        Some(name)
+    }
+}
+
+/// A value for a message: six decimals for what is measured, as short as possible for the rest.
+fn shown(value: f64, measured: bool) -> String {
+    if measured { six_decimals(value) } else { format!("{value}") }
+}
+
+impl Operator {
+    /// How strongly it binds, as in Rust.
+    pub(super) const fn binding(self) -> u8 {
+        match self {
+            Self::Or => 1,
+            Self::And => 2,
+            Self::Equal | Self::NotEqual | Self::Less | Self::LessOrEqual | Self::Greater | Self::GreaterOrEqual => {
+                Self::COMPARISON
+            }
+            Self::Add | Self::Subtract => 4,
+            Self::Multiply | Self::Divide => 5,
+            Self::Minimum | Self::Maximum => 6,
+        }
+    }
+
+    pub(super) const COMPARISON: u8 = 3;
+
+    pub(super) fn of(sign: &str) -> Option<Self> {
+        Some(match sign {
+            "||" => Self::Or,
+            "&&" => Self::And,
+            "==" => Self::Equal,
+            "!=" => Self::NotEqual,
+            "<" => Self::Less,
+            "<=" => Self::LessOrEqual,
+            ">" => Self::Greater,
+            ">=" => Self::GreaterOrEqual,
+            "+" => Self::Add,
+            "-" => Self::Subtract,
+            "*" => Self::Multiply,
+            "/" => Self::Divide,
+            _ => return None,
+        })
+    }
+
+    #[expect(
+        clippy::float_cmp,
+        reason = "`==` in a scenario means equal; the writer of a scenario takes `abs` where not"
+    )]
+    fn apply(self, left: f64, right: impl FnOnce() -> f64) -> f64 {
+        match self {
+            Self::Or => number(truth(left) || truth(right())),
+            Self::And => number(truth(left) && truth(right())),
+            Self::Equal => number(left == right()),
+            Self::NotEqual => number(left != right()),
+            Self::Less => number(left < right()),
+            Self::LessOrEqual => number(left <= right()),
+            Self::Greater => number(left > right()),
+            Self::GreaterOrEqual => number(left >= right()),
+            Self::Add => left + right(),
+            Self::Subtract => left - right(),
+            Self::Multiply => left * right(),
+            Self::Divide => left / right(),
+            Self::Minimum => left.min(right()),
+            Self::Maximum => left.max(right()),
+        }
+    }
+}
