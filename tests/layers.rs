@@ -25,12 +25,13 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     ("scenario", &["expression", "image", "machine", "plc", "source", "trace", "units", "variables"]),
     ("golden", &["image", "machine", "plc", "scenario", "source", "trace", "units"]),
-    ("s7", &["image", "units", "variables"]),
+    ("live", &["image", "machine", "plc", "s7", "scenario", "source", "trace", "units", "variables"]),
+    ("s7", &["image", "live", "machine", "sinumerik", "source", "units", "variables"]),
     ("cli", &["*"]),
 ];
 
 /// Where clocks, threads, sockets and random numbers may be.
-const OUTSIDE: &[&str] = &["src/cli/", "src/s7/server/", "src/s7/client/"];
+const OUTSIDE: &[&str] = &["src/cli/", "src/live/", "src/s7/live/", "src/s7/server/", "src/s7/client/"];
 
 /// A text, why it is refused, and what stands in its place. (`\x21` and the like keep this file from finding itself.)
 const REFUSED_IN_RUST: &[(&str, &str)] = &[

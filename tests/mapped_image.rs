@@ -13,9 +13,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use opennck::cli::serve::{Exchange, Keeper, Live, LiveOptions, MappedPlc, Speed};
 use opennck::image::mapped::{Look, MappedImage, PlcImage, Rules, State, Step};
 use opennck::image::{Area, Memory, Names, SINUMERIK};
+use opennck::live::{Exchange, Keeper, Live, LiveOptions, MappedPlc, Speed};
 use opennck::machine::{self, Machine};
 use opennck::plc::{PlcProgram, gantry_start};
 use opennck::scenario::{Failure, Session};

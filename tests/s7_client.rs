@@ -4,10 +4,12 @@
 use std::net::SocketAddr;
 use std::time::Duration;
 
-use opennck::cli::serve::{Limits, Live, Speed, Window};
 use opennck::image::{Area, Format, Preset, Width};
+use opennck::live::{Live, Speed};
 use opennck::machine::{Machine, OpenOptions};
 use opennck::s7::client::{BlockKind, Client, Error, Memory, Mode, Options, Value, Variable};
+use opennck::s7::live::Window;
+use opennck::s7::server::Limits;
 use opennck::s7::{CpuState, DateAndTime, Restart};
 
 /// A machine that runs, and its window.

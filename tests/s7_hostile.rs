@@ -20,9 +20,11 @@ use std::time::{Duration, Instant};
 
 use common::client;
 use hostile::{Act, Conversation};
-use opennck::cli::serve::{Limits, Live, Window};
 use opennck::image::Preset;
+use opennck::live::Live;
 use opennck::machine::{Machine, OpenOptions};
+use opennck::s7::live::Window;
+use opennck::s7::server::Limits;
 use oracle::{Expected, Listener, packet_length};
 use rust7::{S7_AREA_DB, S7Client};
 

@@ -9,8 +9,10 @@ use std::net::{SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use common::{CONNECT, bare, packet, setup};
-use opennck::cli::serve::{Limits, Live, Speed, Window};
+use opennck::live::{Live, Speed};
 use opennck::machine::Machine;
+use opennck::s7::live::Window;
+use opennck::s7::server::Limits;
 
 /// Clients that are held.
 const MANY: usize = 1000;

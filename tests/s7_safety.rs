@@ -13,9 +13,10 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use common::{CONNECT, bare, client, next, setup};
-use opennck::cli::serve::{Live, Speed, Terms, Window, WindowOptions};
 use opennck::image::{Area, Profile};
+use opennck::live::{Live, Speed};
 use opennck::machine::{Machine, OpenOptions};
+use opennck::s7::live::{Terms, Window, WindowOptions};
 use opennck::s7::{Protected, Protection, Settings};
 use prometheus_parse::{Scrape, Value};
 use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE};
@@ -295,7 +296,7 @@ fn the_plc_is_stopped_only_with_the_password() {
 fn the_cpu_says_what_a_file_says() {
     let (live, file) = (live(), new_file("identity.toml"));
     std::fs::write(&file, "plant = \"Hall 2\"\norder_number = \"6ES7 999-9ZZ99-9ZZ9\"").unwrap();
-    let identity = opennck::cli::serve::OwnIdentity::read(&file).unwrap();
+    let identity = opennck::s7::live::OwnIdentity::read(&file).unwrap();
     let (_window, address) = window(&live, terms(Terms { identity, ..Terms::default() }));
     let mut stream = bare(address);
     stream.write_all(&[&CONNECT[..], &SETUP].concat()).unwrap();

@@ -11,9 +11,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use common::{CONNECT, bare, client, packet, setup};
-use opennck::cli::serve::{Limits, Live, LiveOptions, Speed, Window};
+use opennck::live::{Live, LiveOptions, Speed};
 use opennck::machine::Machine;
 use opennck::plc::{self, PlcIo, Programs};
+use opennck::s7::live::Window;
+use opennck::s7::server::Limits;
 use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE};
 
 const SETUP: [u8; 25] = setup(480);

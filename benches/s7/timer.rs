@@ -49,7 +49,7 @@ impl Timer {
     }
 }
 
-/// As the stepping thread does (`src/cli/serve/urgency.rs`); who may not, goes on as all programs run.
+/// As the stepping thread does (`src/live/urgency.rs`); who may not, goes on as all programs run.
 #[cfg(unix)]
 fn hurry() {
     use thread_priority::unix::{

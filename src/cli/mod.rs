@@ -22,7 +22,7 @@ mod run;
 #[cfg(feature = "s7")]
 mod s7;
 #[cfg(feature = "s7")]
-pub mod serve;
+mod serve;
 mod signals;
 mod test;
 mod why;

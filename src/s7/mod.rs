@@ -29,6 +29,7 @@ mod bridge;
 pub mod client;
 mod command;
 mod directory;
+pub mod live;
 mod protected;
 pub mod server;
 mod session;

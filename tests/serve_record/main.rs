@@ -15,10 +15,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use opennck::cli::serve::{Limits, Live, LiveOptions, Recording, Window};
 use opennck::image::AsBytes;
+use opennck::live::{Live, LiveOptions, Recording};
 use opennck::machine::Machine;
 use opennck::plc::{PlcFault, PlcIo, PlcProgram, Programs};
+use opennck::s7::live::Window;
+use opennck::s7::server::Limits;
 use opennck::scenario::{Heading, Scenario};
 use opennck::source::Problem;
 use opennck::trace::Watch;

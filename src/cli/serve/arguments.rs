@@ -5,11 +5,11 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use super::protect::{protected, protection};
-use super::{Network, OwnIdentity, Speed, Terms, WindowOptions};
+use crate::live::Speed;
 use crate::machine::Machine;
 use crate::s7::Settings;
-use crate::s7::server::{Faults, Limits};
+use crate::s7::live::{OwnIdentity, Terms, WindowOptions, protected, protection};
+use crate::s7::server::{Faults, Limits, Network};
 use crate::source::Problem;
 use crate::units::Time;
 

@@ -2,8 +2,10 @@
 
 use std::net::SocketAddr;
 
+use super::Arguments;
 use super::opening::Opened;
-use super::{Arguments, Terms};
+use super::Arguments;
+use crate::s7::live::Terms;
 
 /// The machine, its program and its files.
 pub(super) fn machine(opened: &Opened, arguments: &Arguments) -> String {

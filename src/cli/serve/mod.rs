@@ -1,49 +1,14 @@
 //! `opennck serve`: a machine in real time, and its windows for operator panels and data collectors.
-//!
-//! The parts are public, so that a test of a panel can have a machine of its own in its own process:
-//!
-//! ```
-//! use opennck::cli::serve::{Limits, Live, Speed, Window};
-//! use opennck::machine::Machine;
-//!
-//! let live = Live::start(Machine::open("g1_example")?, Speed::default());
-//! let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default())?;
-//! let port = window.addresses()[0].port(); // for the client
-//! assert!(port > 0 && live.with(|machine| machine.axis("X").is_some()));
-//! # Ok::<(), opennck::source::Problem>(())
-//! ```
 
 #![expect(clippy::disallowed_methods, reason = "real time is what it is for")]
 
 mod arguments;
 mod banner;
-mod diagnosis;
 mod handles;
-mod identity;
-mod image;
-mod inbox;
-mod live;
 mod log;
-mod metrics;
 mod opening;
-mod panel;
-mod protect;
-mod record;
-mod seen;
-mod speed;
-mod terms;
-mod urgency;
-mod window;
 
-pub use crate::s7::server::{Counter, Counters, Faults, Limits, Network, Refused};
 pub(super) use arguments::Arguments;
-pub use identity::OwnIdentity;
-pub use image::{Exchange, Keeper, MappedPlc};
-pub use live::{Ended, GIVE_UP, Live, LiveOptions, Pace};
-pub use record::Recording;
-pub use speed::Speed;
-pub use terms::Terms;
-pub use window::{Window, WindowOptions};
 
 use std::fs::File;
 use std::io::{IsTerminal, Write};
@@ -54,11 +19,13 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tokio::runtime::Builder;
 
 use super::output::{Output, apart};
+use crate::live::stepping::Clocked;
+use crate::live::{Exchange, Keeper, Live, LiveOptions, MappedPlc, Speed};
 use crate::plc::Programs;
+use crate::s7::live::Window;
 use crate::scenario::State;
 use crate::source::Problem;
 use crate::variables::Describe;
-use live::Clocked;
 use opening::Opened;
 
 /// How often the status line is drawn.
@@ -171,7 +138,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let mapped = arguments.image.as_deref().map(|file| MappedPlc::create(file, machine, exchange)).transpose()?;
     let trace = arguments.trace.as_deref().map(|path| Kept::open(path, arguments)).transpose()?;
     // Last of the files: one that has begun would be in the way of the next try.
-    let recording = arguments.record.as_deref().map(|path| record::of(path, &opened)).transpose()?;
+    let recording = arguments.record.as_deref().map(|path| opening::recording(path, &opened)).transpose()?;
     let Opened { machine, operator, watch, .. } = opened;
     let (is_held, is_lock_step) = (arguments.lock_step, arguments.lock_step);
     let trace_of = trace.is_some().then_some(watch);

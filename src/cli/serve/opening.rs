@@ -3,15 +3,16 @@
 //! A scenario brings its own machine, program and image, with its profile (the first one), its `[plant]`, and its `watch` for the
 //! trace; what the command line names counts instead. Its `limit` bounds the scenario, not the machine.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use super::Arguments;
 use crate::cli::output::Output;
 use crate::image::{Preset, Profile};
+use crate::live::Recording;
 use crate::machine::{Machine, OpenOptions};
 use crate::plc::Programs;
-use crate::scenario::{Named, Operator, Scenario, profile_named};
-use crate::source::{Place, Problem, Table};
+use crate::scenario::{Heading, Named, Operator, Scenario, profile_named};
+use crate::source::{Place, Problem, Table, unreadable};
 use crate::trace::Watch;
 
 /// A machine that is open.
@@ -149,4 +150,48 @@ fn image(name: &str) -> Result<PathBuf, Problem> {
             "name a file that ends in .toml, or start where plc_images is",
         )
     })
+}
+
+/// The recording of a machine that `serve` has opened.
+pub(super) fn recording(path: &Path, opened: &Opened) -> Result<Recording, Problem> {
+    let machine = &opened.path;
+    let machine = if machine.exists() { from(path, machine)? } else { built_in(path, machine)? };
+    let image = opened.image.as_deref().map(|image| from(path, image)).transpose()?;
+    let title = format!("A session with {}", machine.rsplit('/').next().unwrap_or_default());
+    let heading = Heading {
+        title: &title,
+        machine: &machine,
+        profile: opened.machine.names().profile,
+        plc: opened.plc.as_deref(),
+        plc_image: image.as_deref(),
+        watch: opened.entries.as_deref(),
+        plant: opened.plant.as_ref(),
+    };
+    Recording::begin(path, &heading, &opened.machine)
+}
+
+/// A machine that is built in has no path, but a folder of its name beside the file would be taken for it.
+fn built_in(path: &Path, machine: &Path) -> Result<String, Problem> {
+    let name = machine.file_name().unwrap_or_default();
+    if path.with_file_name(name).exists() {
+        let what = format!("expected no machine {} beside the recording, found one", name.display());
+        return Err(Place::file(&path.display().to_string()).problem(what, "write the recording elsewhere"));
+    }
+    Ok(name.to_string_lossy().into_owned())
+}
+
+/// The path of something that exists, from the folder of a file on.
+fn from(file: &Path, to: &Path) -> Result<String, Problem> {
+    let found = |path: &Path| path.canonicalize().map_err(|error| unreadable(path, &error));
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or_else(|| Path::new("."));
+    let (folder, to) = (found(folder)?, found(to)?);
+    let common = folder.components().zip(to.components()).take_while(|(one, other)| one == other).count();
+    let up = folder.components().skip(common).map(|_| Component::ParentDir);
+    // Two disks have nothing in common.
+    let relative: PathBuf = if common == 0 { to } else { up.chain(to.components().skip(common)).collect() };
+    let text = relative.to_str().ok_or_else(|| {
+        let what = format!("expected a path in UTF-8, found {}", relative.display());
+        Problem::new(what, "rename it: a scenario is written in UTF-8")
+    })?;
+    Ok(if cfg!(windows) { text.replace('\\', "/") } else { text.to_owned() })
 }

@@ -8,7 +8,7 @@ const ENTRIES: usize = 100;
 
 /// The diagnostic buffer, newest entry first.
 #[derive(Debug)]
-pub(super) struct Buffer {
+pub(crate) struct Buffer {
     entries: Vec<Diagnosis>,
     is_stopped: bool,
     /// What a client asked for.
@@ -17,7 +17,7 @@ pub(super) struct Buffer {
 
 impl Buffer {
     /// A CPU that was just switched on.
-    pub(super) fn new(machine: &Machine, now: DateAndTime) -> Self {
+    pub(crate) fn new(machine: &Machine, now: DateAndTime) -> Self {
         let mut buffer = Self { entries: Vec::new(), is_stopped: machine.is_plc_stopped(), restart: None };
         for event in [Diagnosis::POWER_ON, Diagnosis::START_UP, Diagnosis::RUN] {
             buffer.add(event, now);
@@ -26,12 +26,12 @@ impl Buffer {
     }
 
     /// Notes who asked for the restart that comes.
-    pub(super) fn restart_asked(&mut self, restart: Restart) {
+    pub(crate) fn restart_asked(&mut self, restart: Restart) {
         self.restart = Some(restart);
     }
 
     /// Looks at the operating state after a step.
-    pub(super) fn observe(&mut self, machine: &Machine, now: impl Fn() -> DateAndTime) {
+    pub(crate) fn observe(&mut self, machine: &Machine, now: impl Fn() -> DateAndTime) {
         if machine.is_plc_stopped() == self.is_stopped {
             return;
         }
@@ -51,7 +51,7 @@ impl Buffer {
     }
 
     /// All that are kept.
-    pub(super) fn entries(&self) -> &[Diagnosis] {
+    pub(crate) fn entries(&self) -> &[Diagnosis] {
         &self.entries
     }
 

@@ -5,9 +5,9 @@ use std::collections::VecDeque;
 use std::net::SocketAddr;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::live::Clocked;
-use super::panel::machine_datum;
+use super::stepping::Clocked;
 use crate::machine::Command;
+use crate::s7::live::panel::machine_datum;
 use crate::s7::{self, CpuState};
 use crate::source::Problem;
 
@@ -19,15 +19,15 @@ const EDGE: usize = 4096;
 
 /// What a request asked for, in order.
 #[derive(Debug)]
-pub(super) struct Order {
+pub(crate) struct Order {
     /// Who, where that is known.
-    pub(super) client: Option<SocketAddr>,
-    pub(super) commands: Vec<s7::Command>,
+    pub(crate) client: Option<SocketAddr>,
+    pub(crate) commands: Vec<s7::Command>,
 }
 
 /// Orders that wait for the edge of a step.
 #[derive(Debug)]
-pub(super) struct Inbox(Mutex<Waiting>);
+pub(crate) struct Inbox(Mutex<Waiting>);
 
 #[derive(Debug)]
 struct Waiting {
@@ -59,12 +59,12 @@ impl Order {
 
 impl Inbox {
     /// An empty one, before the first step.
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(Mutex::new(Waiting { orders: VecDeque::new(), step: 1, bytes: 0, begun: 0, plc: None }))
     }
 
     /// Adds an order; gives the step that takes it up.
-    pub(super) fn add(&self, order: Order) -> u64 {
+    pub(crate) fn add(&self, order: Order) -> u64 {
         let mut waiting = self.lock();
         let bytes = order.bytes();
         waiting.bytes += bytes;
@@ -87,22 +87,22 @@ impl Inbox {
     }
 
     /// What the PLC was asked for and does not show yet, for who sees the machine after this step: whoever stops it may start it at once.
-    pub(super) fn asked_of_plc(&self, seen: u64) -> Option<CpuState> {
+    pub(crate) fn asked_of_plc(&self, seen: u64) -> Option<CpuState> {
         self.lock().plc.filter(|(step, _)| *step > seen).map(|(_, state)| state)
     }
 
     /// Whether many orders wait.
-    pub(super) fn is_full(&self) -> bool {
+    pub(crate) fn is_full(&self) -> bool {
         self.count() >= MANY
     }
 
     /// How many orders wait.
-    pub(super) fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.lock().orders.len()
     }
 
     /// The orders for the edge of the step that begins; what comes from now on waits for the next.
-    pub(super) fn take(&self) -> Vec<Order> {
+    pub(crate) fn take(&self) -> Vec<Order> {
         let mut waiting = self.lock();
         waiting.begun += 1;
         let begun = waiting.begun;
@@ -119,7 +119,7 @@ impl Inbox {
 }
 
 /// Queues what a client asked for.
-pub(super) fn queue(clocked: &mut Clocked, command: &s7::Command) -> Result<(), Problem> {
+pub(crate) fn queue(clocked: &mut Clocked, command: &s7::Command) -> Result<(), Problem> {
     let command = match *command {
         s7::Command::Write { location, value } => Command::Write { location, value },
         s7::Command::MachineDatum { place, number, index, value } => machine_datum(place, number, index, value)?,

@@ -13,12 +13,13 @@ use tokio::runtime::{Builder, Runtime};
 use tokio::sync::watch;
 use tokio::task::JoinSet;
 
-use super::inbox::Order;
-use super::live::{Live, Shared};
 use super::metrics;
 use super::panel::{Panel, identity};
-use super::seen::Seen;
 use super::terms::Terms;
+use crate::live::Live;
+use crate::live::inbox::Order;
+use crate::live::seen::Seen;
+use crate::live::stepping::Shared;
 use crate::machine::Machine;
 use crate::s7::server::{Capture, Counters, Faults, Instruments, Limits, Server, Stations, listen};
 use crate::s7::{self, Bridge, CpuState, Directory, Machinery, Settings, Station};

@@ -18,7 +18,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::live::{Live, Shared};
+use super::stepping::{Live, Shared};
 use crate::image::AsBytes;
 use crate::image::mapped::{Look, MappedImage, Refusal, Rules, State, Step};
 use crate::machine::{Command, Machine};

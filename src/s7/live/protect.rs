@@ -10,7 +10,7 @@ const CURE: &str =
 
 /// Reads what is protected: a data block or several, an area, bytes of one of them, or the NC variables. It must exist: a misspelt
 /// address protects nothing.
-pub(super) fn protected(text: &str, machine: &Machine) -> Result<Protected, Problem> {
+pub(crate) fn protected(text: &str, machine: &Machine) -> Result<Protected, Problem> {
     let wrong = |what: &str| Problem::new(format!("--protect {text}: {what}"), CURE);
     let (first, last) = text.split_once("..").map_or((text, None), |(first, last)| (first, Some(last)));
     let whole = match first {
@@ -66,7 +66,7 @@ fn all(area: Area) -> Protected {
 }
 
 /// What needs the password. Without a level, a password protects stop, restart and the clock.
-pub(super) fn protection(password: Option<&str>, level: Option<u8>) -> Result<Protection, Problem> {
+pub(crate) fn protection(password: Option<&str>, level: Option<u8>) -> Result<Protection, Problem> {
     let Some(text) = password else {
         return match level {
             None | Some(1) => Ok(Protection { level: 1, password: None }),

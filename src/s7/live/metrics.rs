@@ -14,7 +14,7 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::task::{AbortHandle, JoinSet};
 use tokio::time::{sleep, timeout};
 
-use super::live::Shared;
+use crate::live::stepping::Shared;
 use crate::s7::server::{Counters, Refused};
 use crate::variables::Describe;
 

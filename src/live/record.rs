@@ -10,16 +10,15 @@ use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::net::SocketAddr;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use super::opening::Opened;
 use crate::machine::Machine;
 use crate::scenario::{Heading, Remark, Transcript};
-use crate::source::{Place, Problem, unreadable};
+use crate::source::{Place, Problem};
 
 /// How often the file is written.
 const EVERY: Duration = Duration::from_secs(1);
@@ -33,50 +32,6 @@ pub struct Recording {
     clients: BTreeMap<SocketAddr, usize>,
     end: Option<mpsc::Sender<()>>,
     thread: Option<JoinHandle<()>>,
-}
-
-/// The recording of a machine that `serve` has opened.
-pub(super) fn of(path: &Path, opened: &Opened) -> Result<Recording, Problem> {
-    let machine = &opened.path;
-    let machine = if machine.exists() { from(path, machine)? } else { built_in(path, machine)? };
-    let image = opened.image.as_deref().map(|image| from(path, image)).transpose()?;
-    let title = format!("A session with {}", machine.rsplit('/').next().unwrap_or_default());
-    let heading = Heading {
-        title: &title,
-        machine: &machine,
-        profile: opened.machine.names().profile,
-        plc: opened.plc.as_deref(),
-        plc_image: image.as_deref(),
-        watch: opened.entries.as_deref(),
-        plant: opened.plant.as_ref(),
-    };
-    Recording::begin(path, &heading, &opened.machine)
-}
-
-/// A machine that is built in has no path, but a folder of its name beside the file would be taken for it.
-fn built_in(path: &Path, machine: &Path) -> Result<String, Problem> {
-    let name = machine.file_name().unwrap_or_default();
-    if path.with_file_name(name).exists() {
-        let what = format!("expected no machine {} beside the recording, found one", name.display());
-        return Err(Place::file(&path.display().to_string()).problem(what, "write the recording elsewhere"));
-    }
-    Ok(name.to_string_lossy().into_owned())
-}
-
-/// The path of something that exists, from the folder of a file on.
-fn from(file: &Path, to: &Path) -> Result<String, Problem> {
-    let found = |path: &Path| path.canonicalize().map_err(|error| unreadable(path, &error));
-    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or_else(|| Path::new("."));
-    let (folder, to) = (found(folder)?, found(to)?);
-    let common = folder.components().zip(to.components()).take_while(|(one, other)| one == other).count();
-    let up = folder.components().skip(common).map(|_| Component::ParentDir);
-    // Two disks have nothing in common.
-    let relative: PathBuf = if common == 0 { to } else { up.chain(to.components().skip(common)).collect() };
-    let text = relative.to_str().ok_or_else(|| {
-        let what = format!("expected a path in UTF-8, found {}", relative.display());
-        Problem::new(what, "rename it: a scenario is written in UTF-8")
-    })?;
-    Ok(if cfg!(windows) { text.replace('\\', "/") } else { text.to_owned() })
 }
 
 /// What waits for the disk.

@@ -15,17 +15,17 @@ const LINGER: u32 = 1000;
 
 /// A machine after a step, with the clock of its CPU and what its diagnostic buffer held.
 #[derive(Debug)]
-pub(super) struct Seen {
+pub(crate) struct Seen {
     /// How many steps were over, counted here: a machine that is restored counts its cycles anew.
-    pub(super) step: u64,
-    pub(super) machine: Snapshot,
-    pub(super) clock: DateAndTime,
-    pub(super) diagnosis: Vec<Diagnosis>,
+    pub(crate) step: u64,
+    pub(crate) machine: Snapshot,
+    pub(crate) clock: DateAndTime,
+    pub(crate) diagnosis: Vec<Diagnosis>,
 }
 
 /// The last step, for everybody who looks.
 #[derive(Debug)]
-pub(super) struct View {
+pub(crate) struct View {
     /// How many steps are over.
     step: AtomicU64,
     /// How many more steps are shown.
@@ -36,26 +36,26 @@ pub(super) struct View {
 }
 
 impl View {
-    pub(super) fn new(seen: Box<Seen>) -> Self {
+    pub(crate) fn new(seen: Box<Seen>) -> Self {
         let (step, lingers) = (AtomicU64::new(seen.step), AtomicU32::new(0));
         Self { step, lingers, fresh: Mutex::new(None), seen: Mutex::new(seen) }
     }
 
     /// Whether somebody has looked not long ago; asked once a step.
-    pub(super) fn is_looked_at(&self) -> bool {
+    pub(crate) fn is_looked_at(&self) -> bool {
         let less = |lingers: u32| lingers.checked_sub(1);
         self.lingers.fetch_update(Ordering::Relaxed, Ordering::Relaxed, less).is_ok()
     }
 
     /// A step is over; whoever looks from now on sees what it left.
-    pub(super) fn over(&self, step: u64, shown: Option<Box<Seen>>) {
+    pub(crate) fn over(&self, step: u64, shown: Option<Box<Seen>>) {
         let before = shown.and_then(|shown| lock(&self.fresh).replace(shown));
         self.step.store(step, Ordering::Release);
         drop(before);
     }
 
     /// Looks at the last step; `copy` gives it where nobody has shown it.
-    pub(super) fn look<T>(&self, copy: impl FnOnce() -> Box<Seen>, look: impl FnOnce(&Seen) -> T) -> T {
+    pub(crate) fn look<T>(&self, copy: impl FnOnce() -> Box<Seen>, look: impl FnOnce(&Seen) -> T) -> T {
         self.lingers.store(LINGER, Ordering::Relaxed);
         let mut seen = lock(&self.seen);
         // Asked once: another step may be over a moment later, and nobody waits for the one behind it.

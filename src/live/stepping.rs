@@ -61,12 +61,12 @@ pub struct Pace {
 
 /// What the stepping thread and those outside share.
 #[derive(Debug)]
-pub(super) struct Shared {
+pub(crate) struct Shared {
     clocked: Mutex<Clocked>,
     /// What clients see of it.
     view: View,
     /// What clients asked for.
-    pub(super) inbox: Inbox,
+    pub(crate) inbox: Inbox,
     /// A scan may wait for a process: each step is shown before it does.
     is_lock_step: bool,
     /// A step is shown while somebody looks; faster, few of so many are looked at, and each is copied for who does.
@@ -74,7 +74,7 @@ pub(super) struct Shared {
     /// How many wait for the lock.
     waiting: AtomicUsize,
     /// How many steps are over.
-    pub(super) steps: watch::Sender<u64>,
+    pub(crate) steps: watch::Sender<u64>,
     overruns: AtomicU64,
     worst: AtomicU64,
     lost: AtomicU64,
@@ -85,16 +85,16 @@ pub(super) struct Shared {
 
 /// A machine with the clock of its CPU, and what is kept of what happens to it.
 #[derive(Debug)]
-pub(super) struct Clocked {
-    pub(super) machine: Machine,
+pub(crate) struct Clocked {
+    pub(crate) machine: Machine,
     /// How many steps it has taken here.
     steps: u64,
-    pub(super) diagnosis: Buffer,
+    pub(crate) diagnosis: Buffer,
     set: DateAndTime,
     set_at: Time,
-    pub(super) recording: Option<Recording>,
+    pub(crate) recording: Option<Recording>,
     trace: Option<(Trace, Watch)>,
-    pub(super) operator: Option<Operator>,
+    pub(crate) operator: Option<Operator>,
 }
 
 /// What goes with a live machine.
@@ -149,11 +149,11 @@ impl Clocked {
     }
 
     /// The clock goes with the machine, at whatever speed.
-    pub(super) fn clock(&self) -> DateAndTime {
+    pub(crate) fn clock(&self) -> DateAndTime {
         clock(self.set, self.machine.time() - self.set_at)
     }
 
-    pub(super) fn set_clock(&mut self, time: DateAndTime) {
+    pub(crate) fn set_clock(&mut self, time: DateAndTime) {
         (self.set, self.set_at) = (time, self.machine.time());
     }
 
@@ -260,7 +260,7 @@ impl Live {
     }
 
     /// The step that is being taken is the last one.
-    pub(super) fn finish(&self) {
+    pub(crate) fn finish(&self) {
         if let Some(end) = &self.end {
             let _ = end.send(());
         }
@@ -272,7 +272,7 @@ impl Live {
     }
 
     /// The same if it can be had soon: a scan in lock-step may wait for long.
-    pub(super) fn with_soon<T>(&self, look: impl FnOnce(&Clocked) -> T) -> Option<T> {
+    pub(crate) fn with_soon<T>(&self, look: impl FnOnce(&Clocked) -> T) -> Option<T> {
         self.shared.lend_soon().map(|lent| look(&lent))
     }
 
@@ -325,7 +325,7 @@ impl Live {
         drop(self.shared.lend().recording.take());
     }
 
-    pub(super) fn shared(&self) -> Arc<Shared> {
+    pub(crate) fn shared(&self) -> Arc<Shared> {
         Arc::clone(&self.shared)
     }
 }
@@ -338,27 +338,27 @@ impl Drop for Live {
 
 impl Shared {
     /// How well the schedule was kept so far.
-    pub(super) fn pace(&self) -> Pace {
+    pub(crate) fn pace(&self) -> Pace {
         let nanos = |counter: &AtomicU64| Duration::from_nanos(counter.load(Ordering::Relaxed));
         let Self { overruns, worst, lost, .. } = self;
         Pace { overruns: overruns.load(Ordering::Relaxed), worst: nanos(worst), lost: nanos(lost) }
     }
 
-    pub(super) fn begin(&self) {
+    pub(crate) fn begin(&self) {
         self.is_held.store(false, Ordering::Release);
     }
 
-    pub(super) fn is_held(&self) -> bool {
+    pub(crate) fn is_held(&self) -> bool {
         self.is_held.load(Ordering::Acquire)
     }
 
     /// How many times real time is wanted.
-    pub(super) fn speed(&self) -> Speed {
+    pub(crate) fn speed(&self) -> Speed {
         self.speed
     }
 
     /// The machine between two steps.
-    pub(super) fn lend(&self) -> MutexGuard<'_, Clocked> {
+    pub(crate) fn lend(&self) -> MutexGuard<'_, Clocked> {
         // A step is over sooner than the system puts a thread to sleep and wakes it.
         for _ in 0..PATIENCE {
             match self.clocked.try_lock() {
@@ -374,7 +374,7 @@ impl Shared {
     }
 
     /// The machine as it was after its last step.
-    pub(super) fn look<T>(&self, look: impl FnOnce(&Seen) -> T) -> T {
+    pub(crate) fn look<T>(&self, look: impl FnOnce(&Seen) -> T) -> T {
         self.view.look(|| self.lend().seen(), look)
     }
 

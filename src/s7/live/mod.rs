@@ -1,0 +1,27 @@
+//! The S7 server of a live machine. A test of a panel can have a machine of its own in its own process:
+//!
+//! ```
+//! use opennck::live::{Live, Speed};
+//! use opennck::machine::Machine;
+//! use opennck::s7::live::Window;
+//! use opennck::s7::server::Limits;
+//!
+//! let live = Live::start(Machine::open("g1_example")?, Speed::default());
+//! let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default())?;
+//! let port = window.addresses()[0].port(); // for the client
+//! assert!(port > 0 && live.with(|machine| machine.axis("X").is_some()));
+//! # Ok::<(), opennck::source::Problem>(())
+//! ```
+
+mod identity;
+mod metrics;
+pub(crate) mod panel;
+mod protect;
+mod terms;
+mod window;
+
+pub use identity::OwnIdentity;
+#[cfg(feature = "cli")]
+pub(crate) use protect::{protected, protection};
+pub use terms::Terms;
+pub use window::{Window, WindowOptions};
