@@ -74,51 +74,56 @@ impl DateAndTime {
         years + months + u32::from(self.day.saturating_sub(1))
     }
 
+    /// Milliseconds since the first one.
+    #[must_use]
+    pub fn milliseconds(&self) -> u64 {
+        let seconds = u64::from(self.hour) * 3600 + u64::from(self.minute) * 60 + u64::from(self.second);
+        u64::from(self.days()) * DAY + seconds * 1000 + u64::from(self.millisecond)
+    }
+
     /// So many milliseconds earlier, from 1990 on.
     #[must_use]
     pub fn earlier(self, milliseconds: u64) -> Self {
-        let since = u64::from(self.days()) * 86_400_000 + self.of_day();
-        Self::FIRST.later(since.saturating_sub(milliseconds))
-    }
-
-    /// Milliseconds since midnight.
-    fn of_day(self) -> u64 {
-        let seconds = u64::from(self.hour) * 3600 + u64::from(self.minute) * 60 + u64::from(self.second);
-        seconds * 1000 + u64::from(self.millisecond)
+        Self::FIRST.later(self.milliseconds().saturating_sub(milliseconds))
     }
 
     /// So many milliseconds later. The two digits of a year say 1990 behind 2089, so that is what follows.
     #[must_use]
     pub fn later(self, milliseconds: u64) -> Self {
-        let total = self.of_day().saturating_add(milliseconds);
-        let mut date = Self { hour: 0, minute: 0, second: 0, millisecond: 0, ..self };
-        let mut days = total / 86_400_000 % CENTURY;
-        while days > 0 {
-            let left = u64::from(days_of(date.year, date.month) - date.day.min(days_of(date.year, date.month)));
-            if days <= left {
-                date.day += u8::try_from(days).unwrap_or(0);
-                break;
-            }
-            days -= left + 1;
-            date.day = 1;
-            (date.year, date.month) = match (date.year, date.month) {
-                (2089.., 12..) => (1990, 1),
-                (year, 12..) => (year + 1, 1),
-                (year, month) => (year, month + 1),
-            };
-        }
-        let of_day = total % 86_400_000;
+        let total = self.milliseconds().saturating_add(milliseconds);
         let small = |number: u64| u8::try_from(number).unwrap_or(0);
-        date.hour = small(of_day / 3_600_000);
-        date.minute = small(of_day / 60_000 % 60);
-        date.second = small(of_day / 1000 % 60);
-        date.millisecond = u16::try_from(of_day % 1000).unwrap_or(0);
-        date
+        let (days, of_day) = (total / DAY % CENTURY, total % DAY);
+        // 1992, the third of four years, is a leap year.
+        let (year, mut day) = match days % FOUR_YEARS {
+            day @ 0..365 => (1990, day),
+            day @ 365..730 => (1991, day - 365),
+            day @ 730..1096 => (1992, day - 730),
+            day => (1993, day - 1096),
+        };
+        let year = year + 4 * u16::try_from(days / FOUR_YEARS).unwrap_or(0);
+        let mut month = 1;
+        while month < 12 && day >= u64::from(days_of(year, month)) {
+            day -= u64::from(days_of(year, month));
+            month += 1;
+        }
+        Self {
+            year,
+            month,
+            day: small(day) + 1,
+            hour: small(of_day / 3_600_000),
+            minute: small(of_day / 60_000 % 60),
+            second: small(of_day / 1000 % 60),
+            millisecond: u16::try_from(of_day % 1000).unwrap_or(0),
+        }
     }
 }
 
-/// Days from 1990 to 2089, of which 25 years are leap years: 1992, 1996 to 2088.
-const CENTURY: u64 = 100 * 365 + 25;
+/// Milliseconds of a day.
+const DAY: u64 = 86_400_000;
+/// Days of four years, one of which is a leap year.
+const FOUR_YEARS: u64 = 4 * 365 + 1;
+/// Days from 1990 to 2089.
+const CENTURY: u64 = 25 * FOUR_YEARS;
 
 fn is_leap(year: u16) -> bool {
     year.is_multiple_of(4) // 2000 is one; 2100 is beyond the end
@@ -160,5 +165,21 @@ mod tests {
             let later = last.later(milliseconds);
             assert_eq!(DateAndTime::parse(&later.bytes()), Some(later), "{milliseconds}");
         }
+    }
+    #[test]
+    fn every_day_of_the_century_is_as_far_from_the_first_as_it_says() {
+        let mut expected = DateAndTime::FIRST;
+        for day in 0..36_525 {
+            let found = DateAndTime::FIRST.later(day * 86_400_000);
+            assert_eq!((found, found.milliseconds()), (expected, day * 86_400_000));
+            expected.day += 1;
+            if expected.day > days_of(expected.year, expected.month) {
+                (expected.month, expected.day) = (expected.month + 1, 1);
+            }
+            if expected.month > 12 {
+                (expected.year, expected.month) = (expected.year + 1, 1);
+            }
+        }
+        assert_eq!(expected.year, 2090);
     }
 }
