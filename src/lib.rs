@@ -64,7 +64,7 @@
 //! | [`machine`] | ONE STEP, and open, queue, power, save, restore, fork | `expression`, `image`, `motion`, `plant`, `plc`, `sinumerik`, `source`, `trace`, `units`, `variables` |
 //! | [`scenario`] | files that act, and the session that tests in Rust use | `expression`, `image`, `machine`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`golden`] | scenarios below a folder, each against its golden trace | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units` |
-//! | [`live`] | a machine in real time: the stepping thread, the inbox, the copy of the last step, the record (feature `s7`) | `image`, `machine`, `plc`, `s7`, `scenario`, `source`, `trace`, `units`, `variables` |
+//! | [`live`] | a machine in real time: the stepping thread, the inbox, the copy of the last step, the record (feature `live`, which `s7` and `mapped` have) | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
 //! | [`s7`] | S7 communication: wire formats, sessions without a socket, a server on TCP and for [`live`] (feature `s7`) | `image`, `live`, `machine`, `sinumerik`, `source`, `units`, `variables` |
 //! | [`cli`] | the program's arguments and wiring (feature `cli`) | all |
 //!
@@ -124,7 +124,7 @@ pub mod cli;
 pub mod expression;
 pub mod golden;
 pub mod image;
-#[cfg(feature = "s7")]
+#[cfg(feature = "live")]
 pub mod live;
 pub mod machine;
 pub mod motion;

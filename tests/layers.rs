@@ -25,7 +25,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     ("scenario", &["expression", "image", "machine", "plc", "source", "trace", "units", "variables"]),
     ("golden", &["image", "machine", "plc", "scenario", "source", "trace", "units"]),
-    ("live", &["image", "machine", "plc", "s7", "scenario", "source", "trace", "units", "variables"]),
+    ("live", &["image", "machine", "plc", "scenario", "source", "trace", "units", "variables"]),
     ("s7", &["image", "live", "machine", "sinumerik", "source", "units", "variables"]),
     ("cli", &["*"]),
 ];

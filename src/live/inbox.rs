@@ -1,33 +1,34 @@
-//! What clients asked for, until the edge of the next step: whoever asks does not wait for a step that lasts, and all of a request
-//! acts at the same edge. Where they ask for more than a step has time for, some of them wait for the edges behind it, in order.
+//! The inbox: what clients asked for, until the edge of the next step. A client does not wait for a step that lasts, and all of an
+//! order acts at the same edge. Where clients ask for more than a step has time for, some orders wait for the edges behind it, in order.
 
 use std::collections::VecDeque;
 use std::net::SocketAddr;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
 
-use super::stepping::Clocked;
 use crate::machine::Command;
-use crate::s7::live::panel::machine_datum;
-use crate::s7::{self, CpuState};
-use crate::source::Problem;
 
 /// From so many orders on, clients wait a while with each.
 const MANY: usize = 1000;
-/// How many bytes an edge writes: what takes half a millisecond, and far less than what the record of a step has room for. One request
+/// How many bytes an edge writes: what takes half a millisecond, and far less than what the record of a step has room for. One order
 /// has fewer.
 const EDGE: usize = 4096;
 
-/// What a request asked for, in order.
-#[derive(Debug)]
-pub(crate) struct Order {
-    /// Who, where that is known.
-    pub(crate) client: Option<SocketAddr>,
-    pub(crate) commands: Vec<s7::Command>,
+/// What one request of a client asks for; all of it acts at the edge of the same step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Order {
+    /// The address of the client, if it has one: a recording numbers clients by it.
+    pub client: Option<SocketAddr>,
+    /// What the machine does, in this order. A command that it does not take (see [`Machine::check`](crate::machine::Machine::check)) is
+    /// logged and left out; the others are done.
+    pub commands: Vec<Command>,
+    /// The time to which the clock of the PLC's CPU is set, in UTC.
+    pub clock: Option<SystemTime>,
 }
 
 /// Orders that wait for the edge of a step.
 #[derive(Debug)]
-pub(crate) struct Inbox(Mutex<Waiting>);
+pub(super) struct Inbox(Mutex<Waiting>);
 
 #[derive(Debug)]
 struct Waiting {
@@ -38,33 +39,74 @@ struct Waiting {
     bytes: usize,
     /// How many steps have begun.
     begun: u64,
-    /// What the PLC was asked for last, and the step at whose edge it does that.
-    plc: Option<(u64, CpuState)>,
+    /// The last order to start or stop the PLC: the step at whose edge it acts, and whether the PLC runs then.
+    plc: Option<(u64, bool)>,
 }
 
 impl Order {
+    /// Whether it asks for nothing.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.commands.is_empty() && self.clock.is_none()
+    }
+
     /// How many bytes it writes.
     fn bytes(&self) -> usize {
-        let bytes = |command: &s7::Command| match command {
-            s7::Command::Write { location, .. } => location.bytes() as usize,
-            s7::Command::MachineDatum { .. }
-            | s7::Command::RParameter { .. }
-            | s7::Command::PlcStop
-            | s7::Command::PlcStart(_)
-            | s7::Command::SetClock(_) => size_of::<f64>(),
-        };
-        self.commands.iter().map(bytes).sum()
+        let clock = if self.clock.is_some() { size_of::<f64>() } else { 0 };
+        self.commands.iter().map(bytes).sum::<usize>() + clock
+    }
+
+    /// Whether it starts or stops the PLC: the state that its last such command asks for, RUN as true.
+    fn plc_runs(&self) -> Option<bool> {
+        self.commands.iter().rev().find_map(plc_runs)
+    }
+}
+
+fn bytes(command: &Command) -> usize {
+    match command {
+        Command::Write { location, .. } | Command::Force { location, .. } | Command::Release { location } => {
+            location.bytes() as usize
+        }
+        Command::MachineDatum { .. }
+        | Command::RParameter { .. }
+        | Command::NewConf
+        | Command::PowerOn
+        | Command::PlcStop
+        | Command::PlcRun
+        | Command::PlcColdRestart
+        | Command::Cancel
+        | Command::Handwheel { .. }
+        | Command::Fault(_)
+        | Command::ClearFault(_) => size_of::<f64>(),
+    }
+}
+
+fn plc_runs(command: &Command) -> Option<bool> {
+    match command {
+        Command::PlcStop => Some(false),
+        Command::PlcRun | Command::PlcColdRestart => Some(true),
+        Command::Write { .. }
+        | Command::Force { .. }
+        | Command::Release { .. }
+        | Command::MachineDatum { .. }
+        | Command::RParameter { .. }
+        | Command::NewConf
+        | Command::PowerOn
+        | Command::Cancel
+        | Command::Handwheel { .. }
+        | Command::Fault(_)
+        | Command::ClearFault(_) => None,
     }
 }
 
 impl Inbox {
     /// An empty one, before the first step.
-    pub(crate) fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self(Mutex::new(Waiting { orders: VecDeque::new(), step: 1, bytes: 0, begun: 0, plc: None }))
     }
 
     /// Adds an order; gives the step that takes it up.
-    pub(crate) fn add(&self, order: Order) -> u64 {
+    pub(super) fn add(&self, order: Order) -> u64 {
         let mut waiting = self.lock();
         let bytes = order.bytes();
         waiting.bytes += bytes;
@@ -73,36 +115,30 @@ impl Inbox {
             waiting.bytes = bytes;
         }
         let step = waiting.step;
-        let plc = order.commands.iter().rev().find_map(|command| match command {
-            s7::Command::PlcStop => Some(CpuState::Stop),
-            s7::Command::PlcStart(_) => Some(CpuState::Run),
-            s7::Command::Write { .. }
-            | s7::Command::MachineDatum { .. }
-            | s7::Command::RParameter { .. }
-            | s7::Command::SetClock(_) => None,
-        });
-        waiting.plc = plc.map(|state| (step, state)).or(waiting.plc);
+        let plc = order.plc_runs();
+        waiting.plc = plc.map(|runs| (step, runs)).or(waiting.plc);
         waiting.orders.push_back((step, order));
         step
     }
 
-    /// What the PLC was asked for and does not show yet, for who sees the machine after this step: whoever stops it may start it at once.
-    pub(crate) fn asked_of_plc(&self, seen: u64) -> Option<CpuState> {
-        self.lock().plc.filter(|(step, _)| *step > seen).map(|(_, state)| state)
+    /// Whether the PLC was ordered to run or to stop and does not show it yet after this step. So a client that stops it may start it at
+    /// once.
+    pub(super) fn plc_runs(&self, after: u64) -> Option<bool> {
+        self.lock().plc.filter(|(step, _)| *step > after).map(|(_, runs)| runs)
     }
 
     /// Whether many orders wait.
-    pub(crate) fn is_full(&self) -> bool {
+    pub(super) fn is_full(&self) -> bool {
         self.count() >= MANY
     }
 
     /// How many orders wait.
-    pub(crate) fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.lock().orders.len()
     }
 
     /// The orders for the edge of the step that begins; what comes from now on waits for the next.
-    pub(crate) fn take(&self) -> Vec<Order> {
+    pub(super) fn take(&self) -> Vec<Order> {
         let mut waiting = self.lock();
         waiting.begun += 1;
         let begun = waiting.begun;
@@ -118,28 +154,6 @@ impl Inbox {
     }
 }
 
-/// Queues what a client asked for.
-pub(crate) fn queue(clocked: &mut Clocked, command: &s7::Command) -> Result<(), Problem> {
-    let command = match *command {
-        s7::Command::Write { location, value } => Command::Write { location, value },
-        s7::Command::MachineDatum { place, number, index, value } => machine_datum(place, number, index, value)?,
-        s7::Command::PlcStop => Command::PlcStop,
-        s7::Command::RParameter { channel, number, value } => Command::RParameter { channel, number, value },
-        s7::Command::PlcStart(restart) => {
-            clocked.diagnosis.restart_asked(restart);
-            match restart {
-                s7::Restart::Warm => Command::PlcRun,
-                s7::Restart::Cold => Command::PlcColdRestart,
-            }
-        }
-        s7::Command::SetClock(time) => {
-            clocked.set_clock(time);
-            return Ok(());
-        }
-    };
-    clocked.machine.queue(command)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -149,7 +163,7 @@ mod tests {
     /// So many doubles.
     fn order(doubles: usize) -> Order {
         let location = Location { part: Part::Flags, offset: 0, bit: 0, width: 32, format: Format::Unsigned };
-        Order { client: None, commands: vec![s7::Command::Write { location, value: 0 }; doubles] }
+        Order { commands: vec![Command::Write { location, value: 0 }; doubles], ..Order::default() }
     }
 
     fn sizes(orders: &[Order]) -> Vec<usize> {

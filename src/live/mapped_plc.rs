@@ -5,7 +5,7 @@
 //! of a step, and clients see the one before; the time-out bounds that. A process that is silent for longer is a PLC without a sign
 //! of life: the PLC stops, alarm 2000. So that the process may be started later, the monitoring begins with its first answer, and in
 //! lock-step when it has opened the file, which is also when scans begin to wait. A run is the same to the byte where that is before
-//! the first step: a machine that is held ([`LiveOptions::is_held`](super::LiveOptions)) begins then.
+//! the first step: a machine that is held ([`LiveOptions::is_held`](super::LiveOptions::is_held)) begins then.
 //!
 //! [`Keeper`] keeps the file alive while no scan does: it lets a machine that is held begin, says RUN and STOP, shows the memory in
 //! STOP, restarts the PLC when a new process comes after a fault (alarm 2000 stays, as on a control, until power off and on), and
@@ -18,7 +18,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::stepping::{Live, Shared};
+use super::shared::Shared;
+use super::stepping::Live;
 use crate::image::AsBytes;
 use crate::image::mapped::{Look, MappedImage, Refusal, Rules, State, Step};
 use crate::machine::{Command, Machine};

@@ -1,31 +1,58 @@
-//! What clients see: the machine as it was after its last step, apart from the one that goes on.
+//! What clients see: a copy of the machine as its last step left it, apart from the machine that goes on.
 //!
-//! Whoever looks again and again holds up nobody: neither the step that is due, nor, where a step lasts (a scan that waits for a PLC
-//! process), those who look as well. A step is copied once, some microseconds, however many look at it: by the stepping thread while
-//! somebody has looked not long ago, else by the first who looks, who takes the machine for that.
+//! Clients that look again and again hold up neither the step that is due nor, where a step lasts (a scan that waits for a PLC process),
+//! each other. A step is copied once, which takes some microseconds, however many look at it: by the stepping thread while somebody
+//! has looked not long ago, else by the first client that looks, which takes the lock of the machine for that.
 
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
 
-use crate::machine::Snapshot;
-use crate::s7::{DateAndTime, Diagnosis};
+use super::diagnosis::Entry;
+use crate::machine::{Machine, Snapshot};
 
 /// So many steps are shown after somebody has looked.
 const LINGER: u32 = 1000;
 
-/// A machine after a step, with the clock of its CPU and what its diagnostic buffer held.
+/// A machine after a step, with the clock of its CPU and what its diagnostic buffer held. It does not change.
 #[derive(Debug)]
-pub(crate) struct Seen {
-    /// How many steps were over, counted here: a machine that is restored counts its cycles anew.
-    pub(crate) step: u64,
-    pub(crate) machine: Snapshot,
-    pub(crate) clock: DateAndTime,
-    pub(crate) diagnosis: Vec<Diagnosis>,
+pub struct Seen {
+    pub(super) step: u64,
+    pub(super) machine: Snapshot,
+    pub(super) clock: SystemTime,
+    pub(super) diagnosis: Arc<[Entry]>,
+}
+
+impl Seen {
+    /// The number of the step: how many have been taken since the start. All that is seen is of this step.
+    /// [`Machine::cycle`] may differ: a machine that is restored counts its cycles anew.
+    #[must_use]
+    pub fn step(&self) -> u64 {
+        self.step
+    }
+
+    /// The machine.
+    #[must_use]
+    pub fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    /// The clock of the PLC's CPU, in UTC.
+    #[must_use]
+    pub fn clock(&self) -> SystemTime {
+        self.clock
+    }
+
+    /// The diagnostic buffer of the PLC's CPU, newest entry first. It is another allocation only when an entry was added.
+    #[must_use]
+    pub fn diagnosis(&self) -> &Arc<[Entry]> {
+        &self.diagnosis
+    }
 }
 
 /// The last step, for everybody who looks.
 #[derive(Debug)]
-pub(crate) struct View {
+pub(super) struct View {
     /// How many steps are over.
     step: AtomicU64,
     /// How many more steps are shown.
@@ -36,26 +63,26 @@ pub(crate) struct View {
 }
 
 impl View {
-    pub(crate) fn new(seen: Box<Seen>) -> Self {
+    pub(super) fn new(seen: Box<Seen>) -> Self {
         let (step, lingers) = (AtomicU64::new(seen.step), AtomicU32::new(0));
         Self { step, lingers, fresh: Mutex::new(None), seen: Mutex::new(seen) }
     }
 
     /// Whether somebody has looked not long ago; asked once a step.
-    pub(crate) fn is_looked_at(&self) -> bool {
+    pub(super) fn is_looked_at(&self) -> bool {
         let less = |lingers: u32| lingers.checked_sub(1);
         self.lingers.fetch_update(Ordering::Relaxed, Ordering::Relaxed, less).is_ok()
     }
 
     /// A step is over; whoever looks from now on sees what it left.
-    pub(crate) fn over(&self, step: u64, shown: Option<Box<Seen>>) {
+    pub(super) fn over(&self, step: u64, shown: Option<Box<Seen>>) {
         let before = shown.and_then(|shown| lock(&self.fresh).replace(shown));
         self.step.store(step, Ordering::Release);
         drop(before);
     }
 
     /// Looks at the last step; `copy` gives it where nobody has shown it.
-    pub(crate) fn look<T>(&self, copy: impl FnOnce() -> Box<Seen>, look: impl FnOnce(&Seen) -> T) -> T {
+    pub(super) fn look<T>(&self, copy: impl FnOnce() -> Box<Seen>, look: impl FnOnce(&Seen) -> T) -> T {
         self.lingers.store(LINGER, Ordering::Relaxed);
         let mut seen = lock(&self.seen);
         // Asked once: another step may be over a moment later, and nobody waits for the one behind it.
@@ -75,11 +102,10 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::Machine;
 
     fn seen(step: u64) -> Box<Seen> {
         let machine = Machine::open("g1_example").expect("it is built in").snapshot();
-        Box::new(Seen { step, machine, clock: DateAndTime::FIRST, diagnosis: Vec::new() })
+        Box::new(Seen { step, machine, clock: SystemTime::UNIX_EPOCH, diagnosis: Arc::new([]) })
     }
 
     #[test]

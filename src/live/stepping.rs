@@ -1,29 +1,24 @@
-//! A machine in real time: a thread that steps it when its cycle is due, and a lock that lends it between two steps. Clients do not take
-//! that lock: they see a copy of the last step (`seen.rs`), and what they ask for waits for the edge of the next (`inbox.rs`).
+//! A machine in real time: a thread that steps it when its cycle is due. Clients do not take the lock of the machine: they see a copy of
+//! the last step (`seen.rs`), and their orders wait for the edge of the next (`inbox.rs`).
 //!
 //! The schedule is absolute: cycle n is due n cycles after the start, so delays do not add up. A cycle that begins later than the
-//! next one was due is an overrun and is made up for at once. Who is late by more than [`GIVE_UP`] lets the time go: a computer that
+//! next one was due is an overrun and is made up for at once. A delay of more than [`GIVE_UP`] is not made up for: a computer that
 //! slept does not rush.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::Arc;
 use std::sync::mpsc::{self, RecvTimeoutError, TryRecvError};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread::JoinHandle;
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use std::time::{Duration, Instant};
 
-use tokio::sync::watch;
-
-use super::diagnosis::Buffer;
-use super::inbox::{self, Inbox, Order};
+use super::clocked::Clocked;
+use super::handle::Handle;
 use super::record::Recording;
-use super::seen::{Seen, View};
+use super::shared::{Pace, Shared};
 use super::speed::Speed;
 use super::urgency::Urgency;
 use crate::machine::Machine;
-use crate::s7::DateAndTime;
 use crate::scenario::{Operator, State};
 use crate::trace::{Trace, Watch};
-use crate::units::Time;
 use crate::variables::{Describe, RaisedAlarm};
 
 /// Later than this, and the time is lost.
@@ -32,69 +27,13 @@ pub const GIVE_UP: Duration = Duration::from_millis(500);
 const EXACT: Duration = Duration::from_millis(1);
 /// How often a machine that is held looks whether it may begin.
 const HELD: Duration = Duration::from_millis(1);
-/// How often the lock is tried by whoever does not wait for it.
-const SOON: u32 = 40;
-/// How often the stepping thread lets others go first, at most.
-const COURTESY: u32 = 100;
 
-/// How often who wants the machine lets others go first before it waits in a queue.
-const PATIENCE: u32 = 20;
-
-/// A machine that runs in real time until it is dropped.
+/// A machine that runs in real time until it is dropped. Servers plug in by its [`handle`](Live::handle) and end before it.
 #[derive(Debug)]
 pub struct Live {
     shared: Arc<Shared>,
     end: Option<mpsc::Sender<()>>,
     thread: Option<JoinHandle<()>>,
-}
-
-/// How well the schedule was kept.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Pace {
-    /// Cycles that began later than the next one was due.
-    pub overruns: u64,
-    /// The latest of them.
-    pub worst: Duration,
-    /// Time that was given up.
-    pub lost: Duration,
-}
-
-/// What the stepping thread and those outside share.
-#[derive(Debug)]
-pub(crate) struct Shared {
-    clocked: Mutex<Clocked>,
-    /// What clients see of it.
-    view: View,
-    /// What clients asked for.
-    pub(crate) inbox: Inbox,
-    /// A scan may wait for a process: each step is shown before it does.
-    is_lock_step: bool,
-    /// A step is shown while somebody looks; faster, few of so many are looked at, and each is copied for who does.
-    is_real_time: bool,
-    /// How many wait for the lock.
-    waiting: AtomicUsize,
-    /// How many steps are over.
-    pub(crate) steps: watch::Sender<u64>,
-    overruns: AtomicU64,
-    worst: AtomicU64,
-    lost: AtomicU64,
-    speed: Speed,
-    /// It takes no step yet.
-    is_held: AtomicBool,
-}
-
-/// A machine with the clock of its CPU, and what is kept of what happens to it.
-#[derive(Debug)]
-pub(crate) struct Clocked {
-    pub(crate) machine: Machine,
-    /// How many steps it has taken here.
-    steps: u64,
-    pub(crate) diagnosis: Buffer,
-    set: DateAndTime,
-    set_at: Time,
-    pub(crate) recording: Option<Recording>,
-    trace: Option<(Trace, Watch)>,
-    pub(crate) operator: Option<Operator>,
 }
 
 /// What goes with a live machine.
@@ -129,93 +68,6 @@ impl Ended {
     }
 }
 
-impl Clocked {
-    fn new(machine: Machine, options: LiveOptions) -> Self {
-        let LiveOptions { recording, trace, operator, .. } = options;
-        let trace = trace.map(|watch| {
-            let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle());
-            trace.watch_values(&watch, machine.cycle(), machine.variables());
-            (trace, watch)
-        });
-        let set = today();
-        let (diagnosis, set_at) = (Buffer::new(&machine, set), machine.time());
-        Self { diagnosis, set, set_at, steps: 0, machine, recording, trace, operator }
-    }
-
-    /// Notes what became of the CPU in a step.
-    fn observe(&mut self) {
-        let Self { machine, diagnosis, set, set_at, .. } = self;
-        diagnosis.observe(machine, || clock(*set, machine.time() - *set_at));
-    }
-
-    /// The clock goes with the machine, at whatever speed.
-    pub(crate) fn clock(&self) -> DateAndTime {
-        clock(self.set, self.machine.time() - self.set_at)
-    }
-
-    pub(crate) fn set_clock(&mut self, time: DateAndTime) {
-        (self.set, self.set_at) = (time, self.machine.time());
-    }
-
-    /// What clients see of it now.
-    fn seen(&self) -> Box<Seen> {
-        let (machine, diagnosis) = (self.machine.snapshot(), self.diagnosis.entries().to_vec());
-        Box::new(Seen { step: self.steps, machine, clock: self.clock(), diagnosis })
-    }
-
-    /// Queues what clients asked for. Says what of it the machine does not take.
-    fn take(&mut self, orders: Vec<Order>) -> Vec<String> {
-        let mut lines = Vec::new();
-        for Order { client, commands } in orders {
-            if let Some(recording) = &mut self.recording {
-                recording.client(&self.machine, client);
-            }
-            let queued = commands.iter().map(|command| inbox::queue(self, command));
-            let problems = queued.filter_map(Result::err);
-            lines.extend(problems.map(|problem| format!("a client wrote what the machine does not take: {problem}")));
-        }
-        lines
-    }
-
-    /// One step, with what goes with the machine. Says how the scenario ended, if it did in this step.
-    fn step(&mut self) -> Option<String> {
-        let Self { machine, steps, recording, trace, operator, .. } = self;
-        let was_at_work = operator.as_ref().is_some_and(|operator| *operator.state() == State::Acting);
-        if was_at_work && let Some(operator) = operator {
-            let queued = machine.queued().len();
-            for note in operator.act(machine) {
-                if let Some((trace, _)) = trace {
-                    trace.note(machine.cycle() + 1, note.clone());
-                }
-                if let Some(recording) = recording {
-                    recording.note(&note);
-                }
-            }
-            if let Some(recording) = recording {
-                recording.remark(queued, "the scenario".to_owned());
-            }
-        }
-        if let Some(recording) = recording {
-            recording.edge(machine);
-        }
-        machine.step();
-        *steps += 1;
-        if let Some((trace, _)) = trace {
-            trace.extend(machine.recorder());
-            trace.note_values(machine.cycle(), machine.variables());
-        }
-        if was_at_work && let Some(operator) = operator {
-            operator.look(machine);
-        }
-        machine.drain();
-        match operator.as_ref().filter(|_| was_at_work)?.state() {
-            State::Acting => None,
-            State::Done => Some("the scenario is over, all of it held; serving goes on".to_owned()),
-            State::Failed(failure) => Some(format!("the scenario failed, serving goes on: {failure}")),
-        }
-    }
-}
-
 impl Live {
     /// Starts a machine. The clock of its CPU begins with the computer's, in UTC.
     #[must_use]
@@ -226,26 +78,19 @@ impl Live {
     /// Starts a machine with what goes with it.
     #[must_use]
     pub fn start_with(machine: Machine, speed: Speed, options: LiveOptions) -> Self {
-        let (is_held, is_lock_step) = (options.is_held, options.is_lock_step);
-        let clocked = Clocked::new(machine, options);
-        let shared = Arc::new(Shared {
-            view: View::new(clocked.seen()),
-            inbox: Inbox::new(),
-            is_lock_step,
-            is_real_time: speed <= Speed::default(),
-            steps: watch::Sender::new(0),
-            clocked: Mutex::new(clocked),
-            waiting: AtomicUsize::new(0),
-            overruns: AtomicU64::new(0),
-            worst: AtomicU64::new(0),
-            lost: AtomicU64::new(0),
-            speed,
-            is_held: AtomicBool::new(is_held),
-        });
+        let LiveOptions { recording, trace, operator, is_held, is_lock_step } = options;
+        let clocked = Clocked::new(machine, recording, trace, operator);
+        let shared = Arc::new(Shared::new(clocked, speed, is_held, is_lock_step));
         let (end, ended) = mpsc::channel();
         let stepped = Arc::clone(&shared);
-        let thread = std::thread::spawn(move || stepped.run(speed, &ended));
+        let thread = std::thread::spawn(move || run(&stepped, speed, &ended));
         Self { shared, end: Some(end), thread: Some(thread) }
+    }
+
+    /// What a server plugs into.
+    #[must_use]
+    pub fn handle(&self) -> Handle {
+        Handle::new(self.shared())
     }
 
     /// A machine that is held takes its first step; its schedule begins now.
@@ -260,7 +105,7 @@ impl Live {
     }
 
     /// The step that is being taken is the last one.
-    pub(crate) fn finish(&self) {
+    pub fn finish(&self) {
         if let Some(end) = &self.end {
             let _ = end.send(());
         }
@@ -271,9 +116,10 @@ impl Live {
         look(&mut self.shared.lend().machine)
     }
 
-    /// The same if it can be had soon: a scan in lock-step may wait for long.
-    pub(crate) fn with_soon<T>(&self, look: impl FnOnce(&Clocked) -> T) -> Option<T> {
-        self.shared.lend_soon().map(|lent| look(&lent))
+    /// Looks at the machine and at the scenario that acts on it, if they can be had within some milliseconds: a scan in lock-step may wait
+    /// for long.
+    pub fn with_soon<T>(&self, look: impl FnOnce(&Machine, Option<&State>) -> T) -> Option<T> {
+        self.shared.lend_soon().map(|lent| look(&lent.machine, lent.operator.as_ref().map(Operator::state)))
     }
 
     /// How far the scenario is that acts on it, if one does.
@@ -286,7 +132,7 @@ impl Live {
     #[must_use]
     pub fn cycle(&self) -> Duration {
         let nanos = self.with(|machine| machine.cycle_time().nanos());
-        self.shared.speed.real(u128::try_from(nanos).unwrap_or(1))
+        self.shared.speed().real(u128::try_from(nanos).unwrap_or(1))
     }
 
     /// How well the schedule was kept so far.
@@ -301,14 +147,13 @@ impl Live {
         self.thread.as_ref().is_some_and(|thread| !thread.is_finished())
     }
 
-    /// Ends it; gives what was kept. Nothing where somebody else still looks at it: windows close before.
+    /// Ends it; gives what was kept. Nothing where a server still holds a handle: servers end before.
     #[must_use]
     pub fn end(mut self) -> Option<Ended> {
         self.stop();
         let shared = Arc::clone(&self.shared);
         drop(self);
-        let clocked = Arc::into_inner(shared)?.clocked.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let Clocked { machine, trace, .. } = clocked;
+        let (machine, trace) = Arc::into_inner(shared)?.into_clocked().into_parts();
         Some(Ended { machine, trace })
     }
 
@@ -325,7 +170,7 @@ impl Live {
         drop(self.shared.lend().recording.take());
     }
 
-    pub(crate) fn shared(&self) -> Arc<Shared> {
+    pub(super) fn shared(&self) -> Arc<Shared> {
         Arc::clone(&self.shared)
     }
 }
@@ -336,130 +181,69 @@ impl Drop for Live {
     }
 }
 
-impl Shared {
-    /// How well the schedule was kept so far.
-    pub(crate) fn pace(&self) -> Pace {
-        let nanos = |counter: &AtomicU64| Duration::from_nanos(counter.load(Ordering::Relaxed));
-        let Self { overruns, worst, lost, .. } = self;
-        Pace { overruns: overruns.load(Ordering::Relaxed), worst: nanos(worst), lost: nanos(lost) }
-    }
+/// Tells everybody that no step follows, also where a step ends by a defect.
+struct End<'a>(&'a Shared);
 
-    pub(crate) fn begin(&self) {
-        self.is_held.store(false, Ordering::Release);
-    }
-
-    pub(crate) fn is_held(&self) -> bool {
-        self.is_held.load(Ordering::Acquire)
-    }
-
-    /// How many times real time is wanted.
-    pub(crate) fn speed(&self) -> Speed {
-        self.speed
-    }
-
-    /// The machine between two steps.
-    pub(crate) fn lend(&self) -> MutexGuard<'_, Clocked> {
-        // A step is over sooner than the system puts a thread to sleep and wakes it.
-        for _ in 0..PATIENCE {
-            match self.clocked.try_lock() {
-                Ok(lent) => return lent,
-                Err(TryLockError::Poisoned(lent)) => return lent.into_inner(),
-                Err(TryLockError::WouldBlock) => std::thread::yield_now(),
-            }
-        }
-        self.waiting.fetch_add(1, Ordering::Relaxed);
-        let lent = self.clocked.lock().unwrap_or_else(PoisonError::into_inner);
-        self.waiting.fetch_sub(1, Ordering::Relaxed);
-        lent
-    }
-
-    /// The machine as it was after its last step.
-    pub(crate) fn look<T>(&self, look: impl FnOnce(&Seen) -> T) -> T {
-        self.view.look(|| self.lend().seen(), look)
-    }
-
-    /// The machine between two steps, or none within some milliseconds.
-    fn lend_soon(&self) -> Option<MutexGuard<'_, Clocked>> {
-        self.waiting.fetch_add(1, Ordering::Relaxed);
-        let lent = (0..SOON).find_map(|_| match self.clocked.try_lock() {
-            Ok(lent) => Some(lent),
-            Err(TryLockError::Poisoned(lent)) => Some(lent.into_inner()),
-            Err(TryLockError::WouldBlock) => {
-                std::thread::sleep(Duration::from_micros(250));
-                None
-            }
-        });
-        self.waiting.fetch_sub(1, Ordering::Relaxed);
-        lent
-    }
-
-    fn run(&self, speed: Speed, ended: &mpsc::Receiver<()>) {
-        while self.is_held() {
-            if ended.recv_timeout(HELD) != Err(RecvTimeoutError::Timeout) {
-                return;
-            }
-        }
-        let mut begin = Instant::now();
-        let mut simulated = 0_u128; // nanoseconds since then
-        let mut alarms = Vec::new();
-        let mut urgency = Urgency::new(speed);
-        loop {
-            let period = self.step(&mut alarms);
-            simulated += period;
-            let due = begin + speed.real(simulated);
-            let ahead = due.saturating_duration_since(Instant::now());
-            let is_ended = if ahead.is_zero() {
-                ended.try_recv() != Err(TryRecvError::Empty)
-            } else {
-                ended.recv_timeout(ahead) != Err(RecvTimeoutError::Timeout)
-            };
-            if is_ended {
-                return;
-            }
-            urgency.note(!ahead.is_zero());
-            let late = due.elapsed();
-            if late > speed.real(period).max(EXACT) {
-                let nanos = u64::try_from(late.as_nanos()).unwrap_or(u64::MAX);
-                self.overruns.fetch_add(1, Ordering::Relaxed);
-                self.worst.fetch_max(nanos, Ordering::Relaxed);
-                if late > GIVE_UP {
-                    self.lost.fetch_add(nanos, Ordering::Relaxed);
-                    begin += late;
-                }
-            }
-        }
-    }
-
-    /// One step; gives the nanoseconds of its cycle.
-    fn step(&self, alarms: &mut Vec<RaisedAlarm>) -> u128 {
-        for _ in 0..COURTESY {
-            if self.waiting.load(Ordering::Relaxed) == 0 {
-                break;
-            }
-            std::thread::yield_now();
-        }
-        let mut clocked = self.clocked.lock().unwrap_or_else(PoisonError::into_inner);
-        let orders = self.inbox.take();
-        let refused = clocked.take(orders);
-        let over = clocked.step();
-        clocked.observe();
-        let machine = &clocked.machine;
-        let changed = changed_alarms(machine, alarms);
-        let (step, period) = (clocked.steps, machine.cycle_time().nanos());
-        let is_shown = self.is_lock_step || self.is_real_time && self.view.is_looked_at();
-        let shown = is_shown.then(|| clocked.seen());
-        drop(clocked);
-        self.view.over(step, shown);
-        self.steps.send_replace(step);
-        // Nobody waits for the machine while a terminal waits for its reader.
-        for line in refused.into_iter().chain(changed).chain(over) {
-            tracing::info!("{line}");
-        }
-        u128::try_from(period).unwrap_or(1).max(1)
+impl Drop for End<'_> {
+    fn drop(&mut self) {
+        self.0.end();
     }
 }
 
-/// What to say of alarms that have come or gone.
+/// Steps a machine until the end.
+fn run(shared: &Shared, speed: Speed, ended: &mpsc::Receiver<()>) {
+    let _end = End(shared);
+    while shared.is_held() {
+        if ended.recv_timeout(HELD) != Err(RecvTimeoutError::Timeout) {
+            return;
+        }
+    }
+    let mut begin = Instant::now();
+    let mut simulated = 0_u128; // nanoseconds since then
+    let mut alarms = Vec::new();
+    let mut urgency = Urgency::new(speed);
+    loop {
+        let period = step(shared, &mut alarms);
+        simulated += period;
+        let due = begin + speed.real(simulated);
+        let ahead = due.saturating_duration_since(Instant::now());
+        let is_ended = if ahead.is_zero() {
+            ended.try_recv() != Err(TryRecvError::Empty)
+        } else {
+            ended.recv_timeout(ahead) != Err(RecvTimeoutError::Timeout)
+        };
+        if is_ended {
+            return;
+        }
+        urgency.note(!ahead.is_zero());
+        let late = due.elapsed();
+        if late > speed.real(period).max(EXACT) {
+            let is_given_up = late > GIVE_UP;
+            shared.overrun(late, is_given_up);
+            if is_given_up {
+                begin += late;
+            }
+        }
+    }
+}
+
+/// One step; gives the nanoseconds of its cycle.
+fn step(shared: &Shared, alarms: &mut Vec<RaisedAlarm>) -> u128 {
+    let mut clocked = shared.lend_for_a_step();
+    let refused = clocked.take(shared.inbox.take());
+    let over = clocked.step();
+    clocked.observe();
+    let changed = changed_alarms(&clocked.machine, alarms);
+    let period = clocked.machine.cycle_time().nanos();
+    shared.give_back(clocked);
+    // Nobody waits for the machine while a terminal waits for its reader.
+    for line in refused.into_iter().chain(changed).chain(over) {
+        tracing::info!("{line}");
+    }
+    u128::try_from(period).unwrap_or(1).max(1)
+}
+
+/// A line for each alarm that has come or gone.
 fn changed_alarms(machine: &Machine, known: &mut Vec<RaisedAlarm>) -> Vec<String> {
     let pending = &machine.variables().alarms;
     if pending.iter().eq(known.iter()) {
@@ -473,17 +257,4 @@ fn changed_alarms(machine: &Machine, known: &mut Vec<RaisedAlarm>) -> Vec<String
     known.clear();
     known.extend(pending.iter().copied());
     changed
-}
-
-/// The clock so long after it was set.
-fn clock(set: DateAndTime, since: Time) -> DateAndTime {
-    set.later(u64::try_from(since.nanos() / 1_000_000).unwrap_or(0))
-}
-
-/// The computer's clock in UTC.
-fn today() -> DateAndTime {
-    /// From 1970 to 1990.
-    const EARLIER: Duration = Duration::from_secs(7305 * 86_400);
-    let since = SystemTime::now().duration_since(UNIX_EPOCH + EARLIER).unwrap_or_default();
-    DateAndTime::FIRST.later(u64::try_from(since.as_millis()).unwrap_or(0))
 }

@@ -25,7 +25,7 @@ impl Before {
     }
 
     /// Nothing, for a machine that does not go on.
-    #[cfg(feature = "s7")]
+    #[cfg(feature = "live")]
     pub(super) const fn without_room() -> Self {
         Self {
             parts: Vec::new(),

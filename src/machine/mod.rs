@@ -34,7 +34,7 @@ pub use crate::sinumerik::machine_data::Value as DatumValue;
 pub use crate::sinumerik::{ApproachPhase, GroupingPhase, TakenTransitions};
 pub use command::Command;
 pub use open::OpenOptions;
-#[cfg(feature = "s7")]
+#[cfg(feature = "live")]
 pub(crate) use saved::Snapshot;
 
 use std::sync::Arc;

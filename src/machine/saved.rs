@@ -169,7 +169,7 @@ impl Machine {
     }
 
     /// The machine as it is now, to be looked at while this one goes on.
-    #[cfg(feature = "s7")]
+    #[cfg(feature = "live")]
     pub(crate) fn snapshot(&self) -> Snapshot {
         Snapshot(self.copy(None, Recorder::without_room(), Before::without_room()))
     }
@@ -207,11 +207,11 @@ impl Machine {
 
 /// A machine that stands still: what another one was after some step, without its program and its record. It is for who looks only:
 /// it can be neither saved nor forked as that machine.
-#[cfg(feature = "s7")]
+#[cfg(feature = "live")]
 #[derive(Debug)]
 pub(crate) struct Snapshot(Machine);
 
-#[cfg(feature = "s7")]
+#[cfg(feature = "live")]
 impl std::ops::Deref for Snapshot {
     type Target = Machine;
 

@@ -550,7 +550,7 @@ fn there_are_three_handwheels() {
     }
 }
 
-#[cfg(feature = "s7")]
+#[cfg(feature = "live")]
 #[test]
 fn a_snapshot_stays_while_the_machine_goes_on() {
     let mut machine = Machine::open("g1_example").expect("it is built in");

@@ -45,7 +45,7 @@ impl Written {
     }
 
     /// Nothing, where nothing is ever written.
-    #[cfg(feature = "s7")]
+    #[cfg(feature = "live")]
     pub(super) const fn without_room() -> Self {
         Self { writes: Vec::new(), places: Vec::new(), overwritten: Vec::new() }
     }

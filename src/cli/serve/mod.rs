@@ -19,7 +19,6 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tokio::runtime::Builder;
 
 use super::output::{Output, apart};
-use crate::live::stepping::Clocked;
 use crate::live::{Exchange, Keeper, Live, LiveOptions, MappedPlc, Speed};
 use crate::plc::Programs;
 use crate::s7::live::Window;
@@ -282,11 +281,10 @@ impl<'a> Status<'a> {
         if self.live.is_held() {
             return format!("step 0  waits for a PLC process to open the image  clients {}", self.window.clients());
         }
-        let looked = self.live.with_soon(|Clocked { machine, operator, .. }| {
+        let looked = self.live.with_soon(|machine, scenario| {
             let name = |number| machine.alarm_name(number);
             let alarms: Vec<_> = machine.variables().alarms.iter().map(|alarm| name(alarm.number)).collect();
-            let scenario = operator.as_ref().map(|operator| operator.state().clone());
-            (machine.time().seconds(), machine.cycle(), alarms, scenario)
+            (machine.time().seconds(), machine.cycle(), alarms, scenario.cloned())
         });
         let Some((time, cycle, alarms, scenario)) = looked else {
             // A scan in lock-step waits for its answer; whoever waited here would not hear a signal.

@@ -14,7 +14,7 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::task::{AbortHandle, JoinSet};
 use tokio::time::{sleep, timeout};
 
-use crate::live::stepping::Shared;
+use crate::live::Handle;
 use crate::s7::server::{Counters, Refused};
 use crate::variables::Describe;
 
@@ -94,11 +94,11 @@ fn path(target: &str) -> &str {
 }
 
 /// Everything there is to tell, now.
-pub(super) fn text(shared: &Shared, clients: usize, counters: &Counters) -> String {
+pub(super) fn text(live: &Handle, clients: usize, counters: &Counters) -> String {
     let mut text = Text(String::new());
-    let pace = shared.pace();
-    let (steps, seconds, runs, alarms) = shared.look(|seen| {
-        let machine = &seen.machine;
+    let pace = live.pace();
+    let (steps, seconds, runs, alarms) = live.look(|seen| {
+        let machine = seen.machine();
         let mut alarms = BTreeMap::<_, u64>::new();
         for alarm in machine.variables().alarms.iter() {
             *alarms.entry(machine.alarm_name(alarm.number)).or_default() += 1;
@@ -107,7 +107,7 @@ pub(super) fn text(shared: &Shared, clients: usize, counters: &Counters) -> Stri
     });
     text.one("opennck_steps_total", "Steps of the machine, one a cycle.", steps);
     text.one("opennck_simulated_seconds_total", "Time of the machine.", seconds);
-    text.one("opennck_speed", "How many times real time is wanted.", shared.speed());
+    text.one("opennck_speed", "How many times real time is wanted.", live.speed());
     text.one("opennck_overruns_total", "Steps that began later than the next one was due.", pace.overruns);
     text.one("opennck_worst_lateness_seconds", "The latest of them.", pace.worst.as_secs_f64());
     text.one("opennck_lost_seconds_total", "Time that was given up.", pace.lost.as_secs_f64());

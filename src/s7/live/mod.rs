@@ -1,4 +1,4 @@
-//! The S7 server of a live machine. A test of a panel can have a machine of its own in its own process:
+//! The S7 server plugged into a live machine ([`live::Handle`](crate::live::Handle)). A test of a panel can have a machine of its own in its own process:
 //!
 //! ```
 //! use opennck::live::{Live, Speed};
@@ -13,9 +13,11 @@
 //! # Ok::<(), opennck::source::Problem>(())
 //! ```
 
+mod clock;
 mod identity;
+mod lender;
 mod metrics;
-pub(crate) mod panel;
+mod panel;
 mod protect;
 mod terms;
 mod window;

@@ -11,7 +11,7 @@ use crate::units::{AxisNumber, ChannelNumber, Time};
 use crate::variables::{AlarmNumber, Place};
 
 /// The command that stores a machine datum.
-pub(crate) fn machine_datum(place: Place, number: u16, index: u16, value: f64) -> Result<Command, Problem> {
+pub(super) fn machine_datum(place: Place, number: u16, index: u16, value: f64) -> Result<Command, Problem> {
     let target = target(place, number, index)?;
     let value = match target.datum().kind {
         Kind::Boolean => DatumValue::Boolean(value > 0.5),

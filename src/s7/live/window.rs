@@ -1,7 +1,4 @@
-//! The S7 server of a live machine: a thread with all its clients, and what it lends them.
-//!
-//! A request reads the machine as its last step left it. What it writes is queued as commands of the machine, all of them at once, so
-//! they act at the edge of the same step.
+//! The S7 server of a live machine: a thread with all its clients. `lender.rs` is what they see.
 
 use std::io;
 use std::net::SocketAddr;
@@ -13,16 +10,12 @@ use tokio::runtime::{Builder, Runtime};
 use tokio::sync::watch;
 use tokio::task::JoinSet;
 
+use super::lender::Lender;
 use super::metrics;
-use super::panel::{Panel, identity};
 use super::terms::Terms;
-use crate::live::Live;
-use crate::live::inbox::Order;
-use crate::live::seen::Seen;
-use crate::live::stepping::Shared;
-use crate::machine::Machine;
-use crate::s7::server::{Capture, Counters, Faults, Instruments, Limits, Server, Stations, listen};
-use crate::s7::{self, Bridge, CpuState, Directory, Machinery, Settings, Station};
+use crate::live::{Handle, Live};
+use crate::s7::Settings;
+use crate::s7::server::{Capture, Counters, Faults, Instruments, Limits, Server, listen};
 use crate::source::Problem;
 
 /// An S7 server that shows a live machine until it is dropped.
@@ -70,17 +63,15 @@ impl Window {
     pub fn open_with(live: &Live, addresses: &[&str], options: WindowOptions) -> Result<Self, Problem> {
         // In a thread of its own: a runtime cannot be entered from within another, and tests of clients have one.
         std::thread::scope(|scope| {
-            let opening = scope.spawn(|| Self::open_here(live, addresses, options));
+            let opening = scope.spawn(|| Self::open_here(&live.handle(), addresses, options));
             opening.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })
     }
 
-    fn open_here(live: &Live, addresses: &[&str], options: WindowOptions) -> Result<Self, Problem> {
+    fn open_here(live: &Handle, addresses: &[&str], options: WindowOptions) -> Result<Self, Problem> {
         let WindowOptions { is_read_only, mut limits, settings, faults, capture, terms, metrics } = options;
         // A slow machine takes up what was written later.
         limits.step = limits.step.max(2 * live.cycle());
-        let shared = live.shared();
-        let directory = live.with(|machine| Directory::of(machine.memory(), machine.names().profile));
         let connections = u16::try_from(limits.clients).unwrap_or(u16::MAX);
         let runtime = Builder::new_current_thread().enable_all().build().map_err(|error| {
             Problem::new(
@@ -103,11 +94,11 @@ impl Window {
         let metrics_addresses = for_metrics.iter().filter_map(|listener| listener.local_addr().ok()).collect();
         // A file is begun when nothing else can stop it.
         let capture = capture.as_deref().map(captured).transpose()?;
-        let lender = Lender { shared, directory, is_read_only, connections, terms };
+        let lender = Lender::new(live.clone(), is_read_only, connections, terms);
         let server = Arc::new(Server::new(lender, settings, limits).with(Instruments { faults, capture }));
         for listener in for_metrics {
-            let (shared, server) = (live.shared(), Arc::clone(&server));
-            let text = move || metrics::text(&shared, server.clients(), server.counters());
+            let (live, server) = (live.clone(), Arc::clone(&server));
+            let text = move || metrics::text(&live, server.clients(), server.counters());
             runtime.spawn(metrics::serve(listener, text));
         }
         let (end, ended) = watch::channel(false);
@@ -205,66 +196,4 @@ fn closed_door(option: &str, address: &str, error: &io::Error) -> Problem {
         ),
     };
     Problem::new(format!("{option} {address}: {what}"), cure)
-}
-
-/// Lends a live machine to one request after another.
-#[derive(Debug)]
-struct Lender {
-    shared: Arc<Shared>,
-    directory: Directory,
-    is_read_only: bool,
-    connections: u16,
-    terms: Terms,
-}
-
-impl Stations for Lender {
-    fn lend(&self, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
-        self.lend_out(None, work)
-    }
-
-    fn lend_to(&self, client: SocketAddr, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
-        self.lend_out(Some(client), work)
-    }
-
-    async fn taken_up(&self, step: u64) {
-        // A machine that is held takes it up in its first step, whenever that is; who writes without end waits all the same.
-        if self.shared.is_held() && !self.shared.inbox.is_full() {
-            return;
-        }
-        let _ = self.shared.steps.subscribe().wait_for(|steps| *steps >= step).await;
-    }
-
-    fn is_crowded(&self) -> bool {
-        self.shared.inbox.is_full()
-    }
-}
-
-impl Lender {
-    fn lend_out(&self, client: Option<SocketAddr>, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
-        let commands = self.shared.look(|seen| self.show(seen, work));
-        let has_asked = !commands.is_empty();
-        has_asked.then(|| self.shared.inbox.add(Order { client, commands }))
-    }
-
-    /// Lends what is seen of the machine; gives what was asked for.
-    fn show(&self, seen: &Seen, work: &mut dyn FnMut(&mut dyn Station)) -> Vec<s7::Command> {
-        let machine: &Machine = &seen.machine;
-        let data = Panel(machine);
-        let shown = if machine.is_plc_stopped() { CpuState::Stop } else { CpuState::Run };
-        let machinery = Machinery {
-            state: self.shared.inbox.asked_of_plc(seen.step).unwrap_or(shown),
-            clock: seen.clock,
-            is_read_only: self.is_read_only,
-            machine_data: Some(&data),
-            control: Some(&data),
-            diagnosis: &seen.diagnosis,
-            connections: self.connections,
-            identity: identity(machine),
-            ..Machinery::default()
-        };
-        let bridge = Bridge::new(machine.memory(), machine.variables(), machine.names(), &self.directory);
-        let mut bridge = bridge.with(self.terms.over(machinery));
-        work(&mut bridge);
-        bridge.into_commands()
-    }
 }

@@ -1,0 +1,139 @@
+//! A machine with what goes with it: the clock and the diagnostic buffer of its CPU, its recording, its trace, and the scenario that
+//! acts on it. The stepping thread changes it, under the lock of `shared.rs`.
+
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+use super::diagnosis::Buffer;
+use super::inbox::Order;
+use super::record::Recording;
+use super::seen::Seen;
+use crate::machine::Machine;
+use crate::scenario::{Operator, State};
+use crate::trace::{Trace, Watch};
+use crate::units::Time;
+
+/// A machine with what goes with it.
+#[derive(Debug)]
+pub(super) struct Clocked {
+    pub(super) machine: Machine,
+    /// How many steps it has taken here.
+    steps: u64,
+    diagnosis: Buffer,
+    /// The time to which the clock was set last, and the time of the machine then.
+    set: SystemTime,
+    set_at: Time,
+    pub(super) recording: Option<Recording>,
+    trace: Option<(Trace, Watch)>,
+    pub(super) operator: Option<Operator>,
+}
+
+impl Clocked {
+    pub(super) fn new(
+        machine: Machine,
+        recording: Option<Recording>,
+        trace: Option<Watch>,
+        operator: Option<Operator>,
+    ) -> Self {
+        let trace = trace.map(|watch| {
+            let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle());
+            trace.watch_values(&watch, machine.cycle(), machine.variables());
+            (trace, watch)
+        });
+        let set = today();
+        let (diagnosis, set_at) = (Buffer::new(&machine, set), machine.time());
+        Self { diagnosis, set, set_at, steps: 0, machine, recording, trace, operator }
+    }
+
+    /// How many steps it has taken here.
+    pub(super) fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The machine and its trace, when all is over.
+    pub(super) fn into_parts(self) -> (Machine, Option<(Trace, Watch)>) {
+        (self.machine, self.trace)
+    }
+
+    /// What clients see of it now.
+    pub(super) fn seen(&self) -> Box<Seen> {
+        let (machine, diagnosis) = (self.machine.snapshot(), self.diagnosis.entries());
+        let clock = clock(self.set, self.machine.time() - self.set_at);
+        Box::new(Seen { step: self.steps, machine, clock, diagnosis })
+    }
+
+    /// Queues what clients asked for. Reports what of it the machine does not take.
+    pub(super) fn take(&mut self, orders: Vec<Order>) -> Vec<String> {
+        let mut lines = Vec::new();
+        for Order { client, commands, clock } in orders {
+            if let Some(recording) = &mut self.recording {
+                recording.client(&self.machine, client);
+            }
+            for command in commands {
+                self.diagnosis.ordered(&command);
+                if let Err(problem) = self.machine.queue(command) {
+                    lines.push(format!("a client wrote what the machine does not take: {problem}"));
+                }
+            }
+            if let Some(time) = clock {
+                (self.set, self.set_at) = (time, self.machine.time());
+            }
+        }
+        lines
+    }
+
+    /// One step, with what goes with the machine. Reports how the scenario ended, if it did in this step.
+    pub(super) fn step(&mut self) -> Option<String> {
+        let Self { machine, steps, recording, trace, operator, .. } = self;
+        let was_at_work = operator.as_ref().is_some_and(|operator| *operator.state() == State::Acting);
+        if was_at_work && let Some(operator) = operator {
+            let queued = machine.queued().len();
+            for note in operator.act(machine) {
+                if let Some((trace, _)) = trace {
+                    trace.note(machine.cycle() + 1, note.clone());
+                }
+                if let Some(recording) = recording {
+                    recording.note(&note);
+                }
+            }
+            if let Some(recording) = recording {
+                recording.remark(queued, "the scenario".to_owned());
+            }
+        }
+        if let Some(recording) = recording {
+            recording.edge(machine);
+        }
+        machine.step();
+        *steps += 1;
+        if let Some((trace, _)) = trace {
+            trace.extend(machine.recorder());
+            trace.note_values(machine.cycle(), machine.variables());
+        }
+        machine.drain();
+        let operator = operator.as_mut().filter(|_| was_at_work)?;
+        operator.look(machine);
+        match operator.state() {
+            State::Acting => None,
+            State::Done => Some("the scenario is over, all of it held; serving goes on".to_owned()),
+            State::Failed(failure) => Some(format!("the scenario failed, serving goes on: {failure}")),
+        }
+    }
+
+    /// Notes what became of the CPU in a step.
+    pub(super) fn observe(&mut self) {
+        let Self { machine, diagnosis, set, set_at, .. } = self;
+        diagnosis.observe(machine, || clock(*set, machine.time() - *set_at));
+    }
+}
+
+/// The clock so long after it was set, in whole milliseconds: it goes with the machine, at whatever speed.
+fn clock(set: SystemTime, since: Time) -> SystemTime {
+    set + Duration::from_millis(u64::try_from(since.nanos() / 1_000_000).unwrap_or(0))
+}
+
+/// The computer's clock, in whole milliseconds. The clock of a CPU begins in 1990, that of a computer without a battery in 1970.
+fn today() -> SystemTime {
+    /// From 1970 to 1990.
+    const EARLIER: Duration = Duration::from_secs(7305 * 86_400);
+    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().max(EARLIER);
+    UNIX_EPOCH + Duration::from_millis(u64::try_from(since.as_millis()).unwrap_or(0))
+}

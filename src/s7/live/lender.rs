@@ -1,0 +1,139 @@
+//! What S7 clients see of a live machine, and how they order from it.
+//!
+//! A request reads the machine as its last step left it. What it writes is one order, so all of it acts at the edge of the same step.
+
+use std::net::SocketAddr;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::clock::{from_date_and_time, to_date_and_time};
+use super::panel::{Panel, identity, machine_datum};
+use super::terms::Terms;
+use crate::live::{Entry, Event, Handle, Order, Seen};
+use crate::machine;
+use crate::s7::server::Stations;
+use crate::s7::{Bridge, Command, CpuState, Diagnosis, Directory, Machinery, Restart, Station};
+
+/// Lends a live machine to one request after another.
+#[derive(Debug)]
+pub(super) struct Lender {
+    live: Handle,
+    directory: Directory,
+    is_read_only: bool,
+    connections: u16,
+    terms: Terms,
+    diagnosis: Mutex<Shown>,
+}
+
+/// The diagnostic buffer of the machine, and the same as S7 shows it.
+#[derive(Debug)]
+struct Shown {
+    of: Arc<[Entry]>,
+    entries: Vec<Diagnosis>,
+}
+
+impl Lender {
+    pub(super) fn new(live: Handle, is_read_only: bool, connections: u16, terms: Terms) -> Self {
+        let (directory, of) = live.look(|seen| {
+            let machine = seen.machine();
+            (Directory::of(machine.memory(), machine.names().profile), Arc::clone(seen.diagnosis()))
+        });
+        Self { live, directory, is_read_only, connections, terms, diagnosis: Mutex::new(Shown::new(&of)) }
+    }
+
+    fn lend_out(&self, client: Option<SocketAddr>, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
+        let commands = self.live.look(|seen| self.show(seen, work));
+        let order = order(client, commands);
+        (!order.is_empty()).then(|| self.live.order(order))
+    }
+
+    /// Lends what is seen of the machine; gives what was asked for.
+    fn show(&self, seen: &Seen, work: &mut dyn FnMut(&mut dyn Station)) -> Vec<Command> {
+        let machine = seen.machine();
+        let data = Panel(machine);
+        let mut diagnosis = self.diagnosis.lock().unwrap_or_else(PoisonError::into_inner);
+        if !Arc::ptr_eq(&diagnosis.of, seen.diagnosis()) {
+            *diagnosis = Shown::new(seen.diagnosis());
+        }
+        let machinery = Machinery {
+            state: if self.live.plc_runs(seen) { CpuState::Run } else { CpuState::Stop },
+            clock: to_date_and_time(seen.clock()),
+            is_read_only: self.is_read_only,
+            machine_data: Some(&data),
+            control: Some(&data),
+            diagnosis: &diagnosis.entries,
+            connections: self.connections,
+            identity: identity(machine),
+            ..Machinery::default()
+        };
+        let bridge = Bridge::new(machine.memory(), machine.variables(), machine.names(), &self.directory);
+        let mut bridge = bridge.with(self.terms.over(machinery));
+        work(&mut bridge);
+        bridge.into_commands()
+    }
+}
+
+impl Stations for Lender {
+    fn lend(&self, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
+        self.lend_out(None, work)
+    }
+
+    fn lend_to(&self, client: SocketAddr, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
+        self.lend_out(Some(client), work)
+    }
+
+    async fn taken_up(&self, step: u64) {
+        if !self.live.taken_up(step).await {
+            // The machine has ended: what was written is not acknowledged before the server's own time limit.
+            std::future::pending::<()>().await;
+        }
+    }
+
+    fn is_crowded(&self) -> bool {
+        self.live.is_crowded()
+    }
+}
+
+impl Shown {
+    fn new(of: &Arc<[Entry]>) -> Self {
+        Self { of: Arc::clone(of), entries: of.iter().map(diagnosis).collect() }
+    }
+}
+
+fn diagnosis(entry: &Entry) -> Diagnosis {
+    let event = match entry.event {
+        Event::PowerOn => Diagnosis::POWER_ON,
+        Event::StartUp => Diagnosis::START_UP,
+        Event::Run => Diagnosis::RUN,
+        Event::Stop => Diagnosis::STOP,
+        Event::Fault => Diagnosis::FAULT,
+        Event::WarmRestart => Diagnosis::WARM_RESTART,
+        Event::ColdRestart => Diagnosis::COLD_RESTART,
+    };
+    Diagnosis::of_state(event, to_date_and_time(entry.time))
+}
+
+/// What a request asked for, as the machine does it.
+fn order(client: Option<SocketAddr>, commands: Vec<Command>) -> Order {
+    let mut order = Order { client, commands: Vec::with_capacity(commands.len()), clock: None };
+    for command in commands {
+        order.commands.push(match command {
+            Command::Write { location, value } => machine::Command::Write { location, value },
+            Command::MachineDatum { place, number, index, value } => match machine_datum(place, number, index, value) {
+                Ok(command) => command,
+                Err(problem) => {
+                    tracing::info!("a client wrote what the machine does not take: {problem}");
+                    continue;
+                }
+            },
+            Command::RParameter { channel, number, value } => machine::Command::RParameter { channel, number, value },
+            Command::PlcStop => machine::Command::PlcStop,
+            Command::PlcStart(Restart::Warm) => machine::Command::PlcRun,
+            Command::PlcStart(Restart::Cold) => machine::Command::PlcColdRestart,
+            Command::SetClock(time) => {
+                order.clock = Some(from_date_and_time(time));
+                continue;
+            }
+        });
+    }
+    order
+}
