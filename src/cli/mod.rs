@@ -15,7 +15,11 @@ mod completions;
 mod diff;
 pub mod example;
 mod flowchart;
+#[cfg(feature = "s7")]
+mod interrupt;
 mod list;
+#[cfg(feature = "s7")]
+mod log;
 mod machine_data;
 mod output;
 mod run;

@@ -1,8 +1,12 @@
 //! What the program prints: results on standard output, errors on standard error, and no complaint when nobody reads.
 
 use std::fmt::Display;
+#[cfg(feature = "s7")]
+use std::fs::File;
 use std::io::Write;
 use std::path::Path;
+#[cfg(feature = "s7")]
+use std::path::PathBuf;
 
 use crate::source::Problem;
 
@@ -60,5 +64,43 @@ impl Output {
     #[expect(clippy::unused_self, reason = "whoever prints holds the output")]
     pub(super) fn warning(&mut self, warning: impl Display) {
         let _ = writeln!(std::io::stderr().lock(), "warning: {warning}");
+    }
+}
+
+/// A file that is written when all is over; what was in it before stays until then.
+#[cfg(feature = "s7")]
+pub(super) struct Kept {
+    option: &'static str,
+    path: PathBuf,
+    file: File,
+}
+
+#[cfg(feature = "s7")]
+impl Kept {
+    /// Opens it for an option, apart from the other files of the command.
+    pub(super) fn open<'a>(
+        option: &'static str,
+        path: &Path,
+        others: impl IntoIterator<Item = &'a Path>,
+    ) -> Result<Self, Problem> {
+        apart(option, path, others)?;
+        let file = File::options().write(true).create(true).truncate(false).open(path);
+        let file = file.map_err(|error| Self::cannot(option, path, &error))?;
+        Ok(Self { option, path: path.to_owned(), file })
+    }
+
+    /// Replaces what is in it.
+    pub(super) fn write(mut self, text: &str) -> Result<(), Problem> {
+        let is_file = self.file.metadata().is_ok_and(|data| data.is_file());
+        let emptied = if is_file { self.file.set_len(0) } else { Ok(()) };
+        let written = emptied.and_then(|()| self.file.write_all(text.as_bytes()));
+        written.map_err(|error| Self::cannot(self.option, &self.path, &error))
+    }
+
+    fn cannot(option: &str, path: &Path, error: &std::io::Error) -> Problem {
+        Problem::new(
+            format!("{option} {}: cannot be written: {error}", path.display()),
+            "check the path, the rights and the disk",
+        )
     }
 }

@@ -34,7 +34,8 @@
 //! ```
 //!
 //! `stepping.rs` is the thread and its schedule, `shared.rs` what it shares with others, `clocked.rs` the machine with what goes with it,
-//! `seen.rs` the copy of the last step, `inbox.rs` the orders, `handle.rs` the boundary. `MappedPlc` (feature `mapped`) is a PLC program in
+//! `seen.rs` the copy of the last step, `inbox.rs` the orders, `handle.rs` the boundary, `opening.rs` what a machine is opened from, `record.rs` the
+//! recording. `MappedPlc` (feature `mapped`) is a PLC program in
 //! another process.
 
 #![expect(clippy::disallowed_methods, reason = "real time is what it is for")]
@@ -45,6 +46,7 @@ mod handle;
 mod inbox;
 #[cfg(feature = "mapped")]
 mod mapped_plc;
+mod opening;
 mod record;
 mod seen;
 mod shared;
@@ -57,6 +59,7 @@ pub use handle::Handle;
 pub use inbox::Order;
 #[cfg(feature = "mapped")]
 pub use mapped_plc::{Exchange, Keeper, MappedPlc};
+pub use opening::{Opened, Opening};
 pub use record::Recording;
 pub use seen::Seen;
 pub use shared::Pace;

@@ -52,7 +52,7 @@ pub(super) async fn watch(
     let mut screen = Screen::new(&targets, how.format);
     screen.head(output);
     let mut end =
-        std::pin::pin!(crate::cli::serve::signals().map_err(|error| {
+        std::pin::pin!(crate::cli::interrupt::signals().map_err(|error| {
             Problem::new(format!("the system gives no signals: {error}"), "close other programs")
         })?);
     let mut gone = std::pin::pin!(reader_gone());

@@ -2,11 +2,13 @@
 
 use std::convert::Infallible;
 use std::net::SocketAddr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::live::Speed;
+use crate::cli::output::Output;
+use crate::live::{Opened, Opening, Speed};
 use crate::machine::Machine;
+use crate::plc::Programs;
 use crate::s7::Settings;
 use crate::s7::live::{OwnIdentity, Terms, WindowOptions, protected, protection};
 use crate::s7::server::{Faults, Limits, Network};
@@ -124,7 +126,20 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// What they say of the window for S7 clients.
+    /// What is served.
+    pub(super) fn open(&self, programs: &Programs, output: &mut Output) -> Result<Opened, Problem> {
+        let plc_image = self.plc_image.as_deref().map(image).transpose()?;
+        let opening = Opening {
+            machine: self.machine.as_deref(),
+            scenario: self.scenario.as_deref(),
+            plc: self.plc.as_deref(),
+            plc_image: plc_image.as_deref(),
+            profile: self.profile.as_deref(),
+        };
+        opening.open(programs, &mut |warning| output.warning(warning))
+    }
+
+    /// On which terms S7 clients are served.
     pub(super) fn window(&self, machine: &Machine) -> Result<WindowOptions, Problem> {
         let protected = self.protect.iter().map(|text| protected(text, machine)).collect::<Result<_, _>>()?;
         let identity = self.identity.as_deref().map(OwnIdentity::read).transpose()?.unwrap_or_default();
@@ -157,6 +172,22 @@ impl Arguments {
             )
         })
     }
+}
+
+/// A PLC image: a file, or a name that is looked for in `plc_images` here or above.
+fn image(name: &str) -> Result<PathBuf, Problem> {
+    if name.ends_with(".toml") {
+        return Ok(PathBuf::from(name));
+    }
+    let file = Path::new("plc_images").join(format!("{name}.toml"));
+    let here = std::env::current_dir().unwrap_or_default();
+    let found = here.ancestors().map(|directory| directory.join(&file)).find(|file| file.is_file());
+    found.ok_or_else(|| {
+        Problem::new(
+            format!("expected a PLC image, found no plc_images/{name}.toml here or above"),
+            "name a file that ends in .toml, or start where plc_images is",
+        )
+    })
 }
 
 /// `30s`, `10min`.

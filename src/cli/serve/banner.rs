@@ -3,8 +3,7 @@
 use std::net::SocketAddr;
 
 use super::Arguments;
-use super::opening::Opened;
-use super::Arguments;
+use crate::live::Opened;
 use crate::s7::live::Terms;
 
 /// The machine, its program and its files.

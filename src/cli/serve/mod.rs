@@ -1,36 +1,32 @@
-//! `opennck serve`: a machine in real time, and its windows for operator panels and data collectors.
+//! `opennck serve`: a machine in real time with its S7 server. Here are arguments, banner, status line and exit code; the machine is
+//! [`live`](crate::live), the server [`s7::live`](crate::s7::live).
 
 #![expect(clippy::disallowed_methods, reason = "real time is what it is for")]
 
 mod arguments;
 mod banner;
 mod handles;
-mod log;
-mod opening;
+mod status;
 
 pub(super) use arguments::Arguments;
 
-use std::fs::File;
-use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use tokio::runtime::Builder;
 
-use super::output::{Output, apart};
-use crate::live::{Exchange, Keeper, Live, LiveOptions, MappedPlc, Speed};
+use super::interrupt;
+use super::log::Log;
+use super::output::{Kept, Output};
+use crate::live::{Exchange, Keeper, Live, LiveOptions, MappedPlc, Opened};
 use crate::plc::Programs;
 use crate::s7::live::Window;
-use crate::scenario::State;
 use crate::source::Problem;
-use crate::variables::Describe;
-use opening::Opened;
+use status::{Status, status_line};
 
 /// How often the status line is drawn.
 const DRAW: Duration = Duration::from_millis(200);
-/// Over how long its rates are taken.
-const RATES: Duration = Duration::from_secs(1);
 
 pub(super) fn serve(arguments: &Arguments, programs: &Programs, output: &mut Output) -> u8 {
     let attended = open(arguments, programs, output).and_then(|served| {
@@ -80,46 +76,22 @@ impl Served {
     }
 }
 
-/// A file that is written when all is over; what was in it before stays until then.
-struct Kept {
-    path: PathBuf,
-    file: File,
+/// The file of `--trace`, which must be no other file of the command.
+fn trace_file(path: &Path, arguments: &Arguments) -> Result<Kept, Problem> {
+    if arguments.record.as_deref() == Some(path) {
+        return Err(Problem::new(
+            format!("expected two files, found {} for --record and --trace", path.display()),
+            "name another one for the trace, for example one that ends in .jsonl",
+        ));
+    }
+    let Arguments { scenario, plc_image, image, identity, pcap, .. } = arguments;
+    let files = [scenario, image, identity, pcap].into_iter().flatten().map(PathBuf::as_path);
+    Kept::open("--trace", path, files.chain(plc_image.iter().map(Path::new)))
 }
 
-impl Kept {
-    fn open(path: &Path, arguments: &Arguments) -> Result<Self, Problem> {
-        if arguments.record.as_deref() == Some(path) {
-            return Err(Problem::new(
-                format!("expected two files, found {} for --record and --trace", path.display()),
-                "name another one for the trace, for example one that ends in .jsonl",
-            ));
-        }
-        let Arguments { scenario, plc_image, image, identity, pcap, .. } = arguments;
-        let files = [scenario, image, identity, pcap].into_iter().flatten().map(PathBuf::as_path);
-        apart("--trace", path, files.chain(plc_image.iter().map(Path::new)))?;
-        let file = File::options().write(true).create(true).truncate(false).open(path);
-        let file = file.map_err(|error| Self::cannot(path, &error))?;
-        Ok(Self { path: path.to_owned(), file })
-    }
-
-    fn write(mut self, text: &str) -> Result<(), Problem> {
-        let is_file = self.file.metadata().is_ok_and(|data| data.is_file());
-        let emptied = if is_file { self.file.set_len(0) } else { Ok(()) };
-        let written = emptied.and_then(|()| self.file.write_all(text.as_bytes()));
-        written.map_err(|error| Self::cannot(&self.path, &error))
-    }
-
-    fn cannot(path: &Path, error: &std::io::Error) -> Problem {
-        Problem::new(
-            format!("--trace {}: cannot be written: {error}", path.display()),
-            "check the path, the rights and the disk",
-        )
-    }
-}
-
-/// Opens all doors, or says which one stays closed.
+/// Opens everything, or reports what cannot be opened.
 fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Result<Served, Problem> {
-    let opened = Opened::open(arguments, programs, output)?;
+    let opened = arguments.open(programs, output)?;
     let machine = &opened.machine;
     let window = arguments.window(machine)?;
     if let (Some(_), Some(name)) = (&arguments.image, &opened.plc) {
@@ -132,12 +104,12 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let mut head = banner::machine(&opened, arguments);
     let status = status_line();
     // A program that has a log of its own keeps it.
-    let _ = tracing::subscriber::set_global_default(log::Log { status: status.clone(), writes: arguments.log_writes });
+    let _ = tracing::subscriber::set_global_default(Log { status: status.clone(), writes: arguments.log_writes });
     let exchange = Exchange { lock_step: arguments.lock_step, time_out: arguments.plc_timeout };
     let mapped = arguments.image.as_deref().map(|file| MappedPlc::create(file, machine, exchange)).transpose()?;
-    let trace = arguments.trace.as_deref().map(|path| Kept::open(path, arguments)).transpose()?;
+    let trace = arguments.trace.as_deref().map(|path| trace_file(path, arguments)).transpose()?;
     // Last of the files: one that has begun would be in the way of the next try.
-    let recording = arguments.record.as_deref().map(|path| opening::recording(path, &opened)).transpose()?;
+    let recording = arguments.record.as_deref().map(|path| opened.record(path)).transpose()?;
     let Opened { machine, operator, watch, .. } = opened;
     let (is_held, is_lock_step) = (arguments.lock_step, arguments.lock_step);
     let trace_of = trace.is_some().then_some(watch);
@@ -190,16 +162,6 @@ fn waiting(image: &Path) -> String {
     )
 }
 
-fn status_line() -> ProgressBar {
-    let bar = if std::io::stderr().is_terminal() {
-        ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr())
-    } else {
-        ProgressBar::hidden()
-    };
-    bar.set_style(ProgressStyle::with_template("{wide_msg}").unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar
-}
-
 /// Waits for Ctrl-C or SIGTERM.
 fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result<(), Problem> {
     let Served { live, window, keeper, status: bar, head, .. } = served;
@@ -212,7 +174,7 @@ fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result
     };
     let runtime = Builder::new_current_thread().enable_all().build().map_err(no_signals)?;
     let ended = runtime.block_on(async {
-        let mut end = std::pin::pin!(signals().map_err(no_signals)?);
+        let mut end = std::pin::pin!(interrupt::signals().map_err(no_signals)?);
         // From here on a signal ends it properly.
         output.print(head);
         let mut draw = tokio::time::interval(DRAW);
@@ -239,95 +201,4 @@ fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result
     bar.finish_and_clear();
     tracing::info!("ends: {}", status.sum());
     ended
-}
-
-/// Listens for signals from now on, and waits for the first.
-#[cfg(unix)]
-pub(super) fn signals() -> std::io::Result<impl Future<Output = ()>> {
-    use tokio::signal::unix::{SignalKind, signal};
-    let (mut interrupt, mut terminate) = (signal(SignalKind::interrupt())?, signal(SignalKind::terminate())?);
-    Ok(async move {
-        tokio::select! {
-            _ = interrupt.recv() => {}
-            _ = terminate.recv() => {}
-        }
-    })
-}
-
-#[cfg(not(unix))]
-pub(super) fn signals() -> std::io::Result<impl Future<Output = ()>> {
-    Ok(async {
-        let _ = tokio::signal::ctrl_c().await;
-    })
-}
-
-/// The line at the bottom of a terminal.
-struct Status<'a> {
-    live: &'a Live,
-    window: &'a Window,
-    /// When rates were taken last: time of the machine, answers.
-    last: (Instant, f64, u64),
-    speed: Option<f64>,
-    rate: u64,
-}
-
-impl<'a> Status<'a> {
-    fn new(live: &'a Live, window: &'a Window) -> Self {
-        let time = live.with(|machine| machine.time().seconds());
-        Self { live, window, last: (Instant::now(), time, window.answers()), speed: None, rate: 0 }
-    }
-
-    fn line(&mut self, wanted: Speed) -> String {
-        if self.live.is_held() {
-            return format!("step 0  waits for a PLC process to open the image  clients {}", self.window.clients());
-        }
-        let looked = self.live.with_soon(|machine, scenario| {
-            let name = |number| machine.alarm_name(number);
-            let alarms: Vec<_> = machine.variables().alarms.iter().map(|alarm| name(alarm.number)).collect();
-            (machine.time().seconds(), machine.cycle(), alarms, scenario.cloned())
-        });
-        let Some((time, cycle, alarms, scenario)) = looked else {
-            // A scan in lock-step waits for its answer; whoever waited here would not hear a signal.
-            return "waits for the PLC process".to_owned();
-        };
-        let elapsed = self.last.0.elapsed();
-        if elapsed >= RATES {
-            let answers = self.window.answers();
-            self.speed = Some((time - self.last.1) / elapsed.as_secs_f64());
-            let millis = u64::try_from(elapsed.as_millis()).unwrap_or(u64::MAX).max(1);
-            self.rate = (answers - self.last.2) * 1000 / millis;
-            self.last = (Instant::now(), time, answers);
-        }
-        let speed = self.speed.map_or_else(|| wanted.to_string(), |speed| format!("{speed:.2}"));
-        let alarms = if alarms.is_empty() { "none".to_owned() } else { alarms.join(" ") };
-        let mut line = format!("{time:.1} s  step {cycle}  speed {speed}");
-        if self.live.pace().overruns > 0 {
-            line += &format!("  {}", self.overruns());
-        }
-        if let Some(scenario) = scenario {
-            let how = match scenario {
-                State::Acting => "acts",
-                State::Done => "held",
-                State::Failed(_) => "FAILED",
-            };
-            line += &format!("  scenario {how}");
-        }
-        line += &format!("  clients {} ({}/s)  alarms {alarms}", self.window.clients(), self.rate);
-        line
-    }
-
-    fn overruns(&self) -> String {
-        let pace = self.live.pace();
-        let mut text = format!("overruns {} (worst {} ms", pace.overruns, pace.worst.as_millis());
-        if !pace.lost.is_zero() {
-            text += &format!(", lost {:.1} s", pace.lost.as_secs_f64());
-        }
-        text + ")"
-    }
-
-    /// What all of it was.
-    fn sum(&self) -> String {
-        let step = self.live.with(|machine| machine.cycle());
-        format!("step {step}  {}  answers {}", self.overruns(), self.window.answers())
-    }
 }

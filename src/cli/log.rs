@@ -1,5 +1,7 @@
 //! What happens while a machine is served, line by line on standard error: clients, refused requests, alarms, and writes on demand.
 
+#![expect(clippy::disallowed_methods, reason = "each line has the time of the day")]
+
 use std::fmt::{Debug, Write};
 use std::time::{SystemTime, UNIX_EPOCH};
 

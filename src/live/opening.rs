@@ -1,46 +1,65 @@
-//! What `opennck serve` opens: a machine with its PLC program and image, and with `--scenario` the operator who acts on it.
+//! What a live machine is opened from: a machine with its PLC program and PLC image, or a scenario that acts on it. And the other way
+//! round: the heading of the recording that runs the same again.
 //!
 //! A scenario brings its own machine, program and image, with its profile (the first one), its `[plant]`, and its `watch` for the
-//! trace; what the command line names counts instead. Its `limit` bounds the scenario, not the machine.
+//! trace; what is named beside it counts instead. Its `limit` bounds the scenario, not the machine.
 
 use std::path::{Component, Path, PathBuf};
 
-use super::Arguments;
-use crate::cli::output::Output;
+use super::record::Recording;
 use crate::image::{Preset, Profile};
-use crate::live::Recording;
 use crate::machine::{Machine, OpenOptions};
 use crate::plc::Programs;
 use crate::scenario::{Heading, Named, Operator, Scenario, profile_named};
 use crate::source::{Place, Problem, Table, unreadable};
 use crate::trace::Watch;
 
-/// A machine that is open.
-pub(super) struct Opened {
-    pub(super) machine: Machine,
-    pub(super) operator: Option<Operator>,
-    /// What its trace shows, and the entries that say so.
-    pub(super) watch: Watch,
-    pub(super) entries: Option<Vec<String>>,
-    /// Where it is from.
-    pub(super) path: PathBuf,
+/// What is named for a live machine, as in the options of `opennck serve`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Opening<'a> {
+    /// A directory, an archive file, or the name of a built-in machine; without one, that of the scenario.
+    pub machine: Option<&'a Path>,
+    /// The scenario that acts on it.
+    pub scenario: Option<&'a Path>,
     /// The name of its PLC program.
-    pub(super) plc: Option<String>,
+    pub plc: Option<&'a str>,
     /// The file of its PLC image.
-    pub(super) image: Option<PathBuf>,
-    /// What was merged into its plant.
-    pub(super) plant: Option<Table>,
+    pub plc_image: Option<&'a Path>,
+    /// The name of its profile.
+    pub profile: Option<&'a str>,
 }
 
-impl Opened {
-    pub(super) fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Result<Self, Problem> {
-        let image = arguments.plc_image.as_deref().map(image).transpose()?;
-        let profile = arguments.profile.as_deref().map(profile_named).transpose()?;
-        let opened = match (&arguments.scenario, &arguments.machine) {
-            (Some(file), _) => Self::with_scenario(file, profile, image.as_deref(), arguments, programs, output)?,
-            (None, Some(path)) => {
-                Self::alone(path, profile.unwrap_or_default(), image, arguments.plc.as_deref(), programs)?
-            }
+/// A machine that is open and has not run yet.
+#[derive(Debug)]
+pub struct Opened {
+    /// The machine, with its PLC program.
+    pub machine: Machine,
+    /// The scenario that acts on it.
+    pub operator: Option<Operator>,
+    /// What its trace shows.
+    pub watch: Watch,
+    /// The entries of the scenario that say so.
+    pub entries: Option<Vec<String>>,
+    /// Where it is from.
+    pub path: PathBuf,
+    /// The name of its PLC program.
+    pub plc: Option<String>,
+    /// The file of its PLC image.
+    pub image: Option<PathBuf>,
+    /// What was merged into its plant.
+    pub plant: Option<Table>,
+}
+
+impl Opening<'_> {
+    /// Opens it; `warn` takes what was odd and did not hinder.
+    ///
+    /// # Errors
+    /// Neither a machine nor a scenario is named, or one of the files cannot be used, with its line.
+    pub fn open(&self, programs: &Programs, warn: &mut dyn FnMut(&str)) -> Result<Opened, Problem> {
+        let profile = self.profile.map(profile_named).transpose()?;
+        let opened = match (self.scenario, self.machine) {
+            (Some(file), _) => self.with_scenario(file, profile, programs, warn)?,
+            (None, Some(path)) => self.alone(path, profile.unwrap_or_default(), programs)?,
             (None, None) => {
                 return Err(Problem::new(
                     "expected a machine or a scenario, found neither",
@@ -49,63 +68,56 @@ impl Opened {
             }
         };
         for warning in opened.machine.warnings() {
-            output.warning(warning);
+            warn(warning);
         }
         Ok(opened)
     }
 
-    fn alone(
-        path: &Path,
-        profile: Profile,
-        image: Option<PathBuf>,
-        plc: Option<&str>,
-        programs: &Programs,
-    ) -> Result<Self, Problem> {
-        let preset = image.as_deref().map(Preset::read).transpose()?;
+    fn alone(&self, path: &Path, profile: Profile, programs: &Programs) -> Result<Opened, Problem> {
+        let preset = self.plc_image.map(Preset::read).transpose()?;
         let mut machine = Machine::open_with(path, OpenOptions { preset, profile, ..OpenOptions::default() })?;
-        if let Some(name) = plc {
+        if let Some(name) = self.plc {
             machine.load_program(programs.program(name, machine.names())?);
         }
-        Ok(Self {
+        Ok(Opened {
             machine,
             operator: None,
             watch: Watch::default(),
             entries: None,
             path: path.to_owned(),
-            plc: plc.map(str::to_owned),
-            image,
+            plc: self.plc.map(str::to_owned),
+            image: self.plc_image.map(Path::to_owned),
             plant: None,
         })
     }
 
     fn with_scenario(
+        &self,
         file: &Path,
         profile: Option<Profile>,
-        image: Option<&Path>,
-        arguments: &Arguments,
         programs: &Programs,
-        output: &mut Output,
-    ) -> Result<Self, Problem> {
+        warn: &mut dyn FnMut(&str),
+    ) -> Result<Opened, Problem> {
         let mut scenario = Scenario::read(file)?;
         let mut path = scenario.directory().join(&scenario.machine.text);
-        if let Some(machine) = &arguments.machine {
+        if let Some(machine) = self.machine {
             if !is_same(machine, &path) {
                 let (named, served) = (&scenario.machine.text, machine.display());
-                output.warning(format!("{}: it names the machine {named}; {served} is served", file.display()));
+                warn(&format!("{}: it names the machine {named}; {served} is served", file.display()));
             }
             scenario.machine = said("MACHINE", &absolute(machine));
-            path.clone_from(machine);
+            path = machine.to_owned();
         }
-        if let Some(plc) = &arguments.plc {
+        if let Some(plc) = self.plc {
             scenario.plc = Some(said("--plc", plc));
         }
-        if let Some(image) = image {
+        if let Some(image) = self.plc_image {
             scenario.plc_image = Some(said("--plc-image", &absolute(image)));
         }
         let image = scenario.image_file()?;
         let prepared = scenario.prepare(profile.unwrap_or(scenario.profiles[0]), programs)?;
         let (machine, operator, watch) = prepared.into_operator();
-        Ok(Self {
+        Ok(Opened {
             machine,
             operator: Some(operator),
             watch,
@@ -118,7 +130,29 @@ impl Opened {
     }
 }
 
-/// What the command line says in place of a scenario.
+impl Opened {
+    /// Begins a recording of it.
+    ///
+    /// # Errors
+    /// As [`Recording::begin`]; or the scenario could not find the machine again from where it is written.
+    pub fn record(&self, path: &Path) -> Result<Recording, Problem> {
+        let machine = if self.path.exists() { from(path, &self.path)? } else { built_in(path, &self.path)? };
+        let image = self.image.as_deref().map(|image| from(path, image)).transpose()?;
+        let title = format!("A session with {}", machine.rsplit('/').next().unwrap_or_default());
+        let heading = Heading {
+            title: &title,
+            machine: &machine,
+            profile: self.machine.names().profile,
+            plc: self.plc.as_deref(),
+            plc_image: image.as_deref(),
+            watch: self.entries.as_deref(),
+            plant: self.plant.as_ref(),
+        };
+        Recording::begin(path, &heading, &self.machine)
+    }
+}
+
+/// What is named in place of what a scenario says.
 fn said(place: &str, text: &str) -> Named {
     Named { text: text.to_owned(), place: Place::file(place) }
 }
@@ -134,40 +168,6 @@ fn is_same(one: &Path, other: &Path) -> bool {
         (Err(_), Err(_)) => one.file_name() == other.file_name(),
         (Ok(_), Err(_)) | (Err(_), Ok(_)) => false,
     }
-}
-
-/// A PLC image: a file, or a name that is looked for in `plc_images` here or above.
-fn image(name: &str) -> Result<PathBuf, Problem> {
-    if name.ends_with(".toml") {
-        return Ok(PathBuf::from(name));
-    }
-    let file = Path::new("plc_images").join(format!("{name}.toml"));
-    let here = std::env::current_dir().unwrap_or_default();
-    let found = here.ancestors().map(|directory| directory.join(&file)).find(|file| file.is_file());
-    found.ok_or_else(|| {
-        Problem::new(
-            format!("expected a PLC image, found no plc_images/{name}.toml here or above"),
-            "name a file that ends in .toml, or start where plc_images is",
-        )
-    })
-}
-
-/// The recording of a machine that `serve` has opened.
-pub(super) fn recording(path: &Path, opened: &Opened) -> Result<Recording, Problem> {
-    let machine = &opened.path;
-    let machine = if machine.exists() { from(path, machine)? } else { built_in(path, machine)? };
-    let image = opened.image.as_deref().map(|image| from(path, image)).transpose()?;
-    let title = format!("A session with {}", machine.rsplit('/').next().unwrap_or_default());
-    let heading = Heading {
-        title: &title,
-        machine: &machine,
-        profile: opened.machine.names().profile,
-        plc: opened.plc.as_deref(),
-        plc_image: image.as_deref(),
-        watch: opened.entries.as_deref(),
-        plant: opened.plant.as_ref(),
-    };
-    Recording::begin(path, &heading, &opened.machine)
 }
 
 /// A machine that is built in has no path, but a folder of its name beside the file would be taken for it.

@@ -1,0 +1,96 @@
+//! The line at the bottom of a terminal while a machine is served: time, speed, clients, alarms.
+
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::live::{Live, Speed};
+use crate::s7::live::Window;
+use crate::scenario::State;
+use crate::variables::Describe;
+
+/// Over how long its rates are taken.
+const RATES: Duration = Duration::from_secs(1);
+
+/// Where it is drawn: nowhere, if standard error is no terminal.
+pub(super) fn status_line() -> ProgressBar {
+    let bar = if std::io::stderr().is_terminal() {
+        ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr())
+    } else {
+        ProgressBar::hidden()
+    };
+    bar.set_style(ProgressStyle::with_template("{wide_msg}").unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar
+}
+
+/// The line at the bottom of a terminal.
+pub(super) struct Status<'a> {
+    live: &'a Live,
+    window: &'a Window,
+    /// When rates were taken last: time of the machine, answers.
+    last: (Instant, f64, u64),
+    speed: Option<f64>,
+    rate: u64,
+}
+
+impl<'a> Status<'a> {
+    pub(super) fn new(live: &'a Live, window: &'a Window) -> Self {
+        let time = live.with(|machine| machine.time().seconds());
+        Self { live, window, last: (Instant::now(), time, window.answers()), speed: None, rate: 0 }
+    }
+
+    pub(super) fn line(&mut self, wanted: Speed) -> String {
+        if self.live.is_held() {
+            return format!("step 0  waits for a PLC process to open the image  clients {}", self.window.clients());
+        }
+        let looked = self.live.with_soon(|machine, scenario| {
+            let name = |number| machine.alarm_name(number);
+            let alarms: Vec<_> = machine.variables().alarms.iter().map(|alarm| name(alarm.number)).collect();
+            (machine.time().seconds(), machine.cycle(), alarms, scenario.cloned())
+        });
+        let Some((time, cycle, alarms, scenario)) = looked else {
+            // A scan in lock-step waits for its answer; whoever waited here would not hear a signal.
+            return "waits for the PLC process".to_owned();
+        };
+        let elapsed = self.last.0.elapsed();
+        if elapsed >= RATES {
+            let answers = self.window.answers();
+            self.speed = Some((time - self.last.1) / elapsed.as_secs_f64());
+            let millis = u64::try_from(elapsed.as_millis()).unwrap_or(u64::MAX).max(1);
+            self.rate = (answers - self.last.2) * 1000 / millis;
+            self.last = (Instant::now(), time, answers);
+        }
+        let speed = self.speed.map_or_else(|| wanted.to_string(), |speed| format!("{speed:.2}"));
+        let alarms = if alarms.is_empty() { "none".to_owned() } else { alarms.join(" ") };
+        let mut line = format!("{time:.1} s  step {cycle}  speed {speed}");
+        if self.live.pace().overruns > 0 {
+            line += &format!("  {}", self.overruns());
+        }
+        if let Some(scenario) = scenario {
+            let how = match scenario {
+                State::Acting => "acts",
+                State::Done => "held",
+                State::Failed(_) => "FAILED",
+            };
+            line += &format!("  scenario {how}");
+        }
+        line += &format!("  clients {} ({}/s)  alarms {alarms}", self.window.clients(), self.rate);
+        line
+    }
+
+    fn overruns(&self) -> String {
+        let pace = self.live.pace();
+        let mut text = format!("overruns {} (worst {} ms", pace.overruns, pace.worst.as_millis());
+        if !pace.lost.is_zero() {
+            text += &format!(", lost {:.1} s", pace.lost.as_secs_f64());
+        }
+        text + ")"
+    }
+
+    /// What all of it was.
+    pub(super) fn sum(&self) -> String {
+        let step = self.live.with(|machine| machine.cycle());
+        format!("step {step}  {}  answers {}", self.overruns(), self.window.answers())
+    }
+}
