@@ -38,6 +38,8 @@
 //!                       │                │
 //!  plant.toml ──────> plant ───────── machine ──> trace ──> scenario ──> golden
 //!                              (step, save, fork)               └─────── cli
+//!                                        │
+//!                                      live (real time, inbox, copies) ──> s7 ──> clients
 //! ```
 //!
 //! The control and the PLC program never see each other: they meet in the bytes of [`image`], as in the real thing. What the
@@ -64,7 +66,7 @@
 //! | [`machine`] | ONE STEP, and open, queue, power, save, restore, fork | `expression`, `image`, `motion`, `plant`, `plc`, `sinumerik`, `source`, `trace`, `units`, `variables` |
 //! | [`scenario`] | files that act, and the session that tests in Rust use | `expression`, `image`, `machine`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`golden`] | scenarios below a folder, each against its golden trace | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units` |
-//! | [`live`] | a machine in real time: the stepping thread, the inbox, the copy of the last step, the record (feature `live`, which `s7` and `mapped` have) | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
+//! | [`live`] | a machine in real time: the stepping thread, the inbox, the copy of the last step, the recording, a PLC in another process (feature `live`, part of `s7` and `mapped`) | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
 //! | [`s7`] | S7 communication: wire formats, sessions without a socket, a server on TCP and for [`live`] (feature `s7`) | `image`, `live`, `machine`, `sinumerik`, `source`, `units`, `variables` |
 //! | [`cli`] | the program's arguments and wiring (feature `cli`) | all |
 //!
@@ -116,6 +118,7 @@
 //! | a PLC program | a file in `plc/programs/`, a line in `plc/registry.rs`; or a closure of your own | `plc = "name"` in scenarios |
 //! | a machine | a folder below `machine_data/` | `machine = "path"` in scenarios |
 //! | a scenario | a `.toml` below `golden/<area>/`, then read and accept its trace | the `.snap` beside it |
+//! | a server for other clients | a folder in `src` that holds a [`live::Handle`] and no more of `live`; `tests/live.rs` has a small one | reads of one step, orders that act whole and are recorded |
 //! | an NC variable that clients read | a row in `s7/nck/catalogue.rs` | its value by area, module, column and line |
 //! | a room | a folder in `src`, a row here and one in `tests/layers.rs` | the test that compares both |
 

@@ -51,7 +51,7 @@ const REFUSED_INSIDE: &[(&str, &str)] = &[
     ("std::time", "`opennck::units::Time`; a step does not ask a clock"),
     ("Instant", "`opennck::units::Time`; a step does not ask a clock"),
     ("SystemTime", "`opennck::units::Time`; a step does not ask a clock"),
-    ("std::thread", "one thread inside a step; threads belong to `cli`"),
+    ("std::thread", "one thread inside a step; threads belong to `live`, the servers and `cli`"),
     ("std::net", "sockets belong to `s7/server`"),
     ("rand", "the same input gives the same bytes; take numbers from the input"),
     ("fastrand", "the same input gives the same bytes; take numbers from the input"),

@@ -20,7 +20,7 @@
 //! ```
 //!
 //! A session asks no clock and opens no socket: time comes in with [`Session::tick`], bytes with [`Session::receive`]. [`server`] does
-//! both, for many clients.
+//! both, for many clients; [`live`] is the server of a machine in real time.
 
 pub mod nck;
 pub mod wire;

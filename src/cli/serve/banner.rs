@@ -2,7 +2,7 @@
 
 use std::net::SocketAddr;
 
-use super::Arguments;
+use super::arguments::Arguments;
 use crate::live::Opened;
 use crate::s7::live::Terms;
 

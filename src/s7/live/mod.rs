@@ -1,4 +1,6 @@
-//! The S7 server plugged into a live machine ([`live::Handle`](crate::live::Handle)). A test of a panel can have a machine of its own in its own process:
+//! The S7 server of a live machine. It plugs in by a [`live::Handle`](crate::live::Handle) and sees nothing else of [`live`](crate::live).
+//!
+//! A test of a panel can have a machine and its server in its own process:
 //!
 //! ```
 //! use opennck::live::{Live, Speed};
@@ -23,7 +25,6 @@ mod terms;
 mod window;
 
 pub use identity::OwnIdentity;
-#[cfg(feature = "cli")]
-pub(crate) use protect::{protected, protection};
+pub use protect::{protected, protection};
 pub use terms::Terms;
 pub use window::{Window, WindowOptions};

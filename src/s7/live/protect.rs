@@ -1,4 +1,5 @@
-//! `--protect` and `--password`: what S7 clients may not write, and what they may do only with a password.
+//! What S7 clients may not write, and what they may do only with a password, as `--protect`, `--password` and `--protection-level` of
+//! `opennck serve` have it.
 
 use crate::image::{Address, Area, Width};
 use crate::machine::Machine;
@@ -8,9 +9,11 @@ use crate::source::Problem;
 const CURE: &str =
     "protect whole bytes: DB21, DB21..30, DB1000.DBB0..99, DB1000.DBW4, MB0..99, IB0, T0..9, M, I, Q, T, C or nck";
 
-/// Reads what is protected: a data block or several, an area, bytes of one of them, or the NC variables. It must exist: a misspelt
-/// address protects nothing.
-pub(crate) fn protected(text: &str, machine: &Machine) -> Result<Protected, Problem> {
+/// Reads what is protected: a data block or several, an area, bytes of one of them, or the NC variables.
+///
+/// # Errors
+/// The text is no such address, or the machine does not have it: a misspelt address would protect nothing.
+pub fn protected(text: &str, machine: &Machine) -> Result<Protected, Problem> {
     let wrong = |what: &str| Problem::new(format!("--protect {text}: {what}"), CURE);
     let (first, last) = text.split_once("..").map_or((text, None), |(first, last)| (first, Some(last)));
     let whole = match first {
@@ -66,7 +69,10 @@ fn all(area: Area) -> Protected {
 }
 
 /// What needs the password. Without a level, a password protects stop, restart and the clock.
-pub(crate) fn protection(password: Option<&str>, level: Option<u8>) -> Result<Protection, Problem> {
+///
+/// # Errors
+/// A level without a password, or a password that a module does not take: 1 to 8 characters of ASCII.
+pub fn protection(password: Option<&str>, level: Option<u8>) -> Result<Protection, Problem> {
     let Some(text) = password else {
         return match level {
             None | Some(1) => Ok(Protection { level: 1, password: None }),
