@@ -14,7 +14,6 @@ use crate::{report, rust};
 
 /// Circles that stand: files, or folders with all that is below them, and the reason.
 const CIRCLES: &[(&[&str], &str)] = &[
-    (&["src/cli/serve/"], "being removed: the folder becomes a module beside `cli`"),
 ];
 
 #[test]
