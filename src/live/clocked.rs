@@ -108,10 +108,11 @@ impl Clocked {
             trace.extend(machine.recorder());
             trace.note_values(machine.cycle(), machine.variables());
         }
+        if was_at_work && let Some(operator) = operator {
+            operator.look(machine);
+        }
         machine.drain();
-        let operator = operator.as_mut().filter(|_| was_at_work)?;
-        operator.look(machine);
-        match operator.state() {
+        match operator.as_ref().filter(|_| was_at_work)?.state() {
             State::Acting => None,
             State::Done => Some("the scenario is over, all of it held; serving goes on".to_owned()),
             State::Failed(failure) => Some(format!("the scenario failed, serving goes on: {failure}")),
