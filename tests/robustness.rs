@@ -8,16 +8,20 @@
 
 use std::cell::Cell;
 
+use opennck::control::Taken;
 use opennck::image::{Location, Part, SINUMERIK, Writer};
-use opennck::machine::{
-    ApproachPhase, Command, DatumValue, Fault, FaultKind, GroupingPhase, Machine, Switch, TakenTransitions,
-};
+use opennck::machine::{Command, DatumValue, Fault, FaultKind, Machine, Switch};
 use opennck::sinumerik::machine_data::Target;
-use opennck::sinumerik::{APPROACH_TRANSITIONS, GROUPING_TRANSITIONS};
+use opennck::sinumerik::{APPROACH_TRANSITIONS, ApproachPhase, GROUPING_TRANSITIONS, GroupingPhase, Nck};
 use opennck::units::{AxisNumber, ChannelNumber, Position};
 use opennck::variables::{AlarmNumber, Place};
 use proptest::prelude::{Just, Strategy, any, prop_oneof};
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
+
+/// The control of these machines.
+fn nck(machine: &Machine) -> &Nck {
+    machine.control().downcast().expect("these machines are SINUMERIKs")
+}
 
 /// Cases of each of the two tests, which run beside each other: about 1.6 million steps each.
 const CASES: u32 = 400;
@@ -335,10 +339,10 @@ impl Bench {
     }
 
     fn is_busy(&self) -> bool {
-        self.axes.iter().any(|&axis| self.machine.approach_phase(axis) != ApproachPhase::Idle)
+        self.axes.iter().any(|&axis| nck(&self.machine).approach_phase(axis) != ApproachPhase::Idle)
             || self.groupings.iter().any(|grouping| {
                 matches!(
-                    self.machine.grouping_phase(grouping.number),
+                    nck(&self.machine).grouping_phase(grouping.number),
                     Some(
                         GroupingPhase::ReferencingLeadingAxis
                             | GroupingPhase::ReferencingSynchronousAxis
@@ -566,7 +570,7 @@ impl Bench {
             self.hash = (self.hash ^ setpoint.cast_unsigned()).wrapping_mul(0x0100_0000_01b3);
             let closed = self.groupings.iter().find(|grouping| {
                 (grouping.leader == axis || grouping.followers.contains(&axis))
-                    && self.machine.grouping_phase(grouping.number) != Some(GroupingPhase::Open)
+                    && nck(&self.machine).grouping_phase(grouping.number) != Some(GroupingPhase::Open)
             });
             let all = closed.map_or_else(
                 || enabled(axis),
@@ -669,8 +673,8 @@ impl Bench {
         let bound = self.longest();
         let ended = self.run_out(bound)?;
         ensure(ended, self, || {
-            let axes: Vec<_> = self.axes.iter().map(|&axis| self.machine.approach_phase(axis)).collect();
-            let groupings: Vec<_> = (1..=8).filter_map(|number| self.machine.grouping_phase(number)).collect();
+            let axes: Vec<_> = self.axes.iter().map(|&axis| nck(&self.machine).approach_phase(axis)).collect();
+            let groupings: Vec<_> = (1..=8).filter_map(|number| nck(&self.machine).grouping_phase(number)).collect();
             format!("still waiting after {bound} cycles: {axes:?}, {groupings:?}")
         })
     }
@@ -681,11 +685,11 @@ fn axial(machine: &Machine, number: u32, axis: AxisNumber) -> f64 {
 }
 
 fn target(machine: &Machine, number: u32, axis: AxisNumber) -> Target {
-    machine.machine_data().parse_target(&format!("{number}[AX{}]", axis.number())).unwrap()
+    nck(machine).active().parse_target(&format!("{number}[AX{}]", axis.number())).unwrap()
 }
 
 fn value(machine: &Machine, target: &Target) -> f64 {
-    machine.machine_data().get(target).and_then(|value| value.number()).unwrap_or(0.0)
+    nck(machine).active().get(target).and_then(|value| value.number()).unwrap_or(0.0)
 }
 
 fn ensure(holds: bool, bench: &Bench, why: impl FnOnce() -> String) -> Result<(), TestCaseError> {
@@ -696,18 +700,13 @@ fn ensure(holds: bool, bench: &Bench, why: impl FnOnce() -> String) -> Result<()
 }
 
 /// The hash of all that was shown, the steps, and which transitions were taken.
-fn run(
-    machine: &str,
-    acts: &[Act],
-    released: bool,
-    with_twin: bool,
-) -> Result<(u64, u64, TakenTransitions), TestCaseError> {
+fn run(machine: &str, acts: &[Act], released: bool, with_twin: bool) -> Result<(u64, u64, Taken), TestCaseError> {
     let mut bench = Bench::open(machine, with_twin);
     bench.step()?;
     bench.fresh = true;
     acts.iter().try_for_each(|act| bench.act(act))?;
     bench.ends(released)?;
-    Ok((bench.hash, bench.steps, bench.machine.taken_transitions()))
+    Ok((bench.hash, bench.steps, bench.machine.control().taken()))
 }
 
 /// A number from the environment.
@@ -723,7 +722,7 @@ fn always(half: u64) {
     let config = Config { cases, failure_persistence: None, max_shrink_iters: 4_000, ..Config::default() };
     let mut runner = TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &bytes));
     let strategy = (0..MACHINES.len(), proptest::collection::vec(act(), 1..40), any::<bool>());
-    let (steps, taken) = (Cell::new(0), Cell::new(TakenTransitions::default()));
+    let (steps, taken) = (Cell::new(0), Cell::new(Taken::default()));
     let result = runner.run(&strategy, |(machine, acts, released)| {
         let (hash, ran, rows) = run(MACHINES[machine], &acts, released, acts.len().is_multiple_of(4))?;
         steps.set(steps.get() + ran);
@@ -745,8 +744,8 @@ fn always(half: u64) {
     }
     // Rules that hold where nothing happens say nothing: the sequences take three of four rows of both tables at least.
     let (taken, count) = (taken.get(), APPROACH_TRANSITIONS.len() + GROUPING_TRANSITIONS.len());
-    let approach = (0..APPROACH_TRANSITIONS.len()).filter(|&row| taken.approach.has(row)).count();
-    let grouping = (0..GROUPING_TRANSITIONS.len()).filter(|&row| taken.grouping.has(row)).count();
+    let approach = (0..APPROACH_TRANSITIONS.len()).filter(|&row| taken.0[0].has(row)).count();
+    let grouping = (0..GROUPING_TRANSITIONS.len()).filter(|&row| taken.0[1].has(row)).count();
     assert!(
         (approach + grouping) * 4 >= count * 3 || cases < CASES,
         "{approach} and {grouping} of {count} transitions taken"

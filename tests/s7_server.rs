@@ -16,6 +16,7 @@ use opennck::machine::Machine;
 use opennck::plc::{self, PlcIo, Programs};
 use opennck::s7::live::Window;
 use opennck::s7::server::Limits;
+use opennck::sinumerik::Nck;
 use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE};
 
 const SETUP: [u8; 25] = setup(480);
@@ -523,7 +524,7 @@ fn a_collector_writes_machine_data_and_r_parameters_and_is_told_what_is_not_take
     assert_eq!((&read[5..16], &read[17..]), (&expected[1..12], &expected[13..]));
     let (axis, first) = (live.with(|machine| machine.axis("X")).unwrap(), opennck::units::ChannelNumber::FIRST);
     live.with(|machine| {
-        assert!((machine.stored_machine_data().axes[axis].max_ax_velo - 9000.0).abs() < 1e-9);
+        assert!((machine.control().downcast::<Nck>().unwrap().stored().axes[axis].max_ax_velo - 9000.0).abs() < 1e-9);
         assert_eq!(machine.r_parameters().get(first, 5), Some(2.5));
     });
 }

@@ -2,25 +2,17 @@
 
 use super::list::{Format, List};
 use super::output::Output;
-use crate::sinumerik::{ALARMS, ALARMS_NOT_RAISED, Alarm};
+use crate::control::{AlarmRow, Texts};
+use crate::controls;
 
 pub(super) fn alarms(filter: Option<&str>, format: Format, output: &mut Output) -> u8 {
-    let mut all: Vec<(&Alarm, bool)> = ALARMS.iter().map(|alarm| (alarm, true)).collect();
-    all.extend(ALARMS_NOT_RAISED.iter().map(|alarm| (alarm, false)));
-    all.sort_by_key(|(alarm, _)| alarm.number);
-    let rows = all.into_iter().map(|(alarm, raised)| row(alarm, raised)).collect();
+    let rows = controls::texts().flat_map(Texts::alarms).map(row).collect();
     let mut list = List { heads: &["alarm", "raised", "cancelled by", "reaction", "text"], rows };
     list.retain_with(filter, output);
     list.print(format, output)
 }
 
-fn row(alarm: &Alarm, raised: bool) -> Vec<String> {
-    let raised = if raised { "yes" } else { "not yet" };
-    vec![
-        Alarm::name(alarm.number),
-        raised.to_owned(),
-        alarm.cancel.to_string(),
-        alarm.reaction.to_string(),
-        alarm.text.to_owned(),
-    ]
+fn row(alarm: AlarmRow) -> Vec<String> {
+    let raised = if alarm.raised { "yes" } else { "not yet" };
+    vec![alarm.name, raised.to_owned(), alarm.cancelled_by, alarm.reaction, alarm.text.to_owned()]
 }

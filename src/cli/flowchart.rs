@@ -4,26 +4,16 @@
 //! With what a suite has taken, the edges that it took are thick and the others are dashed; `opennck test --flowchart F`
 //! writes that. The manual's own picture of a grouping (G1, figure 2-2) is missing there; this one is ours.
 
-use std::fmt::{Debug, Write};
+use std::fmt::Write;
 
-use clap::ValueEnum;
+use clap::builder::PossibleValue;
 
 use super::output::Output;
-use crate::machine::TakenTransitions;
-use crate::sinumerik::{
-    APPROACH_TRANSITIONS, ApproachPhase, GROUPING_TRANSITIONS, GroupingPhase, Rows, Rule, Transition,
-};
+use crate::control::{Chart, Texts};
+use crate::controls;
+use crate::golden::Exercised;
 
-/// A state machine of the control.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Chart {
-    /// The reference point approach of one axis.
-    Approach,
-    /// A gantry grouping.
-    Gantry,
-}
-
-/// A row of a table, in words.
+/// An edge, in words.
 struct Edge {
     from: String,
     to: String,
@@ -31,82 +21,67 @@ struct Edge {
     taken: Option<bool>,
 }
 
-pub(super) fn flowchart(chart: Option<Chart>, output: &mut Output) -> u8 {
-    output.print(&text(chart, None));
+/// The words by which charts are asked for.
+pub(super) fn names() -> Vec<PossibleValue> {
+    let charts = controls::texts().flat_map(Texts::charts);
+    charts.map(|chart| PossibleValue::new(chart.name).help(chart.title)).collect()
+}
+
+pub(super) fn flowchart(chart: Option<&str>, output: &mut Output) -> u8 {
+    output.print(&text(chart, &[]));
     0
 }
 
-/// One chart or both, with what was taken if that is known.
-pub(super) fn text(chart: Option<Chart>, taken: Option<TakenTransitions>) -> String {
+/// One chart or all, with what was taken where that is known.
+pub(super) fn text(only: Option<&str>, taken: &[Exercised]) -> String {
     let mut text = "flowchart TD\n".to_owned();
-    let mut all = Vec::new();
-    if chart != Some(Chart::Gantry) {
-        let rows = taken.map(|taken| taken.approach);
-        all.extend(subgraph(&mut text, "Reference point approach", APPROACH_TRANSITIONS, ApproachPhase::text, rows));
-        // An abort is no row: it leads from wherever the approach is.
-        let aborted = label(Rule::ApproachAborted);
-        let idle = ApproachPhase::Idle;
-        let _ = writeln!(text, "    AnyPhase[\"any phase\"]\n    AnyPhase -.->|\"{aborted}\"| {idle:?}");
+    let mut edges = Vec::new();
+    for texts in controls::texts() {
+        let exercised = taken.iter().find(|exercised| exercised.texts.name() == texts.name());
+        for (place, chart) in texts.charts().iter().enumerate() {
+            if only.is_none_or(|only| only == chart.name) {
+                let rows = exercised.map(|exercised| exercised.taken.0[place]);
+                draw(&mut text, texts, chart, |index| rows.map(|rows| rows.has(index)), &mut edges);
+            }
+        }
     }
-    if chart != Some(Chart::Approach) {
-        let rows = taken.map(|taken| taken.grouping);
-        all.extend(subgraph(&mut text, "Gantry grouping", GROUPING_TRANSITIONS, GroupingPhase::text, rows));
-    }
-    if taken.is_some() {
-        mark(&mut text, chart, &all);
+    if !taken.is_empty() {
+        mark(&mut text, &edges);
     }
     text
 }
 
-/// Writes the phases and rows of a table, and gives the rows.
-fn subgraph<P: Copy + Debug + PartialEq>(
+/// Writes the phases and edges of a chart.
+fn draw(
     text: &mut String,
-    title: &str,
-    table: &[Transition<P>],
-    phase_text: fn(P) -> &'static str,
-    taken: Option<Rows>,
-) -> Vec<Edge> {
-    let _ = writeln!(text, "    %% {title}");
-    let mut phases: Vec<P> = Vec::new();
-    for phase in table.iter().flat_map(|row| [row.from, row.to]) {
-        if !phases.contains(&phase) {
-            phases.push(phase);
-        }
+    words: &dyn Texts,
+    chart: &Chart,
+    taken: impl Fn(usize) -> Option<bool>,
+    edges: &mut Vec<Edge>,
+) {
+    let _ = writeln!(text, "    %% {}", chart.title);
+    for (phase, sentence) in &chart.phases {
+        let _ = writeln!(text, "    {phase}[\"{sentence}\"]");
     }
-    for phase in phases {
-        let _ = writeln!(text, "    {phase:?}[\"{}\"]", phase_text(phase));
+    for (index, edge) in chart.edges.iter().enumerate() {
+        let rule = words.rule(edge.rule);
+        let label = format!("{}: {}", rule.id, edge.tested.unwrap_or(rule.text));
+        let _ = writeln!(text, "    {} -->|\"{label}\"| {}", edge.from, edge.to);
+        edges.push(Edge { from: edge.from.clone(), to: edge.to.clone(), label, taken: taken(index) });
     }
-    let edge = |(index, row): (usize, &Transition<P>)| Edge {
-        from: format!("{:?}", row.from),
-        to: format!("{:?}", row.to),
-        label: label(row.by),
-        taken: taken.map(|taken| taken.has(index)),
-    };
-    let edges: Vec<_> = table.iter().enumerate().map(edge).collect();
-    for Edge { from, to, label, .. } in &edges {
-        let _ = writeln!(text, "    {from} -->|\"{label}\"| {to}");
+    for (rule, to) in &chart.from_anywhere {
+        let rule = words.rule(*rule);
+        let label = format!("{}: {}", rule.id, rule.text);
+        let _ = writeln!(text, "    AnyPhase[\"any phase\"]\n    AnyPhase -.->|\"{label}\"| {to}");
+        edges.push(Edge { from: "AnyPhase".to_owned(), to: to.clone(), label, taken: None });
     }
-    edges
 }
 
-/// The rule of an edge. Two rules say in a trace what they tested and no more.
-fn label(rule: Rule) -> String {
-    let written = Rule::text(rule.number());
-    let tested = [(Rule::WaitWarningLimitZero, "MD37110 = 0"), (Rule::WaitLocked, "29.5 = 1")];
-    let sentence = tested.iter().find(|(wait, _)| *wait == rule).map_or(written.text, |(_, text)| text);
-    format!("{}: {sentence}", written.id)
-}
-
-/// Makes what was taken thick and what was not dashed. Mermaid counts the edges of the whole text, with the abort between.
-fn mark(text: &mut String, chart: Option<Chart>, edges: &[Edge]) {
-    let abort = if chart == Some(Chart::Gantry) { usize::MAX } else { APPROACH_TRANSITIONS.len() };
+/// Makes what was taken thick and what was not dashed. Mermaid counts the edges of the whole text.
+fn mark(text: &mut String, edges: &[Edge]) {
     for (wanted, style) in [(true, "stroke-width:4px"), (false, "stroke:#c00,stroke-dasharray:4")] {
-        let numbers: Vec<_> = edges
-            .iter()
-            .enumerate()
-            .filter(|(_, edge)| edge.taken == Some(wanted))
-            .map(|(index, _)| (index + usize::from(index >= abort)).to_string())
-            .collect();
+        let styled = edges.iter().enumerate().filter(|(_, edge)| edge.taken == Some(wanted));
+        let numbers: Vec<_> = styled.map(|(index, _)| index.to_string()).collect();
         if !numbers.is_empty() {
             let _ = writeln!(text, "    linkStyle {} {style}", numbers.join(","));
         }
@@ -119,7 +94,8 @@ fn mark(text: &mut String, chart: Option<Chart>, edges: &[Edge]) {
 /// How many were taken, and each that was not.
 fn never_taken(edges: &[Edge]) -> Vec<String> {
     let never: Vec<_> = edges.iter().filter(|edge| edge.taken == Some(false)).collect();
-    let mut lines = vec![format!("{} of {} transitions taken", edges.len() - never.len(), edges.len())];
+    let rows = edges.iter().filter(|edge| edge.taken.is_some()).count();
+    let mut lines = vec![format!("{} of {rows} transitions taken", rows - never.len())];
     lines.extend(never.iter().map(|Edge { from, to, label, .. }| format!("never taken: {from} -> {to} ({label})")));
     lines
 }
@@ -132,6 +108,7 @@ pub(super) fn summary(text: &str) -> impl Iterator<Item = &str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::control::Taken;
 
     /// What a chart says of its edges, in their order.
     fn edges(text: &str) -> Vec<&str> {
@@ -146,11 +123,9 @@ mod tests {
 
     #[test]
     fn a_chart_has_an_edge_for_each_row_of_its_table_and_every_phase_of_an_edge_a_text() {
-        for (chart, rows) in
-            [(Chart::Approach, APPROACH_TRANSITIONS.len() + 1), (Chart::Gantry, GROUPING_TRANSITIONS.len())]
-        {
-            let text = text(Some(chart), None);
-            assert_eq!(edges(&text).len(), rows);
+        for chart in controls::texts().flat_map(Texts::charts) {
+            let text = text(Some(chart.name), &[]);
+            assert_eq!(edges(&text).len(), chart.edges.len() + chart.from_anywhere.len());
             for edge in edges(&text) {
                 let (from, to) = (edge.split_whitespace().next().unwrap(), edge.split_whitespace().last().unwrap());
                 for phase in [from, to] {
@@ -168,7 +143,8 @@ mod tests {
 
     #[test]
     fn nothing_taken_is_all_dashed_but_the_abort_which_is_no_row() {
-        let text = text(None, Some(TakenTransitions::default()));
+        let nothing = controls::texts().map(|texts| Exercised { texts, taken: Taken::default() });
+        let text = text(None, &nothing.collect::<Vec<_>>());
         let dashed = styled(&text, "stroke:#c00,stroke-dasharray:4");
         let abort = edges(&text).iter().position(|edge| edge.contains("AnyPhase")).unwrap();
         let expected: Vec<_> = (0..edges(&text).len()).filter(|&index| index != abort).collect();
@@ -179,7 +155,7 @@ mod tests {
 
     #[test]
     fn the_label_of_a_wait_says_what_was_tested() {
-        let text = text(Some(Chart::Gantry), None);
+        let text = text(Some("gantry"), &[]);
         assert!(text.contains("|\"REF-11: MD37110 = 0\"| WaitingForStart"), "{text}");
         assert!(text.contains("|\"REF-11: 29.5 = 1\"| WaitingForStart"), "{text}");
     }

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use super::output::Output;
+use crate::control::Examined;
+use crate::controls;
 use crate::machine::Machine;
-use crate::sinumerik::machine_data::{Archive, Finding, MachineData, Severity, check as look_through, files_of};
 use crate::source::{Place, Problem};
 use crate::units::AxisNumber;
 
@@ -40,13 +41,10 @@ fn checked(path: &Path) -> Result<Checked, Problem> {
         let machine = Machine::open(path)?;
         return Ok(Checked { summary: configuration(&machine), findings: machine.warnings().to_vec() });
     }
-    let files = files_of(path)?;
-    let archive = match Archive::load(&files) {
-        Ok(archive) => archive,
-        Err(findings) => return refused(&findings),
-    };
-    let mut summary: Vec<String> = archive.summary.to_string().lines().map(str::to_owned).collect();
-    let mut findings: Vec<String> = look_through(&archive).iter().map(Finding::to_string).collect();
+    let Examined { is_refused, mut summary, mut findings } = controls::examine(path)?;
+    if is_refused {
+        return Ok(Checked { summary, findings });
+    }
     match Machine::open(path) {
         Ok(machine) => {
             summary.extend(configuration(&machine));
@@ -54,7 +52,7 @@ fn checked(path: &Path) -> Result<Checked, Problem> {
             let more = machine.warnings().iter().filter(|&warning| !findings.contains(warning));
             findings.extend(more.cloned().collect::<Vec<_>>());
         }
-        Err(problem) if files.is_empty() => return Err(problem),
+        Err(problem) if summary.is_empty() => return Err(problem),
         // What a run refuses although every datum is right, as names that clash.
         Err(mut problem) => {
             problem.place.get_or_insert_with(|| Place::file(&path.display().to_string()));
@@ -64,39 +62,12 @@ fn checked(path: &Path) -> Result<Checked, Problem> {
     Ok(Checked { summary, findings })
 }
 
-/// What is said of an archive that nothing was taken from.
-fn refused(findings: &[Finding]) -> Result<Checked, Problem> {
-    match findings {
-        // Not a wrong datum but a file that is none.
-        [Finding { severity: Severity::Error, number: None, place, what, cure, .. }] => {
-            Err(Problem { place: place.clone(), what: what.clone(), cure: cure.clone() })
-        }
-        _ => Ok(Checked { summary: Vec::new(), findings: findings.iter().map(ToString::to_string).collect() }),
-    }
-}
-
 /// The axes of the machine with their numbers, and its gantry groupings.
 fn configuration(machine: &Machine) -> Vec<String> {
     let axes: Vec<(AxisNumber, &str)> =
         machine.names().axes.iter().filter_map(|(axis, name)| Some((axis, name.as_deref()?))).collect();
     let listed: Vec<String> = axes.iter().map(|(axis, name)| format!("{axis} {name}")).collect();
     let mut lines = vec![format!("machine axes: {}", listed.join(", "))];
-    lines.extend((1..=8).filter_map(|grouping| gantry(machine.machine_data(), &axes, grouping)));
+    lines.extend(machine.control().configuration(machine.names()));
     lines
-}
-
-/// Who leads whom in a gantry grouping; nothing where no axis belongs to it.
-fn gantry(data: &MachineData, axes: &[(AxisNumber, &str)], grouping: u8) -> Option<String> {
-    let with = |code: u8| {
-        let of_code = |(axis, _): &&(AxisNumber, &str)| data.axes[*axis].gantry_axis_type == code;
-        let names: Vec<&str> = axes.iter().filter(of_code).map(|(_, name)| *name).collect();
-        names.join(" and ")
-    };
-    let (leading, synchronous) = (with(grouping), with(10 + grouping));
-    let or = |names: String, none: &str| if names.is_empty() { none.to_owned() } else { names };
-    let any = !leading.is_empty() || !synchronous.is_empty();
-    any.then(|| {
-        let leading = or(leading, "no axis of this machine");
-        format!("gantry grouping {grouping}: {leading} leads {}", or(synchronous, "no axis of this machine"))
-    })
 }

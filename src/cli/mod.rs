@@ -144,7 +144,8 @@ enum Command {
     /// It is drawn from the tables by which the control runs.
     Flowchart {
         /// Only this one.
-        chart: Option<flowchart::Chart>,
+        #[arg(value_parser = flowchart::names())]
+        chart: Option<String>,
     },
     /// Prints the completions of commands and options for a shell.
     ///
@@ -199,7 +200,7 @@ pub fn main(programs: Programs) -> ExitCode {
         Some(Command::Alarms { filter, format }) => alarms::alarms(filter.as_deref(), format, &mut output),
         Some(Command::Diff { expected, found }) => diff::diff(&expected, &found, &mut output),
         Some(Command::Why { trace, edge }) => why::why(&trace, &edge, &programs, &mut output),
-        Some(Command::Flowchart { chart }) => flowchart::flowchart(chart, &mut output),
+        Some(Command::Flowchart { chart }) => flowchart::flowchart(chart.as_deref(), &mut output),
         Some(Command::Completions { shell }) => completions::completions(shell, &mut Arguments::command(), &mut output),
         Some(Command::MachineData { command: MachineData::Check { machine } }) => {
             machine_data::check(&machine, &mut output)

@@ -10,8 +10,7 @@ use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
 use super::flowchart;
 use super::output::Output;
-use crate::golden::{Case, Outcome, Update, cases, scenario_files};
-use crate::machine::TakenTransitions;
+use crate::golden::{Case, Exercised, Outcome, Update, cases, scenario_files};
 use crate::plc::Programs;
 use crate::source::{Problem, unreadable};
 
@@ -62,7 +61,7 @@ pub(super) fn test(paths: &[PathBuf], options: &Options, programs: &Programs, ou
         code = 2;
     }
     if let Some(path) = &options.flowchart {
-        let chart = flowchart::text(None, Some(taken));
+        let chart = flowchart::text(None, &taken);
         flowchart::summary(&chart).for_each(|line| output.line(line));
         if let Err(error) = std::fs::write(path, chart) {
             output.error(unreadable(path, &error));
@@ -72,15 +71,15 @@ pub(super) fn test(paths: &[PathBuf], options: &Options, programs: &Programs, ou
     code
 }
 
-/// Runs everything, several at once; the outcomes are in the order of the work, whoever was first. What they took of the control's
-/// transitions is one sum.
-fn all(work: &[(String, Work)], options: &Options, programs: &Programs) -> (Vec<Outcome>, TakenTransitions) {
+/// Runs everything, several at once; the outcomes are in the order of the work, whoever was first. What they took of the
+/// transitions of a control is one sum.
+fn all(work: &[(String, Work)], options: &Options, programs: &Programs) -> (Vec<Outcome>, Vec<Exercised>) {
     let update = if options.accept { Update::Accept } else { Update::No };
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
     let jobs = options.jobs.map_or_else(processors, usize::from).min(work.len()).max(1);
     let bar = bar(work.len());
     let next = AtomicUsize::new(0);
-    let done: Mutex<Vec<(usize, Outcome, TakenTransitions)>> = Mutex::new(Vec::with_capacity(work.len()));
+    let done: Mutex<Vec<(usize, Outcome, Option<Exercised>)>> = Mutex::new(Vec::with_capacity(work.len()));
     std::thread::scope(|scope| {
         for _ in 0..jobs {
             scope.spawn(|| {
@@ -91,7 +90,7 @@ fn all(work: &[(String, Work)], options: &Options, programs: &Programs) -> (Vec<
                     };
                     let (outcome, taken) = match item {
                         Work::Case(case) => case.run_watched(programs, update),
-                        Work::Unusable(problem) => (Outcome::Unusable(problem.clone()), TakenTransitions::default()),
+                        Work::Unusable(problem) => (Outcome::Unusable(problem.clone()), None),
                     };
                     // A poisoned lock means that another thread panicked; the scope passes its panic on.
                     if let Ok(mut done) = done.lock() {
@@ -105,10 +104,15 @@ fn all(work: &[(String, Work)], options: &Options, programs: &Programs) -> (Vec<
     bar.finish_and_clear();
     let mut done = done.into_inner().unwrap_or_default();
     done.sort_by_key(|(index, ..)| *index);
-    let mut sum = TakenTransitions::default();
+    let mut sum: Vec<Exercised> = Vec::new();
     let mut outcomes = Vec::with_capacity(done.len());
     for (_, outcome, taken) in done {
-        sum.add(taken);
+        if let Some(more) = taken {
+            match sum.iter_mut().find(|known| known.texts.name() == more.texts.name()) {
+                Some(known) => known.taken.add(more.taken),
+                None => sum.push(more),
+            }
+        }
         outcomes.push(outcome);
     }
     (outcomes, sum)

@@ -19,6 +19,10 @@ impl Machine {
 }
 
 impl Describe for Machine {
+    fn datum_name(&self, number: u32) -> String {
+        format!("MD{number}")
+    }
+
     fn names(&self) -> &Names {
         &self.0
     }

@@ -11,8 +11,8 @@ pub use snapshot::{Snapshot, normalized, pending};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::control::{Taken, Texts};
 use crate::image::Profile;
-use crate::machine::TakenTransitions;
 use crate::plc::Programs;
 use crate::scenario::{Compare, Failure, Finished, Scenario};
 use crate::source::{Place, Problem, unreadable};
@@ -155,6 +155,15 @@ pub fn cases(file: &Path) -> Result<Vec<Case>, Problem> {
         .collect())
 }
 
+/// Which transitions a control has taken.
+#[derive(Clone, Copy)]
+pub struct Exercised {
+    /// The words of the control, with the charts of its state machines.
+    pub texts: &'static dyn Texts,
+    /// The rows of the charts.
+    pub taken: Taken,
+}
+
 impl Case {
     /// Runs the case and compares its trace.
     #[must_use]
@@ -162,15 +171,16 @@ impl Case {
         self.run_watched(programs, update).0
     }
 
-    /// Runs it likewise, and tells which transitions of the control it has taken.
+    /// Runs it likewise, and returns which transitions its control has taken; `None` where it could not run.
     #[must_use]
-    pub fn run_watched(&self, programs: &Programs, update: Update) -> (Outcome, TakenTransitions) {
+    pub fn run_watched(&self, programs: &Programs, update: Update) -> (Outcome, Option<Exercised>) {
         let finished = match self.scenario.prepare(self.profile, programs) {
             Ok(prepared) => prepared.run(),
-            Err(problem) => return (Outcome::Unusable(problem), TakenTransitions::default()),
+            Err(problem) => return (Outcome::Unusable(problem), None),
         };
         let outcome = self.outcome(&finished, update).unwrap_or_else(Outcome::Unusable);
-        (outcome, finished.session().machine().taken_transitions())
+        let control = finished.session().machine().control();
+        (outcome, Some(Exercised { texts: control.texts(), taken: control.taken() }))
     }
 
     fn outcome(&self, finished: &Finished, update: Update) -> Result<Outcome, Problem> {

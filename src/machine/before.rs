@@ -2,7 +2,6 @@
 
 use super::written::{FIXED, Written};
 use crate::image::{Memory, Part};
-use crate::variables::EventId;
 
 /// The memory as the last record saw it, and what was written from outside since.
 #[derive(Debug)]
@@ -13,26 +12,18 @@ pub(super) struct Before {
     pub(super) plc_wrote: bool,
     /// Power was switched off and on in this step.
     pub(super) power_on: bool,
-    pub(super) last_event: EventId,
 }
 
 impl Before {
     /// The memory as it is now.
-    pub(super) fn new(memory: &Memory, last_event: EventId) -> Self {
+    pub(super) fn new(memory: &Memory) -> Self {
         let own = memory.blocks.iter().map(|block| Part::Block(block.number));
         let parts = FIXED.into_iter().chain(own).map(|part| (part, memory.part(part).to_vec())).collect();
-        Self { parts, written: Written::new(memory), plc_wrote: true, power_on: false, last_event }
+        Self { parts, written: Written::new(memory), plc_wrote: true, power_on: false }
     }
 
     /// Nothing, for a machine that does not go on.
-    #[cfg(feature = "live")]
     pub(super) const fn without_room() -> Self {
-        Self {
-            parts: Vec::new(),
-            written: Written::without_room(),
-            plc_wrote: true,
-            power_on: false,
-            last_event: EventId::NONE,
-        }
+        Self { parts: Vec::new(), written: Written::without_room(), plc_wrote: true, power_on: false }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::Machine;
 use super::written::Force;
+use crate::control::Changes;
 use crate::image::{Interface, Location, Part};
-use crate::sinumerik::Changes;
 use crate::trace::{By, Change, Row};
 use crate::units::AxisSet;
 use crate::variables::{EventId, Place};
@@ -12,7 +12,7 @@ impl Machine {
     /// What the PLC's half has other than at the end of the last cycle.
     pub(super) fn plc_changes(&mut self) -> Changes {
         let before = self.before.parts.iter().find(|(part, _)| *part == Part::ToNck);
-        let now: &[u8] = &self.memory.to_nck;
+        let now: &[u8] = &self.state.memory.to_nck;
         self.before.plc_wrote = true;
         let Some((_, before)) = before else {
             return Changes { axes: AxisSet::ALL, shared: true };
@@ -27,11 +27,11 @@ impl Machine {
 
     /// Writes from outside that the PLC program overwrote in this step.
     pub(super) fn note_overwritten(&mut self) {
-        for location in self.before.written.settle(&self.memory) {
+        for location in self.before.written.settle(&self.state.memory) {
             let bits = if location.width < 8 { location.mask() << location.bit } else { 0xFF };
             let bits = u8::try_from(bits & 0xFF).unwrap_or(0xFF);
             let change = Change::Overwritten { part: location.part, offset: location.offset, bits };
-            self.recorder.push(Row { cycle: self.cycle, change });
+            self.recorder.push(Row { cycle: self.state.cycle, change });
         }
     }
 
@@ -45,22 +45,22 @@ impl Machine {
         }
         self.before.parts = parts;
         self.record_alarms();
-        let last = self.before.last_event;
-        self.recorder.events(self.control.events_since(last));
-        self.before.last_event = self.control.last_event();
+        let events = self.control.events();
+        self.recorder.events(events.since(self.state.recorded));
+        self.state.recorded = events.last();
     }
 
     fn record_part(&mut self, part: Part, old: &mut [u8]) {
-        if self.memory.part(part) == old {
+        if self.state.memory.part(part) == old {
             return;
         }
         for piece in (0..old.len()).step_by(64) {
             let end = (piece + 64).min(old.len());
-            if self.memory.part(part)[piece..end] == old[piece..end] {
+            if self.state.memory.part(part)[piece..end] == old[piece..end] {
                 continue;
             }
             for (place, old) in old.iter_mut().enumerate().take(end).skip(piece) {
-                let new = self.memory.part(part)[place];
+                let new = self.state.memory.part(part)[place];
                 if new != *old {
                     let offset = u32::try_from(place).unwrap_or(u32::MAX);
                     self.record_byte(part, offset, *old, new);
@@ -84,7 +84,8 @@ impl Machine {
                 causes[usize::from(bit)] = self.control.cause(place, byte, bit);
             }
         }
-        self.recorder.push(Row { cycle: self.cycle, change: Change::Byte { part, offset, old, new, by, causes } });
+        self.recorder
+            .push(Row { cycle: self.state.cycle, change: Change::Byte { part, offset, old, new, by, causes } });
     }
 
     fn who(&self, part: Part, offset: u32, bit: u8, value: bool) -> By {
@@ -94,7 +95,7 @@ impl Machine {
             write.location.part == part && (first..first + u64::from(write.location.width)).contains(&this)
         };
         let written = self.before.written.bit(part, offset, bit);
-        if self.forces.iter().any(is_meant) {
+        if self.state.forces.iter().any(is_meant) {
             return By::Force;
         }
         match part {
@@ -128,26 +129,26 @@ impl Machine {
     }
 
     fn record_alarms(&mut self) {
-        let same = self.alarms_before.len() == self.variables.alarms.count()
-            && self.alarms_before.iter().zip(self.variables.alarms.iter()).all(|(old, new)| old == new);
+        let same = self.alarms_before.len() == self.state.variables.alarms.count()
+            && self.alarms_before.iter().zip(self.state.variables.alarms.iter()).all(|(old, new)| old == new);
         if same {
             return;
         }
-        let cycle = self.cycle;
+        let cycle = self.state.cycle;
         for &alarm in &self.alarms_before {
-            if !self.variables.alarms.iter().any(|other| *other == alarm) {
+            if !self.state.variables.alarms.iter().any(|other| *other == alarm) {
                 let cause = self.control.cleared_cause(alarm.number, alarm.place);
                 self.recorder.push(Row { cycle, change: Change::Alarm { alarm, raised: false, cause } });
             }
         }
-        for &alarm in self.variables.alarms.iter() {
+        for &alarm in self.state.variables.alarms.iter() {
             if !self.alarms_before.contains(&alarm) {
                 let cause = self.control.alarm_cause(alarm.number, alarm.place);
                 self.recorder.push(Row { cycle, change: Change::Alarm { alarm, raised: true, cause } });
             }
         }
         self.alarms_before.clear();
-        self.alarms_before.extend(self.variables.alarms.iter());
+        self.alarms_before.extend(self.state.variables.alarms.iter());
     }
 }
 

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::Fault;
+use crate::control::Value;
 use crate::image::Location;
-use crate::sinumerik::machine_data::Value;
 use crate::units::ChannelNumber;
 
 /// Something that is done to a machine from outside.

@@ -3,7 +3,6 @@
 use super::Machine;
 use crate::expression::Scope;
 use crate::image::{Location, Names};
-use crate::sinumerik::{ALARMS_NOT_RAISED, Alarm, Rule as ControlRule};
 use crate::source::Problem;
 use crate::units::AxisNumber;
 use crate::variables::{AlarmNumber, Describe, Parameter, RaisedAlarm, Rule, RuleNumber};
@@ -14,7 +13,7 @@ impl Describe for Machine {
     }
 
     fn alarm_text(&self, alarm: &RaisedAlarm) -> String {
-        let Some(row) = Alarm::find(alarm.number) else {
+        let Some(row) = self.control.texts().alarm(alarm.number) else {
             return String::new();
         };
         let mut text = row.text.to_owned();
@@ -25,23 +24,27 @@ impl Describe for Machine {
     }
 
     fn alarm_name(&self, number: AlarmNumber) -> String {
-        Alarm::name(number)
+        self.control.texts().alarm_name(number)
     }
 
     fn alarm_number(&self, name: &str) -> Option<AlarmNumber> {
-        Alarm::named(name)
+        self.control.texts().alarm_named(name)
     }
 
     fn has_alarm(&self, number: AlarmNumber) -> bool {
-        Alarm::find(number).is_some() || ALARMS_NOT_RAISED.iter().any(|alarm| alarm.number == number)
+        self.control.texts().alarm(number).is_some()
     }
 
     fn rule(&self, rule: RuleNumber) -> Rule {
-        ControlRule::text(rule)
+        self.control.texts().rule(rule)
+    }
+
+    fn datum_name(&self, number: u32) -> String {
+        self.control.texts().datum_name(number)
     }
 
     fn is_rotary(&self, axis: AxisNumber) -> bool {
-        self.machine_data().axes[axis].is_rot_ax
+        self.control.is_rotary(axis)
     }
 }
 
@@ -51,7 +54,7 @@ impl Scope for Machine {
     }
 
     fn signal(&self, name: &str) -> Result<Location, Problem> {
-        self.names().resolve(&self.memory, name)
+        self.names().resolve(self.memory(), name)
     }
 }
 

@@ -1,46 +1,29 @@
-//! The PLC of a machine: its program, and whether it runs.
+//! Whether the PLC of a machine runs, and when it scans next.
 
-use crate::plc::PlcProgram;
+use serde::{Deserialize, Serialize};
+
 use crate::units::Time;
 
-/// The PLC: its program, and whether it runs.
-#[derive(Default)]
-pub(super) struct Plc {
-    pub(super) program: Option<Box<dyn PlcProgram>>,
+/// The PLC without its program.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct PlcState {
+    /// It was asked to stop, or its program failed.
     pub(super) stopped: bool,
     /// OB100 has run since the last start.
     pub(super) started: bool,
     /// NC cycles until the next scan.
     pub(super) wait: u64,
     pub(super) last_scan: Time,
+    /// Why its program failed.
     pub(super) fault: Option<String>,
 }
 
-impl Plc {
-    pub(super) fn load(&mut self, program: Box<dyn PlcProgram>) {
-        self.program = Some(program);
-        self.restart();
-    }
-
-    pub(super) fn stop(&mut self) {
-        self.stopped = true;
-    }
-
+impl PlcState {
+    /// OB100 runs in the next scan.
     pub(super) fn restart(&mut self) {
         self.stopped = false;
         self.started = false;
         self.wait = 0;
         self.fault = None;
-    }
-
-    pub(super) fn power_on(&mut self) {
-        if let Some(program) = &mut self.program {
-            program.reset();
-        }
-        self.restart();
-    }
-
-    pub(super) fn fault(&self) -> Option<&str> {
-        self.fault.as_deref()
     }
 }

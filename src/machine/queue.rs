@@ -4,16 +4,11 @@ use std::sync::Arc;
 
 use super::written::Force;
 use super::{Command, Fault, FaultKind, Machine};
+use crate::control::ControlCommand;
 use crate::image::{Location, Part};
 use crate::source::Problem;
 use crate::units::AxisSet;
 use crate::variables::RParameters;
-
-/// What the commands of one step mean for the rest of it.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Taken {
-    pub(super) cancel: bool,
-}
 
 impl Machine {
     /// Queues a command for the edge of the next step.
@@ -22,7 +17,7 @@ impl Machine {
     /// As [`Machine::check`]; nothing is queued then.
     pub fn queue(&mut self, command: Command) -> Result<(), Problem> {
         self.check(&command)?;
-        self.queue.push(command);
+        self.state.queue.push(command);
         Ok(())
     }
 
@@ -31,18 +26,8 @@ impl Machine {
     /// # Errors
     /// A machine datum, R parameter or handwheel that does not exist, or a value that does not fit it.
     pub fn check(&self, command: &Command) -> Result<(), Problem> {
-        if let Command::MachineDatum { target, value } = command {
-            let stored = self.control.stored();
-            let target = stored.parse_target(target)?;
-            stored.check(&target, value)?;
-        }
-        if let Command::Handwheel { number, .. } = command
-            && !(1..=3).contains(number)
-        {
-            return Err(Problem::new(
-                format!("expected a handwheel from 1 to 3, found {number}"),
-                "there are handwheels 1, 2 and 3",
-            ));
+        if let Some(command) = of_the_control(command) {
+            self.control.check(&command)?;
         }
         if let Command::RParameter { number, value, .. } = command
             && (*number >= RParameters::COUNT || !value.is_finite())
@@ -58,74 +43,70 @@ impl Machine {
     /// What waits for the edge of the next step, in the order in which it will be done.
     #[must_use]
     pub fn queued(&self) -> &[Command] {
-        &self.queue
+        &self.state.queue
     }
 
     /// Does what was queued.
-    pub(super) fn take_commands(&mut self) -> Taken {
-        let mut taken = Taken::default();
+    pub(super) fn take_commands(&mut self) {
         self.before.written.clear();
         self.before.power_on = false;
-        let mut queue = std::mem::take(&mut self.queue);
+        let mut queue = std::mem::take(&mut self.state.queue);
         for command in queue.drain(..) {
+            if let Some(command) = of_the_control(&command) {
+                self.control.command(&command);
+                continue;
+            }
             match command {
                 Command::Write { location, value } => self.write(location, value),
                 Command::Force { location, value } => {
-                    self.forces.retain(|force| force.location != location);
-                    self.forces.push(Force { location, value });
+                    self.state.forces.retain(|force| force.location != location);
+                    self.state.forces.push(Force { location, value });
                 }
-                Command::Release { location } => self.forces.retain(|force| !force.location.overlaps(location)),
-                Command::MachineDatum { target, value } => {
-                    // Checked when it was queued; a later command of the same step may have renamed its axis.
-                    if let Ok(target) = self.control.stored().parse_target(&target) {
-                        let _ = self.control.store(&target, &value);
-                    }
-                }
+                Command::Release { location } => self.state.forces.retain(|force| !force.location.overlaps(location)),
                 Command::RParameter { channel, number, value } => {
-                    self.r_parameters.set(channel, number, value);
+                    self.state.r_parameters.set(channel, number, value);
                 }
-                Command::NewConf => self.control.new_conf(),
                 Command::PowerOn => self.power_on(),
-                Command::PlcStop => self.plc.stop(),
+                Command::PlcStop => self.state.plc.stopped = true,
                 Command::PlcRun => {
-                    self.plc.restart();
-                    self.control.plc_restarted();
+                    self.state.plc.restart();
+                    self.control.command(&ControlCommand::PlcRestarted);
                 }
                 Command::PlcColdRestart => {
                     self.forget_plc_memory();
-                    self.plc.power_on();
-                    self.control.plc_restarted();
+                    self.restart_program();
+                    self.control.command(&ControlCommand::PlcRestarted);
                 }
-                Command::Cancel => taken.cancel = true,
-                Command::Handwheel { number, pulses, cycles } => self.control.turn_handwheel(number, pulses, cycles),
                 // What displaces once does so after the mechanics of this step, where encoders and monitoring see all of it.
                 Command::Fault(fault @ Fault { kind: FaultKind::Push { .. } | FaultKind::EncoderSlip { .. }, .. }) => {
-                    self.displaced.push((fault, self.control.measuring_system(fault.axis)));
-                    self.control.wake_all();
+                    self.state.displaced.push((fault, self.control.measuring_system(fault.axis)));
+                    self.control.command(&ControlCommand::Wake);
                 }
                 Command::Fault(fault) => self.break_something(fault),
                 Command::ClearFault(fault) => {
-                    self.plant.clear_fault(fault);
-                    self.plant.press_switches(&self.definition.layout, AxisSet::of(fault.axis));
-                    self.control.wake_all();
+                    self.state.plant.clear_fault(fault);
+                    self.state.plant.press_switches(&self.definition.layout, AxisSet::of(fault.axis));
+                    self.control.command(&ControlCommand::Wake);
                 }
+                Command::MachineDatum { .. } | Command::NewConf | Command::Cancel | Command::Handwheel { .. } => {}
             }
         }
-        self.queue = queue;
-        taken
+        self.state.queue = queue;
+    }
+
+    /// The program starts anew, in OB100.
+    fn restart_program(&mut self) {
+        if let Some(program) = &mut self.program {
+            program.reset();
+        }
+        self.state.plc.restart();
     }
 
     fn write(&mut self, location: Location, value: u64) {
-        self.memory.write(location, value);
+        self.state.memory.write(location, value);
         self.before.written.push(location, value);
-        match location.part {
-            Part::FromNck => self.control.half_overwritten(),
-            Part::Hmi => {
-                for group in self.definition.strobe.touched_by(location) {
-                    self.control.strobe_written(group);
-                }
-            }
-            _ => {}
+        if matches!(location.part, Part::FromNck | Part::Hmi) {
+            self.control.command(&ControlCommand::Written(location));
         }
     }
 
@@ -133,37 +114,58 @@ impl Machine {
     fn forget_plc_memory(&mut self) {
         let first = Arc::clone(&self.definition);
         for part in [Part::ToNck, Part::Outputs, Part::Flags, Part::Timers, Part::Counters] {
-            self.memory.part_mut(part).copy_from_slice(first.memory.part(part));
+            self.state.memory.part_mut(part).copy_from_slice(first.memory.part(part));
         }
         for block in first.memory.blocks.iter() {
-            self.memory.part_mut(Part::Block(block.number)).copy_from_slice(&block.bytes);
+            self.state.memory.part_mut(Part::Block(block.number)).copy_from_slice(&block.bytes);
         }
     }
 
     pub(super) fn displace(&mut self) {
-        while let Some((fault, active)) = self.displaced.pop() {
-            self.plant.fault(fault, active);
+        while let Some((fault, active)) = self.state.displaced.pop() {
+            self.state.plant.fault(fault, active);
         }
     }
 
     fn break_something(&mut self, fault: Fault) {
         let active = self.control.measuring_system(fault.axis);
-        self.plant.fault(fault, active);
-        self.plant.press_switches(&self.definition.layout, AxisSet::of(fault.axis));
-        self.control.wake_all();
+        self.state.plant.fault(fault, active);
+        self.state.plant.press_switches(&self.definition.layout, AxisSet::of(fault.axis));
+        self.control.command(&ControlCommand::Wake);
     }
 
     /// Power off and on: interface, PLC memory and forces start anew; plant, faults and stored machine data stay.
     fn power_on(&mut self) {
         self.control.power_on();
-        self.plant.power_on(&self.definition.layout);
-        self.memory = self.definition.memory.clone();
-        self.variables = crate::variables::Variables::default();
-        self.forces.clear();
+        self.state.plant.power_on(&self.definition.layout);
+        self.state.memory = self.definition.memory.clone();
+        self.state.variables = crate::variables::Variables::default();
+        self.state.forces.clear();
         self.before.written.clear();
         self.before.power_on = true;
-        self.plc.power_on();
-        self.definition.strobe.apply(&mut self.control);
+        self.restart_program();
         self.sense(AxisSet::ALL);
+    }
+}
+
+/// What a command asks of the control.
+fn of_the_control(command: &Command) -> Option<ControlCommand> {
+    match command {
+        Command::MachineDatum { target, value } => {
+            Some(ControlCommand::Store { target: target.clone(), value: value.clone() })
+        }
+        Command::NewConf => Some(ControlCommand::Activate),
+        Command::Cancel => Some(ControlCommand::Cancel),
+        &Command::Handwheel { number, pulses, cycles } => Some(ControlCommand::Handwheel { number, pulses, cycles }),
+        Command::Write { .. }
+        | Command::Force { .. }
+        | Command::Release { .. }
+        | Command::RParameter { .. }
+        | Command::PowerOn
+        | Command::PlcStop
+        | Command::PlcRun
+        | Command::PlcColdRestart
+        | Command::Fault(_)
+        | Command::ClearFault(_) => None,
     }
 }

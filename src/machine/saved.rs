@@ -4,39 +4,26 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::Machine;
 use super::before::Before;
-use super::plc::Plc;
-use super::written::Force;
-use super::{Command, Machine};
-use crate::image::{Memory, Names};
-use crate::motion::Feedback;
-use crate::plant::Plant;
+use super::state::State;
+use crate::image::Names;
 use crate::plc::PlcProgram;
-use crate::sinumerik::SavedControl;
 use crate::source::Problem;
 use crate::trace::Recorder;
-use crate::units::{PerAxis, PerChannel, Time};
-use crate::variables::{Alarms, EventId, RParameters, Variables};
+use crate::units::{AxisSet, PerAxis, PerChannel};
+use crate::variables::Alarms;
 
 /// Which form of saved machine this is.
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 
 #[derive(Serialize, Deserialize)]
-struct SavedV6 {
+struct Saved {
     names: SavedNames,
-    control: SavedControl,
-    plant: Plant,
-    memory: Memory,
-    variables: Variables,
-    r_parameters: RParameters,
-    feedback: PerAxis<Feedback>,
-    forces: Vec<Force>,
-    queue: Vec<Command>,
-    cycle: u64,
-    time: Time,
-    /// The last event that the record has; those before the first step are recorded with it.
-    recorded: EventId,
-    plc: SavedPlc,
+    /// Which control it is, and what it remembers.
+    control: (String, Vec<u8>),
+    program: Option<(String, Vec<u8>)>,
+    state: State,
 }
 
 /// Of which machine it is.
@@ -59,42 +46,16 @@ impl SavedNames {
     }
 }
 
-#[derive(Serialize, Deserialize)]
-struct SavedPlc {
-    program: Option<(String, Vec<u8>)>,
-    stopped: bool,
-    started: bool,
-    wait: u64,
-    last_scan: Time,
-    fault: Option<String>,
-}
-
 impl Machine {
     /// Everything that a machine remembers, as bytes; what its files said is not among it.
     #[must_use]
     #[expect(clippy::missing_panics_doc, reason = "plain data is always written")]
     pub fn save(&self) -> Vec<u8> {
-        let saved = SavedV6 {
+        let saved = Saved {
             names: SavedNames::of(&self.definition.names),
-            control: self.control.save(),
-            plant: self.plant.clone(),
-            memory: self.memory.clone(),
-            variables: self.variables.clone(),
-            r_parameters: self.r_parameters.clone(),
-            feedback: self.feedback,
-            forces: self.forces.clone(),
-            queue: self.queue.clone(),
-            cycle: self.cycle,
-            time: self.time,
-            recorded: self.before.last_event,
-            plc: SavedPlc {
-                program: self.plc.program.as_ref().map(|program| (program.name().to_owned(), program.save())),
-                stopped: self.plc.stopped,
-                started: self.plc.started,
-                wait: self.plc.wait,
-                last_scan: self.plc.last_scan,
-                fault: self.plc.fault.clone(),
-            },
+            control: (self.control.texts().name().to_owned(), self.control.save()),
+            program: self.program.as_ref().map(|program| (program.name().to_owned(), program.save())),
+            state: self.state.clone(),
         };
         let content = postcard::to_stdvec(&saved).expect("plain data can always be written");
         [&VERSION.to_le_bytes()[..], &checksum(&content).to_le_bytes(), &content].concat()
@@ -103,20 +64,24 @@ impl Machine {
     /// Goes on from where [`Machine::save`] was called, on a machine of the same files with the same PLC program.
     ///
     /// # Errors
-    /// The bytes are no saved machine, or one of other axes or another PLC program; nothing has changed then.
+    /// The bytes are no saved machine, or one of other axes, another control or another PLC program; nothing has changed then.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Problem> {
         let damaged =
             |what: String| Problem::new(what, "restore what `save` of this version gave, on the same machine");
         let content = content(bytes).map_err(damaged)?;
-        let saved: SavedV6 = postcard::from_bytes(content)
+        let saved: Saved = postcard::from_bytes(content)
             .map_err(|error| damaged(format!("expected a saved machine, found damaged bytes: {error}")))?;
         if saved.names != SavedNames::of(&self.definition.names) {
             return Err(damaged("expected a saved machine with the same axes and channels, found others".to_owned()));
         }
-        if !saved.memory.fits(self.definition.names.interface()) {
+        let (control, remembered) = &saved.control;
+        if control != self.control.texts().name() || !saved.state.memory.fits(self.definition.names.interface()) {
             return Err(damaged("expected a saved machine with the same interface, found another".to_owned()));
         }
-        match (&mut self.plc.program, &saved.plc.program) {
+        // Both keep what they had where they refuse; the program is asked last, so that nothing has changed then.
+        let mut restored = self.control.clone_box();
+        restored.restore(remembered)?;
+        match (&mut self.program, &saved.program) {
             (None, None) => {}
             (Some(program), Some((name, state))) if program.name() == name => {
                 program.restore(state)?;
@@ -129,24 +94,12 @@ impl Machine {
                 return Err(damaged(format!("expected the PLC program {mine}, found {theirs}")));
             }
         }
-        self.control.restore(saved.control);
-        self.plant = saved.plant;
-        self.plant.press_switches(&self.definition.layout, crate::units::AxisSet::ALL);
-        self.memory = saved.memory;
-        self.variables = saved.variables;
-        self.r_parameters = saved.r_parameters;
-        self.feedback = saved.feedback;
-        self.forces = saved.forces;
-        self.queue = saved.queue;
-        (self.cycle, self.time) = (saved.cycle, saved.time);
-        self.plc.stopped = saved.plc.stopped;
-        self.plc.started = saved.plc.started;
-        self.plc.wait = saved.plc.wait;
-        self.plc.last_scan = saved.plc.last_scan;
-        self.plc.fault = saved.plc.fault;
-        self.before = Before::new(&self.memory, saved.recorded);
+        self.control = restored;
+        self.state = saved.state;
+        self.state.plant.press_switches(&self.definition.layout, AxisSet::ALL);
+        self.before = Before::new(&self.state.memory);
         self.alarms_before.clear();
-        self.alarms_before.extend(self.variables.alarms.iter());
+        self.alarms_before.extend(self.state.variables.alarms.iter());
         self.recorder.clear();
         Ok(())
     }
@@ -156,7 +109,7 @@ impl Machine {
     /// # Errors
     /// The PLC program cannot be forked.
     pub fn fork(&self) -> Result<Self, Problem> {
-        let program = match &self.plc.program {
+        let program = match &self.program {
             None => None,
             Some(program) => Some(program.fork().ok_or_else(|| {
                 Problem::new(
@@ -165,39 +118,23 @@ impl Machine {
                 )
             })?),
         };
-        Ok(self.copy(program, Recorder::default(), Before::new(&self.memory, self.before.last_event)))
+        Ok(self.copy(program, Recorder::default(), Before::new(&self.state.memory)))
     }
 
     /// The machine as it is now, to be looked at while this one goes on.
-    #[cfg(feature = "live")]
-    pub(crate) fn snapshot(&self) -> Snapshot {
+    #[must_use]
+    pub fn snapshot(&self) -> Snapshot {
         Snapshot(self.copy(None, Recorder::without_room(), Before::without_room()))
     }
 
     fn copy(&self, program: Option<Box<dyn PlcProgram>>, recorder: Recorder, before: Before) -> Self {
-        let mut plc = Plc::default();
-        plc.program = program;
-        plc.stopped = self.plc.stopped;
-        plc.started = self.plc.started;
-        plc.wait = self.plc.wait;
-        plc.last_scan = self.plc.last_scan;
-        plc.fault.clone_from(&self.plc.fault);
         let mut alarms_before = Vec::with_capacity(Alarms::CAPACITY);
         alarms_before.extend_from_slice(&self.alarms_before);
         Self {
             definition: Arc::clone(&self.definition),
-            control: self.control.clone(),
-            plant: self.plant.clone(),
-            memory: self.memory.clone(),
-            variables: self.variables.clone(),
-            r_parameters: self.r_parameters.clone(),
-            plc,
-            forces: self.forces.clone(),
-            queue: self.queue.clone(),
-            displaced: Vec::new(),
-            cycle: self.cycle,
-            time: self.time,
-            feedback: self.feedback,
+            control: self.control.clone_box(),
+            program,
+            state: self.state.clone(),
             before,
             alarms_before,
             recorder,
@@ -205,13 +142,11 @@ impl Machine {
     }
 }
 
-/// A machine that stands still: what another one was after some step, without its program and its record. It is for who looks only:
+/// A machine that stands still: what another one was after some step, without its program and its record. It is for reading only:
 /// it can be neither saved nor forked as that machine.
-#[cfg(feature = "live")]
 #[derive(Debug)]
-pub(crate) struct Snapshot(Machine);
+pub struct Snapshot(Machine);
 
-#[cfg(feature = "live")]
 impl std::ops::Deref for Snapshot {
     type Target = Machine;
 

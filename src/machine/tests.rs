@@ -223,7 +223,11 @@ fn power_on_restarts_interface_and_plc_memory_and_keeps_slides_faults_and_machin
     assert_eq!(machine.variables().axes[x].slide, slide);
     assert_eq!(machine.variables().axes[xf].slide, other);
     assert_eq!(machine.variables().axes[x].position, Position::ZERO, "an incremental encoder counts from here");
-    assert!((machine.machine_data().axes[xf].gantry_pos_tol_ref - 50.0).abs() < 1e-9);
+    assert!(
+        (machine.control().downcast::<crate::sinumerik::Nck>().unwrap().active().axes[xf].gantry_pos_tol_ref - 50.0)
+            .abs()
+            < 1e-9
+    );
     set(&mut machine, "DB11.DBX0.2", 1);
     set(&mut machine, "X.traversing_key_plus", 1);
     run(&mut machine, 60);

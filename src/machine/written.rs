@@ -45,7 +45,6 @@ impl Written {
     }
 
     /// Nothing, where nothing is ever written.
-    #[cfg(feature = "live")]
     pub(super) const fn without_room() -> Self {
         Self { writes: Vec::new(), places: Vec::new(), overwritten: Vec::new() }
     }

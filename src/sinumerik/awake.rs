@@ -1,10 +1,10 @@
 //! When axes wake and when they rest: the calls of [`Resting`](crate::sinumerik::resting::Resting) in a cycle.
 
-use crate::sinumerik::control::Control;
-use crate::sinumerik::resting::Changes;
+use crate::control::Changes;
+use crate::sinumerik::nck::Nck;
 use crate::units::AxisSet;
 
-impl Control {
+impl Nck {
     /// Computes every axis in every cycle, also those that rest. The results are the same.
     pub fn never_rest(&mut self) {
         self.resting.never = true;

@@ -5,15 +5,15 @@
 
 use crate::sinumerik::alarms::{self, Alarm, Cancel, Reaction};
 use crate::sinumerik::axis::state::Axis;
-use crate::sinumerik::control::Control;
 use crate::sinumerik::gantry::state::Grouping;
+use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position};
 use crate::variables::{AlarmNumber, Event, EventId, Input, Place, Quantity};
 
-impl Control {
+impl Nck {
     /// The event behind the present value of a bit of the NCK.
     pub fn cause(&mut self, place: Place, byte: u16, bit: u8) -> EventId {
         let cause = match place {

@@ -1,11 +1,11 @@
 //! THE CONTROL of the gantry manual (G1): machine data, mode group, channel, enabling, JOG, reference point approach,
 //! gantry groupings, alarms.
 //!
-//! The machine calls [`Control`] in this order, once per interpolation cycle, and that order is the specification:
-//! [`Control::decide`] takes what the PLC wrote and commands setpoints (run-up, modes, emergency stop, RESET, handwheels,
+//! The machine calls [`Nck`] in this order, once per interpolation cycle, and that order is the specification:
+//! [`Nck::decide`] takes what the PLC wrote and commands setpoints (run-up, modes, emergency stop, RESET, handwheels,
 //! measuring systems, parameter sets, enabling, referencing and gantry or JOG, setpoints, coupling);
-//! [`Control::velocity_command`] is position control, while drives and mechanics move; [`Control::observe`] takes what encoders
-//! and drives tell and monitors it; [`Control::publish`] writes the NCK's half of the interface and the variables. The control
+//! [`Nck::velocity_command`] is position control, while drives and mechanics move; [`Nck::observe`] takes what encoders
+//! and drives tell and monitors it; [`Nck::publish`] writes the NCK's half of the interface and the variables. The control
 //! reads [`ToNck`], the HMI's selection of handwheels, and nothing else. Axes that rest are left out (`resting.rs`).
 //!
 //! | I want to add | I do |
@@ -21,13 +21,15 @@
 mod alarms;
 mod awake;
 mod axis;
+mod boundary;
 mod causes;
-mod control;
+mod commissioning;
 mod gantry;
+mod inputs;
 mod jog;
-mod log;
 pub mod machine_data;
 mod monitoring;
+mod nck;
 mod operation;
 mod parameters;
 mod publish;
@@ -36,17 +38,18 @@ mod resting;
 mod rules;
 mod shown;
 mod state;
-mod transitions;
+mod strobe;
+mod texts;
 
 pub use alarms::not_raised::NOT_RAISED as ALARMS_NOT_RAISED;
 pub use alarms::{Alarm, CATALOGUE as ALARMS, Cancel, Reaction};
-pub use control::{Control, SavedControl};
+pub use commissioning::{Commissioning, examine};
 pub use gantry::state::{Phase as GroupingPhase, TRANSITIONS as GROUPING_TRANSITIONS};
+pub use nck::Nck;
 pub use parameters::axis::AxisPresence;
 pub use parameters::dynamics::{Dynamics, FeedForward, Jerk, ParameterSet};
 pub use parameters::mechanics::{Mechanics, Misfit, PARAMETER_SETS};
 pub use parameters::{KeyModes, Parameters};
 pub use referencing::state::{Phase as ApproachPhase, TRANSITIONS as APPROACH_TRANSITIONS};
-pub use resting::Changes;
 pub use rules::Rule;
-pub use transitions::{Rows, TakenTransitions, Transition};
+pub use texts::TEXTS;

@@ -5,9 +5,9 @@
 use crate::image::{AxisFromNck, FromNck, Hmi};
 use crate::motion::Motion;
 use crate::sinumerik::alarms::Reaction;
-use crate::sinumerik::control::Control;
 use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::jog::state::{Function, Movement};
+use crate::sinumerik::nck::Nck;
 use crate::sinumerik::operation::state::{MachineFunction, Mode};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
@@ -15,7 +15,7 @@ use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, Position};
 use crate::variables::{AxisValues, Place, Variables};
 
-impl Control {
+impl Nck {
     /// Writes what the control shows. Of `restless` axes the iron has not come to rest.
     pub fn publish(&mut self, from_nck: &mut FromNck, hmi: &mut Hmi, variables: &mut Variables, restless: AxisSet) {
         let mut shown = self.awake();

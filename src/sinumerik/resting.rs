@@ -4,7 +4,7 @@
 //! whose state came out of a cycle as it went in, and that gets the same inputs again, comes out of the next one as it is: it
 //! rests, and the stages leave it out until something that it depends on is another one. What all axes depend on (modes,
 //! channels, handwheels, run-up, emergency stop, machine data, any alarm) wakes all. Nothing that anybody can see depends on who rests
-//! ([`Control::never_rest`](crate::sinumerik::Control::never_rest) computes everything always, and tests compare both).
+//! ([`Nck::never_rest`](crate::sinumerik::Nck::never_rest) computes everything always, and tests compare both).
 
 use arrayvec::ArrayVec;
 
@@ -16,15 +16,6 @@ use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::GROUPINGS;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, AxisSet, PerAxis, PerChannel, PerModeGroup};
-
-/// What the PLC's half has other than in the last cycle.
-#[derive(Clone, Copy, Debug)]
-pub struct Changes {
-    /// Axes whose block changed.
-    pub axes: AxisSet,
-    /// A block of the NCK, of a mode group or of a channel changed.
-    pub shared: bool,
-}
 
 /// What every axis depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -141,6 +141,12 @@ rules! {
     Standstill "standstill" "";
 }
 
+impl From<Rule> for RuleNumber {
+    fn from(rule: Rule) -> Self {
+        rule.number()
+    }
+}
+
 impl Rule {
     /// Its number in an event.
     #[must_use]

@@ -8,14 +8,12 @@
 //! parameter set.
 
 use crate::image::{AxisToNck, ChannelToNck};
-use crate::sinumerik::alarms::{Alarm, Cancel};
-use crate::sinumerik::control::Control;
+use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::mechanics::Mechanics;
 use crate::sinumerik::parameters::overrides::factor;
 use crate::units::AxisNumber;
-use crate::variables::AlarmNumber;
 
-impl Control {
+impl Nck {
     /// The axial override that acts, in per cent.
     #[must_use]
     pub fn axis_override(&self, signals: &AxisToNck) -> f64 {
@@ -43,22 +41,6 @@ impl Control {
         let data = &self.active().axes[number];
         let way = if data.is_rot_ax { velocity * 360.0 } else { velocity };
         way / Mechanics::new(data).motor_turn(self.state.axes[number].parameter_set.into())
-    }
-}
-
-impl Alarm {
-    /// What cancels an alarm, as NC variables number it: 1 POWER ON, 2 RESET, 3 the cancel key, 4 the NCK by itself, 5 NC start,
-    /// 6 RESET in all channels of the mode group.
-    #[must_use]
-    pub fn clear_info(number: AlarmNumber) -> u8 {
-        match Self::find(number).map_or(Cancel::PowerOn, |alarm| alarm.cancel) {
-            Cancel::PowerOn => 1,
-            Cancel::Reset => 2,
-            Cancel::CancelKey => 3,
-            Cancel::ByItself => 4,
-            Cancel::NcStart => 5,
-            Cancel::ModeGroupReset => 6,
-        }
     }
 }
 

@@ -5,6 +5,7 @@
 use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
+use crate::control::Log;
 use crate::motion::{Coupling, Feedback, Motion};
 use crate::sinumerik::alarms::{self};
 use crate::sinumerik::axis::shaping::Shaping;
@@ -12,7 +13,6 @@ use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::gantry::state::Declared;
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::jog::state::{GroupFunction, HANDWHEELS, Handwheel};
-use crate::sinumerik::log::Log;
 use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunUp};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::GROUPINGS;

@@ -24,6 +24,10 @@ impl Control {
 }
 
 impl Describe for Control {
+    fn datum_name(&self, number: u32) -> String {
+        format!("MD{number}")
+    }
+
     fn names(&self) -> &Names {
         &self.0
     }

@@ -67,6 +67,8 @@ pub trait Describe {
     }
     /// A rule by its number.
     fn rule(&self, rule: RuleNumber) -> Rule;
+    /// What a machine datum is called: `MD37110`.
+    fn datum_name(&self, number: u32) -> String;
     /// Whether the lengths of an axis are degrees.
     fn is_rotary(&self, _axis: AxisNumber) -> bool {
         false

@@ -13,8 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::{report, rust};
 
 /// Circles that stand: files, or folders with all that is below them, and the reason.
-const CIRCLES: &[(&[&str], &str)] = &[
-];
+const CIRCLES: &[(&[&str], &str)] = &[];
 
 #[test]
 fn files_import_each_other_in_no_circle() {

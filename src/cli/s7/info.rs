@@ -4,9 +4,9 @@ use super::arguments::Host;
 use super::failure::Failure;
 use crate::cli::list::{Format, List};
 use crate::cli::output::Output;
+use crate::controls;
 use crate::s7::CpuState;
 use crate::s7::client::{BlockKind, Client, Error, Value, Variable};
-use crate::sinumerik::{ALARMS_NOT_RAISED, Alarm};
 use crate::variables::AlarmNumber;
 
 /// Of how many data blocks the length is asked.
@@ -149,15 +149,21 @@ async fn of_alarms(nck: &Client, count: u16, rows: &mut Rows) -> Result<(), Erro
     for (number, fills) in numbers.iter().zip(fills.chunks(4)) {
         if let Some(Value::DoubleInt(number)) = number {
             let number = AlarmNumber(number.cast_unsigned());
-            rows.add(&format!("alarm {}", Alarm::name(number)), text(number, fills));
+            rows.add(&format!("alarm {}", name(number)), text(number, fills));
         }
     }
     Ok(())
 }
 
+/// What an alarm is called.
+fn name(number: AlarmNumber) -> String {
+    let known = controls::texts().find_map(|texts| texts.alarm(number));
+    known.map_or_else(|| number.0.to_string(), |alarm| alarm.name)
+}
+
 /// The text of an alarm; `%1` to `%4` are texts whose first letter says what they are.
 fn text(number: AlarmNumber, fills: &[Option<Value>]) -> String {
-    let known = Alarm::find(number).or_else(|| ALARMS_NOT_RAISED.iter().find(|alarm| alarm.number == number));
+    let known = controls::texts().find_map(|texts| texts.alarm(number));
     let mut text = known.map_or_else(String::new, |alarm| alarm.text.to_owned());
     for (index, fill) in (1..).zip(fills) {
         let fill = fill.as_ref().map(ToString::to_string).unwrap_or_default();

@@ -41,8 +41,10 @@ impl Lender {
     }
 
     fn lend_out(&self, client: Option<SocketAddr>, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
-        let commands = self.live.look(|seen| self.show(seen, work));
-        let order = order(client, commands);
+        let order = self.live.look(|seen| {
+            let commands = self.show(seen, work);
+            order(client, commands, seen.machine())
+        });
         (!order.is_empty()).then(|| self.live.order(order))
     }
 
@@ -113,18 +115,20 @@ fn diagnosis(entry: &Entry) -> Diagnosis {
 }
 
 /// What a request asked for, as the machine does it.
-fn order(client: Option<SocketAddr>, commands: Vec<Command>) -> Order {
+fn order(client: Option<SocketAddr>, commands: Vec<Command>, machine: &machine::Machine) -> Order {
     let mut order = Order { client, commands: Vec::with_capacity(commands.len()), clock: None };
     for command in commands {
         order.commands.push(match command {
             Command::Write { location, value } => machine::Command::Write { location, value },
-            Command::MachineDatum { place, number, index, value } => match machine_datum(place, number, index, value) {
-                Ok(command) => command,
-                Err(problem) => {
-                    tracing::info!("a client wrote what the machine does not take: {problem}");
-                    continue;
+            Command::MachineDatum { place, number, index, value } => {
+                match machine_datum(machine, place, number, index, value) {
+                    Ok(command) => command,
+                    Err(problem) => {
+                        tracing::info!("a client wrote what the machine does not take: {problem}");
+                        continue;
+                    }
                 }
-            },
+            }
             Command::RParameter { channel, number, value } => machine::Command::RParameter { channel, number, value },
             Command::PlcStop => machine::Command::PlcStop,
             Command::PlcStart(Restart::Warm) => machine::Command::PlcRun,

@@ -1,28 +1,35 @@
 //! What clients see of a live machine beside memory and variables: machine data, and what its control knows.
 
+use crate::control::{Datum as StoredDatum, Kind, Owner, Value};
 use crate::image::Profile;
-use crate::machine::{Command, DatumValue, Machine};
+use crate::machine::{Command, Machine};
 use crate::s7::nck::{self, Datum};
 use crate::s7::{Identity, Refusal};
-use crate::sinumerik::Alarm;
-use crate::sinumerik::machine_data::{Kind, Owner, Target};
 use crate::source::Problem;
 use crate::units::{AxisNumber, ChannelNumber, Time};
 use crate::variables::{AlarmNumber, Place};
 
 /// The command that stores a machine datum.
-pub(super) fn machine_datum(place: Place, number: u16, index: u16, value: f64) -> Result<Command, Problem> {
-    let target = target(place, number, index)?;
-    let value = match target.datum().kind {
-        Kind::Boolean => DatumValue::Boolean(value > 0.5),
+pub(super) fn machine_datum(
+    machine: &Machine,
+    place: Place,
+    number: u16,
+    index: u16,
+    value: f64,
+) -> Result<Command, Problem> {
+    let datum = stored(machine, place, number, index).ok_or_else(|| {
+        Problem::new(
+            format!("expected a machine datum that exists, found {number} with index {index}"),
+            "machine data and their indices are those of this control",
+        )
+    })?;
+    let value = match datum.kind {
+        Kind::Boolean => Value::Boolean(value > 0.5),
         // A whole number is written without a point, and read as one.
-        Kind::Byte | Kind::Dword | Kind::Udword => {
-            DatumValue::parse(&value.to_string()).unwrap_or(DatumValue::Real(value))
-        }
-        Kind::Double | Kind::String => DatumValue::Real(value),
+        Kind::Byte | Kind::Dword | Kind::Udword => Value::parse(&value.to_string()).unwrap_or(Value::Real(value)),
+        Kind::Double | Kind::String => Value::Real(value),
     };
-    let index = target.index();
-    let target = match (place, target.datum().count) {
+    let target = match (place, datum.count) {
         (Place::Axis(axis), 1) => format!("{number}[AX{axis}]"),
         (Place::Axis(axis), _) => format!("{number}[{index},AX{axis}]"),
         (Place::Channel(channel), 1) => format!("{number}[CHAN{channel}]"),
@@ -33,13 +40,16 @@ pub(super) fn machine_datum(place: Place, number: u16, index: u16, value: f64) -
     Ok(Command::MachineDatum { target, value })
 }
 
-fn target(place: Place, number: u16, index: u16) -> Result<Target, Problem> {
-    let owner = match place {
+fn owner(place: Place) -> Owner {
+    match place {
         Place::Nck | Place::ModeGroup(_) => Owner::Nck,
         Place::Channel(channel) => Owner::Channel(channel),
         Place::Axis(axis) => Owner::Axis(axis),
-    };
-    Target::new(number.into(), owner, u8::try_from(index).unwrap_or(u8::MAX))
+    }
+}
+
+fn stored(machine: &Machine, place: Place, number: u16, index: u16) -> Option<StoredDatum> {
+    machine.control().data().stored(number.into(), owner(place), u8::try_from(index).ok()?)
 }
 
 /// What an operator panel shows of the control: machine data as they are stored, and what acts.
@@ -47,14 +57,14 @@ pub(super) struct Panel<'a>(pub(super) &'a Machine);
 
 impl nck::MachineData for Panel<'_> {
     fn datum(&self, place: Place, number: u16, index: u16) -> Option<Datum<'_>> {
-        let target = target(place, number, index).ok()?;
-        let data = self.0.stored_machine_data();
-        if target.datum().kind == Kind::String {
-            return text(self.0, place, number, index).map(Datum::Text);
+        let data = self.0.control().data();
+        let index = u8::try_from(index).ok()?;
+        if let Some(text) = data.text(number.into(), owner(place), index) {
+            return Some(Datum::Text(text));
         }
-        let value = data.get(&target)?;
-        Some(match target.datum().kind {
-            Kind::Boolean => Datum::Boolean(value == DatumValue::Boolean(true)),
+        let StoredDatum { kind, value, .. } = data.stored(number.into(), owner(place), index)?;
+        Some(match kind {
+            Kind::Boolean => Datum::Boolean(value == Value::Boolean(true)),
             Kind::Byte => Datum::Byte(u8::try_from(value.whole()?).ok()?),
             Kind::Dword => Datum::Whole(i32::try_from(value.whole()?).ok()?),
             Kind::Udword => Datum::Unsigned(u32::try_from(value.whole()?).ok()?),
@@ -64,13 +74,12 @@ impl nck::MachineData for Panel<'_> {
     }
 
     fn may_store(&self, place: Place, number: u16, index: u16, value: f64) -> Result<(), Refusal> {
-        let target = target(place, number, index).map_err(|_| Refusal::DoesNotExist)?;
-        if target.datum().read_only {
+        let datum = stored(self.0, place, number, index).ok_or(Refusal::DoesNotExist)?;
+        if datum.read_only {
             return Err(Refusal::NotAllowed);
         }
-        let command = machine_datum(place, number, index, value).map_err(|_| Refusal::DoesNotExist)?;
-        let Command::MachineDatum { value, .. } = command else { return Ok(()) };
-        self.0.stored_machine_data().check(&target, &value).map_err(|_| Refusal::OutOfRange)
+        let command = machine_datum(self.0, place, number, index, value).map_err(|_| Refusal::DoesNotExist)?;
+        self.0.check(&command).map_err(|_| Refusal::OutOfRange)
     }
 }
 
@@ -96,7 +105,8 @@ impl nck::ControlValues for Panel<'_> {
     }
 
     fn clear_info(&self, alarm: AlarmNumber) -> u8 {
-        Alarm::clear_info(alarm)
+        // What the control does not know goes with power.
+        self.0.control().texts().alarm(alarm).map_or(1, |alarm| alarm.clear_info)
     }
 }
 
@@ -106,21 +116,5 @@ pub(super) fn identity(machine: &Machine) -> Identity<'static> {
         Identity::SINUMERIK_828D
     } else {
         Identity::SINUMERIK_840D_SL
-    }
-}
-
-/// Names of axes and channels.
-fn text(machine: &Machine, place: Place, number: u16, index: u16) -> Option<&str> {
-    let data = machine.stored_machine_data();
-    let index = usize::from(index);
-    match (place, number) {
-        (Place::Nck, 10000) => data.general.axconf_machax_name_tab.get(index).map(String::as_str),
-        (Place::Nck, 10002) => data.general.axconf_logic_machax_tab.get(index).map(String::as_str),
-        (Place::Channel(channel), 20000) => Some(&data.channels[channel].chan_name),
-        (Place::Channel(channel), 20060) => data.channels[channel].axconf_geoax_name_tab.get(index).map(String::as_str),
-        (Place::Channel(channel), 20080) => {
-            data.channels[channel].axconf_chanax_name_tab.get(index).map(String::as_str)
-        }
-        _ => None,
     }
 }

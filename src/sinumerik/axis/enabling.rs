@@ -8,7 +8,7 @@ use crate::image::ToNck;
 use crate::motion::Motion;
 use crate::sinumerik::alarms::{self, Reaction};
 use crate::sinumerik::axis::state::{Axis, ControllerState, STEP};
-use crate::sinumerik::log::axis_bit;
+use crate::sinumerik::inputs::axis_bit;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::resting::Resting;

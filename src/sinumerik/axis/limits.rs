@@ -10,7 +10,7 @@ use crate::image::ToNck;
 use crate::motion::Motion;
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::LimitSwitches;
-use crate::sinumerik::log::axis_bit;
+use crate::sinumerik::inputs::axis_bit;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};

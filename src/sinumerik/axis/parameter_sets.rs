@@ -10,7 +10,7 @@
 
 use crate::image::ToNck;
 use crate::sinumerik::alarms;
-use crate::sinumerik::log::axis_bit;
+use crate::sinumerik::inputs::axis_bit;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::mechanics::Misfit;
 use crate::sinumerik::resting::Resting;

@@ -18,14 +18,14 @@
 
 use crate::motion::velocity_command;
 use crate::sinumerik::axis::state::Axis;
-use crate::sinumerik::control::Control;
+use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::parameters::dynamics::ParameterSet;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 
-impl Control {
+impl Nck {
     /// Position control of an axis in part `part` of `count` of the interpolation cycle: the velocity that its drive is to
     /// have; `None` for a drive without power.
     pub fn velocity_command(

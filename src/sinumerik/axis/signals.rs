@@ -15,8 +15,8 @@
 
 use crate::image::ToNck;
 use crate::motion::Motion;
+use crate::sinumerik::inputs::axis_bit;
 use crate::sinumerik::jog::state::Movement;
-use crate::sinumerik::log::axis_bit;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::AxisNumber;

@@ -10,13 +10,13 @@
 //! override acts in section 3 and 0 % holds (O-03); 101.4 stays until 101.5 (O-07); RESET takes the display of 10654
 //! away and leaves 101.4 (O-09); a synchronising motion that does not end in exact stop fine within MD36020 ends with 20005.
 
+use crate::control::next;
 use crate::image::ToNck;
-use crate::sinumerik::gantry::state::{Phase, TRANSITIONS};
+use crate::sinumerik::gantry::state::{GROUPING_CHART, Phase, TRANSITIONS};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::referencing::approach::Outcome;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
-use crate::sinumerik::transitions::next;
 use crate::units::{AxisNumber, ChannelNumber};
 use crate::variables::{AlarmNumber, EventId, Input, Place};
 
@@ -73,7 +73,7 @@ impl State {
     /// Takes a step of the table.
     pub(in crate::sinumerik) fn step_grouping(&mut self, index: usize, by: Rule, inputs: [Input; 3], parent: EventId) {
         let grouping = &mut self.groupings[index];
-        grouping.phase = next(TRANSITIONS, &mut self.log.taken.grouping, grouping.phase, by);
+        grouping.phase = next(TRANSITIONS, &mut self.log.taken.0[GROUPING_CHART], grouping.phase, by);
         grouping.cause = self.log.note(Place::Axis(grouping.coupling.leader()), by, inputs, parent);
         match grouping.phase {
             Phase::WaitingForStart => (grouping.message, grouping.waited_for) = (true, true),

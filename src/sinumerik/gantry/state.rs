@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::control::{Transition, row};
 use crate::motion::Coupling;
 use crate::sinumerik::parameters::groupings::Definition;
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::transitions::{Transition, row};
 use crate::units::{AxisNumber, AxisSet, Position};
 use crate::variables::EventId;
 
@@ -46,7 +46,7 @@ impl Phase {
 }
 
 /// Every step that a grouping can take.
-pub const TRANSITIONS: &[Transition<Phase>] = &[
+pub const TRANSITIONS: &[Transition<Phase, Rule>] = &[
     row(Phase::NotSynchronised, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
     row(Phase::WaitingForStart, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
     row(Phase::Synchronised, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
@@ -78,6 +78,9 @@ pub const TRANSITIONS: &[Transition<Phase>] = &[
 ];
 
 const _: () = assert!(TRANSITIONS.len() <= u64::BITS as usize);
+
+/// The place of the gantry grouping among the charts of this control.
+pub(in crate::sinumerik) const GROUPING_CHART: usize = 1;
 
 /// What monitoring found on one synchronous axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

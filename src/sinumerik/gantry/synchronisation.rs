@@ -7,7 +7,7 @@ use crate::image::ToNck;
 use crate::motion::Motion;
 use crate::sinumerik::alarms;
 use crate::sinumerik::gantry::state::Phase;
-use crate::sinumerik::log::axis_bit;
+use crate::sinumerik::inputs::axis_bit;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};

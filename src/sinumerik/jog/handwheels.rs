@@ -19,9 +19,9 @@
 
 use crate::image::{AxisToNck, NckHmi};
 use crate::sinumerik::alarms;
-use crate::sinumerik::control::Control;
+use crate::sinumerik::inputs::axis_bit;
 use crate::sinumerik::jog::state::{By, Movement};
-use crate::sinumerik::log::axis_bit;
+use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
@@ -40,7 +40,7 @@ enum Hold {
     Abort,
 }
 
-impl Control {
+impl Nck {
     /// Turns a handwheel, 1 to 3, by pulses that spread evenly over cycles; what is left of its last turn is turned with it.
     pub fn turn_handwheel(&mut self, number: u8, pulses: i32, cycles: u64) {
         if let Some(handwheel) = self.state.handwheels.get_mut(usize::from(number.saturating_sub(1))) {

@@ -13,8 +13,8 @@
 //! 4.4 = 0 begins none; what ends an increment early (the key, MD11300; 4.4; 2.2; RESET; a stop; a limit) drops the rest of it.
 
 use crate::image::ToNck;
+use crate::sinumerik::inputs::axis_bit;
 use crate::sinumerik::jog::state::{Function, GroupFunction};
-use crate::sinumerik::log::axis_bit;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::resting::Resting;
 use crate::sinumerik::rules::Rule;

@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::control::{Owner, Value};
 use crate::source::{Place, Problem, unreadable};
 use crate::units::AxisNumber;
 
@@ -15,7 +16,7 @@ use super::catalogue::{by_identifier, by_number, nearest_identifier};
 use super::finding::{Assignment, Finding, Line, Member, Reading, Severity};
 use super::named::{resolve, split_indices};
 use super::table::Datum;
-use super::{MachineData, Owner, Target, Value, ascii, binary};
+use super::{MachineData, Target, ascii, binary};
 
 /// What was done with the files.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -91,7 +91,8 @@ impl Datum {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sinumerik::machine_data::{Effect, Kind, Value};
+    use crate::control::{Kind, Value};
+    use crate::sinumerik::machine_data::Effect;
 
     #[test]
     fn a_datum_is_found_by_number_and_by_identifier() {

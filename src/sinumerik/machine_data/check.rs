@@ -2,12 +2,13 @@
 //!
 //! Definitions that the control refuses at power on (10650, 10651) are left to its alarms.
 
+use crate::control::Owner;
 use crate::source::Place;
 use crate::units::AxisNumber;
 
 use super::archive::Archive;
 use super::finding::{Finding, Severity};
-use super::{Axis, Datum, MachineData, Owner, Target, by_number};
+use super::{Axis, Datum, MachineData, Target, by_number};
 
 /// Every finding about an archive.
 #[must_use]

@@ -23,7 +23,6 @@ mod named;
 mod setting;
 mod table;
 mod target;
-mod value;
 mod write;
 
 pub use archive::{Archive, Summary, files_of};
@@ -36,11 +35,11 @@ pub use finding::{Assignment, Finding, Member, Severity, refusal};
 pub use general::General;
 pub use setting::Setting;
 pub use table::{Datum, Effect, Range, Scope};
-pub use target::{Owner, Target};
-pub use value::{Kind, Value};
+pub use target::Target;
 
 use serde::{Deserialize, Serialize};
 
+use crate::control::{Owner, Value};
 use crate::image::{Block, SINUMERIK};
 use crate::source::Problem;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel};

@@ -7,7 +7,8 @@
 use super::MachineData;
 use super::catalogue::{by_identifier, by_number, nearest_identifier};
 use super::table::{Datum, Scope};
-use super::target::{Owner, Target, bad_index, unknown_number};
+use super::target::{Target, bad_index, unknown_number};
+use crate::control::Owner;
 use crate::source::{Problem, did_you_mean};
 use crate::units::ChannelNumber;
 

@@ -2,23 +2,12 @@
 
 use std::fmt;
 
+use crate::control::Owner;
 use crate::image::{Block, SINUMERIK};
 use crate::source::Problem;
-use crate::units::{AxisNumber, ChannelNumber};
 
 use super::catalogue::by_number;
 use super::table::{Datum, Scope};
-
-/// Whose value it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Owner {
-    /// The NC's: general machine data and general setting data.
-    Nck,
-    /// A channel's.
-    Channel(ChannelNumber),
-    /// A machine axis'.
-    Axis(AxisNumber),
-}
 
 /// One value of one machine datum. It exists: number, owner and index were checked.
 #[derive(Clone, Copy, Debug, PartialEq)]

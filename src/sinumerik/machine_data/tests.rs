@@ -413,7 +413,7 @@ mod writing {
                 let target = Target::new(datum.number, owner, index % datum.count).unwrap();
                 let number = if small { (number / 1e7).round() } else { number / 1e7 };
                 // Names stay as they are: an archive that names two axes alike is another matter.
-                if datum.kind != Kind::String && first.data.store(&target, &Value::Real(number)).is_ok() {
+                if datum.kind != crate::control::Kind::String && first.data.store(&target, &Value::Real(number)).is_ok() {
                     first.given.insert(target, Place::file("a.tea"));
                 }
             }

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use crate::control::Owner;
 use crate::units::ChannelNumber;
 
-use super::{Archive, Owner};
+use super::Archive;
 
 impl Archive {
     /// The archive as an ASCII file: what was given and what is unknown, in sections by channel. Read again it is the

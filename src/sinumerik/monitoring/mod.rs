@@ -21,7 +21,7 @@ mod speed;
 pub(super) mod state;
 
 use crate::sinumerik::alarms;
-use crate::sinumerik::control::Control;
+use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
@@ -29,7 +29,7 @@ use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, AxisSet};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 
-impl Control {
+impl Nck {
     /// Monitoring and alarms.
     pub(super) fn monitor(&mut self) {
         let awake = self.awake();

@@ -7,8 +7,8 @@
 
 use crate::image::ToNck;
 use crate::sinumerik::alarms::{self, Cancel, Reaction};
-use crate::sinumerik::control::Control;
 use crate::sinumerik::machine_data::Effect;
+use crate::sinumerik::nck::Nck;
 use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
@@ -16,7 +16,7 @@ use crate::sinumerik::state::State;
 use crate::units::{ChannelNumber, ModeGroupNumber};
 use crate::variables::{EventId, Input, Parameter, Place, SignalBit};
 
-impl Control {
+impl Nck {
     /// RESET, the cancel key and NC start; data of the classes RESET and NEWCONF become active with a RESET.
     pub(in crate::sinumerik) fn reset_and_cancel(&mut self, to_nck: &ToNck, cancel_key: bool) {
         let (parameters, state) = (&*self.parameters, &mut *self.state);

@@ -11,15 +11,16 @@
 //! that is never left within MD34030 ends with alarm 20000; 20006 comes when the cam edge is met at the wrong speed
 //! for the second time. NC stop is not read; an axis that is held by force is stopped by contour monitoring (25050).
 
+use crate::control::Log;
+use crate::control::next;
 use crate::image::AxisToNck;
 use crate::motion::Motion;
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::Axis;
-use crate::sinumerik::log::{Log, axis_bit};
+use crate::sinumerik::inputs::axis_bit;
 use crate::sinumerik::parameters::axis::AxisParameters;
-use crate::sinumerik::referencing::state::{Approach, Phase, TRANSITIONS};
+use crate::sinumerik::referencing::state::{APPROACH_CHART, Approach, Phase, TRANSITIONS};
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::transitions::next;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity, SignalBit};
 
@@ -74,13 +75,13 @@ impl Approach {
     }
 
     fn step(&mut self, log: &mut Log, number: AxisNumber, by: Rule, inputs: [Input; 3]) {
-        self.phase = next(TRANSITIONS, &mut log.taken.approach, self.phase, by);
+        self.phase = next(TRANSITIONS, &mut log.taken.0[APPROACH_CHART], self.phase, by);
         self.cause = log.note(Place::Axis(number), by, inputs, self.cause);
     }
 
     /// Starts towards the cam, in the direction of a sign; `cause` is the event that asked for it.
     pub(in crate::sinumerik) fn start(&mut self, log: &mut Log, direction: f64, actual: Position, cause: EventId) {
-        let phase = next(TRANSITIONS, &mut log.taken.approach, Phase::Idle, Rule::ApproachStarted);
+        let phase = next(TRANSITIONS, &mut log.taken.0[APPROACH_CHART], Phase::Idle, Rule::ApproachStarted);
         *self = Self {
             phase,
             cam_direction: direction,

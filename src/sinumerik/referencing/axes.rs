@@ -7,8 +7,8 @@
 
 use crate::image::ToNck;
 use crate::sinumerik::alarms;
+use crate::sinumerik::inputs::axis_bit;
 use crate::sinumerik::jog::keys::key_direction;
-use crate::sinumerik::log::axis_bit;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::referencing::approach::Outcome;
 use crate::sinumerik::referencing::state::ChannelReferencing;

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::control::{Transition, row};
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::transitions::{Transition, row};
 use crate::units::{AxisNumber, Position};
 use crate::variables::EventId;
 
@@ -87,7 +87,7 @@ impl Phase {
 }
 
 /// Every step that an approach can take, but for aborts, which lead from anywhere to [`Phase::Idle`].
-pub const TRANSITIONS: &[Transition<Phase>] = &[
+pub const TRANSITIONS: &[Transition<Phase, Rule>] = &[
     row(Phase::Idle, Rule::ApproachStarted, Phase::SearchCam),
     row(Phase::SearchCam, Rule::WithoutCam, Phase::SearchMark),
     row(Phase::SearchCam, Rule::OnCamAtStart, Phase::SearchEdge),
@@ -106,6 +106,9 @@ pub const TRANSITIONS: &[Transition<Phase>] = &[
 ];
 
 const _: () = assert!(TRANSITIONS.len() <= u64::BITS as usize);
+
+/// The place of the reference point approach among the charts of this control.
+pub(in crate::sinumerik) const APPROACH_CHART: usize = 0;
 
 /// The approach of one axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -4,18 +4,18 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::image::ToNck;
+use crate::control::{Changes, Log, Taken, Value};
+use crate::image::{Location, Part, ToNck};
 use crate::motion::Feedback;
-use crate::sinumerik::log::Log;
-use crate::sinumerik::machine_data::{Effect, MachineData, Target, Value};
+use crate::sinumerik::machine_data::{Effect, MachineData, Target};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisPresence;
-use crate::sinumerik::resting::{Changes, Resting};
+use crate::sinumerik::resting::Resting;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
-use crate::sinumerik::transitions::TakenTransitions;
+use crate::sinumerik::strobe::Strobe;
 use crate::source::Problem;
-use crate::units::{AxisNumber, AxisSet, ModeGroupNumber, PerAxis};
+use crate::units::{AxisNumber, AxisSet, PerAxis};
 use crate::variables::{EventId, Place};
 
 /// The control.
@@ -23,32 +23,44 @@ use crate::variables::{EventId, Place};
 /// Machine data have a stored and an active set (DEF-09, REF-22): a file or an operator changes the stored one, and
 /// the class of a datum says when it begins to act.
 #[derive(Clone, Debug)]
-pub struct Control {
+pub struct Nck {
     pub(super) stored: Arc<MachineData>,
     pub(super) active: Arc<MachineData>,
     pub(super) presence: Arc<PerAxis<AxisPresence>>,
     pub(super) parameters: Arc<Parameters>,
     pub(super) state: Box<State>,
     pub(super) resting: Box<Resting>,
+    strobe: Strobe,
+    /// The cancel key was pressed at the edge of this cycle; the stage takes it back, so that no saved machine has it.
+    cancel_key: bool,
 }
 
 /// A saved control.
 #[derive(Serialize, Deserialize)]
-pub struct SavedControl {
+struct SavedNck {
     stored: MachineData,
     active: MachineData,
     state: State,
 }
 
-impl Control {
+impl Nck {
     /// A control that has just been switched on.
     #[must_use]
-    pub fn new(data: MachineData, presence: PerAxis<AxisPresence>) -> Self {
+    pub(super) fn new(data: MachineData, presence: PerAxis<AxisPresence>, strobe: Strobe) -> Self {
         let stored = Arc::new(data);
         let parameters = Arc::new(Parameters::new(&stored, &presence));
         let state = Box::new(State::new(&parameters));
         let resting = Box::new(Resting::new(&state));
-        Self { active: Arc::clone(&stored), stored, presence: Arc::new(presence), parameters, state, resting }
+        let (active, presence) = (Arc::clone(&stored), Arc::new(presence));
+        let mut nck = Self { stored, active, presence, parameters, state, resting, strobe, cancel_key: false };
+        nck.fix_strobes();
+        nck
+    }
+
+    fn fix_strobes(&mut self) {
+        for group in self.strobe.fixed() {
+            self.state.strobe_written(group);
+        }
     }
 
     /// Power off and on: stored machine data become active, everything else starts anew.
@@ -62,6 +74,7 @@ impl Control {
         self.state.log = Log { cycle, events, taken };
         self.state.note_power_on();
         self.resting.begin_anew(&self.state);
+        self.fix_strobes();
     }
 
     /// What the stages work with.
@@ -131,7 +144,7 @@ impl Control {
 
     /// Which steps of referencing and of the groupings this control has taken.
     #[must_use]
-    pub fn taken_transitions(&self) -> TakenTransitions {
+    pub fn taken_transitions(&self) -> Taken {
         self.state.log.taken
     }
 
@@ -148,19 +161,36 @@ impl Control {
         Some(grouping.phase)
     }
 
-    /// Somebody else wrote into the NCK's half.
-    pub fn half_overwritten(&mut self) {
-        self.state.overwritten = true;
-        self.resting.wake_all();
+    /// The cancel key is pressed in this cycle.
+    pub(super) fn press_cancel_key(&mut self) {
+        self.cancel_key = true;
     }
 
-    /// Somebody else wrote DBB5 of a mode group in DB11 (E-01).
-    pub fn strobe_written(&mut self, group: ModeGroupNumber) {
-        self.state.strobe_written(group);
+    /// A client or a scenario wrote these bits.
+    pub(super) fn written_from_outside(&mut self, location: Location) {
+        match location.part {
+            Part::FromNck => {
+                self.state.overwritten = true;
+                self.resting.wake_all();
+            }
+            Part::Hmi => {
+                for group in self.strobe.touched_by(location) {
+                    self.state.strobe_written(group);
+                }
+            }
+            Part::ToNck
+            | Part::Inputs
+            | Part::Outputs
+            | Part::Flags
+            | Part::Timers
+            | Part::Counters
+            | Part::Block(_) => {}
+        }
     }
 
     /// Takes what the PLC wrote, and which of it is new, and commands setpoints.
-    pub fn decide(&mut self, cycle: u64, to_nck: &ToNck, changes: Changes, cancel_key: bool) {
+    pub fn decide(&mut self, cycle: u64, to_nck: &ToNck, changes: Changes) {
+        let cancel_key = std::mem::take(&mut self.cancel_key);
         self.state.log.cycle = cycle;
         self.state.run_up(&self.parameters);
         self.state.select_modes(&self.parameters, to_nck);
@@ -222,18 +252,27 @@ impl Control {
         }
     }
 
-    /// For save and restore.
-    #[must_use]
-    pub fn save(&self) -> SavedControl {
-        SavedControl {
+    /// Everything that it remembers, as bytes.
+    pub(super) fn save(&self) -> Vec<u8> {
+        let saved = SavedNck {
             stored: MachineData::clone(&self.stored),
             active: MachineData::clone(&self.active),
             state: State::clone(&self.state),
-        }
+        };
+        postcard::to_stdvec(&saved).expect("plain data can always be written")
     }
 
-    /// Takes back what [`Control::save`] gave.
-    pub fn restore(&mut self, saved: SavedControl) {
+    /// Takes back what [`Nck::save`] gave.
+    ///
+    /// # Errors
+    /// The bytes are no saved control of this version; nothing has changed then.
+    pub(super) fn restore(&mut self, saved: &[u8]) -> Result<(), Problem> {
+        let saved: SavedNck = postcard::from_bytes(saved).map_err(|error| {
+            Problem::new(
+                format!("expected a saved control, found damaged bytes: {error}"),
+                "restore what `save` of this version gave, on the same machine",
+            )
+        })?;
         let same = saved.stored == saved.active;
         self.stored = Arc::new(saved.stored);
         self.active = if same { Arc::clone(&self.stored) } else { Arc::new(saved.active) };
@@ -242,5 +281,6 @@ impl Control {
         *self.state = saved.state;
         self.state.log.taken = taken;
         self.resting.begin_anew(&self.state);
+        Ok(())
     }
 }

@@ -1,0 +1,35 @@
+//! The events of a cycle: every stage that decides something notes here why.
+
+use serde::{Deserialize, Serialize};
+
+use super::transitions::Taken;
+use crate::variables::{EventId, Events, Input, Place, RuleNumber};
+
+/// The latest events and the cycle that runs.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Log {
+    /// Number of the cycle that runs.
+    pub cycle: u64,
+    /// The latest events.
+    pub events: Events,
+    /// Which rows of the tables of transitions were taken.
+    #[serde(skip)]
+    pub taken: Taken,
+}
+
+impl Log {
+    /// Notes that a rule allowed something.
+    pub fn note(&mut self, place: Place, rule: impl Into<RuleNumber>, inputs: [Input; 3], parent: EventId) -> EventId {
+        self.events.push(self.cycle, place, rule.into(), inputs, parent)
+    }
+
+    /// Notes it with one input.
+    pub fn note_one(&mut self, place: Place, rule: impl Into<RuleNumber>, input: Input, parent: EventId) -> EventId {
+        self.note(place, rule, [input, Input::None, Input::None], parent)
+    }
+
+    /// Notes it without inputs.
+    pub fn note_plain(&mut self, place: Place, rule: impl Into<RuleNumber>, parent: EventId) -> EventId {
+        self.note(place, rule, [Input::None; 3], parent)
+    }
+}

@@ -1,0 +1,35 @@
+//! All that a machine remembers from one step to the next, but for its control and its PLC program, which save themselves:
+//! plain data, whose copies are derived. What is not here and is no definition can be found anew from what is.
+
+use serde::{Deserialize, Serialize};
+
+use super::command::Command;
+use super::plc::PlcState;
+use super::written::Force;
+use crate::image::Memory;
+use crate::motion::Feedback;
+use crate::plant::{Fault, Plant};
+use crate::units::{PerAxis, Time};
+use crate::variables::{EventId, RParameters, Variables};
+
+/// The state of a machine.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct State {
+    /// How many cycles have been run.
+    pub(super) cycle: u64,
+    /// Simulated time since the machine was opened.
+    pub(super) time: Time,
+    pub(super) memory: Memory,
+    pub(super) variables: Variables,
+    pub(super) r_parameters: RParameters,
+    pub(super) plant: Plant,
+    /// What drives and encoders reported last.
+    pub(super) feedback: PerAxis<Feedback>,
+    pub(super) plc: PlcState,
+    pub(super) forces: Vec<Force>,
+    pub(super) queue: Vec<Command>,
+    /// Slides and encoders to be displaced in this step, with the measuring system that was active then.
+    pub(super) displaced: Vec<(Fault, Option<u8>)>,
+    /// The last event that the record has; those before the first step are recorded with it.
+    pub(super) recorded: EventId,
+}

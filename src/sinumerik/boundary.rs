@@ -1,0 +1,215 @@
+//! The control behind the trait that the machine steps: bytes become this control's structures, commands its calls.
+
+use std::any::Any;
+
+use crate::control::{
+    Changes, Control, ControlCommand, ControlSide, CycleTimes, Data, Datum, Owner, PlcSide, Taken, Texts,
+};
+use crate::image::{FromNck, Hmi, Names, OverrideCoding, ToNck, View};
+use crate::motion::Feedback;
+use crate::sinumerik::machine_data::Target;
+use crate::sinumerik::nck::Nck;
+use crate::sinumerik::texts::TEXTS;
+use crate::source::Problem;
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position};
+use crate::variables::{AlarmNumber, EventId, Events, Place, Variables};
+
+/// How many handwheels there are.
+const HANDWHEELS: u8 = 3;
+
+/// The parts have the lengths of this control's interface: the memory was made for it.
+const LENGTHS: &str = "the memory of a machine has the interface of its control";
+
+fn to_nck(plc: PlcSide<'_>) -> &ToNck {
+    ToNck::of_bytes(plc.to_nck).expect(LENGTHS)
+}
+
+impl Control for Nck {
+    fn check(&self, command: &ControlCommand) -> Result<(), Problem> {
+        match command {
+            ControlCommand::Store { target, value } => {
+                let target = self.stored().parse_target(target)?;
+                self.stored().check(&target, value)
+            }
+            ControlCommand::Handwheel { number, .. } if !(1..=HANDWHEELS).contains(number) => Err(Problem::new(
+                format!("expected a handwheel from 1 to 3, found {number}"),
+                "there are handwheels 1, 2 and 3",
+            )),
+            ControlCommand::Handwheel { .. }
+            | ControlCommand::Activate
+            | ControlCommand::Cancel
+            | ControlCommand::PlcMissing
+            | ControlCommand::PlcRestarted
+            | ControlCommand::Written(_)
+            | ControlCommand::Wake => Ok(()),
+        }
+    }
+
+    fn command(&mut self, command: &ControlCommand) {
+        match command {
+            ControlCommand::Store { target, value } => {
+                // Checked when it was queued; a later command of the same step may have renamed its axis.
+                if let Ok(target) = self.stored().parse_target(target) {
+                    let _ = self.store(&target, value);
+                }
+            }
+            ControlCommand::Activate => self.new_conf(),
+            ControlCommand::Cancel => self.press_cancel_key(),
+            &ControlCommand::Handwheel { number, pulses, cycles } => self.turn_handwheel(number, pulses, cycles),
+            ControlCommand::PlcMissing => self.plc_missing(),
+            ControlCommand::PlcRestarted => self.plc_restarted(),
+            ControlCommand::Written(location) => self.written_from_outside(*location),
+            ControlCommand::Wake => self.wake_all(),
+        }
+    }
+
+    fn decide(&mut self, cycle: u64, plc: PlcSide<'_>, changes: Changes) {
+        self.select_handwheels(&Hmi::of_bytes(plc.hmi).expect(LENGTHS).nck);
+        Self::decide(self, cycle, to_nck(plc), changes);
+    }
+
+    fn velocity_command(&mut self, axis: AxisNumber, counts: [Position; 2], part: u32, of: u32) -> Option<f64> {
+        Self::velocity_command(self, axis, counts, part, of)
+    }
+
+    fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet) {
+        Self::observe(self, feedback, told);
+    }
+
+    fn publish(&mut self, out: ControlSide<'_>, variables: &mut Variables, restless: AxisSet) {
+        let from_nck = FromNck::of_bytes_mut(out.from_nck).expect(LENGTHS);
+        let hmi = Hmi::of_bytes_mut(out.hmi).expect(LENGTHS);
+        Self::publish(self, from_nck, hmi, variables, restless);
+    }
+
+    fn awake(&self) -> AxisSet {
+        Self::awake(self)
+    }
+
+    fn never_rest(&mut self) {
+        Self::never_rest(self);
+    }
+
+    fn power_on(&mut self) {
+        Self::power_on(self);
+    }
+
+    fn cycle_times(&self) -> CycleTimes {
+        let parameters = self.parameters();
+        CycleTimes { interpolation: parameters.cycle, position_control: parameters.servo_cycles }
+    }
+
+    fn measuring_system(&self, axis: AxisNumber) -> Option<u8> {
+        Self::measuring_system(self, axis)
+    }
+
+    fn cause(&mut self, place: Place, byte: u16, bit: u8) -> EventId {
+        Self::cause(self, place, byte, bit)
+    }
+
+    fn alarm_cause(&self, number: AlarmNumber, place: Place) -> EventId {
+        Self::alarm_cause(self, number, place)
+    }
+
+    fn cleared_cause(&self, number: AlarmNumber, place: Place) -> EventId {
+        Self::cleared_cause(self, number, place)
+    }
+
+    fn events(&self) -> &Events {
+        &self.state.log.events
+    }
+
+    fn override_coding(&self) -> OverrideCoding {
+        self.active().override_coding()
+    }
+
+    fn axis_override(&self, axis: AxisNumber, plc: PlcSide<'_>) -> f64 {
+        Self::axis_override(self, &to_nck(plc).axes[axis])
+    }
+
+    fn channel_overrides(&self, channel: ChannelNumber, plc: PlcSide<'_>) -> [f64; 2] {
+        Self::channel_overrides(self, &to_nck(plc).channels[channel])
+    }
+
+    fn motor_speed(&self, axis: AxisNumber, velocity: f64) -> f64 {
+        Self::motor_speed(self, axis, velocity)
+    }
+
+    fn data(&self) -> &dyn Data {
+        self
+    }
+
+    fn texts(&self) -> &'static dyn Texts {
+        &TEXTS
+    }
+
+    fn is_rotary(&self, axis: AxisNumber) -> bool {
+        self.active().axes[axis].is_rot_ax
+    }
+
+    fn configuration(&self, names: &Names) -> Vec<String> {
+        (1..=8).filter_map(|grouping| self.grouping_in_words(grouping, names)).collect()
+    }
+
+    fn taken(&self) -> Taken {
+        self.taken_transitions()
+    }
+
+    fn save(&self) -> Vec<u8> {
+        Self::save(self)
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> Result<(), Problem> {
+        Self::restore(self, saved)
+    }
+
+    fn clone_box(&self) -> Box<dyn Control> {
+        Box::new(self.clone())
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+}
+
+impl Data for Nck {
+    fn stored(&self, number: u32, owner: Owner, index: u8) -> Option<Datum> {
+        let target = Target::new(number, owner, index).ok()?;
+        let datum = target.datum();
+        let value = Self::stored(self).get(&target)?;
+        Some(Datum { kind: datum.kind, read_only: datum.read_only, count: datum.count, value })
+    }
+
+    fn text(&self, number: u32, owner: Owner, index: u8) -> Option<&str> {
+        let (data, index) = (Self::stored(self), usize::from(index));
+        match (owner, number) {
+            (Owner::Nck, 10000) => data.general.axconf_machax_name_tab.get(index).map(String::as_str),
+            (Owner::Nck, 10002) => data.general.axconf_logic_machax_tab.get(index).map(String::as_str),
+            (Owner::Channel(channel), 20000) => Some(&data.channels[channel].chan_name),
+            (Owner::Channel(channel), 20060) => {
+                data.channels[channel].axconf_geoax_name_tab.get(index).map(String::as_str)
+            }
+            (Owner::Channel(channel), 20080) => {
+                data.channels[channel].axconf_chanax_name_tab.get(index).map(String::as_str)
+            }
+            (Owner::Nck | Owner::Channel(_) | Owner::Axis(_), _) => None,
+        }
+    }
+}
+
+impl Nck {
+    /// Who leads whom in a gantry grouping, as the stored data say it; `None` where no axis belongs to it.
+    fn grouping_in_words(&self, grouping: u8, names: &Names) -> Option<String> {
+        let with = |code: u8| {
+            let of_code = |(axis, _): &(AxisNumber, &str)| self.active().axes[*axis].gantry_axis_type == code;
+            let named = names.axes.iter().filter_map(|(axis, name)| Some((axis, name.as_deref()?)));
+            named.filter(of_code).map(|(_, name)| name).collect::<Vec<_>>().join(" and ")
+        };
+        let (leading, synchronous) = (with(grouping), with(10 + grouping));
+        if leading.is_empty() && synchronous.is_empty() {
+            return None;
+        }
+        let or_none = |names: String| if names.is_empty() { "no axis of this machine".to_owned() } else { names };
+        Some(format!("gantry grouping {grouping}: {} leads {}", or_none(leading), or_none(synchronous)))
+    }
+}

@@ -1,0 +1,181 @@
+//! Commissioning: from the archive of a machine to a control that has just been switched on.
+//!
+//! Which axes exist: those that MD20070 of a channel names where the archive says it, those with machine data of their own
+//! where it does not, and those of `plant.toml`; without any of these, the default of MD20070.
+
+use std::path::{Path, PathBuf};
+
+use crate::control::{AxisHints, Configuration, EncoderModel, Examined, Opened, Owner, Site};
+use crate::image::{Names, OverrideCoding, Profile, SINUMERIK};
+use crate::sinumerik::machine_data::{
+    Archive, Finding, MachineData, Severity, Target, check as look_through, files_of, refusal,
+};
+use crate::sinumerik::nck::Nck;
+use crate::sinumerik::parameters::axis::AxisPresence;
+use crate::sinumerik::parameters::mechanics::Mechanics;
+use crate::sinumerik::strobe::Strobe;
+use crate::source::Problem;
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, Position};
+
+/// The archive of a machine, read.
+#[derive(Debug)]
+pub struct Commissioning {
+    archive: Archive,
+}
+
+impl Commissioning {
+    /// Reads the files of an archive.
+    ///
+    /// # Errors
+    /// Everything that refuses the archive, with file and line.
+    pub fn load(files: &[PathBuf]) -> Result<Self, Problem> {
+        Archive::load(files).map(|archive| Self { archive }).map_err(|findings| refusal(&findings))
+    }
+
+    /// Reads an archive from file names and contents.
+    ///
+    /// # Errors
+    /// As [`Commissioning::load`].
+    pub fn read(files: &[(&str, &[u8])]) -> Result<Self, Problem> {
+        let archive = Archive::read(files.iter().copied());
+        archive.map(|archive| Self { archive }).map_err(|findings| refusal(&findings))
+    }
+
+    fn presence(&self, site: &Site<'_>) -> PerAxis<AxisPresence> {
+        let archive = &self.archive;
+        let data = &archive.data;
+        let channels: Vec<ChannelNumber> =
+            ChannelNumber::all().filter(|&channel| data.mode_group(channel).is_some()).collect();
+        let in_channel = |axis: AxisNumber| channels.iter().any(|&channel| data.channel_knows(channel, axis));
+        let in_plant = |axis: AxisNumber| MachineData::is_axis(axis) && (site.names_axis)(data.axis_name(axis));
+        let said = channels.iter().any(|&channel| archive.is_given_for(20070, Owner::Channel(channel)));
+        let named = |axis: AxisNumber| in_plant(axis) || if said { in_channel(axis) } else { archive.given_axis(axis) };
+        let any = MachineData::axis_numbers().any(named);
+        PerAxis::from_fn(|axis| {
+            let simulated = data.axes[axis].ctrlout_type == 0 && !data.axes[axis].simu_ax_vdi_output;
+            let says_so = Target::new(30350, Owner::Axis(axis), 0).is_ok_and(|target| archive.is_given(&target));
+            AxisPresence {
+                exists: if any { named(axis) } else { in_channel(axis) },
+                // E-26: an axis is a real one unless the archive itself says that it shows nothing.
+                silent: simulated && says_so,
+                iron: Mechanics::new(&data.axes[axis]),
+            }
+        })
+    }
+
+    fn hints(&self, control: &Nck) -> PerAxis<AxisHints> {
+        let parameters = control.parameters();
+        PerAxis::from_fn(|axis| {
+            let reference = &parameters.axes[axis].reference;
+            AxisHints {
+                exists: parameters.axes[axis].exists,
+                cam_direction: match (reference.cam_is_active, reference.cam_direction > 0.0) {
+                    (false, _) => 0,
+                    (true, true) => 1,
+                    (true, false) => -1,
+                },
+                zero_mark_spacing: self.archive.data.axes[axis].enc_refp_marker_dist.map(Position::from_user),
+            }
+        })
+    }
+}
+
+impl Configuration for Commissioning {
+    fn axis_names(&self) -> Vec<&str> {
+        MachineData::axis_numbers().map(|axis| self.archive.data.axis_name(axis)).collect()
+    }
+
+    fn open(&self, site: &Site<'_>, profile: Profile) -> Result<Opened, Problem> {
+        let data = &self.archive.data;
+        let presence = self.presence(site);
+        let control = Nck::new(data.clone(), presence, Strobe::new(site.strobe_is_the_hmi_s));
+        let names = Names {
+            axes: PerAxis::from_fn(|axis| presence[axis].exists.then(|| data.axis_name(axis).to_owned())),
+            channels: PerChannel::from_fn(|channel| Some(data.channels[channel].chan_name.clone())),
+            profile,
+        };
+        names.check()?;
+        let groupings = control.parameters().groupings.groupings.iter();
+        let groupings = groupings.map(|grouping| (grouping.number, grouping.coupling.members().collect())).collect();
+        let mut warnings: Vec<String> = self.archive.findings.iter().map(Finding::to_string).collect();
+        warnings.extend(not_modelled(&control, &names, site));
+        Ok(Opened { axes: self.hints(&control), control: Box::new(control), names, groupings, warnings })
+    }
+}
+
+/// What is in the files of an archive, whether or not a machine can be made of it.
+///
+/// # Errors
+/// A file cannot be read, or is no file of machine data.
+pub fn examine(path: &Path) -> Result<Examined, Problem> {
+    let archive = match Archive::load(&files_of(path)?) {
+        Ok(archive) => archive,
+        Err(findings) => {
+            return match findings.as_slice() {
+                // Not a wrong datum but a file that is none.
+                [Finding { severity: Severity::Error, number: None, place, what, cure, .. }] => {
+                    Err(Problem { place: place.clone(), what: what.clone(), cure: cure.clone() })
+                }
+                findings => Ok(Examined {
+                    is_refused: true,
+                    summary: Vec::new(),
+                    findings: findings.iter().map(ToString::to_string).collect(),
+                }),
+            };
+        }
+    };
+    Ok(Examined {
+        is_refused: false,
+        summary: archive.summary.to_string().lines().map(str::to_owned).collect(),
+        findings: look_through(&archive).iter().map(Finding::to_string).collect(),
+    })
+}
+
+impl MachineData {
+    /// How override switches are coded.
+    pub(super) fn override_coding(&self) -> OverrideCoding {
+        OverrideCoding {
+            interface: &SINUMERIK,
+            axis_is_gray: self.general.ovr_ax_is_gray_code,
+            feed_is_gray: self.general.ovr_feed_is_gray_code,
+            rapid_traverse_is_gray: self.general.ovr_rapid_is_gray_code,
+        }
+    }
+}
+
+/// What machine data and plant ask for and this version does not do, so that nobody waits for it in vain.
+fn not_modelled(control: &Nck, names: &Names, site: &Site<'_>) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (index, group) in control.active().general.assign_chan_to_mode_group.iter().enumerate() {
+        if *group > i32::from(ModeGroupNumber::MAX) {
+            let channel = index + 1;
+            warnings
+                .push(format!("channel {channel}: MD10010 = {group} is not modelled; there are mode groups 1 and 2"));
+        }
+    }
+    for (number, axis) in control.parameters().existing() {
+        let name = names.axes[number].as_deref().unwrap_or_default();
+        for (index, &mode) in axis.reference.mode.iter().enumerate().take(usize::from(axis.encoders)) {
+            if mode != 1 {
+                let which = if index == 0 { "MD34200" } else { "MD34200[1]" };
+                warnings.push(format!(
+                    "axis {name}: {which} = {mode} is not modelled; incremental encoders with zero marks (1) are referenced"
+                ));
+            }
+        }
+        for (index, kind) in (site.encoders)(name).into_iter().enumerate() {
+            if matches!(kind, Some(EncoderModel::Absolute | EncoderModel::DistanceCoded)) {
+                let number = index + 1;
+                warnings.push(format!("axis {name}: the kind of encoder {number} is not modelled; it is incremental"));
+            }
+        }
+        if axis.modulo {
+            warnings
+                .push(format!("axis {name}: MD30310, modulo, is modelled as no software limits; positions count on"));
+        }
+        if control.active().axes[number].gantry_function_mask & 1 != 0 {
+            warnings.push(format!("axis {name}: MD37150 bit 0, extended monitoring, is not modelled"));
+        }
+    }
+    warnings
+}

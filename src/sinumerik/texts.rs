@@ -1,0 +1,102 @@
+//! The words of this control: alarms, rules, names of machine data and charts of its state machines.
+
+use crate::control::{AlarmRow, Chart, Texts};
+use crate::image::{Interface, SINUMERIK};
+use crate::sinumerik::alarms::{Alarm, CATALOGUE, Cancel, not_raised};
+use crate::sinumerik::gantry;
+use crate::sinumerik::referencing;
+use crate::sinumerik::rules::Rule;
+use crate::variables::{AlarmNumber, Rule as RuleText, RuleNumber};
+
+/// The words of the SINUMERIK.
+pub static TEXTS: Words = Words;
+
+/// See [`TEXTS`].
+#[derive(Clone, Copy, Debug)]
+pub struct Words;
+
+impl Texts for Words {
+    fn name(&self) -> &'static str {
+        "sinumerik"
+    }
+
+    fn interface(&self) -> &'static Interface {
+        &SINUMERIK
+    }
+
+    fn alarms(&self) -> Vec<AlarmRow> {
+        let raised = CATALOGUE.iter().map(|alarm| row(alarm, true));
+        let mut all: Vec<_> = raised.chain(not_raised::NOT_RAISED.iter().map(|alarm| row(alarm, false))).collect();
+        all.sort_by_key(|alarm| alarm.number);
+        all
+    }
+
+    fn alarm(&self, number: AlarmNumber) -> Option<AlarmRow> {
+        let not_raised = || not_raised::NOT_RAISED.iter().find(|alarm| alarm.number == number);
+        Alarm::find(number).map(|alarm| row(alarm, true)).or_else(|| not_raised().map(|alarm| row(alarm, false)))
+    }
+
+    fn alarm_name(&self, number: AlarmNumber) -> String {
+        Alarm::name(number)
+    }
+
+    fn alarm_named(&self, name: &str) -> Option<AlarmNumber> {
+        Alarm::named(name)
+    }
+
+    fn rule(&self, rule: RuleNumber) -> RuleText {
+        Rule::text(rule)
+    }
+
+    fn datum_name(&self, number: u32) -> String {
+        format!("MD{number}")
+    }
+
+    fn cycle_data(&self) -> &'static str {
+        "MD10050 and MD10070"
+    }
+
+    fn charts(&self) -> Vec<Chart> {
+        let approach = Chart::of(
+            "approach",
+            "Reference point approach",
+            referencing::state::TRANSITIONS,
+            referencing::state::Phase::text,
+            |_| None,
+        );
+        let tested = |rule| match rule {
+            Rule::WaitWarningLimitZero => Some("MD37110 = 0"),
+            Rule::WaitLocked => Some("29.5 = 1"),
+            _ => None,
+        };
+        let grouping =
+            Chart::of("gantry", "Gantry grouping", gantry::state::TRANSITIONS, gantry::state::Phase::text, tested);
+        // An abort is no row: it leads from wherever the approach is.
+        let approach = approach.with_step_from_anywhere(Rule::ApproachAborted, referencing::state::Phase::Idle);
+        vec![approach, grouping]
+    }
+}
+
+fn row(alarm: &Alarm, raised: bool) -> AlarmRow {
+    AlarmRow {
+        number: alarm.number,
+        name: Alarm::name(alarm.number),
+        text: alarm.text,
+        raised,
+        cancelled_by: alarm.cancel.to_string(),
+        reaction: alarm.reaction.to_string(),
+        clear_info: clear_info(alarm.cancel),
+    }
+}
+
+/// What cancels an alarm, as NC variables number it.
+const fn clear_info(cancel: Cancel) -> u8 {
+    match cancel {
+        Cancel::PowerOn => 1,
+        Cancel::Reset => 2,
+        Cancel::CancelKey => 3,
+        Cancel::ByItself => 4,
+        Cancel::NcStart => 5,
+        Cancel::ModeGroupReset => 6,
+    }
+}
