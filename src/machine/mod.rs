@@ -48,7 +48,6 @@ use crate::variables::{RParameters, RaisedAlarm, Variables};
 use before::Before;
 use definition::Definition;
 use state::State;
-use step::plc_side;
 
 /// A machine: a control, its iron and its PLC program.
 pub struct Machine {
@@ -113,13 +112,13 @@ impl Machine {
     /// The override of an axis that acts, in per cent.
     #[must_use]
     pub fn axis_override(&self, axis: AxisNumber) -> f64 {
-        self.control.axis_override(axis, plc_side(&self.state.memory))
+        self.control.axis_override(axis, self.state.plc_side())
     }
 
     /// The overrides of a channel that act, in per cent: feed and rapid traverse.
     #[must_use]
     pub fn channel_overrides(&self, channel: ChannelNumber) -> [f64; 2] {
-        self.control.channel_overrides(channel, plc_side(&self.state.memory))
+        self.control.channel_overrides(channel, self.state.plc_side())
     }
 
     /// The speed of the motor of an axis in rev/min, behind pitch and gear.

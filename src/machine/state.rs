@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::command::Command;
 use super::plc::PlcState;
 use super::written::Force;
+use crate::control::PlcSide;
 use crate::image::Memory;
 use crate::motion::Feedback;
 use crate::plant::{Fault, Plant};
@@ -32,4 +33,11 @@ pub(super) struct State {
     pub(super) displaced: Vec<(Fault, Option<u8>)>,
     /// The last event that the record has; those before the first step are recorded with it.
     pub(super) recorded: EventId,
+}
+
+impl State {
+    /// What the control reads.
+    pub(super) fn plc_side(&self) -> PlcSide<'_> {
+        PlcSide { to_nck: &self.memory.to_nck, hmi: &self.memory.hmi }
+    }
 }

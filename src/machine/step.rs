@@ -3,8 +3,8 @@
 use super::Machine;
 use super::state::State;
 use super::written::Force;
-use crate::control::{ControlCommand, ControlSide, CycleTimes, PlcSide};
-use crate::image::{AsBytes, Memory};
+use crate::control::{ControlCommand, ControlSide, CycleTimes};
+use crate::image::AsBytes;
 use crate::motion::Feedback;
 use crate::plc::PlcIo;
 use crate::units::{AxisSet, PerAxis};
@@ -26,7 +26,7 @@ impl Machine {
         self.apply_forces();
         // The control decides.
         let changes = self.plc_changes();
-        self.control.decide(self.state.cycle, plc_side(&self.state.memory), changes);
+        self.control.decide(self.state.cycle, self.state.plc_side(), changes);
         // Position control, drives and mechanics.
         let axes = self.definition.layout.with_bridged(self.control.awake());
         self.move_axes(axes);
@@ -131,11 +131,6 @@ impl Machine {
             };
         }
     }
-}
-
-/// What the control reads.
-pub(super) fn plc_side(memory: &Memory) -> PlcSide<'_> {
-    PlcSide { to_nck: &memory.to_nck, hmi: &memory.hmi }
 }
 
 /// The variables of a machine that was just switched on: where its slides are is known before the first cycle.
