@@ -1,4 +1,4 @@
-//! What the fuzz targets and `tests/s7_corpus.rs` share: a conversation with a session of S7 communication, an oracle that judges
+//! What the fuzz targets and `tests/hostile/corpus.rs` share: a conversation with a session of S7 communication, an oracle that judges
 //! its answers, and a grammar of requests.
 
 pub mod client;

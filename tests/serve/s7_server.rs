@@ -1,16 +1,12 @@
 //! A live machine and clients of S7 communication over TCP: rust7, by the author of snap7, which shares no line with this project;
 //! and bare sockets, for what no proper client does.
-#![cfg(all(feature = "cli", feature = "s7"))]
 #![expect(clippy::disallowed_methods, reason = "a live machine is watched in real time")]
-
-mod common;
 
 use std::io::{Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use common::{CONNECT, bare, client, packet, setup};
 use opennck::live::{Live, LiveOptions, Speed};
 use opennck::machine::Machine;
 use opennck::plc::{self, PlcIo, Programs};
@@ -18,6 +14,8 @@ use opennck::s7::live::Window;
 use opennck::s7::server::Limits;
 use opennck::sinumerik::Nck;
 use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE};
+
+use crate::clients::{CONNECT, bare, client, packet, setup};
 
 const SETUP: [u8; 25] = setup(480);
 

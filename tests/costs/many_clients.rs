@@ -2,17 +2,16 @@
 //! nobody. How fast that goes is measured by `benches/s7`.
 #![cfg(all(feature = "cli", feature = "s7"))]
 
-mod common;
-
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use common::{CONNECT, bare, packet, setup};
 use opennck::live::{Live, Speed};
 use opennck::machine::Machine;
 use opennck::s7::live::Window;
 use opennck::s7::server::Limits;
+
+use crate::clients::{CONNECT, bare, packet, setup};
 
 /// Clients that are held.
 const MANY: usize = 1000;

@@ -1,23 +1,10 @@
 //! The corpus of the fuzz targets, told again: what once led somewhere new still ends as it has to. And the oracle itself, which
 //! finds what it is for.
-#![cfg(feature = "s7")]
-
-#[path = "../fuzz/src/client.rs"]
-#[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
-mod client;
-#[path = "../fuzz/src/conversation.rs"]
-#[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
-mod conversation;
-#[path = "../fuzz/src/grammar.rs"]
-#[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
-mod grammar;
-#[path = "../fuzz/src/oracle.rs"]
-#[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
-mod oracle;
 
 use std::path::Path;
 
-use oracle::Listener;
+use crate::oracle::Listener;
+use crate::{client, conversation, grammar};
 
 /// The files of a folder of the corpus, by name.
 fn corpus(target: &str) -> Vec<(String, Vec<u8>)> {

@@ -181,6 +181,7 @@ fn compare_resting(mut resting: Machine, mut never: Machine) {
     }
 }
 
+#[cfg(feature = "cli")]
 #[test]
 fn one_scenario_gives_the_same_bytes_in_two_processes() {
     let run = |name: &str| {

@@ -1,5 +1,4 @@
 //! A PLC in another process, by the mapped image: the same bits as a built-in program, nothing torn, alarm 2000 where it is silent.
-#![cfg(all(feature = "cli", feature = "s7"))]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![expect(clippy::disallowed_methods, reason = "another process works in real time")]
 

@@ -1,5 +1,4 @@
 //! `opennck serve` as its users call it: it says where it can be reached, and ends with 0 when it is asked to.
-#![cfg(all(feature = "cli", feature = "s7"))]
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};

@@ -1,4 +1,5 @@
 //! The program as its users call it: commands, exit codes, what goes to which output.
+#![cfg(feature = "cli")]
 
 use std::fs;
 use std::io::Read;
@@ -109,7 +110,7 @@ fn diff_tells_the_first_difference_in_words() {
 #[test]
 fn why_follows_an_edge_back_to_what_was_written() {
     let directory = directory("why");
-    let scenario = include_str!("../golden/worked_example/gantry_references_and_synchronises.toml");
+    let scenario = include_str!("../../golden/worked_example/gantry_references_and_synchronises.toml");
     fs::write(directory.join("s.toml"), scenario.replace("../../machine_data/", "")).unwrap();
     assert_eq!(opennck(&["run", "s.toml", "--trace", "t.jsonl"], &directory).status.code(), Some(0));
     for trace in ["s.toml", "t.jsonl"] {

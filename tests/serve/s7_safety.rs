@@ -1,10 +1,7 @@
 //! What keeps a served machine safe, and what makes panels testable: faults on purpose, captures as Wireshark's tshark reads them,
 //! write protection, passwords. Bare sockets where no proper client does such a thing.
-#![cfg(all(feature = "cli", feature = "s7"))]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![expect(clippy::disallowed_methods, reason = "a live machine is watched in real time")]
-
-mod common;
 
 use std::io::{Read, Write};
 use std::net::{Shutdown, SocketAddr};
@@ -12,7 +9,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use common::{CONNECT, bare, client, next, setup};
 use opennck::image::{Area, Profile};
 use opennck::live::{Live, Speed};
 use opennck::machine::{Machine, OpenOptions};
@@ -20,6 +16,8 @@ use opennck::s7::live::{Terms, Window, WindowOptions};
 use opennck::s7::{Protected, Protection, Settings};
 use prometheus_parse::{Scrape, Value};
 use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE};
+
+use crate::clients::{CONNECT, bare, client, next, setup};
 
 const SETUP: [u8; 25] = setup(480);
 

@@ -1,6 +1,5 @@
 //! What clients and a scenario do to a live machine, recorded, is a scenario with the same trace, byte for byte; and what one request
 //! reads or writes is whole, at any speed.
-#![cfg(all(feature = "cli", feature = "s7"))]
 #![expect(clippy::disallowed_methods, reason = "a live machine is watched in real time")]
 
 mod panel;

@@ -1,5 +1,4 @@
 //! `opennck s7` as its users call it, against `opennck serve`; and the commands that the README shows.
-#![cfg(all(feature = "cli", feature = "s7"))]
 
 use std::fs;
 use std::io::{BufRead, BufReader};

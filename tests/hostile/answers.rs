@@ -1,16 +1,6 @@
 //! Hostile conversations: what no proper client sends. Each is told to a session (whole, packet by packet, in small pieces) and to
 //! the server over TCP; each request is answered as it has to be, or the connection ends; and a good client is served after each.
-#![cfg(all(feature = "cli", feature = "s7"))]
 #![expect(clippy::disallowed_methods, reason = "a live machine is watched in real time")]
-
-mod common;
-#[path = "../fuzz/src/conversation.rs"]
-#[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
-mod conversation;
-mod hostile;
-#[path = "../fuzz/src/oracle.rs"]
-#[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
-mod oracle;
 
 use std::io::{Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -18,22 +8,24 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use common::client;
-use hostile::{Act, Conversation};
 use opennck::image::Preset;
 use opennck::live::Live;
 use opennck::machine::{Machine, OpenOptions};
 use opennck::s7::live::Window;
 use opennck::s7::server::Limits;
-use oracle::{Expected, Listener, packet_length};
 use rust7::{S7_AREA_DB, S7Client};
+
+use crate::clients::client;
+use crate::conversation;
+use crate::conversations::{Act, Conversation, conversations};
+use crate::oracle::{Expected, Listener, packet_length};
 
 /// A job that no function has, and its reference.
 const PROBE: [u8; 18] = [3, 0, 0, 18, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0xBE, 0xEF, 0, 1, 0, 0, 0x77];
 
 #[test]
 fn there_are_more_than_three_hundred_of_them_and_no_two_are_called_alike() {
-    let mut names: Vec<_> = hostile::conversations().into_iter().map(|conversation| conversation.name).collect();
+    let mut names: Vec<_> = conversations().into_iter().map(|conversation| conversation.name).collect();
     let count = names.len();
     names.sort();
     names.dedup();
@@ -42,7 +34,7 @@ fn there_are_more_than_three_hundred_of_them_and_no_two_are_called_alike() {
 
 #[test]
 fn a_session_answers_each_or_ends_it() {
-    for conversation in hostile::conversations() {
+    for conversation in conversations() {
         let mut input = vec![0];
         for act in &conversation.acts {
             match act {
@@ -63,7 +55,7 @@ fn a_good_client_is_served_after_each() {
     let (_live, window) = open();
     let address = window.addresses()[0];
     let mut old = client(address);
-    for conversation in hostile::conversations() {
+    for conversation in conversations() {
         let begin = Instant::now();
         tell(&conversation, address);
         serve(&mut old, &conversation.name);
@@ -84,7 +76,7 @@ fn a_good_client_is_served_after_each() {
 fn a_good_client_is_served_amid_all_of_them() {
     let (live, window) = open();
     let address = window.addresses()[0];
-    let all = hostile::conversations();
+    let all = conversations();
     let _silent: Vec<_> = (0..30).map(|_| TcpStream::connect(address).unwrap()).collect();
     let is_over = AtomicBool::new(false);
     std::thread::scope(|scope| {

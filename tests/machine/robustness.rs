@@ -2,7 +2,7 @@
 //! PLC's half, plausible operation, machine data, faults and power on, on several machines, with every step checked.
 //!
 //! Sequences come from a seed, so that CI runs the same ones each time; `OPENNCK_SEED=7 OPENNCK_CASES=5000 cargo test --test
-//! robustness` goes elsewhere and on. A sequence that breaks a rule is shrunk to the acts that matter and printed with its seed.
+//! machine robustness` goes elsewhere and on. A sequence that breaks a rule is shrunk to the acts that matter and printed with its seed.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "machine data of these machines are small")]
 

@@ -1,5 +1,4 @@
 //! The client of this project against its server: a live machine, everything that a client can ask.
-#![cfg(all(feature = "cli", feature = "s7"))]
 
 use std::net::SocketAddr;
 use std::time::Duration;

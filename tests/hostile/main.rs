@@ -1,0 +1,22 @@
+//! Tests of the S7 server with what no proper client sends: the corpus of the fuzz targets, and conversations made by hand and by rule.
+//!
+//! A binary of its own because it uses sources of `fuzz`, which is not in the published package.
+#![cfg(all(feature = "cli", feature = "s7"))]
+
+mod answers;
+#[path = "../../fuzz/src/client.rs"]
+#[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
+mod client;
+#[path = "../serve/clients.rs"]
+mod clients;
+#[path = "../../fuzz/src/conversation.rs"]
+#[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
+mod conversation;
+mod conversations;
+mod corpus;
+#[path = "../../fuzz/src/grammar.rs"]
+#[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
+mod grammar;
+#[path = "../../fuzz/src/oracle.rs"]
+#[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
+mod oracle;

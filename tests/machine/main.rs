@@ -1,0 +1,12 @@
+//! Tests of what runs in virtual time: the machine and its files, the command line, what the README shows.
+//!
+//! One binary for many files, because each binary links the library once more.
+
+mod cli;
+mod determinism;
+mod dynamics;
+mod foreign_readers;
+mod readme;
+mod referencing;
+mod robustness;
+mod s7;

@@ -1,0 +1,13 @@
+//! Tests of a machine in real time, `opennck serve`: its clients over TCP, a PLC in another process, recordings.
+//!
+//! Apart from `tests/machine`, whose tests keep every processor busy: tests here wait for real time.
+#![cfg(all(feature = "cli", feature = "s7"))]
+
+mod clients;
+mod mapped_image;
+mod program;
+mod record;
+mod s7_client;
+mod s7_command;
+mod s7_safety;
+mod s7_server;
