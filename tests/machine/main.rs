@@ -6,6 +6,7 @@ mod cli;
 mod determinism;
 mod dynamics;
 mod foreign_readers;
+mod own_interface;
 mod readme;
 mod referencing;
 mod robustness;
