@@ -120,7 +120,7 @@
 //! | a PLC program | a file in `plc/programs/`, a line in `plc/registry.rs`; or a closure of your own | `plc = "name"` in scenarios |
 //! | a machine | a folder below `machine_data/` | `machine = "path"` in scenarios |
 //! | a scenario | a `.toml` below `golden/<area>/`, then read and accept its trace | the `.snap` beside it |
-//! | a server for other clients | a folder in `src` that holds a [`live::Handle`] and no more of `live`; `tests/live.rs` has a small one | reads of one step, orders that act whole and are recorded |
+//! | a server for other clients | a folder in `src` that holds a [`live::Handle`] and no more of `live`; `tests/serve/another_server.rs` has a small one | reads of one step, orders that act whole and are recorded |
 //! | an NC variable that clients read | a row in `s7/nck/catalogue.rs` | its value by area, module, column and line |
 //! | a room | a folder in `src`, a row here and one in `tests/layers.rs` | the test that compares both |
 

@@ -1,5 +1,7 @@
 //! What a step promises about order: who sees whom in which cycle, and what survives power off.
 
+use crate::control::Owner;
+
 use super::{Command, DatumValue, Fault, FaultKind, Machine, OpenOptions};
 use crate::image::Location;
 use crate::plc::{PlcIo, enable_all, program};
@@ -223,11 +225,8 @@ fn power_on_restarts_interface_and_plc_memory_and_keeps_slides_faults_and_machin
     assert_eq!(machine.variables().axes[x].slide, slide);
     assert_eq!(machine.variables().axes[xf].slide, other);
     assert_eq!(machine.variables().axes[x].position, Position::ZERO, "an incremental encoder counts from here");
-    assert!(
-        (machine.control().downcast::<crate::sinumerik::Nck>().unwrap().active().axes[xf].gantry_pos_tol_ref - 50.0)
-            .abs()
-            < 1e-9
-    );
+    let stored = machine.control().data().stored(37130, Owner::Axis(xf), 0).unwrap();
+    assert_eq!(stored.value, DatumValue::Real(50.0));
     set(&mut machine, "DB11.DBX0.2", 1);
     set(&mut machine, "X.traversing_key_plus", 1);
     run(&mut machine, 60);

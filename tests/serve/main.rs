@@ -3,6 +3,7 @@
 //! Apart from `tests/machine`, whose tests keep every processor busy: tests here wait for real time.
 #![cfg(all(feature = "cli", feature = "s7"))]
 
+mod another_server;
 mod clients;
 mod mapped_image;
 mod program;

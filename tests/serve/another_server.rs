@@ -1,5 +1,4 @@
 //! A second server, plugged into a live machine by its handle and nothing else. It speaks lines of text on TCP.
-#![cfg(feature = "s7")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::fs;
