@@ -60,14 +60,14 @@
 //! | [`motion`] | the axis: setpoints, position control, drive, encoder, the coupling of a gantry | `units` |
 //! | [`control`] | the boundary of a control: the trait that the machine steps, its commands, data, texts and charts | `image`, `motion`, `source`, `units`, `variables` |
 //! | [`sinumerik`] | THE CONTROL of the gantry manual, with its machine data and alarms | `control`, `image`, `motion`, `source`, `units`, `variables` |
-//! | [`controls`] | which controls there are: the only place that names them | `control`, `sinumerik`, `source` |
+//! | [`controls`] | which controls there are: the only place that names them | `control`, `image`, `sinumerik`, `source` |
 //! | [`plc`] | THE PROGRAM: closures over the PLC's side, small blocks, ready programs | `image`, `source`, `units` |
 //! | [`plant`] | THE IRON: slides, bridges, cams, switches, faults | `motion`, `source`, `units` |
 //! | [`trace`] | THE RECORD: what changed when and why, as text and JSON lines | `image`, `source`, `units`, `variables` |
 //! | [`expression`] | EXPRESSIONS over signals, values and alarms: read once, looked at in every cycle | `image`, `source`, `units`, `variables` |
 //! | [`machine`] | ONE STEP, and open, queue, power, save, restore, fork | `control`, `controls`, `expression`, `image`, `motion`, `plant`, `plc`, `source`, `trace`, `units`, `variables` |
-//! | [`scenario`] | files that act, and the session that tests in Rust use | `expression`, `image`, `machine`, `plc`, `source`, `trace`, `units`, `variables` |
-//! | [`golden`] | scenarios below a folder, each against its golden trace | `control`, `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units` |
+//! | [`scenario`] | files that act, and the session that tests in Rust use | `control`, `controls`, `expression`, `image`, `machine`, `plc`, `source`, `trace`, `units`, `variables` |
+//! | [`golden`] | scenarios below a folder, each against its golden trace | `control`, `controls`, `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units` |
 //! | [`live`] | a machine in real time: the stepping thread, the inbox, the copy of the last step, the recording, a PLC in another process (feature `live`, part of `s7` and `mapped`) | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
 //! | [`s7`] | S7 communication: wire formats, sessions without a socket, a server on TCP and for [`live`] (feature `s7`) | `control`, `image`, `live`, `machine`, `source`, `units`, `variables` |
 //! | [`cli`] | the program's arguments and wiring (feature `cli`) | all |

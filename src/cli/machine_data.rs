@@ -41,7 +41,7 @@ fn checked(path: &Path) -> Result<Checked, Problem> {
         let machine = Machine::open(path)?;
         return Ok(Checked { summary: configuration(&machine), findings: machine.warnings().to_vec() });
     }
-    let Examined { is_refused, mut summary, mut findings } = controls::examine(path)?;
+    let Examined { is_refused, is_empty, mut summary, mut findings } = controls::examine(path)?;
     if is_refused {
         return Ok(Checked { summary, findings });
     }
@@ -52,7 +52,7 @@ fn checked(path: &Path) -> Result<Checked, Problem> {
             let more = machine.warnings().iter().filter(|&warning| !findings.contains(warning));
             findings.extend(more.cloned().collect::<Vec<_>>());
         }
-        Err(problem) if summary.is_empty() => return Err(problem),
+        Err(problem) if is_empty => return Err(problem),
         // What a run refuses although every datum is right, as names that clash.
         Err(mut problem) => {
             problem.place.get_or_insert_with(|| Place::file(&path.display().to_string()));

@@ -1,19 +1,28 @@
 //! Opening a control: from what the files of a machine say of it to a control that has just been switched on.
 
+use std::path::Path;
+
 use super::Control;
 use crate::image::{Names, Profile};
-use crate::source::Problem;
+use crate::source::{Problem, Table};
 use crate::units::{AxisNumber, PerAxis, Position};
+
+/// Reads the files of a machine: what they say of its control, and its `plant.toml`.
+///
+/// # Errors
+/// Anything in the files that cannot be used, with file and line.
+pub type Read = fn(&Path) -> Result<(Box<dyn Configuration>, Table), Problem>;
 
 /// What the files of a machine say of its control, read and checked for themselves.
 pub trait Configuration {
     /// The names of all axes that the control could have, in the order of their numbers.
     fn axis_names(&self) -> Vec<&str>;
 
-    /// A control that has just been switched on.
+    /// A control that has just been switched on. `profile` is [`Profile::default`] where nothing was asked for: then the first
+    /// numbering of the control's own interface acts.
     ///
     /// # Errors
-    /// Names of axes or channels that clash.
+    /// Names of axes or channels that clash, or a profile of another control.
     fn open(&self, site: &Site<'_>, profile: Profile) -> Result<Opened, Problem>;
 }
 
@@ -69,6 +78,8 @@ pub struct AxisHints {
 pub struct Examined {
     /// No machine can be made of them; `findings` say why.
     pub is_refused: bool,
+    /// There are no files of machine data at all.
+    pub is_empty: bool,
     /// What was read, in lines for people.
     pub summary: Vec<String>,
     /// What is wrong or odd, each with its place.

@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use crate::control::{Configuration, Examined, Texts};
+use crate::image::Profile;
 use crate::sinumerik::machine_data::files_of;
 use crate::sinumerik::{Commissioning, TEXTS, examine as examine_archive};
 use crate::source::{Place, Problem, Table, did_you_mean, read_text};
@@ -27,6 +28,17 @@ static ALL: &[&dyn Texts] = &[&TEXTS];
 /// The words of all controls.
 pub fn texts() -> impl Iterator<Item = &'static dyn Texts> {
     ALL.iter().copied()
+}
+
+/// The profile of this name, of whichever control.
+#[must_use]
+pub fn profile(name: &str) -> Option<Profile> {
+    texts().find_map(|texts| Profile::named(texts.interface(), name))
+}
+
+/// The names of all profiles, the usual one first.
+pub fn profiles() -> impl Iterator<Item = &'static str> {
+    texts().flat_map(|texts| texts.interface().tables().numberings).map(|numbering| numbering.name)
 }
 
 /// What the files of a machine say of its control, and `plant.toml` as it stands: of a directory, a single archive file, or a built-in

@@ -11,7 +11,8 @@ pub use snapshot::{Snapshot, normalized, pending};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::control::{Taken, Texts};
+use crate::control::{Read, Taken, Texts};
+use crate::controls;
 use crate::image::Profile;
 use crate::plc::Programs;
 use crate::scenario::{Compare, Failure, Finished, Scenario};
@@ -174,7 +175,13 @@ impl Case {
     /// Runs it likewise, and returns which transitions its control has taken; `None` where it could not run.
     #[must_use]
     pub fn run_watched(&self, programs: &Programs, update: Update) -> (Outcome, Option<Exercised>) {
-        let finished = match self.scenario.prepare(self.profile, programs) {
+        self.run_on(programs, update, controls::read)
+    }
+
+    /// The same with a control that this project does not know: `read` reads the files of the machine.
+    #[must_use]
+    pub fn run_on(&self, programs: &Programs, update: Update, read: Read) -> (Outcome, Option<Exercised>) {
+        let finished = match self.scenario.prepare_on(self.profile, programs, read) {
             Ok(prepared) => prepared.run(),
             Err(problem) => return (Outcome::Unusable(problem), None),
         };

@@ -6,7 +6,8 @@
 use std::path::{Path, PathBuf};
 
 use super::duration::Duration;
-use crate::image::{Profile, SINUMERIK};
+use crate::controls;
+use crate::image::Profile;
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean, read_text};
 use crate::units::Time;
 
@@ -138,12 +139,14 @@ impl Scenario {
 /// # Errors
 /// It is no profile.
 pub fn profile_named(name: &str) -> Result<Profile, Problem> {
-    Profile::named(&SINUMERIK, name).ok_or_else(|| {
+    controls::profile(name).ok_or_else(|| {
         // A shortened name is nearer to the name it begins than any count of letters says.
-        let cure = if name.starts_with("840") || name.is_empty() {
-            "profiles are 840d_sl and 828d".to_owned()
-        } else {
-            did_you_mean(name, ["840d_sl", "828d"], "profiles are 840d_sl and 828d")
+        let known: Vec<&str> = controls::profiles().collect();
+        let all = format!("profiles are {}", known.join(" and "));
+        let shortened = |known: &&&str| known.starts_with(name);
+        let cure = match known.iter().find(shortened) {
+            Some(_) => all,
+            None => did_you_mean(name, known.iter().copied(), &all),
         };
         Problem::new(format!("expected a profile, found `{name}`"), cure)
     })

@@ -8,6 +8,8 @@ use super::operator::{Operator, Plan};
 use super::passing::{Condition, Next};
 use super::session::Session;
 use super::steps::Reader;
+use crate::control::Read;
+use crate::controls;
 use crate::image::{Preset, Profile};
 use crate::machine::{Machine, OpenOptions};
 use crate::plc::Programs;
@@ -37,7 +39,15 @@ impl Scenario {
     /// # Errors
     /// Something cannot be used; the problem names file and line.
     pub fn prepare(&self, profile: Profile, programs: &Programs) -> Result<Prepared, Problem> {
-        let mut machine = self.open(profile)?;
+        self.prepare_on(profile, programs, controls::read)
+    }
+
+    /// The same with a control that this project does not know: `read` reads the files of the machine.
+    ///
+    /// # Errors
+    /// As [`Scenario::prepare`].
+    pub fn prepare_on(&self, profile: Profile, programs: &Programs, read: Read) -> Result<Prepared, Problem> {
+        let mut machine = self.open(profile, read)?;
         let watch = self.watch(&machine)?;
         let mut reader = Reader::new(&machine);
         let plan = Plan::new(self.steps.iter().map(|step| reader.step(step.clone())).collect::<Result<_, _>>()?);
@@ -66,14 +76,16 @@ impl Scenario {
         Ok(Prepared { session, plan, head, causes: self.causes })
     }
 
-    fn open(&self, profile: Profile) -> Result<Machine, Problem> {
-        let read = |image: &Named| {
+    fn open(&self, profile: Profile, read: Read) -> Result<Machine, Problem> {
+        let image = |image: &Named| {
             let file = self.file_of(image)?;
             Preset::read(&file).map_err(|problem| problem.at(&image.place))
         };
-        let preset = self.plc_image.as_ref().map(read).transpose()?;
+        let preset = self.plc_image.as_ref().map(image).transpose()?;
         let options = OpenOptions { plant_over: self.plant.clone(), profile, preset };
-        Machine::open_with(self.directory().join(&self.machine.text), options)
+        let opened = read(&self.directory().join(&self.machine.text));
+        opened
+            .and_then(|(configuration, plant)| Machine::of(&*configuration, plant, options))
             .map_err(|problem| problem.at(&self.machine.place))
     }
 

@@ -108,7 +108,8 @@ impl Configuration for Commissioning {
 /// # Errors
 /// A file cannot be read, or is no file of machine data.
 pub fn examine(path: &Path) -> Result<Examined, Problem> {
-    let archive = match Archive::load(&files_of(path)?) {
+    let files = files_of(path)?;
+    let archive = match Archive::load(&files) {
         Ok(archive) => archive,
         Err(findings) => {
             return match findings.as_slice() {
@@ -118,6 +119,7 @@ pub fn examine(path: &Path) -> Result<Examined, Problem> {
                 }
                 findings => Ok(Examined {
                     is_refused: true,
+                    is_empty: false,
                     summary: Vec::new(),
                     findings: findings.iter().map(ToString::to_string).collect(),
                 }),
@@ -126,6 +128,7 @@ pub fn examine(path: &Path) -> Result<Examined, Problem> {
     };
     Ok(Examined {
         is_refused: false,
+        is_empty: files.is_empty(),
         summary: archive.summary.to_string().lines().map(str::to_owned).collect(),
         findings: look_through(&archive).iter().map(Finding::to_string).collect(),
     })

@@ -25,8 +25,10 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
             );
             Some(format!("{name} = {}", u8::from(value)))
         }
-        Input::Datum(number, None, value) => Some(format!("MD{number} = {value}")),
-        Input::Datum(number, Some(axis), value) => Some(format!("MD{number}[{}] = {value}", axis_name(axis, names))),
+        Input::Datum(number, None, value) => Some(format!("{} = {value}", describe.datum_name(number))),
+        Input::Datum(number, Some(axis), value) => {
+            Some(format!("{}[{}] = {value}", describe.datum_name(number), axis_name(axis, names)))
+        }
         Input::Length(quantity, axis, length) => {
             let axis = axis_name(axis, names);
             let (name, value) = input_name(quantity, length);

@@ -11,3 +11,4 @@ mod readme;
 mod referencing;
 mod robustness;
 mod s7;
+mod second_control;

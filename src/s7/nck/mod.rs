@@ -25,6 +25,7 @@ pub use view::View;
 use super::command::Command;
 use super::wire::data::Refusal;
 use super::wire::items::{MeasuringSystem, NckItem};
+use crate::image::{Layout, Sinumerik};
 use crate::variables::Place;
 
 use data::put_text;
@@ -38,7 +39,7 @@ use variable::module;
 pub fn read(view: &View<'_>, item: &NckItem, into: &mut Vec<u8>) -> Result<(), Refusal> {
     let lines = lines(item)?;
     let start = into.len();
-    let variable = find(item);
+    let variable = find(view, item);
     for line in lines {
         let put = match variable {
             Some(variable) => put_variable(view, variable, item, line, into),
@@ -63,7 +64,11 @@ fn unit(item: &NckItem) -> u8 {
     if item.area == NckArea::Nck.code() { item.unit.max(1) } else { item.unit }
 }
 
-fn find(item: &NckItem) -> Option<&'static Variable> {
+/// The row of the catalogue. The NC variables are those of a SINUMERIK: another control has none of them.
+fn find(view: &View<'_>, item: &NckItem) -> Option<&'static Variable> {
+    if !Sinumerik::is_of(view.names.interface()) {
+        return None;
+    }
     // The NCK has the axes of all channels; here that is the same.
     let area = match (item.area, item.module) {
         (0, module::SMA | module::SEMA) => NckArea::Channel.code(),
@@ -144,7 +149,7 @@ fn datum<'a>(view: &View<'a>, item: &NckItem, line: u16) -> Result<(Place, Datum
 /// There is no such variable or row, it cannot be written, or a value does not fit; nothing was appended then.
 pub fn write(view: &View<'_>, item: &NckItem, bytes: &[u8], into: &mut Vec<Command>) -> Result<(), Refusal> {
     let lines = lines(item)?;
-    if find(item).is_some_and(|variable| variable.module != module::RP) {
+    if find(view, item).is_some_and(|variable| variable.module != module::RP) {
         return Err(Refusal::NotAllowed); // the control shows it; nobody sets it
     }
     let start = into.len();
@@ -163,7 +168,7 @@ pub fn write(view: &View<'_>, item: &NckItem, bytes: &[u8], into: &mut Vec<Comma
 }
 
 fn write_row(view: &View<'_>, item: &NckItem, line: u16, bytes: &[u8]) -> Result<Command, Refusal> {
-    if find(item).is_some() {
+    if find(view, item).is_some() {
         let (channel, number, _) = r_parameter(view, unit(item), line)?;
         let value = data::number(bytes).ok_or(Refusal::TypeInconsistent)?;
         return Ok(Command::RParameter { channel, number, value });
