@@ -1,12 +1,12 @@
 //! THE AXIS, dialect-free: setpoint profiles, position control, the drive's answer, encoders, and the one
-//! [`Coupling`] core that every gantry uses.
+//! [`coupling`] engine that every gantry uses.
 //!
 //! Everything here is stepped by whole cycles with a cycle time in seconds; positions are whole increments, and a
 //! fraction of an increment is carried, never lost. Arithmetic is `+ − × ÷ sqrt` and comparisons only, so that every
 //! build and machine computes the same bits.
 
 mod command;
-mod coupling;
+pub mod coupling;
 mod delay;
 mod encoder;
 mod feedback;
@@ -15,12 +15,11 @@ mod profile;
 mod servo;
 
 pub use command::Motion;
-pub use coupling::{Coupling, Difference, Stage};
 pub use delay::{DeadTime, Pt1};
 pub use encoder::{Encoder, EncoderSignal};
 pub use feedback::Feedback;
 pub use jerk::{JerkFilter, LONGEST_WINDOW};
-pub use profile::{Limits, Setpoint};
+pub use profile::{Limits, Movement, Setpoint};
 pub use servo::{Drive, velocity_command};
 
 /// How far an axis can run away, in increments: beyond every position that machine data can say, and near enough to zero

@@ -18,6 +18,22 @@ pub struct Limits {
     pub acceleration: f64,
 }
 
+/// What a setpoint did in one cycle, for another one that follows it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Movement {
+    way: Position,
+    velocity: f64,
+    held_back: bool,
+}
+
+impl Movement {
+    /// The same in the opposite direction.
+    #[must_use]
+    pub(super) fn reversed(self) -> Self {
+        Self { way: -self.way, velocity: -self.velocity, ..self }
+    }
+}
+
 /// The setpoint of an axis and how fast it moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Setpoint {
@@ -85,10 +101,16 @@ impl Setpoint {
         false
     }
 
-    /// Follows another setpoint: the same movement in the same cycle, with the velocity that the other one has now.
-    pub fn follow(&mut self, movement: Position, other: &Self) {
-        self.position += movement;
-        (self.velocity, self.held_back) = (other.velocity, other.held_back);
+    /// How it came here from where it was before this cycle, and how fast it moves now.
+    #[must_use]
+    pub fn moved_from(&self, before: Position) -> Movement {
+        Movement { way: self.position - before, velocity: self.velocity, held_back: self.held_back }
+    }
+
+    /// Follows another setpoint: its movement in the same cycle, with the velocity that it has now.
+    pub fn follow(&mut self, movement: Movement) {
+        self.position += movement.way;
+        (self.velocity, self.held_back) = (movement.velocity, movement.held_back);
     }
 
     /// What a filter makes of another setpoint.

@@ -1,4 +1,5 @@
-//! Position control and the drive behind it, run MD10070 / MD10060 times in an interpolation cycle.
+//! Position control and the drive behind it, run once per position-control cycle: a whole number of times in an
+//! interpolation cycle.
 //!
 //! The speed loop answers as PT1, discretised as `a = T / (τ + T)`; that is stable for every τ ≥ 0.
 

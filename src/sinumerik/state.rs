@@ -6,7 +6,8 @@ use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
 use crate::control::Log;
-use crate::motion::{Coupling, Feedback, Motion};
+use crate::motion::coupling::Coupling;
+use crate::motion::{Feedback, Motion};
 use crate::sinumerik::alarms::{self};
 use crate::sinumerik::axis::shaping::Shaping;
 use crate::sinumerik::axis::state::Axis;

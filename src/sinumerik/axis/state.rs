@@ -2,14 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::motion::{Feedback, Motion, Setpoint};
+use crate::motion::{Feedback, Motion, Setpoint, coupling};
 use crate::sinumerik::axis::shaping::Shaping;
 use crate::sinumerik::jog::state::Jogging;
 use crate::sinumerik::monitoring::state::AxisMonitor;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::parameters::dynamics::ParameterSet;
 use crate::sinumerik::referencing::state::Approach;
-use crate::units::Position;
+use crate::units::{AxisNumber, PerAxis, Position};
 use crate::variables::{EventId, Input};
 
 /// The events behind the signals of an axis.
@@ -216,6 +216,20 @@ impl Axis {
         let first = motion.acceleration().map(|rate| parameters.dynamics.jerk.window_for(rate, cycle));
         self.arrived = filter.step(&mut self.setpoint, first, fast, cycle, command);
         self.unsettled = self.unsettled.wrapping_add(u32::from(filter.is_busy()));
+    }
+}
+
+impl coupling::Axes for PerAxis<Axis> {
+    fn actual(&self, axis: AxisNumber) -> Position {
+        self[axis].actual
+    }
+
+    fn setpoint(&self, axis: AxisNumber) -> &Setpoint {
+        &self[axis].setpoint
+    }
+
+    fn is_referenced(&self, axis: AxisNumber) -> bool {
+        self[axis].is_referenced()
     }
 }
 

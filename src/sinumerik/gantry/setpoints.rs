@@ -43,7 +43,7 @@ impl State {
                 moves && matches!(self.axes[axis].enabling.control, ControllerState::On | ControllerState::Braking(_));
             if follows {
                 let velocity = self.axes[axis].setpoint.velocity();
-                self.axes[axis].setpoint.follow(led_by.position - before, &led_by);
+                self.axes[axis].setpoint.follow(led_by.moved_from(before));
                 if axis != leader && !stops && self.axes[axis].enabling.is_on() {
                     self.watch_overload(axis, velocity, parameters);
                 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::control::{Transition, row};
-use crate::motion::Coupling;
+use crate::motion::coupling::Coupling;
 use crate::sinumerik::parameters::groupings::Definition;
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, AxisSet, Position};

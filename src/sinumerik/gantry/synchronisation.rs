@@ -11,7 +11,7 @@ use crate::sinumerik::inputs::axis_bit;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
-use crate::units::{AxisNumber, Position};
+use crate::units::Position;
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
 impl State {
@@ -243,10 +243,7 @@ impl State {
 
     /// The end of follow-up: differences that are not absolute count anew.
     fn count_anew(&mut self, index: usize) {
-        let axes = &self.axes;
-        let leader = self.groupings[index].coupling.leader();
-        let absolute = |axis: AxisNumber| axes[axis].is_referenced() && axes[leader].is_referenced();
-        self.groupings[index].coupling.close(|axis| axes[axis].actual, absolute);
+        self.groupings[index].coupling.count_anew(&self.axes);
     }
 
     /// Back in position control after follow-up: synchronism is restored where every difference is within the standstill tolerance

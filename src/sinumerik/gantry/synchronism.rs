@@ -14,7 +14,6 @@
 //! grouping is synchronised, or opened, or a new reference gives the positions other values. Choice where the manuals leave one:
 //! MD37110 alone does not warn as well, or the base would mean nothing to it.
 
-use crate::motion::Difference;
 use crate::sinumerik::alarms;
 use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::parameters::Parameters;
@@ -62,18 +61,17 @@ fn limits(axis: AxisNumber, own: &Gantry, synchronised: bool, base: Option<Posit
 impl State {
     pub(in crate::sinumerik) fn monitor_grouping(&mut self, index: usize, parameters: &Parameters) {
         let grouping = &mut self.groupings[index];
-        let leader = grouping.coupling.leader();
         let following_up = grouping.coupling.members().any(|axis| self.axes[axis].enabling.follow_up);
         let monitored = grouping.phase != Phase::Open && !following_up;
         let synchronised = grouping.phase == Phase::Synchronised;
         let coupling = grouping.coupling.clone();
         for (slot, follower) in coupling.followers().enumerate() {
-            let difference = coupling.difference(follower, self.axes[leader].actual, self.axes[follower].actual);
+            let difference = coupling.difference(follower, &self.axes).unwrap_or_default();
             let base = self.groupings[index].monitored[slot].base;
             let (warning_limit, trip_limit) = limits(follower, &parameters.axes[follower].gantry, synchronised, base);
             let warning_at = warning_limit.as_ref().map_or(Position::ZERO, |limit| limit.at);
-            let stage = difference.stage(warning_at, trip_limit.at);
-            let (warning, trip) = (monitored && stage.first, monitored && stage.second);
+            let first = warning_at > Position::ZERO && difference.abs() > warning_at;
+            let (warning, trip) = (monitored && first, monitored && difference.abs() > trip_limit.at);
             let before = self.groupings[index].monitored[slot];
             let mut after = before;
             if warning != before.warning {
@@ -90,7 +88,7 @@ impl State {
                 after.trip_cause =
                     self.note_limit(follower, difference, Some(&trip_limit), trip, monitored, Rule::TripGone);
             }
-            (after.difference, after.warning, after.trip) = (difference.0, warning, trip);
+            (after.difference, after.warning, after.trip) = (difference, warning, trip);
             self.groupings[index].monitored[slot] = after;
             let channel = Parameter::Channel(parameters.axes[follower].channel);
             let shown = [channel, Parameter::Axis(follower), Parameter::None, Parameter::None];
@@ -108,13 +106,13 @@ impl State {
     fn note_limit(
         &mut self,
         axis: AxisNumber,
-        difference: Difference,
+        difference: Position,
         limit: Option<&Limit>,
         exceeded: bool,
         monitored: bool,
         gone: Rule,
     ) -> EventId {
-        let measured = Input::Length(Quantity::SynchronismDifference, axis, difference.0);
+        let measured = Input::Length(Quantity::SynchronismDifference, axis, difference);
         let (rule, inputs) = match limit {
             Some(limit) if monitored => (if exceeded { limit.exceeded } else { gone }, limit.inputs),
             Some(_) | None if monitored => (gone, [Input::None; 2]),
@@ -129,11 +127,10 @@ impl State {
         if !grouping.lost_in_operation {
             return;
         }
-        let leader = self.axes[grouping.coupling.leader()].actual;
         let coupling = grouping.coupling.clone();
         for (slot, follower) in coupling.followers().enumerate() {
-            let difference = coupling.difference(follower, leader, self.axes[follower].actual);
-            grouping.monitored[slot].base = Some(difference.0.abs());
+            let difference = coupling.difference(follower, &self.axes).unwrap_or_default();
+            grouping.monitored[slot].base = Some(difference.abs());
         }
     }
 

@@ -4,7 +4,7 @@
 
 use arrayvec::ArrayVec;
 
-use crate::motion::Coupling;
+use crate::motion::coupling::{BeforeReference, Coupling, Follower, GroupStop, Policy, Reaction, Release};
 use crate::sinumerik::alarms;
 use crate::sinumerik::machine_data::{MachineData, unequal_data};
 use crate::sinumerik::parameters::axis::AxisParameters;
@@ -13,6 +13,16 @@ use crate::variables::{AlarmNumber, Parameter, Place};
 
 /// How many groupings there can be (DEF-02).
 pub(in crate::sinumerik) const GROUPINGS: usize = 8;
+
+/// How a grouping reacts. Its alarms remember what was exceeded, and stop its axes (O-04: at the slowest rate); what arose
+/// while it was open does not count.
+const POLICY: Policy = Policy {
+    first: Reaction::Report,
+    second: Reaction::Report,
+    before_reference: BeforeReference::Relative,
+    release: Release::CountAnew,
+    stop: GroupStop::AllAtTheSlowest,
+};
 
 /// A grouping as the machine data define it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -88,7 +98,7 @@ pub(in crate::sinumerik) fn define(data: &MachineData, axes: &PerAxis<AxisParame
         if found.faults.len() > before {
             continue;
         }
-        if let Some(coupling) = Coupling::new(leaders[0], &followers) {
+        if let Some(coupling) = Coupling::new(leaders[0], POLICY, followers.iter().copied().map(Follower::new)) {
             // At most eight numbers pass here.
             for &axis in &followers {
                 let [leading, own] = [leaders[0], axis].map(|axis| &data.axes[axis]);

@@ -241,11 +241,8 @@ impl State {
     /// The actual value of an axis became another without a movement: no synchronism difference comes from it, unless
     /// both axes are referenced (O-12).
     pub(in crate::sinumerik) fn value_shifted(&mut self, number: AxisNumber, shift: Position) {
-        let axes = &self.axes;
         for grouping in &mut self.groupings {
-            let leader = grouping.coupling.leader();
-            let absolute = |follower: AxisNumber| axes[follower].is_referenced() && axes[leader].is_referenced();
-            grouping.coupling.value_shifted(number, shift, absolute);
+            grouping.coupling.value_shifted(number, shift, &self.axes);
         }
     }
 

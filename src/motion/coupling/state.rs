@@ -1,0 +1,166 @@
+//! What a coupling is and remembers: its members, which one leads, and how they are connected. Plain data.
+
+use arrayvec::ArrayVec;
+use serde::{Deserialize, Serialize};
+
+use super::policy::{Follower, Moves, Policy, Sign};
+use crate::motion::{Movement, Setpoint};
+use crate::units::{AxisNumber, AxisSet, Position};
+
+/// How many members a coupling can have.
+pub(super) const MEMBERS: usize = AxisNumber::MAX as usize;
+
+/// What a coupling reads of the axes of a control.
+pub trait Axes {
+    /// The actual value.
+    fn actual(&self, axis: AxisNumber) -> Position;
+    /// The setpoint.
+    fn setpoint(&self, axis: AxisNumber) -> &Setpoint;
+    /// Whether the actual value refers to the zero point of the machine.
+    fn is_referenced(&self, axis: AxisNumber) -> bool;
+}
+
+/// Which limits a difference is beyond.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Stage {
+    /// Beyond the first limit.
+    pub first: bool,
+    /// Beyond the second limit.
+    pub second: bool,
+}
+
+/// Why a group is halted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Halt {
+    /// A reset ends it.
+    UntilReset,
+    /// Only a new start of the control ends it.
+    Locked,
+}
+
+/// A follower with what the engine knows about it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Coupled {
+    pub follower: Follower,
+    /// What counts as no difference.
+    pub base: Position,
+    /// The difference when it was compared the last time.
+    pub difference: Position,
+    /// The limits that the difference was beyond then.
+    pub stage: Stage,
+    /// The amount that limits count beyond.
+    pub kept: Option<Position>,
+}
+
+impl Coupled {
+    pub(super) const fn new(follower: Follower) -> Self {
+        let stage = Stage { first: false, second: false };
+        Self { follower, base: Position::ZERO, difference: Position::ZERO, stage, kept: None }
+    }
+}
+
+/// How the members are connected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Connection {
+    /// Movements are handed on.
+    Closed,
+    /// The members move decoupled to their targets.
+    Realigning(Realignment),
+    /// It is to be closed as soon as all members rest.
+    Settling,
+    /// The members are independent.
+    Open,
+}
+
+/// A realignment on its way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Realignment {
+    pub target: Position,
+    pub moves: Moves,
+    /// Cycles in which a member rested on its target and was not in position.
+    pub waited: u64,
+}
+
+/// Axes that move together. A control that has a limit for the number of followers says so by `FOLLOWERS`, and pays for no more.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Coupling<const FOLLOWERS: usize = { MEMBERS - 1 }> {
+    pub(super) leader: AxisNumber,
+    pub(super) leads_now: AxisNumber,
+    pub(super) policy: Policy,
+    pub(super) connection: Connection,
+    pub(super) halt: Option<Halt>,
+    pub(super) followers: ArrayVec<Coupled, FOLLOWERS>,
+}
+
+impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
+    /// A closed coupling whose differences count from zero; `None` where an axis stands in it twice, or where there are too
+    /// many.
+    #[must_use]
+    pub fn new(leader: AxisNumber, policy: Policy, followers: impl IntoIterator<Item = Follower>) -> Option<Self> {
+        let mut members = AxisSet::of(leader);
+        let mut coupling = Self {
+            leader,
+            leads_now: leader,
+            policy,
+            connection: Connection::Closed,
+            halt: None,
+            followers: ArrayVec::new(),
+        };
+        for follower in followers {
+            if members.contains(follower.axis) {
+                return None;
+            }
+            members.set(follower.axis, true);
+            coupling.followers.try_push(Coupled::new(follower)).ok()?;
+        }
+        Some(coupling)
+    }
+
+    /// The leader by definition.
+    #[must_use]
+    pub const fn leader(&self) -> AxisNumber {
+        self.leader
+    }
+
+    /// The followers by definition, in the order in which they were given.
+    pub fn followers(&self) -> impl DoubleEndedIterator<Item = AxisNumber> + ExactSizeIterator + '_ {
+        self.followers.iter().map(|coupled| coupled.follower.axis)
+    }
+
+    /// The leader, then the followers.
+    pub fn members(&self) -> impl Iterator<Item = AxisNumber> + '_ {
+        std::iter::once(self.leader).chain(self.followers())
+    }
+
+    /// The member that leads at the moment.
+    #[must_use]
+    pub const fn leads_now(&self) -> AxisNumber {
+        self.leads_now
+    }
+
+    /// Inverts the dependency, or reverts it: this member leads from now on. Differences stay as they are.
+    pub fn lead_with(&mut self, axis: AxisNumber) {
+        debug_assert!(self.members().any(|member| member == axis));
+        self.leads_now = axis;
+    }
+
+    /// The movement of each member that does not lead, for a movement of the one that leads. None while the coupling is not
+    /// closed.
+    pub fn lead(&self, movement: Movement) -> impl Iterator<Item = (AxisNumber, Movement)> + '_ {
+        let common = self.factor(self.leads_now) * movement;
+        let led = self.members().zip(self.factors()).filter(|_| self.is_closed());
+        led.filter(|&(axis, _)| axis != self.leads_now).map(move |(axis, factor)| (axis, factor * common))
+    }
+
+    fn factors(&self) -> impl Iterator<Item = Sign> + '_ {
+        std::iter::once(Sign::Plus).chain(self.followers.iter().map(|coupled| coupled.follower.factor))
+    }
+
+    fn factor(&self, axis: AxisNumber) -> Sign {
+        self.follower(axis).map_or(Sign::Plus, |coupled| coupled.follower.factor)
+    }
+
+    pub(super) fn follower(&self, axis: AxisNumber) -> Option<&Coupled> {
+        self.followers.iter().find(|coupled| coupled.follower.axis == axis)
+    }
+}
