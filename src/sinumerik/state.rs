@@ -16,7 +16,7 @@ use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::jog::state::{GroupFunction, HANDWHEELS, Handwheel};
 use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunUp};
 use crate::sinumerik::parameters::Parameters;
-use crate::sinumerik::parameters::groupings::GROUPINGS;
+use crate::sinumerik::parameters::groupings::{GROUPINGS, SYNCHRONOUS_AXES};
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 use crate::variables::{EventId, Place};
@@ -24,7 +24,7 @@ use crate::variables::{EventId, Place};
 /// Axes that are enabled, stopped and held together: a closed grouping with its leading axis first, or one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Unit {
-    pub axes: [AxisNumber; 3],
+    pub axes: [AxisNumber; 1 + SYNCHRONOUS_AXES],
     pub count: u8,
     pub set: AxisSet,
     /// Which grouping it is.
@@ -37,7 +37,7 @@ impl Unit {
     pub(super) fn single(axis: AxisNumber, parameters: &Parameters) -> Self {
         let channel = parameters.axes[axis].channel;
         let (set, mode_group) = (AxisSet::of(axis), parameters.mode_group(channel));
-        Self { axes: [axis; 3], count: 1, set, grouping: None, channel, mode_group }
+        Self { axes: [axis; 1 + SYNCHRONOUS_AXES], count: 1, set, grouping: None, channel, mode_group }
     }
 
     pub(super) fn of(coupling: &Coupling, index: usize, parameters: &Parameters) -> Self {
@@ -45,7 +45,7 @@ impl Unit {
         for (place, axis) in unit.axes.iter_mut().zip(coupling.members()) {
             *place = axis;
         }
-        unit.count = u8::try_from(coupling.members().count()).unwrap_or(3);
+        unit.count = u8::try_from(coupling.members().count()).unwrap_or(1);
         unit.set = coupling.members().collect();
         unit.grouping = u8::try_from(index).ok();
         unit

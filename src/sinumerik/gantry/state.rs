@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::{Transition, row};
 use crate::motion::coupling::Coupling;
-use crate::sinumerik::parameters::groupings::Definition;
+use crate::sinumerik::parameters::groupings::{Definition, SYNCHRONOUS_AXES};
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, AxisSet, Position};
 use crate::variables::EventId;
@@ -137,7 +137,7 @@ pub(in crate::sinumerik) struct Grouping {
     /// Closing was refused with 10658 (BRK-05).
     pub kept_open: bool,
     /// What monitoring found on each synchronous axis.
-    pub monitored: [Monitored; 2],
+    pub monitored: [Monitored; SYNCHRONOUS_AXES],
     /// The latest event of the grouping.
     pub cause: EventId,
 }
@@ -164,7 +164,7 @@ impl Grouping {
             returning: false,
             lost_in_operation: false,
             kept_open: false,
-            monitored: [Monitored::default(); 2],
+            monitored: [Monitored::default(); SYNCHRONOUS_AXES],
             cause: EventId::NONE,
         }
     }

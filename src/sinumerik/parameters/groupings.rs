@@ -14,6 +14,9 @@ use crate::variables::{AlarmNumber, Parameter, Place};
 /// How many groupings there can be (DEF-02).
 pub(in crate::sinumerik) const GROUPINGS: usize = 8;
 
+/// How many synchronous axes a grouping can have (DEF-03). One more raises 10650.
+pub(in crate::sinumerik) const SYNCHRONOUS_AXES: usize = 2;
+
 /// How a grouping reacts. Its alarms remember what was exceeded, and stop its axes (O-04: at the slowest rate); what arose
 /// while it was open does not count.
 const POLICY: Policy = Policy {
@@ -124,8 +127,8 @@ fn check(
     // 10650 code 2: leading axis declared more than once (DEF-05); in another channel its number clashes (DEF-07).
     let (here, elsewhere): (Vec<_>, Vec<_>) = leaders.iter().skip(1).partition(|axis| home(axis) == channel);
     faults.extend(here.into_iter().map(|&axis| machine_data_fault(data, axis, 2)));
-    // 10650 code 1: wrong following-axis designation; more than two of them (DEF-03).
-    faults.extend(followers.iter().skip(2).map(|&axis| machine_data_fault(data, axis, 1)));
+    // 10650 code 1: wrong following-axis designation; more of them than there can be (DEF-03).
+    faults.extend(followers.iter().skip(SYNCHRONOUS_AXES).map(|&axis| machine_data_fault(data, axis, 1)));
     let Some(&leader) = leaders.first() else {
         faults.push(configuration_fault(channel, 1_000, number));
         return;
