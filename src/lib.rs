@@ -57,7 +57,7 @@
 //! | [`source`] | files with lines, TOML as a tree, and problems that say where, what and what to do | nothing |
 //! | [`image`] | THE INTERFACE: bytes by writer, signals, symbols, addresses, presets, for any control; the tables of the SINUMERIK | `source`, `units` |
 //! | [`variables`] | what the control shows besides bits: values, alarms, events with causes | `image`, `units` |
-//! | [`motion`] | the axis: setpoints, position control, drive, encoder, the coupling of a gantry | `units` |
+//! | [`motion`] | the axis: setpoints, position control, drive, encoder, and the engine that couples axes | `units` |
 //! | [`control`] | the boundary of a control: the trait that the machine steps, its commands, data, texts and charts | `image`, `motion`, `source`, `units`, `variables` |
 //! | [`sinumerik`] | THE CONTROL of the gantry manual, with its machine data and alarms | `control`, `image`, `motion`, `source`, `units`, `variables` |
 //! | [`controls`] | which controls there are: the only place that names them | `control`, `image`, `sinumerik`, `source` |
@@ -115,6 +115,8 @@
 //! | a machine datum | a row in `sinumerik/machine_data/`, a field in `sinumerik/parameters/axis.rs` | its number and name are read, checked and written |
 //! | an alarm | a row in `sinumerik/alarms/mod.rs`, a `raise` where it happens | `alarm(N)` in scenarios, its text in traces |
 //! | a rule | a row in `sinumerik/rules.rs`, a `note` where it is decided | the cause behind an edge |
+//! | a reaction of a coupling | a value of a type in `motion/coupling/policy.rs`, what it does beside it | properties in `motion/coupling/tests.rs` |
+//! | another gantry control | a `Policy` and its `Follower`s; rules and alarms for the events of `compare` | as `sinumerik/gantry/` |
 //! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `sinumerik/referencing/state.rs` or `gantry/state.rs` | golden traces that move |
 //! | a fault | an arm of [`FaultKind`](machine::FaultKind), what it does in `plant/moving.rs`, its name in `scenario/faults.rs` | `fault = {…}` in scenarios |
 //! | a PLC program | a file in `plc/programs/`, a line in `plc/registry.rs`; or a closure of your own | `plc = "name"` in scenarios |

@@ -197,11 +197,8 @@ impl State {
     }
 
     fn monitored(&self, axis: AxisNumber, trip: bool) -> EventId {
-        let of_axis = self.groupings.iter().flat_map(|grouping| grouping.coupling.followers().zip(&grouping.monitored));
-        of_axis
-            .filter(|(follower, _)| *follower == axis)
-            .map(|(_, monitored)| if trip { monitored.trip_cause } else { monitored.warning_cause })
-            .next()
-            .unwrap_or(EventId::NONE)
+        let mut all = self.groupings.iter().flat_map(Grouping::monitored);
+        let found = all.find(|monitored| monitored.axis == axis).map(|monitored| monitored.causes);
+        found.map_or(EventId::NONE, |causes| if trip { causes.trip } else { causes.warning })
     }
 }

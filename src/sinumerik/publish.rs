@@ -171,7 +171,8 @@ impl State {
             let ready = grouping.phase == Phase::WaitingForStart || started;
             signals.set_gantry_synchronization_ready_to_start(ready);
         }
-        for (axis, monitored) in grouping.coupling.followers().zip(&grouping.monitored) {
+        for monitored in grouping.monitored() {
+            let axis = monitored.axis;
             variables.axes[axis].synchronism_difference = monitored.difference;
             if !parameters.axes[axis].silent {
                 let signals = &mut from_nck.axes[axis];

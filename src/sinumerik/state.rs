@@ -6,7 +6,6 @@ use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
 use crate::control::Log;
-use crate::motion::coupling::Coupling;
 use crate::motion::{Feedback, Motion};
 use crate::sinumerik::alarms::{self};
 use crate::sinumerik::axis::shaping::Shaping;
@@ -16,7 +15,7 @@ use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::jog::state::{GroupFunction, HANDWHEELS, Handwheel};
 use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunUp};
 use crate::sinumerik::parameters::Parameters;
-use crate::sinumerik::parameters::groupings::{GROUPINGS, SYNCHRONOUS_AXES};
+use crate::sinumerik::parameters::groupings::{GROUPINGS, GantryCoupling, SYNCHRONOUS_AXES};
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 use crate::variables::{EventId, Place};
@@ -40,7 +39,7 @@ impl Unit {
         Self { axes: [axis; 1 + SYNCHRONOUS_AXES], count: 1, set, grouping: None, channel, mode_group }
     }
 
-    pub(super) fn of(coupling: &Coupling, index: usize, parameters: &Parameters) -> Self {
+    pub(super) fn of(coupling: &GantryCoupling, index: usize, parameters: &Parameters) -> Self {
         let mut unit = Self::single(coupling.leader(), parameters);
         for (place, axis) in unit.axes.iter_mut().zip(coupling.members()) {
             *place = axis;
@@ -138,7 +137,7 @@ impl State {
         let mut taken = AxisSet::NONE;
         for (index, grouping) in self.groupings.iter().enumerate() {
             let unit = Unit::of(&grouping.coupling, index, parameters);
-            if grouping.phase == Phase::Open && self.is_kept_open(index, parameters) {
+            if grouping.phase == Phase::Open && grouping.is_kept_open(parameters) {
                 continue;
             }
             taken = taken.with(unit.set);

@@ -261,8 +261,16 @@ impl State {
 }
 
 impl Axis {
+    /// Without position control, the axis makes no other motion than what that leaves it; `emergency_deceleration` brakes it
+    /// towards being switched off.
+    pub(in crate::sinumerik) fn brake_without_control(&mut self, emergency_deceleration: f64) {
+        if let Some(motion) = self.motion_without_control(emergency_deceleration) {
+            self.motion = motion;
+        }
+    }
+
     /// The motion of an axis that is not in position control, or that brakes towards being switched off.
-    pub(in crate::sinumerik) fn motion_without_control(&self, emergency_deceleration: f64) -> Option<Motion> {
+    fn motion_without_control(&self, emergency_deceleration: f64) -> Option<Motion> {
         match self.enabling.control {
             ControllerState::On => None,
             ControllerState::Braking(_) => Some(Motion::Brake { deceleration: emergency_deceleration }),

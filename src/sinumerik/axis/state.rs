@@ -281,7 +281,13 @@ impl Enabling {
     /// The drive acts on velocity commands.
     #[must_use]
     pub(in crate::sinumerik) const fn is_powered(&self) -> bool {
-        self.pulses_enabled() && matches!(self.control, ControllerState::On | ControllerState::Braking(_))
+        self.pulses_enabled() && self.moves()
+    }
+
+    /// In position control, also while braking towards being switched off.
+    #[must_use]
+    pub(in crate::sinumerik) const fn moves(&self) -> bool {
+        matches!(self.control, ControllerState::On | ControllerState::Braking(_))
     }
 
     /// Ready to be moved.

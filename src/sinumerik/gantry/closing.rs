@@ -8,12 +8,14 @@
 //! has cancelled 10658 and nothing is pending any more; else the alarm returns. 30XX and 40XX cannot come: axes are
 //! never exchanged between channels, and no PLC axis can own one of them (a grouping across channels is 10651 at power on).
 
-use crate::sinumerik::alarms;
-use crate::sinumerik::gantry::state::Phase;
+use crate::control::Log;
+use crate::sinumerik::alarms::{self, Pending};
+use crate::sinumerik::gantry::state::{Grouping, Phase};
+use crate::sinumerik::gantry::view::{View, Want, Wants};
 use crate::sinumerik::jog::state::Movement;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::state::{State, Unit};
+use crate::sinumerik::state::State;
 use crate::units::AxisNumber;
 use crate::variables::{EventId, Input, Parameter, Place};
 
@@ -21,49 +23,62 @@ use crate::variables::{EventId, Input, Parameter, Place};
 const MOTION_PENDING: i64 = 7_000;
 
 impl State {
-    /// Whether the grouping is to be open, or has to stay so.
-    pub(in crate::sinumerik) fn is_kept_open(&self, index: usize, parameters: &Parameters) -> bool {
-        let grouping = &self.groupings[index];
-        grouping.kept_open || grouping.coupling.members().any(|axis| parameters.axes[axis].gantry.broken_up)
-    }
-
     /// BRK-05 for every open grouping; whether one is kept open that was not, or the other way round.
     pub(in crate::sinumerik) fn check_closings(&mut self, parameters: &Parameters) -> bool {
         let mut changed = false;
         for index in 0..self.groupings.len() {
-            let grouping = &self.groupings[index];
-            if grouping.phase != Phase::Open && !grouping.kept_open {
-                continue;
+            let before = self.groupings[index].kept_open;
+            if self.groupings[index].phase == Phase::Open || before {
+                let view = View { axes: &self.axes, parameters };
+                let wants = self.groupings[index].check_closing(&view, &self.alarms, &mut self.log);
+                self.carry_out(&wants);
+                changed |= before != self.groupings[index].kept_open;
             }
-            let unit = Unit::of(&grouping.coupling, index, parameters);
-            let closing = unit.members().all(|axis| !parameters.axes[axis].gantry.broken_up);
-            let kept_open = closing && grouping.phase == Phase::Open && self.refuses_to_close(index, &unit, parameters);
-            changed |= kept_open != self.groupings[index].kept_open;
-            self.groupings[index].kept_open = kept_open;
         }
         changed
     }
+}
 
-    /// 10658 is pending, or comes.
-    fn refuses_to_close(&mut self, index: usize, unit: &Unit, parameters: &Parameters) -> bool {
-        let refused = |axis| self.alarms.is_pending(alarms::IMPERMISSIBLE_AXIS_STATE, Place::Axis(axis));
-        if unit.members().any(refused) {
-            return true;
+impl Grouping {
+    /// Whether the grouping is to be open, or has to stay so.
+    pub(in crate::sinumerik) fn is_kept_open(&self, parameters: &Parameters) -> bool {
+        self.kept_open || self.is_broken_up(parameters)
+    }
+
+    fn is_broken_up(&self, parameters: &Parameters) -> bool {
+        self.coupling.members().any(|axis| parameters.axes[axis].gantry.broken_up)
+    }
+
+    /// A grouping that is to be closed stays open while 10658 is pending, or comes.
+    fn check_closing(&mut self, view: &View<'_>, alarms: &Pending, log: &mut Log) -> Wants {
+        let mut wants = Wants::new();
+        self.kept_open = false;
+        if self.phase != Phase::Open || self.is_broken_up(view.parameters) {
+            return wants;
         }
-        let Some(axis) = unit.members().find(|&axis| self.has_motion_pending(axis, parameters)) else {
-            return false;
-        };
-        let input = Input::Datum(37140, Some(unit.leader()), 0.0);
-        let cause = self.log.note_one(Place::Axis(axis), Rule::ClosingRefused, input, EventId::NONE);
-        let code = Parameter::Number(MOTION_PENDING + i64::from(self.groupings[index].number));
-        let shown = [Parameter::Channel(unit.channel), Parameter::Axis(axis), code, Parameter::None];
-        self.alarms.raise(alarms::IMPERMISSIBLE_AXIS_STATE, Place::Axis(axis), shown, cause);
-        true
+        let refused = |axis| alarms.is_pending(alarms::IMPERMISSIBLE_AXIS_STATE, Place::Axis(axis));
+        if self.coupling.members().any(refused) {
+            self.kept_open = true;
+        } else if let Some(axis) = self.coupling.members().find(|&axis| has_motion_pending(view, axis)) {
+            self.kept_open = true;
+            wants.push(self.refusal(axis, view.parameters, log));
+        }
+        wants
     }
 
-    fn has_motion_pending(&self, number: AxisNumber, parameters: &Parameters) -> bool {
-        let axis = &self.axes[number];
-        let asked = axis.traverse_request != 0 || axis.jogging.movement != Movement::None;
-        asked || axis.is_in_motion() || !axis.stands(&parameters.axes[number])
+    fn refusal(&self, axis: AxisNumber, parameters: &Parameters, log: &mut Log) -> Want {
+        let leader = self.coupling.leader();
+        let (place, input) = (Place::Axis(axis), Input::Datum(37140, Some(leader), 0.0));
+        let cause = log.note_one(place, Rule::ClosingRefused, input, EventId::NONE);
+        let channel = Parameter::Channel(parameters.axes[leader].channel);
+        let code = Parameter::Number(MOTION_PENDING + i64::from(self.number));
+        let shown = [channel, Parameter::Axis(axis), code, Parameter::None];
+        Want::Raise { alarm: alarms::IMPERMISSIBLE_AXIS_STATE, place, shown, cause }
     }
+}
+
+fn has_motion_pending(view: &View<'_>, number: AxisNumber) -> bool {
+    let axis = &view.axes[number];
+    let asked = axis.traverse_request != 0 || axis.jogging.movement != Movement::None;
+    asked || axis.is_in_motion() || !axis.stands(&view.parameters.axes[number])
 }

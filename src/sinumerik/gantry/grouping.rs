@@ -2,22 +2,24 @@
 //! (G1 2.3.1, figure 2-2 is missing there; [`TRANSITIONS`] is our reconstruction from its text).
 //!
 //! Called once per cycle for each grouping in the stage "referencing and gantry". Reads REF, traversing keys of the
-//! leading axis, 29.4 and 29.5 of the leading axis; writes the motions of all its axes. Monitoring is in
-//! `synchronism.rs`.
+//! leading axis, 29.4 and 29.5 of the leading axis; writes the motions of all its axes. The stage asks the grouping what it
+//! wants, in the order of the cycle, and carries it out. Section 3 is in `synchronisation.rs`, monitoring in `synchronism.rs`.
 //!
 //! Choices where the manuals leave one: 29.4 acts by its rising edge while the grouping waits (O-01), and not while
 //! an axis of the grouping is not in position control; the key is held through sections 1 and 2 but not 3 (O-02); the
 //! override acts in section 3 and 0 % holds (O-03); 101.4 stays until 101.5 (O-07); RESET takes the display of 10654
 //! away and leaves 101.4 (O-09); a synchronising motion that does not end in exact stop fine within MD36020 ends with 20005.
 
-use crate::control::next;
+use crate::control::Log;
 use crate::image::ToNck;
-use crate::sinumerik::gantry::state::{GROUPING_CHART, Phase, TRANSITIONS};
+use crate::motion::Motion;
+use crate::sinumerik::gantry::state::{Grouping, Phase};
+use crate::sinumerik::gantry::view::{Permit, View, Want, Wants};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::referencing::approach::Outcome;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
-use crate::units::{AxisNumber, ChannelNumber};
+use crate::units::AxisNumber;
 use crate::variables::{AlarmNumber, EventId, Input, Place};
 
 impl State {
@@ -29,38 +31,44 @@ impl State {
         parameters: &Parameters,
         to_nck: &ToNck,
     ) {
-        let leader = self.groupings[index].coupling.leader();
+        let leader = unit.leader();
         let start = to_nck.axes[leader].start_gantry_synchronization();
-        let start_rises = start && !self.groupings[index].start_was;
-        self.groupings[index].start_was = start;
-        self.brake(unit, parameters);
+        let start_was = std::mem::replace(&mut self.groupings[index].start_was, start);
+        let start_rises = start && !start_was;
+        self.brake_grouping(index, parameters);
         self.watch_limit_switches(unit, to_nck);
         self.watch_key(unit, self.groupings[index].is_referencing(), to_nck);
-        self.watch_synchronism(index, unit, parameters, to_nck);
-        if !self.groupings[index].coupled {
-            let rest = unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest());
-            let decoupled = matches!(self.groupings[index].phase, Phase::Synchronising | Phase::Open);
-            self.groupings[index].coupled = rest && !decoupled;
+        let locked = to_nck.axes[leader].no_automatic_synchronization();
+        self.ask(index, parameters, |grouping, view, log| grouping.watch_synchronism(view, locked, log));
+        let grouping = &mut self.groupings[index];
+        if !grouping.coupling.is_closed() {
+            grouping.coupling.settle(unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest()));
         }
         if !self.mode_group(unit).is_referencing() {
             self.groupings[index].from_referencing = false;
         }
-        if self.may_start_approach(index, unit, parameters)
+        if self.groupings[index].may_start_approach()
+            && self.unit_can_move(unit, parameters)
             && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
         {
-            self.start_grouping_approach(index, unit.channel, direction, event);
+            let key = if self.channels[unit.channel].started(leader) { 0 } else { direction };
+            self.ask(index, parameters, |grouping, _, log| grouping.start_approach(direction, key, event, log));
         }
         match self.groupings[index].phase {
             Phase::ReferencingLeadingAxis | Phase::ReferencingSynchronousAxis => {
                 self.reference_grouping(index, unit, parameters, to_nck);
             }
-            Phase::WaitingForStart if start_rises && self.may_synchronise(unit, parameters) => {
-                self.start_synchronising(index, parameters);
+            Phase::WaitingForStart if start_rises && !self.channels[unit.channel].is_referencing() => {
+                let permit = self.permit(unit, parameters);
+                self.ask(index, parameters, |grouping, view, log| grouping.start_synchronising(view, permit, log));
             }
-            Phase::Synchronising => self.synchronise(index, unit, parameters),
+            Phase::Synchronising => {
+                let permit = self.permit(unit, parameters);
+                self.ask(index, parameters, |grouping, view, log| grouping.synchronise(view, permit, log));
+            }
             Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {}
         }
-        let idle = !self.groupings[index].is_referencing() && self.groupings[index].coupled;
+        let idle = !self.groupings[index].is_referencing() && self.groupings[index].coupling.is_closed();
         if idle && self.is_jogging(unit) {
             self.jog(unit, parameters, to_nck);
         } else if idle {
@@ -70,121 +78,146 @@ impl State {
         }
     }
 
-    /// Takes a step of the table.
-    pub(in crate::sinumerik) fn step_grouping(&mut self, index: usize, by: Rule, inputs: [Input; 3], parent: EventId) {
-        let grouping = &mut self.groupings[index];
-        grouping.phase = next(TRANSITIONS, &mut self.log.taken.0[GROUPING_CHART], grouping.phase, by);
-        grouping.cause = self.log.note(Place::Axis(grouping.coupling.leader()), by, inputs, parent);
-        match grouping.phase {
-            Phase::WaitingForStart => (grouping.message, grouping.waited_for) = (true, true),
-            Phase::Synchronising => grouping.coupled = false,
-            Phase::ReferencingLeadingAxis => grouping.waited_for = false,
-            Phase::NotSynchronised => grouping.lost_in_operation |= by == Rule::SynchronismLostFollowUp,
-            Phase::ReferencingSynchronousAxis | Phase::Synchronised | Phase::Open => {}
-        }
-        if matches!(self.groupings[index].phase, Phase::ReferencingLeadingAxis | Phase::Synchronised | Phase::Open) {
-            self.clear_bases(index);
-        }
-    }
-
-    fn may_start_approach(&self, index: usize, unit: &Unit, parameters: &Parameters) -> bool {
-        let grouping = &self.groupings[index];
-        let phase = matches!(grouping.phase, Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised);
-        phase && grouping.coupled && self.unit_can_move(unit, parameters)
-    }
-
-    /// REF active, no referencing of the channel running (REF-14), all axes in position control, nothing stops.
-    fn may_synchronise(&self, unit: &Unit, parameters: &Parameters) -> bool {
-        let free = self.unit_can_move(unit, parameters) && self.on_limit_switch(unit).is_none();
-        self.mode_group(unit).is_referencing() && !self.channels[unit.channel].is_referencing() && free
-    }
-
-    fn start_grouping_approach(&mut self, index: usize, channel: ChannelNumber, direction: i8, event: EventId) {
-        let leader = self.groupings[index].coupling.leader();
-        self.step_grouping(index, Rule::LeadingAxisApproach, [Input::None; 3], event);
-        let key = if self.channels[channel].started(leader) { 0 } else { direction };
-        let grouping = &mut self.groupings[index];
-        grouping.key = key;
-        grouping.coupling.lead_with(leader);
-        self.start_approach(leader, f64::from(direction), event);
-    }
-
     /// Sections 1 and 2.
     fn reference_grouping(&mut self, index: usize, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let Some(number) = self.groupings[index].referencing() else {
             return;
         };
-        let leader = self.groupings[index].coupling.leader();
-        if let Some((alarm, event)) =
-            self.approach_interrupted(leader, self.groupings[index].key, unit, parameters, to_nck)
-        {
-            self.abort_grouping(index, number, alarm, event);
+        let key = self.groupings[index].key;
+        let abort = |alarm, event| {
+            move |grouping: &mut Grouping, _: &View<'_>, log: &mut Log| grouping.abort(number, alarm, event, log)
+        };
+        if let Some((alarm, event)) = self.approach_interrupted(unit.leader(), key, unit, parameters, to_nck) {
+            self.ask(index, parameters, abort(alarm, event));
             return;
         }
         match self.run_approach(number, parameters, to_nck) {
             Outcome::Running => {}
-            Outcome::Failed(alarm, event) => self.abort_grouping(index, number, Some(alarm), event),
+            Outcome::Failed(alarm, event) => self.ask(index, parameters, abort(Some(alarm), event)),
             Outcome::Referenced(shift, event) => {
                 self.set_reference(number, shift, event);
-                self.next_section(index, event, parameters, to_nck);
+                let locked = to_nck.axes[unit.leader()].no_automatic_synchronization();
+                self.ask(index, parameters, |grouping, view, log| grouping.next_section(view, event, locked, log));
             }
         }
     }
 
-    fn abort_grouping(&mut self, index: usize, number: AxisNumber, alarm: Option<AlarmNumber>, event: EventId) {
-        self.axes[number].approach.abort();
-        if let Some(alarm) = alarm {
-            self.raise_axis_alarm(alarm, number, event);
+    /// RESET, or the loss of an approach.
+    pub(in crate::sinumerik) fn reset_grouping(&mut self, index: usize, event: EventId) {
+        let wants = self.groupings[index].reset(event, &mut self.log);
+        self.carry_out(&wants);
+    }
+
+    /// Every axis brakes together with the others, unless a later stage commands something else.
+    fn brake_grouping(&mut self, index: usize, parameters: &Parameters) {
+        let own = |axis| parameters.axes[axis].maximum_acceleration;
+        for (axis, deceleration) in self.groupings[index].coupling.stop(own) {
+            self.axes[axis].motion = Motion::Brake { deceleration };
         }
-        self.step_grouping(index, Rule::ReferencingAborted, [Input::None; 3], event);
-        let leader = self.groupings[index].coupling.leader();
-        self.groupings[index].coupling.lead_with(leader);
-        for axis in self.groupings[index].coupling.clone().members() {
-            self.traverse(axis, 0, 0, event);
+    }
+
+    /// Whether a synchronising motion may run.
+    fn permit(&self, unit: &Unit, parameters: &Parameters) -> Permit {
+        let free = self.unit_can_move(unit, parameters) && self.on_limit_switch(unit).is_none();
+        let granted = free && self.mode_group(unit).is_referencing();
+        Permit { granted, stop: self.stop_cause(unit.channel, parameters) }
+    }
+
+    /// Asks a grouping what it wants, and does it.
+    pub(in crate::sinumerik) fn ask(
+        &mut self,
+        index: usize,
+        parameters: &Parameters,
+        question: impl FnOnce(&mut Grouping, &View<'_>, &mut Log) -> Wants,
+    ) {
+        let view = View { axes: &self.axes, parameters };
+        let wants = question(&mut self.groupings[index], &view, &mut self.log);
+        self.carry_out(&wants);
+    }
+
+    pub(in crate::sinumerik) fn carry_out(&mut self, wants: &Wants) {
+        for &want in wants {
+            match want {
+                Want::Move { axis, motion, request, command, cause } => {
+                    self.axes[axis].motion = motion;
+                    self.traverse(axis, request, command, cause);
+                }
+                Want::Rest { axis, cause } => self.traverse(axis, 0, 0, cause),
+                Want::StartApproach { axis, direction, cause } => self.start_approach(axis, direction, cause),
+                Want::AbortApproach(axis) => self.axes[axis].approach.abort(),
+                Want::TakeSetpoint { axis, of } => self.axes[axis].setpoint = self.axes[of].setpoint,
+                Want::RaiseOfAxis { alarm, axis, cause } => self.raise_axis_alarm(alarm, axis, cause),
+                Want::Raise { alarm, place, shown, cause } => self.alarms.raise(alarm, place, shown, cause),
+            }
         }
+    }
+}
+
+impl Grouping {
+    fn may_start_approach(&self) -> bool {
+        let phase = matches!(self.phase, Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised);
+        phase && self.coupling.is_closed()
+    }
+
+    /// Section 1 begins, by a key or by the channel.
+    fn start_approach(&mut self, direction: i8, key: i8, event: EventId, log: &mut Log) -> Wants {
+        let leader = self.coupling.leader();
+        self.step(log, Rule::LeadingAxisApproach, [Input::None; 3], event);
+        self.key = key;
+        self.coupling.lead_with(leader);
+        Wants::from_iter([Want::StartApproach { axis: leader, direction: f64::from(direction), cause: event }])
+    }
+
+    fn abort(&mut self, number: AxisNumber, alarm: Option<AlarmNumber>, event: EventId, log: &mut Log) -> Wants {
+        let mut wants = Wants::new();
+        wants.push(Want::AbortApproach(number));
+        wants.extend(alarm.map(|alarm| Want::RaiseOfAxis { alarm, axis: number, cause: event }));
+        self.step(log, Rule::ReferencingAborted, [Input::None; 3], event);
+        self.coupling.lead_with(self.coupling.leader());
+        self.rest(event, &mut wants);
+        wants
     }
 
     /// After a reference point of sections 1 and 2: the next synchronous axis (O-10: ascending), or section 3.
-    fn next_section(&mut self, index: usize, event: EventId, parameters: &Parameters, to_nck: &ToNck) {
-        let (by, turn) = if self.groupings[index].phase == Phase::ReferencingLeadingAxis {
+    fn next_section(&mut self, view: &View<'_>, event: EventId, locked: bool, log: &mut Log) -> Wants {
+        let (by, turn) = if self.phase == Phase::ReferencingLeadingAxis {
             (Rule::LeadingAxisReferenced, 0)
         } else {
-            (Rule::NextSynchronousAxis, self.groupings[index].turn + 1)
+            (Rule::NextSynchronousAxis, self.turn + 1)
         };
-        let leader = self.groupings[index].coupling.leader();
-        let Some(next) = self.groupings[index].coupling.followers().nth(usize::from(turn)) else {
-            self.groupings[index].coupling.lead_with(leader);
-            self.compare_positions(index, event, parameters, to_nck);
-            return;
+        let leader = self.coupling.leader();
+        let Some(next) = self.coupling.followers().nth(usize::from(turn)) else {
+            self.coupling.lead_with(leader);
+            self.compare_positions(view, event, locked, log);
+            return Wants::new();
         };
-        self.step_grouping(index, by, [Input::None; 3], event);
-        self.groupings[index].turn = turn;
-        self.groupings[index].coupling.lead_with(next);
+        self.step(log, by, [Input::None; 3], event);
+        self.turn = turn;
+        self.coupling.lead_with(next);
         // MD37150 bit 1: direction by its own MD34010, or the leading axis'.
-        let own = !parameters.axes[next].gantry.direction_of_leading_axis;
-        let direction = parameters.axes[if own { next } else { leader }].reference.cam_direction;
-        let cause = self.log.note_plain(Place::Axis(next), Rule::ApproachStartedInGrouping, event);
-        self.start_approach(next, direction, cause);
-        self.traverse(leader, 0, 0, cause);
+        let axes = &view.parameters.axes;
+        let own = !axes[next].gantry.direction_of_leading_axis;
+        let direction = axes[if own { next } else { leader }].reference.cam_direction;
+        let cause = log.note_plain(Place::Axis(next), Rule::ApproachStartedInGrouping, event);
+        Wants::from_iter([Want::StartApproach { axis: next, direction, cause }, Want::Rest { axis: leader, cause }])
     }
 
     /// RESET: sections 1 and 2 start anew with the leading axis (REF-12), section 3 with 29.4 (REF-13, O-09).
-    pub(in crate::sinumerik) fn reset_grouping(&mut self, index: usize, event: EventId) {
-        match self.groupings[index].phase {
-            Phase::ReferencingLeadingAxis | Phase::ReferencingSynchronousAxis => {
-                if let Some(number) = self.groupings[index].referencing() {
-                    self.abort_grouping(index, number, None, event);
-                }
-            }
-            Phase::Synchronising => {
-                self.step_grouping(index, Rule::SynchronisationAborted, [Input::None; 3], event);
-                for axis in self.groupings[index].coupling.clone().members() {
-                    self.traverse(axis, 0, 0, event);
-                }
-            }
-            Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {}
+    fn reset(&mut self, event: EventId, log: &mut Log) -> Wants {
+        let mut wants = Wants::new();
+        if let Some(number) = self.referencing() {
+            wants = self.abort(number, None, event, log);
+        } else if self.phase == Phase::Synchronising {
+            self.step(log, Rule::SynchronisationAborted, [Input::None; 3], event);
+            self.rest(event, &mut wants);
         }
-        self.groupings[index].from_referencing = false;
-        self.groupings[index].message = false;
+        self.from_referencing = false;
+        self.message = false;
+        wants
+    }
+
+    /// No axis of the grouping is commanded to travel any more.
+    pub(in crate::sinumerik) fn rest(&self, cause: EventId, wants: &mut Wants) {
+        wants.extend(self.coupling.members().map(|axis| Want::Rest { axis, cause }));
     }
 }

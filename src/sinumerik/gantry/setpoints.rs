@@ -1,49 +1,56 @@
 //! Setpoints and coupling: what was commanded becomes a setpoint, and the axes of a closed grouping take the movement
 //! of the one that leads, in the same cycle (DYN-01): the filtered one, where its jerk is limited.
 
-use crate::sinumerik::axis::state::ControllerState;
+use arrayvec::ArrayVec;
+
 use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::groupings::SYNCHRONOUS_AXES;
 use crate::sinumerik::state::{State, Unit};
+use crate::units::AxisNumber;
 
 impl State {
     /// Setpoints of one unit.
     pub(in crate::sinumerik) fn set_setpoints(&mut self, unit: &Unit, parameters: &Parameters) {
         let cycle = parameters.cycle.seconds();
-        // A unit that loses its enables brakes together, by the shortest of its emergency ramps.
-        let emergency =
-            unit.members().map(|axis| parameters.axes[axis].emergency_deceleration).fold(f64::INFINITY, f64::min);
         for axis in unit.members() {
             self.axes[axis].before = self.axes[axis].setpoint.position;
-            if let Some(motion) = self.axes[axis].motion_without_control(emergency) {
-                self.axes[axis].motion = motion;
+        }
+        // A unit that loses its enables brakes together, by the shortest of its emergency ramps.
+        let emergency = |axis: AxisNumber| parameters.axes[axis].emergency_deceleration;
+        match unit.grouping.map(usize::from) {
+            None => self.axes[unit.leader()].brake_without_control(emergency(unit.leader())),
+            Some(index) => {
+                for (axis, emergency) in self.groupings[index].coupling.stop(emergency) {
+                    self.axes[axis].brake_without_control(emergency);
+                }
             }
         }
-        let coupled = unit.grouping.map(usize::from).filter(|&index| self.groupings[index].coupled);
-        let Some(index) = coupled else {
-            for axis in unit.members() {
-                self.axes[axis].execute(self.shaping[axis].as_deref_mut(), &parameters.axes[axis], cycle);
+        match unit.grouping.map(usize::from).filter(|&index| self.groupings[index].coupling.is_closed()) {
+            Some(index) => self.set_coupled_setpoints(index, parameters, cycle),
+            None => {
+                for axis in unit.members() {
+                    self.axes[axis].execute(self.shaping[axis].as_deref_mut(), &parameters.axes[axis], cycle);
+                }
             }
-            return;
-        };
-        let leads = self.groupings[index].coupling.leads_now();
+        }
+    }
+
+    /// The one that leads moves, and the others follow it where position control is on.
+    fn set_coupled_setpoints(&mut self, index: usize, parameters: &Parameters, cycle: f64) {
+        let (leads, leader) = (self.groupings[index].coupling.leads_now(), self.groupings[index].coupling.leader());
         let before = self.axes[leads].setpoint.position;
         self.axes[leads].execute(self.shaping[leads].as_deref_mut(), &parameters.axes[leads], cycle);
-        let led_by = self.axes[leads].setpoint;
-        let moves = matches!(self.axes[leads].enabling.control, ControllerState::On | ControllerState::Braking(_));
-        let leader = self.groupings[index].coupling.leader();
-        let (request, command, cause) = {
-            let axis = &self.axes[leads];
-            (axis.traverse_request, axis.traverse_command, axis.causes.motion)
-        };
+        let axis = &self.axes[leads];
+        let moves = axis.enabling.moves();
+        let (request, command, cause) = (axis.traverse_request, axis.traverse_command, axis.causes.motion);
         // Braking harder than any acceleration, and towards being switched off, is a stop that all axes make alike.
-        let stops = !self.axes[leads].enabling.is_on()
-            || self.axes[leads].motion.is_fast(parameters.axes[leads].dynamics.jerk.hardest);
-        for axis in unit.members().filter(|&axis| axis != leads) {
-            let follows =
-                moves && matches!(self.axes[axis].enabling.control, ControllerState::On | ControllerState::Braking(_));
-            if follows {
+        let stops = !axis.enabling.is_on() || axis.motion.is_fast(parameters.axes[leads].dynamics.jerk.hardest);
+        let movement = axis.setpoint.moved_from(before);
+        let led: ArrayVec<_, SYNCHRONOUS_AXES> = self.groupings[index].coupling.lead(movement).collect();
+        for (axis, movement) in led {
+            if moves && self.axes[axis].enabling.moves() {
                 let velocity = self.axes[axis].setpoint.velocity();
-                self.axes[axis].setpoint.follow(led_by.moved_from(before));
+                self.axes[axis].setpoint.follow(movement);
                 if axis != leader && !stops && self.axes[axis].enabling.is_on() {
                     self.watch_overload(axis, velocity, parameters);
                 }
@@ -52,11 +59,7 @@ impl State {
             }
             // SIG-09: when the leading axis is traversed, its command shows on the synchronous axes, too.
             let mirrored = if leads == leader { (request, command) } else { (0, 0) };
-            let led = &mut self.axes[axis];
-            if (led.traverse_request, led.traverse_command) != mirrored {
-                (led.traverse_request, led.traverse_command) = mirrored;
-                led.causes.motion = cause;
-            }
+            self.traverse(axis, mirrored.0, mirrored.1, cause);
         }
     }
 }

@@ -2,12 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::control::{Transition, row};
-use crate::motion::coupling::Coupling;
-use crate::sinumerik::parameters::groupings::{Definition, SYNCHRONOUS_AXES};
+use crate::control::{Log, Transition, next, row};
+use crate::sinumerik::parameters::groupings::{Definition, GantryCoupling, SYNCHRONOUS_AXES};
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, AxisSet, Position};
-use crate::variables::EventId;
+use crate::variables::{EventId, Input, Place};
 
 /// Where a grouping is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -82,21 +81,28 @@ const _: () = assert!(TRANSITIONS.len() <= u64::BITS as usize);
 /// The place of the gantry grouping among the charts of this control.
 pub(in crate::sinumerik) const GROUPING_CHART: usize = 1;
 
-/// What monitoring found on one synchronous axis.
+/// Why the warning and the trip of a synchronous axis came or went.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct LimitCauses {
+    /// Of 101.3.
+    pub warning: EventId,
+    /// Of 101.2.
+    pub trip: EventId,
+}
+
+/// What monitoring found on one synchronous axis.
+#[derive(Clone, Copy, Debug)]
 pub(in crate::sinumerik) struct Monitored {
+    /// Which axis.
+    pub axis: AxisNumber,
     /// The synchronism difference.
     pub difference: Position,
     /// Beyond MD37110: 101.3.
     pub warning: bool,
     /// Beyond MD37120 or MD37130: 101.2.
     pub trip: bool,
-    /// The amount when position control came back after synchronism was lost in operation (MON-08).
-    pub base: Option<Position>,
-    /// Why the warning came or went.
-    pub warning_cause: EventId,
-    /// Why the trip came or went.
-    pub trip_cause: EventId,
+    /// Why.
+    pub causes: LimitCauses,
 }
 
 /// One grouping.
@@ -104,12 +110,10 @@ pub(in crate::sinumerik) struct Monitored {
 pub(in crate::sinumerik) struct Grouping {
     /// Its number, 1 to 8.
     pub number: u8,
-    /// Leading and synchronous axes, who leads now, and the base of each difference.
-    pub coupling: Coupling,
+    /// Leading and synchronous axes: which one leads now, whether they are coupled, and how far they are apart.
+    pub coupling: GantryCoupling,
     /// Where it is.
     pub phase: Phase,
-    /// The movement of the one that leads is handed on; not while the axes synchronise, and until all rest after that.
-    pub coupled: bool,
     /// Which synchronous axis is being referenced.
     pub turn: u8,
     /// Direction of the key that started the approach; 0 for channel-specific referencing.
@@ -120,12 +124,6 @@ pub(in crate::sinumerik) struct Grouping {
     pub message: bool,
     /// The synchronising motion was waited for; 101.4 was set before it.
     pub waited_for: bool,
-    /// Where the synchronising motion leads, for all axes.
-    pub target: Position,
-    /// Whether the leading axis moves there, too.
-    pub leading_axis_moves: bool,
-    /// Cycles at the target without exact stop fine.
-    pub waited: u64,
     /// 29.4 of the leading axis in the last cycle.
     pub start_was: bool,
     /// The axes were in follow-up in the last cycle.
@@ -136,8 +134,8 @@ pub(in crate::sinumerik) struct Grouping {
     pub lost_in_operation: bool,
     /// Closing was refused with 10658 (BRK-05).
     pub kept_open: bool,
-    /// What monitoring found on each synchronous axis.
-    pub monitored: [Monitored; SYNCHRONOUS_AXES],
+    /// Why each synchronous axis warns or trips, or does not any more.
+    pub limit_causes: [LimitCauses; SYNCHRONOUS_AXES],
     /// The latest event of the grouping.
     pub cause: EventId,
 }
@@ -150,21 +148,17 @@ impl Grouping {
             number: definition.number,
             coupling: definition.coupling.clone(),
             phase: Phase::NotSynchronised,
-            coupled: true,
             turn: 0,
             key: 0,
             from_referencing: false,
             message: false,
             waited_for: false,
-            target: Position::ZERO,
-            leading_axis_moves: false,
-            waited: 0,
             start_was: false,
             followed_up: false,
             returning: false,
             lost_in_operation: false,
             kept_open: false,
-            monitored: [Monitored::default(); SYNCHRONOUS_AXES],
+            limit_causes: [LimitCauses::default(); SYNCHRONOUS_AXES],
             cause: EventId::NONE,
         }
     }
@@ -186,6 +180,41 @@ impl Grouping {
     #[must_use]
     pub(in crate::sinumerik) fn is_referencing(&self) -> bool {
         self.referencing().is_some()
+    }
+
+    /// What monitoring found on each synchronous axis.
+    pub(in crate::sinumerik) fn monitored(&self) -> impl Iterator<Item = Monitored> {
+        self.coupling.differences().zip(&self.limit_causes).map(|((axis, difference, stage), &causes)| Monitored {
+            axis,
+            difference,
+            warning: stage.first,
+            trip: stage.second,
+            causes,
+        })
+    }
+
+    /// Takes a step of the table.
+    pub(in crate::sinumerik) fn step(&mut self, log: &mut Log, by: Rule, inputs: [Input; 3], parent: EventId) {
+        self.phase = next(TRANSITIONS, &mut log.taken.0[GROUPING_CHART], self.phase, by);
+        self.cause = log.note(Place::Axis(self.coupling.leader()), by, inputs, parent);
+        match self.phase {
+            Phase::WaitingForStart => (self.message, self.waited_for) = (true, true),
+            Phase::ReferencingLeadingAxis => self.waited_for = false,
+            Phase::NotSynchronised => self.lost_in_operation |= by == Rule::SynchronismLostFollowUp,
+            Phase::ReferencingSynchronousAxis | Phase::Synchronising | Phase::Synchronised | Phase::Open => {}
+        }
+        if self.phase != Phase::Synchronising {
+            self.coupling.abort_realignment();
+        }
+        if matches!(self.phase, Phase::ReferencingLeadingAxis | Phase::Synchronised | Phase::Open) {
+            self.clear_bases();
+        }
+    }
+
+    /// The limits count from 0 again, until synchronism is lost in operation another time.
+    pub(in crate::sinumerik) fn clear_bases(&mut self) {
+        self.lost_in_operation = false;
+        self.coupling.clear_bases();
     }
 }
 

@@ -1,50 +1,42 @@
 //! Section 3 of a grouping: comparing positions, waiting, the decoupled motion; and what takes synchronism away or gives
 //! it back outside of it (G1 2.3.1, 2.3.2).
 //!
-//! Called by `gantry/mod.rs` once per cycle for each grouping. The choices are written there.
+//! Called by `grouping.rs` once per cycle for each grouping. The choices are written there.
 
-use crate::image::ToNck;
-use crate::motion::Motion;
+use crate::control::Log;
+use crate::motion::coupling::{Moves, Progress, Realign, Realigning, Target};
+use crate::motion::{Limits, Motion};
 use crate::sinumerik::alarms;
-use crate::sinumerik::gantry::state::Phase;
+use crate::sinumerik::gantry::state::{Grouping, Phase};
+use crate::sinumerik::gantry::view::{Permit, View, Want, Wants};
 use crate::sinumerik::inputs::axis_bit;
-use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::state::{State, Unit};
-use crate::units::Position;
+use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
-impl State {
+impl Grouping {
     /// Section 3: start by itself, or wait (REF-06, REF-07, REF-11).
     pub(in crate::sinumerik) fn compare_positions(
         &mut self,
-        index: usize,
+        view: &View<'_>,
         event: EventId,
-        parameters: &Parameters,
-        to_nck: &ToNck,
+        locked: bool,
+        log: &mut Log,
     ) {
-        let coupling = self.groupings[index].coupling.clone();
-        let leader = coupling.leader();
-        self.groupings[index].from_referencing = true;
-        self.groupings[index].waited = 0;
-        let all = self.log.note_plain(Place::Axis(leader), Rule::AllReferenced, event);
-        let mut wait = None;
-        let apart = coupling.followers().find(|&axis| {
-            let difference = self.axes[axis].actual - self.axes[leader].actual;
-            difference.abs() > parameters.axes[axis].gantry.trip_limit_not_synchronised
-        });
-        if let Some(axis) = apart {
+        let leader = self.coupling.leader();
+        self.from_referencing = true;
+        let all = log.note_plain(Place::Axis(leader), Rule::AllReferenced, event);
+        if let Some((axis, difference)) = self.out_of_trip_limit(view) {
             // E-13: beyond MD37130 nothing is ready to be started; monitoring trips in this cycle.
-            let difference = self.axes[axis].actual - self.axes[leader].actual;
-            let limit = parameters.axes[axis].gantry.trip_limit_not_synchronised;
+            let limit = view.parameters.axes[axis].gantry.trip_limit_not_synchronised;
             let measured = Input::Length(Quantity::SynchronismDifference, axis, difference);
             let inputs = [measured, Input::Datum(37130, Some(axis), limit.user()), Input::None];
-            self.step_grouping(index, Rule::ReadyNoMore, inputs, all);
+            self.step(log, Rule::ReadyNoMore, inputs, all);
             return;
         }
-        for follower in coupling.followers() {
-            let limit = parameters.axes[follower].gantry.warning_limit;
-            let difference = self.axes[follower].actual - self.axes[leader].actual;
+        let mut wait = None;
+        for (follower, difference) in self.misalignments(view) {
+            let limit = view.parameters.axes[follower].gantry.warning_limit;
             let datum = Input::Datum(37110, Some(follower), limit.user());
             if limit == Position::ZERO {
                 wait = wait.or(Some((Rule::WaitWarningLimitZero, [datum, Input::None, Input::None])));
@@ -53,260 +45,243 @@ impl State {
                 wait = wait.or(Some((Rule::WaitDifference, [measured, datum, Input::None])));
             }
         }
-        if to_nck.axes[leader].no_automatic_synchronization() {
+        if locked {
             let locked = [axis_bit(leader, 29, 5, true), Input::None, Input::None];
             wait = wait.or(Some((Rule::WaitLocked, locked)));
         }
         if let Some((rule, inputs)) = wait {
-            self.step_grouping(index, rule, inputs, all);
+            self.step(log, rule, inputs, all);
         } else {
-            self.set_target(index, parameters);
-            self.step_grouping(index, Rule::AutomaticStart, [Input::None; 3], all);
+            self.decouple(view);
+            self.step(log, Rule::AutomaticStart, [Input::None; 3], all);
         }
+    }
+
+    /// What each synchronous axis is apart from the leading axis, whatever its difference counts from.
+    fn misalignments<'a>(&'a self, view: &'a View<'_>) -> impl Iterator<Item = (AxisNumber, Position)> + 'a {
+        self.coupling.followers().filter_map(|axis| Some((axis, self.coupling.misalignment(axis, view.axes)?)))
+    }
+
+    /// The first synchronous axis that is apart by more than MD37130.
+    fn out_of_trip_limit(&self, view: &View<'_>) -> Option<(AxisNumber, Position)> {
+        let limit = |axis: AxisNumber| view.parameters.axes[axis].gantry.trip_limit_not_synchronised;
+        self.misalignments(view).find(|&(axis, difference)| difference.abs() > limit(axis))
     }
 
     /// The common position: MD34100 of the leading axis after referencing, else its actual position (REF-15). A
     /// leading axis that has not come to rest there returns to it, or its actual value would not be that of the others.
-    fn set_target(&mut self, index: usize, parameters: &Parameters) {
-        let leader = self.groupings[index].coupling.leader();
-        let from_referencing = self.groupings[index].from_referencing;
-        let axis = &self.axes[leader];
+    fn decouple(&mut self, view: &View<'_>) {
+        let leader = self.coupling.leader();
+        let axis = &view.axes[leader];
         let runs_out = !axis.setpoint.is_at_rest()
-            || axis.deviation().abs() > axis.active_set(&parameters.axes[leader]).exact_stop_fine;
-        let grouping = &mut self.groupings[index];
-        grouping.leading_axis_moves = from_referencing || runs_out;
-        grouping.waited = 0;
-        grouping.target =
-            if from_referencing { self.axes[leader].approach.set_position() } else { self.axes[leader].actual };
+            || axis.deviation().abs() > axis.active_set(&view.parameters.axes[leader]).exact_stop_fine;
+        let moves = if self.from_referencing || runs_out { Moves::All } else { Moves::Followers };
+        let reference = self.from_referencing.then(|| Target::Given(axis.approach.set_position()));
+        let target = reference.unwrap_or(Target::LeaderActual);
+        self.coupling.begin_realignment(Realign { moves, target }, view.axes);
     }
 
-    pub(in crate::sinumerik) fn start_synchronising(&mut self, index: usize, parameters: &Parameters) {
-        let leader = self.groupings[index].coupling.leader();
-        let parent = self.groupings[index].cause;
-        self.set_target(index, parameters);
-        let inputs = [axis_bit(leader, 29, 4, true), Input::None, Input::None];
-        self.step_grouping(index, Rule::StartByPlc, inputs, parent);
-        let unit = Unit::of(&self.groupings[index].coupling, index, parameters);
-        self.synchronise(index, &unit, parameters);
+    /// 29.4 rises while the grouping waits.
+    pub(in crate::sinumerik) fn start_synchronising(
+        &mut self,
+        view: &View<'_>,
+        permit: Permit,
+        log: &mut Log,
+    ) -> Wants {
+        if !permit.granted {
+            return Wants::new();
+        }
+        self.decouple(view);
+        let inputs = [axis_bit(self.coupling.leader(), 29, 4, true), Input::None, Input::None];
+        self.step(log, Rule::StartByPlc, inputs, self.cause);
+        self.synchronise(view, permit, log)
     }
 
     /// The decoupled motion of section 3: each axis with its own MD34040 (E-12).
-    pub(in crate::sinumerik) fn synchronise(&mut self, index: usize, unit: &Unit, parameters: &Parameters) {
-        let referencing = self.mode_group(unit).is_referencing();
-        if !referencing || !self.unit_can_move(unit, parameters) || self.on_limit_switch(unit).is_some() {
-            let cause = self.stop_cause(unit.channel, parameters).unwrap_or(self.groupings[index].cause);
-            self.step_grouping(index, Rule::SynchronisationAborted, [Input::None; 3], cause);
-            self.groupings[index].from_referencing = false;
-            for axis in unit.members() {
-                self.traverse(axis, 0, 0, cause);
-            }
-            return;
+    pub(in crate::sinumerik) fn synchronise(&mut self, view: &View<'_>, permit: Permit, log: &mut Log) -> Wants {
+        let mut wants = Wants::new();
+        if !permit.granted {
+            self.abort_synchronising(permit.stop.unwrap_or(self.cause), log, &mut wants);
+            return wants;
         }
-        let leader = self.groupings[index].coupling.leader();
-        let (target, leading_axis_moves) = (self.groupings[index].target, self.groupings[index].leading_axis_moves);
-        let (mut arrived, mut late) = (true, None);
-        for number in unit.members() {
-            let axis_parameters = &parameters.axes[number];
-            let axis = &mut self.axes[number];
-            if number == leader && !leading_axis_moves {
-                continue;
-            }
-            let encoder = usize::from(axis.measuring_system.unwrap_or(0));
-            let factor = if axis.feed_held { 0.0 } else { axis.feed_factor };
-            let velocity =
-                (axis_parameters.reference.marker_velocity[encoder] * factor).min(axis_parameters.maximum_velocity);
-            let at_rest = axis.setpoint.is_at_rest() && axis.setpoint.position == target;
-            axis.motion = Motion::GoTo { target, velocity, acceleration: axis_parameters.maximum_acceleration };
-            let direction = axis.motion.direction(axis.setpoint.position);
-            let in_position = axis.deviation().abs() <= axis.active_set(axis_parameters).exact_stop_fine;
-            if !(at_rest && in_position) {
-                arrived = false;
-                if at_rest {
-                    late = late.or(Some(number));
-                }
-            }
-            let wanted = (target - self.axes[number].setpoint.position).increments().signum();
-            let request = i8::try_from(wanted).unwrap_or(0);
-            let cause = self.groupings[index].cause;
-            self.traverse(number, request, direction, cause);
+        let limits = |number| velocity_and_acceleration(view, number);
+        let in_position = |number: AxisNumber| {
+            let axis = &view.axes[number];
+            axis.deviation().abs() <= axis.active_set(&view.parameters.axes[number]).exact_stop_fine
+        };
+        let Some(Realigning { commands, progress, .. }) = self.coupling.realign(view.axes, limits, in_position) else {
+            return wants;
+        };
+        for (axis, motion) in commands {
+            let setpoint = view.axes[axis].setpoint.position;
+            // A movement that an override of 0 % or feed stop holds is still wanted.
+            let request = match motion {
+                Motion::GoTo { target, .. } => (target - setpoint).increments().signum(),
+                Motion::Brake { .. } | Motion::Run { .. } | Motion::Track | Motion::Hold => 0,
+            };
+            let (request, command) = (i8::try_from(request).unwrap_or(0), motion.direction(setpoint));
+            wants.push(Want::Move { axis, motion, request, command, cause: self.cause });
         }
-        if arrived {
-            self.close_synchronised(index, unit, parameters);
-        } else if let Some(number) = late {
-            self.groupings[index].waited += 1;
-            if self.groupings[index].waited > parameters.axes[number].positioning_cycles {
-                let event = self.groupings[index].cause;
-                self.raise_axis_alarm(alarms::APPROACH_ABORTED, number, event);
-                self.step_grouping(index, Rule::SynchronisationAborted, [Input::None; 3], event);
-                self.groupings[index].from_referencing = false;
-                for axis in unit.members() {
-                    self.traverse(axis, 0, 0, event);
-                }
+        match progress {
+            Progress::Running => {}
+            Progress::Waiting(axis, cycles) if cycles > view.parameters.axes[axis].positioning_cycles => {
+                let cause = self.cause;
+                wants.push(Want::RaiseOfAxis { alarm: alarms::APPROACH_ABORTED, axis, cause });
+                self.abort_synchronising(cause, log, &mut wants);
             }
+            Progress::Waiting(..) => {}
+            Progress::Done(target) => self.close_synchronised(target, view, log, &mut wants),
         }
+        wants
+    }
+
+    fn abort_synchronising(&mut self, cause: EventId, log: &mut Log, wants: &mut Wants) {
+        self.step(log, Rule::SynchronisationAborted, [Input::None; 3], cause);
+        self.from_referencing = false;
+        self.rest(cause, wants);
     }
 
     /// All axes are at their target: synchronised, and the coupling acts again (REF-10).
-    fn close_synchronised(&mut self, index: usize, unit: &Unit, parameters: &Parameters) {
-        let parent = self.groupings[index].cause;
-        let target = Input::Length(Quantity::Position, unit.leader(), self.groupings[index].target);
-        self.step_grouping(index, Rule::Synchronised, [target, Input::None, Input::None], parent);
-        self.groupings[index].coupled = true;
-        let cause = self.groupings[index].cause;
-        for axis in unit.members() {
-            let deceleration = parameters.axes[axis].maximum_acceleration;
-            self.axes[axis].motion = Motion::Brake { deceleration };
-            self.traverse(axis, 0, 0, cause);
-        }
+    fn close_synchronised(&mut self, target: Position, view: &View<'_>, log: &mut Log, wants: &mut Wants) {
+        let target = Input::Length(Quantity::Position, self.coupling.leader(), target);
+        self.step(log, Rule::Synchronised, [target, Input::None, Input::None], self.cause);
+        let cause = self.cause;
+        wants.extend(self.coupling.members().map(|axis| {
+            let motion = Motion::Brake { deceleration: view.parameters.axes[axis].maximum_acceleration };
+            Want::Move { axis, motion, request: 0, command: 0, cause }
+        }));
     }
 
     /// What takes synchronism or readiness away, and what gives it back outside of section 3.
-    pub(in crate::sinumerik) fn watch_synchronism(
-        &mut self,
-        index: usize,
-        unit: &Unit,
-        parameters: &Parameters,
-        to_nck: &ToNck,
-    ) {
-        self.open_or_close(index, unit, parameters);
-        let phase = self.groupings[index].phase;
-        let follower = unit.members().find(|&axis| self.axes[axis].enabling.follow_up);
-        let unreferenced = unit.members().find(|&axis| !self.axes[axis].is_referenced());
-        let followed_up = std::mem::replace(&mut self.groupings[index].followed_up, follower.is_some());
+    pub(in crate::sinumerik) fn watch_synchronism(&mut self, view: &View<'_>, locked: bool, log: &mut Log) -> Wants {
+        let mut wants = Wants::new();
+        self.open_or_close(view, log, &mut wants);
+        let (axes, phase) = (view.axes, self.phase);
+        let follower = self.coupling.members().find(|&axis| axes[axis].enabling.follow_up);
+        let unreferenced = self.coupling.members().find(|&axis| !axes[axis].is_referenced());
+        let followed_up = std::mem::replace(&mut self.followed_up, follower.is_some());
         let lost = follower
-            .map(|axis| (Rule::SynchronismLostFollowUp, axis_bit(axis, 61, 3, true), self.axes[axis].causes.enabling))
+            .map(|axis| (Rule::SynchronismLostFollowUp, axis_bit(axis, 61, 3, true), axes[axis].causes.enabling))
             .or_else(|| {
                 let axis = unreferenced?;
-                let (causes, active) = (self.axes[axis].causes, self.axes[axis].measuring_system.unwrap_or(0));
+                let (causes, active) = (axes[axis].causes, axes[axis].measuring_system.unwrap_or(0));
                 let cause = causes.reference[usize::from(active)].max(causes.measuring_system);
                 Some((Rule::SynchronismLostReference, axis_bit(axis, 60, 4 + active, false), cause))
             });
         match (phase, lost) {
             (Phase::Synchronised, Some((rule, input, cause))) => {
-                self.step_grouping(index, rule, [input, Input::None, Input::None], cause);
+                self.step(log, rule, [input, Input::None, Input::None], cause);
             }
             (Phase::WaitingForStart | Phase::Synchronising, Some((_, input, cause))) => {
-                self.end_ready(index, unit, input, cause);
+                self.end_ready(input, cause, log, &mut wants);
             }
             (Phase::WaitingForStart | Phase::Synchronising, None) => {
-                if let Some(cause) = self.trip_cause(index) {
-                    self.end_ready(index, unit, Input::None, cause);
+                if let Some(cause) = self.trip_cause() {
+                    self.end_ready(Input::None, cause, log, &mut wants);
                 }
             }
-            (Phase::NotSynchronised, None) => self.make_ready(index, unit, parameters),
+            (Phase::NotSynchronised, None) => self.make_ready(view, log),
             _ => {}
         }
         if followed_up && follower.is_none() {
-            self.count_anew(index);
-            self.groupings[index].returning = true;
-            self.groupings[index].monitored.iter_mut().for_each(|monitored| monitored.base = None);
+            // Differences that are not absolute count anew.
+            self.coupling.count_anew(axes);
+            self.returning = true;
+            self.coupling.clear_bases();
         }
         if unreferenced.is_some() {
-            self.clear_bases(index);
+            self.clear_bases();
         }
         // Where an enable is missing on another axis, follow-up ends in hold.
-        let back = unit.members().all(|axis| self.axes[axis].enabling.is_on());
-        if back && std::mem::take(&mut self.groupings[index].returning) {
-            let locked = to_nck.axes[unit.leader()].no_automatic_synchronization();
-            self.restore_synchronism(index, unit, parameters, locked);
-            self.set_bases(index);
+        let back = self.coupling.members().all(|axis| axes[axis].enabling.is_on());
+        if back && std::mem::take(&mut self.returning) {
+            self.restore_synchronism(view, locked, log, &mut wants);
+            if self.lost_in_operation {
+                // Where synchronism is not back, what is apart now is the base of the limits (MON-08).
+                self.coupling.keep_bases(axes);
+            }
         }
+        wants
     }
 
     /// Not ready any more; a synchronising motion ends with it.
-    fn end_ready(&mut self, index: usize, unit: &Unit, input: Input, cause: EventId) {
-        self.step_grouping(index, Rule::ReadyNoMore, [input, Input::None, Input::None], cause);
-        for axis in unit.members() {
-            self.traverse(axis, 0, 0, cause);
-        }
+    fn end_ready(&mut self, input: Input, cause: EventId, log: &mut Log, wants: &mut Wants) {
+        self.step(log, Rule::ReadyNoMore, [input, Input::None, Input::None], cause);
+        self.rest(cause, wants);
     }
 
     /// The event behind a difference that is beyond its trip limit.
-    fn trip_cause(&self, index: usize) -> Option<EventId> {
-        let tripped = self.groupings[index].monitored.iter().find(|monitored| monitored.trip)?;
-        Some(tripped.trip_cause)
+    fn trip_cause(&self) -> Option<EventId> {
+        self.monitored().find(|monitored| monitored.trip).map(|monitored| monitored.causes.trip)
     }
 
     /// E-13: all referenced, not synchronised, difference within MD37130.
-    fn make_ready(&mut self, index: usize, unit: &Unit, parameters: &Parameters) {
-        let leader = unit.leader();
-        let within = self.groupings[index].coupling.followers().all(|axis| {
-            let difference = self.axes[axis].actual - self.axes[leader].actual;
-            difference.abs() <= parameters.axes[axis].gantry.trip_limit_not_synchronised
-        });
-        if within && self.trip_cause(index).is_none() {
-            let parent = self.groupings[index].cause;
-            self.step_grouping(index, Rule::ReadyAgain, [Input::None; 3], parent);
-            self.groupings[index].from_referencing = false;
+    fn make_ready(&mut self, view: &View<'_>, log: &mut Log) {
+        if self.out_of_trip_limit(view).is_none() && self.trip_cause().is_none() {
+            self.step(log, Rule::ReadyAgain, [Input::None; 3], self.cause);
+            self.from_referencing = false;
         }
-    }
-
-    /// The end of follow-up: differences that are not absolute count anew.
-    fn count_anew(&mut self, index: usize) {
-        self.groupings[index].coupling.count_anew(&self.axes);
     }
 
     /// Back in position control after follow-up: synchronism is restored where every difference is within the standstill tolerance
     /// (SYN-06) and 29.5 is 0 (E-18).
-    fn restore_synchronism(&mut self, index: usize, unit: &Unit, parameters: &Parameters, locked: bool) {
-        let leader = unit.leader();
-        if self.groupings[index].phase != Phase::WaitingForStart || locked {
+    fn restore_synchronism(&mut self, view: &View<'_>, locked: bool, log: &mut Log, wants: &mut Wants) {
+        if self.phase != Phase::WaitingForStart || locked {
             return;
         }
-        let within = self.groupings[index].coupling.followers().all(|axis| {
-            let difference = self.axes[axis].actual - self.axes[leader].actual;
-            difference.abs() <= self.axes[axis].active_set(&parameters.axes[axis]).standstill_tolerance
+        let within = self.misalignments(view).all(|(axis, difference)| {
+            difference.abs() <= view.axes[axis].active_set(&view.parameters.axes[axis]).standstill_tolerance
         });
         if within {
-            let cause = self.axes[leader].causes.enabling;
-            self.step_grouping(index, Rule::SynchronismRestored, [Input::None; 3], cause);
-            let common = self.axes[leader].setpoint;
-            for axis in self.groupings[index].coupling.clone().followers() {
-                self.axes[axis].setpoint = common;
-            }
+            let leader = self.coupling.leader();
+            self.step(log, Rule::SynchronismRestored, [Input::None; 3], view.axes[leader].causes.enabling);
+            wants.extend(self.coupling.followers().map(|axis| Want::TakeSetpoint { axis, of: leader }));
         }
     }
 
-    fn open_or_close(&mut self, index: usize, unit: &Unit, parameters: &Parameters) {
-        let open = unit.members().find(|&axis| parameters.axes[axis].gantry.broken_up);
-        let is_open = self.groupings[index].phase == Phase::Open;
+    fn open_or_close(&mut self, view: &View<'_>, log: &mut Log, wants: &mut Wants) {
+        let open = self.coupling.members().find(|&axis| view.parameters.axes[axis].gantry.broken_up);
+        let is_open = self.phase == Phase::Open;
         if let Some(axis) = open
             && !is_open
         {
-            if let Some(running) = self.groupings[index].referencing() {
-                self.axes[running].approach.abort();
-            }
+            wants.extend(self.referencing().map(Want::AbortApproach));
             let input = Input::Datum(37140, Some(axis), 1.0);
-            self.step_grouping(index, Rule::Opened, [input, Input::None, Input::None], EventId::NONE);
-            let leader = unit.leader();
-            self.groupings[index].coupling.lead_with(leader);
-            self.groupings[index].coupled = false;
+            self.step(log, Rule::Opened, [input, Input::None, Input::None], EventId::NONE);
+            self.coupling.release(view.axes);
         } else if open.is_none() && is_open {
-            let input = Input::Datum(37140, Some(unit.leader()), 0.0);
-            self.step_grouping(index, Rule::Closed, [input, Input::None, Input::None], EventId::NONE);
-            self.count_anew(index);
+            let input = Input::Datum(37140, Some(self.coupling.leader()), 0.0);
+            self.step(log, Rule::Closed, [input, Input::None, Input::None], EventId::NONE);
+            self.coupling.close(view.axes);
         }
     }
 
     /// The messages of section 3, raised in each cycle that they hold.
-    pub(in crate::sinumerik) fn raise_grouping_messages(&mut self, index: usize, parameters: &Parameters) {
-        let grouping = &self.groupings[index];
-        let leader = grouping.coupling.leader();
-        let unit = Parameter::Number(i64::from(grouping.number));
-        let shown = [Parameter::Channel(parameters.axes[leader].channel), unit, Parameter::None, Parameter::None];
-        let suppressed = parameters.axes[leader].gantry.suppress_message;
-        let number = match grouping.phase {
-            Phase::WaitingForStart if grouping.message => alarms::GANTRY_WAITING,
-            Phase::Synchronising if !suppressed => alarms::GANTRY_SYNCHRONISING,
+    pub(in crate::sinumerik) fn message(&self, view: &View<'_>) -> Option<Want> {
+        let leader = self.coupling.leader();
+        let axis = &view.parameters.axes[leader];
+        let alarm = match self.phase {
+            Phase::WaitingForStart if self.message => alarms::GANTRY_WAITING,
+            Phase::Synchronising if !axis.gantry.suppress_message => alarms::GANTRY_SYNCHRONISING,
             Phase::WaitingForStart
             | Phase::Synchronising
             | Phase::NotSynchronised
             | Phase::ReferencingLeadingAxis
             | Phase::ReferencingSynchronousAxis
             | Phase::Synchronised
-            | Phase::Open => return,
+            | Phase::Open => return None,
         };
-        let cause = grouping.cause;
-        self.alarms.raise(number, Place::Axis(leader), shown, cause);
+        let number = Parameter::Number(i64::from(self.number));
+        let shown = [Parameter::Channel(axis.channel), number, Parameter::None, Parameter::None];
+        Some(Want::Raise { alarm, place: Place::Axis(leader), shown, cause: self.cause })
     }
+}
+
+/// MD34040 of the active measuring system with the override, and the acceleration; feed stop holds.
+fn velocity_and_acceleration(view: &View<'_>, number: AxisNumber) -> Limits {
+    let (axis, parameters) = (&view.axes[number], &view.parameters.axes[number]);
+    let encoder = usize::from(axis.measuring_system.unwrap_or(0));
+    let factor = if axis.feed_held { 0.0 } else { axis.feed_factor };
+    let velocity = (parameters.reference.marker_velocity[encoder] * factor).min(parameters.maximum_velocity);
+    Limits { velocity, acceleration: parameters.maximum_acceleration }
 }

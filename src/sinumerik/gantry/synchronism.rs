@@ -14,8 +14,11 @@
 //! grouping is synchronised, or opened, or a new reference gives the positions other values. Choice where the manuals leave one:
 //! MD37110 alone does not warn as well, or the base would mean nothing to it.
 
+use crate::control::Log;
+use crate::motion::coupling::{CouplingEvent, Limit, TwoStage, What};
 use crate::sinumerik::alarms;
-use crate::sinumerik::gantry::state::Phase;
+use crate::sinumerik::gantry::state::{Grouping, Phase};
+use crate::sinumerik::gantry::view::{View, Want, Wants};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::Gantry;
 use crate::sinumerik::rules::Rule;
@@ -23,120 +26,90 @@ use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
-/// A limit, the rule behind it, and what it consists of.
-struct Limit {
-    at: Position,
-    exceeded: Rule,
-    inputs: [Input; 2],
-}
-
-impl Limit {
-    fn new(at: Position, datum: u32, axis: AxisNumber, exceeded: Rule) -> Self {
-        Self { at, exceeded, inputs: [Input::Datum(datum, Some(axis), at.user()), Input::None] }
-    }
-
-    /// The same as an additional tolerance.
-    fn beyond(self, base: Position, axis: AxisNumber, exceeded: Rule) -> Self {
-        let inputs = [self.inputs[0], Input::Length(Quantity::Distance, axis, base)];
-        Self { at: self.at + base, exceeded, inputs }
-    }
-}
-
-/// The warning limit, if there is one, and the trip limit that count for a synchronous axis (DEF-12: its own).
-fn limits(axis: AxisNumber, own: &Gantry, synchronised: bool, base: Option<Position>) -> (Option<Limit>, Limit) {
-    // MON-03: 0 is no warning limit.
-    let warning =
-        Some(Limit::new(own.warning_limit, 37110, axis, Rule::WarningLimit)).filter(|limit| limit.at > Position::ZERO);
-    let synchronised_trip = Limit::new(own.trip_limit, 37120, axis, Rule::TripLimitSynchronised);
+/// The limits that count for a synchronous axis (DEF-12: its own). MON-03: 0 is no warning limit.
+fn limits(own: &Gantry, synchronised: bool) -> TwoStage {
+    let first = Some(own.warning_limit).filter(|&limit| limit > Position::ZERO);
     if synchronised {
-        return (warning, synchronised_trip);
+        TwoStage::new(first, own.trip_limit)
+    } else {
+        TwoStage { first, second: own.trip_limit_not_synchronised, second_beyond_base: Some(own.trip_limit) }
     }
-    let trip = Limit::new(own.trip_limit_not_synchronised, 37130, axis, Rule::TripLimitNotSynchronised);
-    let Some(base) = base else { return (warning, trip) };
-    let warning = warning.map(|limit| limit.beyond(base, axis, Rule::WarningLimitBeyondBase));
-    let second = synchronised_trip.beyond(base, axis, Rule::TripLimitBeyondBase);
-    (warning, if second.at < trip.at { second } else { trip })
+}
+
+/// The rule by which a limit was exceeded, and its machine datum.
+fn warning(limit: Limit) -> (Rule, u32) {
+    (if limit.base.is_some() { Rule::WarningLimitBeyondBase } else { Rule::WarningLimit }, 37110)
+}
+
+fn trip(limit: Limit, synchronised: bool) -> (Rule, u32) {
+    if limit.base.is_some() {
+        (Rule::TripLimitBeyondBase, 37120)
+    } else if synchronised {
+        (Rule::TripLimitSynchronised, 37120)
+    } else {
+        (Rule::TripLimitNotSynchronised, 37130)
+    }
 }
 
 impl State {
+    /// Differences, their alarms, and the messages of section 3.
     pub(in crate::sinumerik) fn monitor_grouping(&mut self, index: usize, parameters: &Parameters) {
-        let grouping = &mut self.groupings[index];
-        let following_up = grouping.coupling.members().any(|axis| self.axes[axis].enabling.follow_up);
-        let monitored = grouping.phase != Phase::Open && !following_up;
-        let synchronised = grouping.phase == Phase::Synchronised;
-        let coupling = grouping.coupling.clone();
-        for (slot, follower) in coupling.followers().enumerate() {
-            let difference = coupling.difference(follower, &self.axes).unwrap_or_default();
-            let base = self.groupings[index].monitored[slot].base;
-            let (warning_limit, trip_limit) = limits(follower, &parameters.axes[follower].gantry, synchronised, base);
-            let warning_at = warning_limit.as_ref().map_or(Position::ZERO, |limit| limit.at);
-            let first = warning_at > Position::ZERO && difference.abs() > warning_at;
-            let (warning, trip) = (monitored && first, monitored && difference.abs() > trip_limit.at);
-            let before = self.groupings[index].monitored[slot];
-            let mut after = before;
-            if warning != before.warning {
-                after.warning_cause = self.note_limit(
-                    follower,
-                    difference,
-                    warning_limit.as_ref(),
-                    warning,
-                    monitored,
-                    Rule::WarningGone,
-                );
-            }
-            if trip != before.trip {
-                after.trip_cause =
-                    self.note_limit(follower, difference, Some(&trip_limit), trip, monitored, Rule::TripGone);
-            }
-            (after.difference, after.warning, after.trip) = (difference, warning, trip);
-            self.groupings[index].monitored[slot] = after;
-            let channel = Parameter::Channel(parameters.axes[follower].channel);
-            let shown = [channel, Parameter::Axis(follower), Parameter::None, Parameter::None];
-            let place = Place::Axis(follower);
-            if warning {
-                self.alarms.raise(alarms::GANTRY_WARNING_LIMIT, place, shown, after.warning_cause);
-            }
-            if trip {
-                self.alarms.raise(alarms::GANTRY_TRIP_LIMIT, place, shown, after.trip_cause);
-            }
+        self.ask(index, parameters, |grouping, view, log| {
+            let mut wants = grouping.monitor(view, log);
+            wants.extend(grouping.message(view));
+            wants
+        });
+    }
+}
+
+impl Grouping {
+    fn monitor(&mut self, view: &View<'_>, log: &mut Log) -> Wants {
+        let followed_up = self.coupling.members().any(|axis| view.axes[axis].enabling.follow_up);
+        let synchronised = self.phase == Phase::Synchronised;
+        let own = |axis: AxisNumber| &view.parameters.axes[axis].gantry;
+        self.coupling.set_limits(|axis| (!followed_up).then(|| limits(own(axis), synchronised)));
+        let monitored = !followed_up && self.phase != Phase::Open;
+        let events = self.coupling.compare(view.axes);
+        for event in &events {
+            self.note_limit(event, synchronised, monitored, log);
         }
+        let mut wants = Wants::new();
+        for found in self.monitored() {
+            let place = Place::Axis(found.axis);
+            let channel = Parameter::Channel(view.parameters.axes[found.axis].channel);
+            let shown = [channel, Parameter::Axis(found.axis), Parameter::None, Parameter::None];
+            let raise = |alarm, cause| Want::Raise { alarm, place, shown, cause };
+            wants.extend(found.warning.then(|| raise(alarms::GANTRY_WARNING_LIMIT, found.causes.warning)));
+            wants.extend(found.trip.then(|| raise(alarms::GANTRY_TRIP_LIMIT, found.causes.trip)));
+        }
+        wants
     }
 
-    /// Why a warning or a trip came or went.
-    fn note_limit(
-        &mut self,
-        axis: AxisNumber,
-        difference: Position,
-        limit: Option<&Limit>,
-        exceeded: bool,
-        monitored: bool,
-        gone: Rule,
-    ) -> EventId {
-        let measured = Input::Length(Quantity::SynchronismDifference, axis, difference);
-        let (rule, inputs) = match limit {
-            Some(limit) if monitored => (if exceeded { limit.exceeded } else { gone }, limit.inputs),
-            Some(_) | None if monitored => (gone, [Input::None; 2]),
-            Some(_) | None => (Rule::NotMonitored, [Input::None; 2]),
+    /// Notes why a warning or a trip came or went.
+    fn note_limit(&mut self, event: &CouplingEvent, synchronised: bool, monitored: bool, log: &mut Log) {
+        let axis = event.follower;
+        let gone = |rule| if monitored { rule } else { Rule::NotMonitored };
+        let (is_trip, rule, limit) = match event.what {
+            What::FirstExceeded(limit) => (false, warning(limit).0, Some(limit)),
+            What::FirstBack(limit) => (false, gone(Rule::WarningGone), limit),
+            What::SecondExceeded(limit) => (true, trip(limit, synchronised).0, Some(limit)),
+            What::SecondBack(limit) => (true, gone(Rule::TripGone), limit),
+            What::Realigned | What::Released | What::Closed => return,
         };
-        self.log.note(Place::Axis(axis), rule, [measured, inputs[0], inputs[1]], EventId::NONE)
-    }
-
-    /// Position control is back: where synchronism is not, what is apart now is the base of the limits (MON-08).
-    pub(in crate::sinumerik) fn set_bases(&mut self, index: usize) {
-        let grouping = &mut self.groupings[index];
-        if !grouping.lost_in_operation {
-            return;
+        let datum = |limit| if is_trip { trip(limit, synchronised).1 } else { warning(limit).1 };
+        let measured = Input::Length(Quantity::SynchronismDifference, axis, event.difference);
+        let inputs = match limit {
+            None => [measured, Input::None, Input::None],
+            Some(limit) => {
+                let own = Input::Datum(datum(limit), Some(axis), limit.own().user());
+                let base = limit.base.map(|base| Input::Length(Quantity::Distance, axis, base));
+                [measured, own, base.unwrap_or(Input::None)]
+            }
+        };
+        let cause = log.note(Place::Axis(axis), rule, inputs, EventId::NONE);
+        let place = self.coupling.followers().position(|follower| follower == axis);
+        if let Some(causes) = place.and_then(|place| self.limit_causes.get_mut(place)) {
+            *(if is_trip { &mut causes.trip } else { &mut causes.warning }) = cause;
         }
-        let coupling = grouping.coupling.clone();
-        for (slot, follower) in coupling.followers().enumerate() {
-            let difference = coupling.difference(follower, &self.axes).unwrap_or_default();
-            grouping.monitored[slot].base = Some(difference.abs());
-        }
-    }
-
-    /// The limits count from 0 again, until synchronism is lost in operation another time.
-    pub(in crate::sinumerik) fn clear_bases(&mut self, index: usize) {
-        self.groupings[index].lost_in_operation = false;
-        self.groupings[index].monitored.iter_mut().for_each(|monitored| monitored.base = None);
     }
 }

@@ -40,7 +40,6 @@ impl Nck {
                 continue;
             }
             state.monitor_grouping(index, parameters);
-            state.raise_grouping_messages(index, parameters);
         }
         for number in awake.iter() {
             state.monitor_axis(number, &parameters.axes[number], parameters);

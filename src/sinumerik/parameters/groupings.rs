@@ -27,13 +27,16 @@ const POLICY: Policy = Policy {
     stop: GroupStop::AllAtTheSlowest,
 };
 
+/// The axes of a grouping.
+pub(in crate::sinumerik) type GantryCoupling = Coupling<SYNCHRONOUS_AXES>;
+
 /// A grouping as the machine data define it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Definition {
     /// Its number, 1 to 8.
     pub number: u8,
     /// Its axes: the leading axis leads, the synchronous axes follow, ascending by axis number (O-10).
-    pub coupling: Coupling,
+    pub coupling: GantryCoupling,
 }
 
 /// An alarm that a definition raises at power on.
@@ -101,7 +104,7 @@ pub(in crate::sinumerik) fn define(data: &MachineData, axes: &PerAxis<AxisParame
         if found.faults.len() > before {
             continue;
         }
-        if let Some(coupling) = Coupling::new(leaders[0], POLICY, followers.iter().copied().map(Follower::new)) {
+        if let Some(coupling) = GantryCoupling::new(leaders[0], POLICY, followers.iter().copied().map(Follower::new)) {
             // At most eight numbers pass here.
             for &axis in &followers {
                 let [leading, own] = [leaders[0], axis].map(|axis| &data.axes[axis]);
