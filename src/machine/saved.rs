@@ -15,7 +15,7 @@ use crate::units::{AxisSet, PerAxis, PerChannel};
 use crate::variables::Alarms;
 
 /// Which form of saved machine this is.
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 
 #[derive(Serialize, Deserialize)]
 struct Saved {

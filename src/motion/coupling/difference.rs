@@ -183,19 +183,19 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         }
     }
 
-    /// Compares the differences of all followers with their limits, once per cycle after the encoders; an event for each
-    /// limit that was crossed since the last time. While the coupling is open, nothing is beyond a limit.
-    pub fn compare(&mut self, axes: &impl Axes) -> Events {
-        let mut events = Events::new();
+    /// Compares the differences of all followers with their limits, once per cycle after the encoders. `events` takes an event
+    /// for each limit that was crossed since the last time, and nothing else. While the coupling is open, nothing is beyond a limit.
+    pub fn compare(&mut self, axes: &impl Axes, events: &mut Events) {
+        events.clear();
         let (leader, open) = (self.leader, self.is_open());
         for coupled in &mut self.followers {
             let counts = self.policy.before_reference == BeforeReference::Relative
                 || coupled.absolute_base().is_none()
                 || coupled.is_referenced(leader, axes);
             let limits = coupled.follower.limits.filter(|_| counts && !open);
-            coupled.compare(coupled.difference(leader, axes), limits, &mut events);
+            coupled.compare(coupled.difference(leader, axes), limits, events);
         }
-        for event in &events {
+        for event in &*events {
             let reaction = match event.what {
                 What::FirstExceeded(_) => self.policy.first,
                 What::SecondExceeded(_) => self.policy.second,
@@ -207,7 +207,6 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
                 Reaction::Lock => Some(Halt::Locked),
             });
         }
-        events
     }
 
     /// The present difference of a follower.

@@ -39,7 +39,7 @@ impl State {
         self.watch_limit_switches(unit, to_nck);
         self.watch_key(unit, self.groupings[index].is_referencing(), to_nck);
         let locked = to_nck.axes[leader].no_automatic_synchronization();
-        self.ask(index, parameters, |grouping, view, log| grouping.watch_synchronism(view, locked, log));
+        self.ask(index, parameters, |grouping, view, log, wants| grouping.watch_synchronism(view, locked, log, wants));
         let grouping = &mut self.groupings[index];
         if !grouping.coupling.is_closed() {
             grouping.coupling.settle(unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest()));
@@ -52,7 +52,9 @@ impl State {
             && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
         {
             let key = if self.channels[unit.channel].started(leader) { 0 } else { direction };
-            self.ask(index, parameters, |grouping, _, log| grouping.start_approach(direction, key, event, log));
+            self.ask(index, parameters, |grouping, _, log, wants| {
+                *wants = grouping.start_approach(direction, key, event, log);
+            });
         }
         match self.groupings[index].phase {
             Phase::ReferencingLeadingAxis | Phase::ReferencingSynchronousAxis => {
@@ -60,11 +62,15 @@ impl State {
             }
             Phase::WaitingForStart if start_rises && !self.channels[unit.channel].is_referencing() => {
                 let permit = self.permit(unit, parameters);
-                self.ask(index, parameters, |grouping, view, log| grouping.start_synchronising(view, permit, log));
+                self.ask(index, parameters, |grouping, view, log, wants| {
+                    *wants = grouping.start_synchronising(view, permit, log);
+                });
             }
             Phase::Synchronising => {
                 let permit = self.permit(unit, parameters);
-                self.ask(index, parameters, |grouping, view, log| grouping.synchronise(view, permit, log));
+                self.ask(index, parameters, |grouping, view, log, wants| {
+                    *wants = grouping.synchronise(view, permit, log);
+                });
             }
             Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {}
         }
@@ -85,7 +91,9 @@ impl State {
         };
         let key = self.groupings[index].key;
         let abort = |alarm, event| {
-            move |grouping: &mut Grouping, _: &View<'_>, log: &mut Log| grouping.abort(number, alarm, event, log)
+            move |grouping: &mut Grouping, _: &View<'_>, log: &mut Log, wants: &mut Wants| {
+                *wants = grouping.abort(number, alarm, event, log);
+            }
         };
         if let Some((alarm, event)) = self.approach_interrupted(unit.leader(), key, unit, parameters, to_nck) {
             self.ask(index, parameters, abort(alarm, event));
@@ -97,7 +105,9 @@ impl State {
             Outcome::Referenced(shift, event) => {
                 self.set_reference(number, shift, event);
                 let locked = to_nck.axes[unit.leader()].no_automatic_synchronization();
-                self.ask(index, parameters, |grouping, view, log| grouping.next_section(view, event, locked, log));
+                self.ask(index, parameters, |grouping, view, log, wants| {
+                    *wants = grouping.next_section(view, event, locked, log);
+                });
             }
         }
     }
@@ -128,10 +138,11 @@ impl State {
         &mut self,
         index: usize,
         parameters: &Parameters,
-        question: impl FnOnce(&mut Grouping, &View<'_>, &mut Log) -> Wants,
+        question: impl FnOnce(&mut Grouping, &View<'_>, &mut Log, &mut Wants),
     ) {
         let view = View { axes: &self.axes, parameters };
-        let wants = question(&mut self.groupings[index], &view, &mut self.log);
+        let mut wants = Wants::new();
+        question(&mut self.groupings[index], &view, &mut self.log, &mut wants);
         self.carry_out(&wants);
     }
 

@@ -153,9 +153,14 @@ impl Grouping {
     }
 
     /// What takes synchronism or readiness away, and what gives it back outside of section 3.
-    pub(in crate::sinumerik) fn watch_synchronism(&mut self, view: &View<'_>, locked: bool, log: &mut Log) -> Wants {
-        let mut wants = Wants::new();
-        self.open_or_close(view, log, &mut wants);
+    pub(in crate::sinumerik) fn watch_synchronism(
+        &mut self,
+        view: &View<'_>,
+        locked: bool,
+        log: &mut Log,
+        wants: &mut Wants,
+    ) {
+        self.open_or_close(view, log, wants);
         let (axes, phase) = (view.axes, self.phase);
         let follower = self.coupling.members().find(|&axis| axes[axis].enabling.follow_up);
         let unreferenced = self.coupling.members().find(|&axis| !axes[axis].is_referenced());
@@ -173,11 +178,11 @@ impl Grouping {
                 self.step(log, rule, [input, Input::None, Input::None], cause);
             }
             (Phase::WaitingForStart | Phase::Synchronising, Some((_, input, cause))) => {
-                self.end_ready(input, cause, log, &mut wants);
+                self.end_ready(input, cause, log, wants);
             }
             (Phase::WaitingForStart | Phase::Synchronising, None) => {
                 if let Some(cause) = self.trip_cause() {
-                    self.end_ready(Input::None, cause, log, &mut wants);
+                    self.end_ready(Input::None, cause, log, wants);
                 }
             }
             (Phase::NotSynchronised, None) => self.make_ready(view, log),
@@ -195,13 +200,12 @@ impl Grouping {
         // Where an enable is missing on another axis, follow-up ends in hold.
         let back = self.coupling.members().all(|axis| axes[axis].enabling.is_on());
         if back && std::mem::take(&mut self.returning) {
-            self.restore_synchronism(view, locked, log, &mut wants);
+            self.restore_synchronism(view, locked, log, wants);
             if self.lost_in_operation {
                 // Where synchronism is not back, what is apart now is the base of the limits (MON-08).
                 self.coupling.keep_bases(axes);
             }
         }
-        wants
     }
 
     /// Not ready any more; a synchronising motion ends with it.

@@ -15,7 +15,7 @@
 //! MD37110 alone does not warn as well, or the base would mean nothing to it.
 
 use crate::control::Log;
-use crate::motion::coupling::{CouplingEvent, Limit, TwoStage, What};
+use crate::motion::coupling::{CouplingEvent, Events, Limit, TwoStage, What};
 use crate::sinumerik::alarms;
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::gantry::view::{View, Want, Wants};
@@ -54,26 +54,25 @@ fn trip(limit: Limit, synchronised: bool) -> (Rule, u32) {
 impl State {
     /// Differences, their alarms, and the messages of section 3.
     pub(in crate::sinumerik) fn monitor_grouping(&mut self, index: usize, parameters: &Parameters) {
-        self.ask(index, parameters, |grouping, view, log| {
-            let mut wants = grouping.monitor(view, log);
+        self.ask(index, parameters, |grouping, view, log, wants| {
+            grouping.monitor(view, log, wants);
             wants.extend(grouping.message(view));
-            wants
         });
     }
 }
 
 impl Grouping {
-    fn monitor(&mut self, view: &View<'_>, log: &mut Log) -> Wants {
+    fn monitor(&mut self, view: &View<'_>, log: &mut Log, wants: &mut Wants) {
         let followed_up = self.coupling.members().any(|axis| view.axes[axis].enabling.follow_up);
         let synchronised = self.phase == Phase::Synchronised;
         let own = |axis: AxisNumber| &view.parameters.axes[axis].gantry;
         self.coupling.set_limits(|axis| (!followed_up).then(|| limits(own(axis), synchronised)));
         let monitored = !followed_up && self.phase != Phase::Open;
-        let events = self.coupling.compare(view.axes);
+        let mut events = Events::new();
+        self.coupling.compare(view.axes, &mut events);
         for event in &events {
             self.note_limit(event, synchronised, monitored, log);
         }
-        let mut wants = Wants::new();
         for found in self.monitored() {
             let place = Place::Axis(found.axis);
             let channel = Parameter::Channel(view.parameters.axes[found.axis].channel);
@@ -82,7 +81,6 @@ impl Grouping {
             wants.extend(found.warning.then(|| raise(alarms::GANTRY_WARNING_LIMIT, found.causes.warning)));
             wants.extend(found.trip.then(|| raise(alarms::GANTRY_TRIP_LIMIT, found.causes.trip)));
         }
-        wants
     }
 
     /// Notes why a warning or a trip came or went.
