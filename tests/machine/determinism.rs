@@ -213,10 +213,16 @@ fn a_saved_machine_goes_on_elsewhere_byte_for_byte() {
         run_to(&mut restored, 700);
         restored.restore(&saved).expect("it was saved on the same machine");
         assert_eq!(origin.cycle(), restored.cycle());
+        let what = format!("saved in cycle {saved_at}");
+        assert!(restored.save() == saved, "{what}: the restored machine is saved with other bytes");
         while origin.cycle() < CYCLES {
             step(&mut origin);
             step(&mut restored);
-            assert_same(&origin, &restored, &format!("saved in cycle {saved_at}"));
+            assert_same(&origin, &restored, &what);
+            // What is not saved, or not restored, shows in what is saved next.
+            if origin.cycle() < saved_at + 20 || origin.cycle() % 100 == 0 {
+                assert!(origin.save() == restored.save(), "{what}: saved states differ in cycle {}", origin.cycle());
+            }
         }
     }
 }
