@@ -1,10 +1,39 @@
 //! What causes name: signals of this control as inputs of a decision.
 
-use crate::units::AxisNumber;
+use crate::image::Signal;
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 use crate::variables::{Input, Place, SignalBit};
 
 /// A signal of an axis as an input.
 #[must_use]
-pub(super) const fn axis_bit(axis: AxisNumber, byte: u16, bit: u8, value: bool) -> Input {
-    Input::Bit(SignalBit { place: Place::Axis(axis), byte, bit }, value)
+pub(super) const fn axis_signal(axis: AxisNumber, signal: Signal, value: bool) -> Input {
+    signal_of(Place::Axis(axis), signal, 0, value)
+}
+
+/// A bit of a signal of several bits of an axis; `index` counts from its lowest bit.
+#[must_use]
+pub(super) const fn axis_signal_bit(axis: AxisNumber, signal: Signal, index: u8, value: bool) -> Input {
+    signal_of(Place::Axis(axis), signal, index, value)
+}
+
+/// A signal of a channel as an input.
+#[must_use]
+pub(super) const fn channel_signal(channel: ChannelNumber, signal: Signal, value: bool) -> Input {
+    signal_of(Place::Channel(channel), signal, 0, value)
+}
+
+/// A signal of a mode group as an input.
+#[must_use]
+pub(super) const fn mode_group_signal(group: ModeGroupNumber, signal: Signal, value: bool) -> Input {
+    signal_of(Place::ModeGroup(group), signal, 0, value)
+}
+
+/// A signal of the NCK as an input.
+#[must_use]
+pub(super) const fn nck_signal(signal: Signal, value: bool) -> Input {
+    signal_of(Place::Nck, signal, 0, value)
+}
+
+const fn signal_of(place: Place, signal: Signal, index: u8, value: bool) -> Input {
+    Input::Bit(SignalBit { place, byte: signal.byte, bit: signal.bit + index }, value)
 }

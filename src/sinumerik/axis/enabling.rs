@@ -4,11 +4,11 @@
 //! 2.1 and 21.7 of each axis; axes of a closed grouping form one unit that is enabled, braked and held in the same
 //! manner (SIG-01, SIG-02). Writes the state from which 61.3, 61.5 to 61.7, 93.5, 93.7 and 102.5/.6 follow.
 
-use crate::image::ToNck;
+use crate::image::{ToNck, axis_from_nck, axis_to_nck};
 use crate::motion::Motion;
 use crate::sinumerik::alarms::{self, Reaction};
 use crate::sinumerik::axis::state::{Axis, ControllerState, STEP};
-use crate::sinumerik::inputs::axis_bit;
+use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::resting::Resting;
@@ -87,8 +87,8 @@ impl State {
         }
         let signals = &to_nck.axes[number];
         let inputs = [
-            axis_bit(number, 1, 5, signals.position_measuring_system_1()),
-            axis_bit(number, 1, 6, signals.position_measuring_system_2()),
+            axis_signal(number, axis_to_nck::position_measuring_system_1, signals.position_measuring_system_1()),
+            axis_signal(number, axis_to_nck::position_measuring_system_2, signals.position_measuring_system_2()),
             Input::None,
         ];
         let rule = if wanted.is_some() { Rule::MeasuringSystem } else { Rule::Parking };
@@ -165,7 +165,11 @@ impl State {
         let (was, is) = (before >= STEP, axis.enabling.pulses_enabled());
         if was != is {
             let rule = if is { Rule::PulsesEnabled } else { Rule::PulsesDisabled };
-            let inputs = [axis_bit(number, 21, 7, enable), axis_bit(number, 93, 5, ready), Input::None];
+            let inputs = [
+                axis_signal(number, axis_to_nck::pulse_enable, enable),
+                axis_signal(number, axis_from_nck::drive_ready, ready),
+                Input::None,
+            ];
             axis.causes.drive = self.log.note(Place::Axis(number), rule, inputs, axis.causes.drive);
         }
     }
@@ -191,15 +195,19 @@ impl State {
             }
             let lost = if !signals.controller_enable() {
                 conditions.enable = false;
-                Some((axis_bit(number, 2, 1, false), 1))
+                Some((axis_signal(number, axis_to_nck::controller_enable, false), 1))
             } else if axis.measuring_system.is_none() {
                 conditions.healthy = false;
-                Some((axis_bit(number, 102, 5, false), 0))
+                Some((axis_signal(number, axis_from_nck::position_measuring_system_1_activated, false), 0))
             } else if !axis.enabling.pulses_enabled() {
                 conditions.healthy = false;
                 let by_plc = !signals.pulse_enable();
                 Some((
-                    axis_bit(number, if by_plc { 21 } else { 93 }, if by_plc { 7 } else { 5 }, false),
+                    axis_signal(
+                        number,
+                        if by_plc { axis_to_nck::pulse_enable } else { axis_from_nck::drive_ready },
+                        false,
+                    ),
                     if by_plc { 2 } else { 4 },
                 ))
             } else {
@@ -253,7 +261,11 @@ impl State {
             } else {
                 (Rule::ControllerOff, EventId::NONE)
             };
-            let input = if wanted && !goes_off { axis_bit(number, 2, 1, true) } else { conditions.missing };
+            let input = if wanted && !goes_off {
+                axis_signal(number, axis_to_nck::controller_enable, true)
+            } else {
+                conditions.missing
+            };
             let event = self.log.note_one(Place::Axis(number), rule, input, parent);
             self.axes[number].causes.enabling = event;
         }

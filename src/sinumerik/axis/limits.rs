@@ -6,11 +6,11 @@
 //! Software (MD36100 and MD36110, or the second pair by 12.2 and 12.3): the leading axis only (MON-13), once it is referenced,
 //! and no modulo axis. JOG brakes so that the axis rests exactly on the limit, with 10621 until it is moved away.
 
-use crate::image::ToNck;
+use crate::image::{ToNck, axis_to_nck};
 use crate::motion::Motion;
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::LimitSwitches;
-use crate::sinumerik::inputs::axis_bit;
+use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
@@ -42,7 +42,11 @@ impl State {
                 continue;
             }
             if (minus, plus) != (before.minus, before.plus) {
-                let inputs = [axis_bit(number, 12, 0, minus), axis_bit(number, 12, 1, plus), Input::None];
+                let inputs = [
+                    axis_signal(number, axis_to_nck::hardware_limit_switch_minus, minus),
+                    axis_signal(number, axis_to_nck::hardware_limit_switch_plus, plus),
+                    Input::None,
+                ];
                 let cause = self.log.note(Place::Axis(number), Rule::HardwareLimitSwitch, inputs, EventId::NONE);
                 self.axes[number].limits = LimitSwitches { minus, plus, cause };
             }

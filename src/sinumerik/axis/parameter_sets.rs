@@ -8,9 +8,9 @@
 //! (MD31050, MD31060) by which an encoder counts otherwise is refused with 26050 in position control; without, it is taken: the display
 //! goes on from where it is, and the reference is lost. 9.3 forbids a change by the NC, and there is none. A data set of a drive has no effect on the model.
 
-use crate::image::ToNck;
+use crate::image::{ToNck, axis_to_nck};
 use crate::sinumerik::alarms;
-use crate::sinumerik::inputs::axis_bit;
+use crate::sinumerik::inputs::axis_signal_bit;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::mechanics::Misfit;
 use crate::sinumerik::resting::Resting;
@@ -104,5 +104,5 @@ impl State {
 
 /// DBX9.0 to 9.2 of an axis, as they ask for a set.
 fn requested(number: AxisNumber, set: u8) -> [Input; 3] {
-    [0, 1, 2].map(|bit| axis_bit(number, 9, bit, set >> bit & 1 == 1))
+    [0, 1, 2].map(|bit| axis_signal_bit(number, axis_to_nck::controller_parameter_set, bit, set >> bit & 1 == 1))
 }

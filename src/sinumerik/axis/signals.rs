@@ -13,9 +13,9 @@
 //! stays active and its setpoint follows the actual value; increments and ways of handwheels are dropped, an
 //! approach ends with 20005; a key that acts while it is held goes on when 20.1 goes.
 
-use crate::image::ToNck;
+use crate::image::{ToNck, axis_from_nck, axis_to_nck};
 use crate::motion::Motion;
-use crate::sinumerik::inputs::axis_bit;
+use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::jog::state::Movement;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
@@ -36,7 +36,7 @@ impl State {
             }
             if stopped_by.is_some() != self.axes[number].signals.fast_stop {
                 let axis = stopped_by.unwrap_or(number);
-                let input = axis_bit(axis, 20, 1, stopped_by.is_some());
+                let input = axis_signal(axis, axis_to_nck::ramp_function_generator_fast_stop, stopped_by.is_some());
                 let event = self.log.note_one(Place::Axis(number), Rule::FastStop, input, EventId::NONE);
                 self.axes[number].signals.fast_stop = stopped_by.is_some();
                 self.axes[number].signals.fast_stop_cause = event;
@@ -53,7 +53,7 @@ impl State {
         let rest = unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest());
         let ends = !disable && rest;
         if disable != self.axes[leader].signals.disabled_at.is_some() && (disable || ends) {
-            let input = axis_bit(leader, 1, 3, disable);
+            let input = axis_signal(leader, axis_to_nck::axis_spindle_disable, disable);
             self.log.note_one(Place::Axis(leader), Rule::AxisDisable, input, EventId::NONE);
         }
         for number in unit.members() {
@@ -78,7 +78,7 @@ impl State {
             Movement::None | Movement::Continuous(_) => return,
         }
         self.axes[number].jogging.movement = Movement::None;
-        let input = axis_bit(number, 2, 2, true);
+        let input = axis_signal(number, axis_to_nck::delete_distance_to_go_spindle_reset, true);
         let event = self.log.note_one(Place::Axis(number), Rule::DistanceDeleted, input, EventId::NONE);
         self.traverse(number, 0, 0, event);
     }
@@ -87,9 +87,12 @@ impl State {
     pub(in crate::sinumerik) fn motion_forbidden(&self, unit: &Unit) -> Option<Input> {
         let leader = unit.leader();
         if self.axes[leader].signals.disabled_at.is_some() {
-            return Some(axis_bit(leader, 1, 3, true));
+            return Some(axis_signal(leader, axis_to_nck::axis_spindle_disable, true));
         }
-        self.axes[leader].signals.fast_stop.then(|| axis_bit(leader, 92, 1, true))
+        self.axes[leader]
+            .signals
+            .fast_stop
+            .then(|| axis_signal(leader, axis_from_nck::ramp_function_generator_disable_active, true))
     }
 
     /// With the fast stop the setpoint follows the axis, whatever else was commanded.

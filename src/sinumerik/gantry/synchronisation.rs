@@ -4,12 +4,13 @@
 //! Called by `grouping.rs` once per cycle for each grouping. The choices are written there.
 
 use crate::control::Log;
+use crate::image::{Signal, axis_from_nck, axis_to_nck};
 use crate::motion::coupling::{Moves, Progress, Realign, Realigning, Target};
 use crate::motion::{Limits, Motion};
 use crate::sinumerik::alarms;
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::gantry::view::{Permit, View, Want, Wants};
-use crate::sinumerik::inputs::axis_bit;
+use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
@@ -46,7 +47,8 @@ impl Grouping {
             }
         }
         if locked {
-            let locked = [axis_bit(leader, 29, 5, true), Input::None, Input::None];
+            let locked =
+                [axis_signal(leader, axis_to_nck::no_automatic_synchronization, true), Input::None, Input::None];
             wait = wait.or(Some((Rule::WaitLocked, locked)));
         }
         if let Some((rule, inputs)) = wait {
@@ -92,7 +94,11 @@ impl Grouping {
             return Wants::new();
         }
         self.decouple(view);
-        let inputs = [axis_bit(self.coupling.leader(), 29, 4, true), Input::None, Input::None];
+        let inputs = [
+            axis_signal(self.coupling.leader(), axis_to_nck::start_gantry_synchronization, true),
+            Input::None,
+            Input::None,
+        ];
         self.step(log, Rule::StartByPlc, inputs, self.cause);
         self.synchronise(view, permit, log)
     }
@@ -166,12 +172,18 @@ impl Grouping {
         let unreferenced = self.coupling.members().find(|&axis| !axes[axis].is_referenced());
         let followed_up = std::mem::replace(&mut self.followed_up, follower.is_some());
         let lost = follower
-            .map(|axis| (Rule::SynchronismLostFollowUp, axis_bit(axis, 61, 3, true), axes[axis].causes.enabling))
+            .map(|axis| {
+                (
+                    Rule::SynchronismLostFollowUp,
+                    axis_signal(axis, axis_from_nck::follow_up_active, true),
+                    axes[axis].causes.enabling,
+                )
+            })
             .or_else(|| {
                 let axis = unreferenced?;
                 let (causes, active) = (axes[axis].causes, axes[axis].measuring_system.unwrap_or(0));
                 let cause = causes.reference[usize::from(active)].max(causes.measuring_system);
-                Some((Rule::SynchronismLostReference, axis_bit(axis, 60, 4 + active, false), cause))
+                Some((Rule::SynchronismLostReference, axis_signal(axis, referenced_signal(active), false), cause))
             });
         match (phase, lost) {
             (Phase::Synchronised, Some((rule, input, cause))) => {
@@ -288,4 +300,13 @@ fn velocity_and_acceleration(view: &View<'_>, number: AxisNumber) -> Limits {
     let factor = if axis.feed_held { 0.0 } else { axis.feed_factor };
     let velocity = (parameters.reference.marker_velocity[encoder] * factor).min(parameters.maximum_velocity);
     Limits { velocity, acceleration: parameters.maximum_acceleration }
+}
+
+/// "Referenced/synchronized" of a measuring system, 0 or 1.
+const fn referenced_signal(measuring_system: u8) -> Signal {
+    if measuring_system == 0 {
+        axis_from_nck::referenced_synchronized_1
+    } else {
+        axis_from_nck::referenced_synchronized_2
+    }
 }

@@ -17,9 +17,9 @@
 //! handwheel that is taken from an axis drops its way; 20051 stays until the key has ended its movement; a key that meets a
 //! moving handwheel (20050) moves nothing until it is released and pressed again.
 
-use crate::image::{AxisToNck, NckHmi};
+use crate::image::{AxisToNck, NckHmi, Signal, axis_to_nck, nck_hmi};
 use crate::sinumerik::alarms;
-use crate::sinumerik::inputs::axis_bit;
+use crate::sinumerik::inputs::{axis_signal, nck_signal};
 use crate::sinumerik::jog::state::{By, Movement};
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
@@ -27,7 +27,14 @@ use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
-use crate::variables::{EventId, Input, Place, SignalBit};
+use crate::variables::{EventId, Input, Place};
+
+/// The signals that assign each handwheel: that of the axis, and that of the HMI.
+const ACTIVATED_AND_SELECTED: [(Signal, Signal); 3] = [
+    (axis_to_nck::activate_handwheel_1, nck_hmi::handwheel_1_selected),
+    (axis_to_nck::activate_handwheel_2, nck_hmi::handwheel_2_selected),
+    (axis_to_nck::activate_handwheel_3, nck_hmi::handwheel_3_selected),
+];
 
 /// What a stop condition does to handwheels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -151,13 +158,21 @@ impl State {
 
     /// The signals that assign these handwheels, and the one that turns their direction round.
     fn selection_inputs(&self, number: AxisNumber, handwheels: u8, signals: &AxisToNck) -> [Input; 3] {
-        let handwheel = u8::try_from(handwheels.trailing_zeros().min(2)).unwrap_or(0);
-        let by_plc = axis_bit(number, 4, handwheel, signals.activated_handwheels() >> handwheel & 1 == 1);
-        let selected = self.handwheels[usize::from(handwheel)].selected == Some(number);
-        let strobe = SignalBit { place: Place::Nck, byte: 100 + u16::from(handwheel), bit: 6 };
-        let by_hmi = if selected { Input::Bit(strobe, true) } else { Input::None };
+        let handwheel = handwheels.trailing_zeros().min(2) as usize;
+        let (activated, selects) = ACTIVATED_AND_SELECTED[handwheel];
+        let by_plc = axis_signal(number, activated, signals.activated_handwheels() >> handwheel & 1 == 1);
+        let selected = self.handwheels[handwheel].selected == Some(number);
+        let by_hmi = if selected { nck_signal(selects, true) } else { Input::None };
         let inverted = signals.invert_handwheel_direction_of_rotation();
-        [by_plc, by_hmi, if inverted { axis_bit(number, 7, 0, true) } else { Input::None }]
+        [
+            by_plc,
+            by_hmi,
+            if inverted {
+                axis_signal(number, axis_to_nck::invert_handwheel_direction_of_rotation, true)
+            } else {
+                Input::None
+            },
+        ]
     }
 
     /// The stop conditions of MD32084.

@@ -12,14 +12,14 @@
 //! only a press begins an increment: a key that was held before JOG, that is left over of two, or that comes back with
 //! 4.4 = 0 begins none; what ends an increment early (the key, MD11300; 4.4; 2.2; RESET; a stop; a limit) drops the rest of it.
 
-use crate::image::ToNck;
-use crate::sinumerik::inputs::axis_bit;
+use crate::image::{ToNck, nck_to_nck};
+use crate::sinumerik::inputs::{axis_signal, mode_group_signal, nck_signal};
 use crate::sinumerik::jog::state::{Function, GroupFunction};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::resting::Resting;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
-use crate::variables::{EventId, Input, Place, SignalBit};
+use crate::variables::{EventId, Input, Place};
 
 impl State {
     /// The machine function that a mode group selects for its axes.
@@ -32,8 +32,8 @@ impl State {
             if function != self.group_functions[group].function {
                 let shown = function.unwrap_or_default();
                 let place = Place::ModeGroup(group);
-                let request = Input::Bit(SignalBit { place, byte: 2, bit: shown.bit() }, requested & shown.bits() != 0);
-                let where_from = Input::Bit(SignalBit { place: Place::Nck, byte: 57, bit: 0 }, central);
+                let request = mode_group_signal(group, shown.of_mode_group(), requested & shown.bits() != 0);
+                let where_from = nck_signal(nck_to_nck::increment_inputs_active_in_mode_group_area, central);
                 let inputs = [where_from, request, Input::None];
                 let cause = self.log.note(place, Rule::IncrementSelected, inputs, EventId::NONE);
                 self.group_functions[group] = GroupFunction { function, cause };
@@ -61,7 +61,7 @@ impl State {
                 let (parent, input) = if of_group.is_some() {
                     (cause, Input::None)
                 } else {
-                    (EventId::NONE, axis_bit(number, 5, function.bit(), requested & function.bits() != 0))
+                    (EventId::NONE, axis_signal(number, function.of_axis(), requested & function.bits() != 0))
                 };
                 let event = self.log.note_one(Place::Axis(number), Rule::IncrementSelected, input, parent);
                 self.axes[number].jogging.function = function;

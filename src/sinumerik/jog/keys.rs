@@ -8,11 +8,11 @@
 //! feed disable, RESET, an alarm that stops and a limit take the command and leave the request. What has an end
 //! goes on to it after feed stop, feed disable and 0 %, and is dropped by everything else that stops.
 
-use crate::image::{AxisToNck, ToNck};
+use crate::image::{AxisToNck, Signal, ToNck, axis_to_nck, channel_to_nck};
 use crate::motion::Motion;
 use crate::sinumerik::axis::limits::Ahead;
 use crate::sinumerik::axis::state::Axis;
-use crate::sinumerik::inputs::axis_bit;
+use crate::sinumerik::inputs::{axis_signal, channel_signal};
 use crate::sinumerik::jog::handwheels;
 use crate::sinumerik::jog::state::{By, Movement};
 use crate::sinumerik::parameters::Parameters;
@@ -20,7 +20,7 @@ use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::AxisNumber;
-use crate::variables::{EventId, Input, Place, SignalBit};
+use crate::variables::{EventId, Input, Place};
 
 /// The direction of the traversing keys: +1, −1, or 0 for none, both, or keys that are disabled (4.4).
 #[must_use]
@@ -33,15 +33,20 @@ pub(in crate::sinumerik) fn key_direction(signals: &AxisToNck) -> i8 {
     }
 }
 
+/// The traversing key of a direction.
+#[must_use]
+pub(in crate::sinumerik) const fn key_signal(direction: i8) -> Signal {
+    if direction > 0 { axis_to_nck::traversing_key_plus } else { axis_to_nck::traversing_key_minus }
+}
+
 impl State {
     /// What holds every movement of a unit: override factor 0, feed stop on any of its axes (SIG-06), feed disable.
     pub(in crate::sinumerik) fn take_feed(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let disabled = to_nck.channels[unit.channel].feed_disable();
         let stopper = unit.members().find(|&axis| to_nck.axes[axis].feed_stop());
         let stopped = stopper.is_some();
-        let channel = SignalBit { place: Place::Channel(unit.channel), byte: 6, bit: 0 };
-        let holder = stopper.map_or(Input::None, |axis| axis_bit(axis, 4, 3, true));
-        let holder = if disabled { Input::Bit(channel, true) } else { holder };
+        let holder = stopper.map_or(Input::None, |axis| axis_signal(axis, axis_to_nck::feed_stop, true));
+        let holder = if disabled { channel_signal(unit.channel, channel_to_nck::feed_disable, true) } else { holder };
         for axis in unit.members() {
             let signals = &to_nck.axes[axis];
             // O-21: the axial override acts while 1.7 = 1, else 100 %.
@@ -222,16 +227,16 @@ impl Axis {
 /// The keys, and what of the axis itself holds its movement.
 fn key_inputs(number: AxisNumber, axis: &Axis, signals: &AxisToNck) -> [Input; 3] {
     let holds = if signals.feed_stop() {
-        axis_bit(number, 4, 3, true)
+        axis_signal(number, axis_to_nck::feed_stop, true)
     } else if axis.feed_factor <= 0.0 {
         // The override that acts is 0 %.
-        axis_bit(number, 1, 7, true)
+        axis_signal(number, axis_to_nck::override_active, true)
     } else {
         axis.feed_holder
     };
     [
-        axis_bit(number, 4, 7, signals.traversing_key_plus()),
-        axis_bit(number, 4, 6, signals.traversing_key_minus()),
+        axis_signal(number, axis_to_nck::traversing_key_plus, signals.traversing_key_plus()),
+        axis_signal(number, axis_to_nck::traversing_key_minus, signals.traversing_key_minus()),
         holds,
     ]
 }

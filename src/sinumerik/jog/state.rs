@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::image::AxisToNck;
+use crate::image::{AxisToNck, Signal, axis_to_nck, mode_group_to_nck};
 use crate::sinumerik::parameters::KeyModes;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::units::{AxisNumber, Position};
@@ -41,6 +41,34 @@ impl Function {
             Self::Continuous => 6,
             Self::Increment(bit) => bit,
         }
+    }
+
+    /// The signal of an axis that requests it.
+    pub(in crate::sinumerik) const fn of_axis(self) -> Signal {
+        const REQUESTS: [Signal; 7] = [
+            axis_to_nck::machine_function_increment_1,
+            axis_to_nck::machine_function_increment_10,
+            axis_to_nck::machine_function_increment_100,
+            axis_to_nck::machine_function_increment_1000,
+            axis_to_nck::machine_function_increment_10000,
+            axis_to_nck::machine_function_increment_variable,
+            axis_to_nck::machine_function_continuous,
+        ];
+        REQUESTS[self.bit() as usize]
+    }
+
+    /// The signal of a mode group that requests it.
+    pub(in crate::sinumerik) const fn of_mode_group(self) -> Signal {
+        const REQUESTS: [Signal; 7] = [
+            mode_group_to_nck::machine_function_increment_1,
+            mode_group_to_nck::machine_function_increment_10,
+            mode_group_to_nck::machine_function_increment_100,
+            mode_group_to_nck::machine_function_increment_1000,
+            mode_group_to_nck::machine_function_increment_10000,
+            mode_group_to_nck::machine_function_increment_variable,
+            mode_group_to_nck::machine_function_continuous,
+        ];
+        REQUESTS[self.bit() as usize]
     }
 
     /// The way of one increment, with its sign; zero for continuous.

@@ -5,17 +5,14 @@
 //! 56.1 is 0 and acknowledge 56.2 and mode group RESET (DB11.DBX0.7, of every mode group that has channels) are 1 together; neither
 //! alone ends it.
 
-use crate::image::ToNck;
+use crate::image::{ToNck, mode_group_to_nck, nck_to_nck};
 use crate::sinumerik::alarms::Cancel;
+use crate::sinumerik::inputs::{mode_group_signal, nck_signal};
 use crate::sinumerik::operation::state::EmergencyStop;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
-use crate::variables::{EventId, Input, Place, SignalBit};
-
-fn bit(bit: u8, value: bool) -> Input {
-    Input::Bit(SignalBit { place: Place::Nck, byte: 56, bit }, value)
-}
+use crate::variables::{EventId, Input, Place};
 
 impl State {
     /// One cycle of the handshake.
@@ -24,13 +21,22 @@ impl State {
         let acknowledged = to_nck.nck.acknowledge_emergency_stop();
         let reset = parameters.existing_mode_groups().all(|group| to_nck.mode_groups[group].mode_group_reset());
         if requested && !self.emergency_stop.active {
-            let cause = self.log.note_one(Place::Nck, Rule::EmergencyStop, bit(1, true), EventId::NONE);
+            let cause = self.log.note_one(
+                Place::Nck,
+                Rule::EmergencyStop,
+                nck_signal(nck_to_nck::emergency_stop, true),
+                EventId::NONE,
+            );
             self.emergency_stop = EmergencyStop { active: true, cause };
         } else if !requested && acknowledged && reset && self.emergency_stop.active {
-            let pressed = |group| Input::Bit(SignalBit { place: Place::ModeGroup(group), byte: 0, bit: 7 }, true);
+            let pressed = |group| mode_group_signal(group, mode_group_to_nck::mode_group_reset, true);
             // There is room for one; without RESET of the others it would not have ended.
             let group = parameters.existing_mode_groups().next().map_or(Input::None, pressed);
-            let inputs = [bit(1, false), bit(2, true), group];
+            let inputs = [
+                nck_signal(nck_to_nck::emergency_stop, false),
+                nck_signal(nck_to_nck::acknowledge_emergency_stop, true),
+                group,
+            ];
             let cause = self.log.note(Place::Nck, Rule::EmergencyStopAcknowledged, inputs, self.emergency_stop.cause);
             self.emergency_stop = EmergencyStop { active: false, cause };
             self.alarms.cancel(Cancel::ModeGroupReset, |_| true);

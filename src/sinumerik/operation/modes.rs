@@ -5,13 +5,14 @@
 //! REPOS in JOG; REF wins over REPOS. REPOS moves an axis back to where a program was interrupted; as long as no program has
 //! been, its keys move nothing. MD10720 names the mode after power on, JOG where it does not.
 
-use crate::image::ToNck;
+use crate::image::{Signal, ToNck, mode_group_from_nck, mode_group_to_nck};
+use crate::sinumerik::inputs::mode_group_signal;
 use crate::sinumerik::operation::state::{MachineFunction, Mode, ModeGroup};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::ModeGroupNumber;
-use crate::variables::{EventId, Input, Place, SignalBit};
+use crate::variables::{EventId, Input, Place};
 
 impl State {
     /// Modes and machine functions as requested.
@@ -24,15 +25,15 @@ impl State {
     fn select_mode(&mut self, group: ModeGroupNumber, to_nck: &ToNck) {
         let signals = &to_nck.mode_groups[group];
         let place = Place::ModeGroup(group);
-        let bit = |byte: u16, bit: u8, value: bool| Input::Bit(SignalBit { place, byte, bit }, value);
+        let input = |signal: Signal, value: bool| mode_group_signal(group, signal, value);
         let requested = if signals.mode_change_inhibit() {
             None
         } else if signals.mode_jog() {
-            Some((Mode::Jog, bit(0, 2, true)))
+            Some((Mode::Jog, input(mode_group_to_nck::mode_jog, true)))
         } else if signals.mode_mdi() {
-            Some((Mode::Mda, bit(0, 1, true)))
+            Some((Mode::Mda, input(mode_group_to_nck::mode_mdi, true)))
         } else if signals.mode_automatic() {
-            Some((Mode::Automatic, bit(0, 0, true)))
+            Some((Mode::Automatic, input(mode_group_to_nck::mode_automatic, true)))
         } else {
             None
         };
@@ -52,14 +53,20 @@ impl State {
         if function != state.function {
             let of_either = if function == MachineFunction::None { state.function } else { function };
             let requested = match of_either {
-                MachineFunction::TeachIn => bit(1, 0, signals.machine_function_teach_in()),
-                MachineFunction::Repos => bit(1, 1, signals.machine_function_repos()),
-                MachineFunction::Reference | MachineFunction::None => bit(1, 2, signals.machine_function_ref()),
+                MachineFunction::TeachIn => {
+                    input(mode_group_to_nck::machine_function_teach_in, signals.machine_function_teach_in())
+                }
+                MachineFunction::Repos => {
+                    input(mode_group_to_nck::machine_function_repos, signals.machine_function_repos())
+                }
+                MachineFunction::Reference | MachineFunction::None => {
+                    input(mode_group_to_nck::machine_function_ref, signals.machine_function_ref())
+                }
             };
             let within = if of_either == MachineFunction::TeachIn {
-                bit(6, 1, state.mode == Mode::Mda)
+                input(mode_group_from_nck::active_mode_mdi, state.mode == Mode::Mda)
             } else {
-                bit(6, 2, state.mode == Mode::Jog)
+                input(mode_group_from_nck::active_mode_jog, state.mode == Mode::Jog)
             };
             state.function = function;
             state.function_cause =

@@ -5,8 +5,9 @@
 //! all channels of the group at once. The alarm-cancel key concerns all channels. As long as no NC program can be selected,
 //! NC start does no more than to cancel alarms and to be refused without a reference point (10203).
 
-use crate::image::ToNck;
+use crate::image::{ToNck, channel_from_nck, channel_to_nck, mode_group_to_nck};
 use crate::sinumerik::alarms::{self, Cancel, Reaction};
+use crate::sinumerik::inputs::{channel_signal, mode_group_signal};
 use crate::sinumerik::machine_data::Effect;
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::operation::state::Mode;
@@ -14,7 +15,7 @@ use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{ChannelNumber, ModeGroupNumber};
-use crate::variables::{EventId, Input, Parameter, Place, SignalBit};
+use crate::variables::{EventId, Input, Parameter, Place};
 
 impl Nck {
     /// RESET, the cancel key and NC start; data of the classes RESET and NEWCONF become active with a RESET.
@@ -57,13 +58,13 @@ impl State {
         if !rises {
             return false;
         }
-        let bit = if by_mode_group {
-            SignalBit { place: Place::ModeGroup(group), byte: 0, bit: 7 }
+        let input = if by_mode_group {
+            mode_group_signal(group, mode_group_to_nck::mode_group_reset, true)
         } else {
-            SignalBit { place: Place::Channel(channel), byte: 7, bit: 7 }
+            channel_signal(channel, channel_to_nck::channel_reset, true)
         };
         let place = Place::Channel(channel);
-        let event = self.log.note_one(place, Rule::ResetDone, Input::Bit(bit, true), EventId::NONE);
+        let event = self.log.note_one(place, Rule::ResetDone, input, EventId::NONE);
         self.channels[channel].reset_cause = event;
         self.channels[channel].cancel_cause = event;
         self.alarms.cancel(Cancel::Reset, |place| parameters.concerns_channel(place, channel));
@@ -88,9 +89,10 @@ impl State {
         let runs_programs = self.mode_groups[group].mode != Mode::Jog;
         if rises && runs_programs && !signals.nc_start_disable() && !self.is_referenced(channel, parameters) {
             let place = Place::Channel(channel);
-            let bit = Input::Bit(SignalBit { place, byte: 7, bit: 1 }, true);
-            let missing = Input::Bit(SignalBit { place, byte: 36, bit: 2 }, false);
-            let event = self.log.note(place, Rule::StartRefused, [bit, missing, Input::None], EventId::NONE);
+            let pressed = channel_signal(channel, channel_to_nck::nc_start, true);
+            let referenced = channel_from_nck::all_axes_requiring_reference_point_are_referenced;
+            let missing = channel_signal(channel, referenced, false);
+            let event = self.log.note(place, Rule::StartRefused, [pressed, missing, Input::None], EventId::NONE);
             let shown = [Parameter::Channel(channel), Parameter::None, Parameter::None, Parameter::None];
             self.alarms.raise(alarms::START_WITHOUT_REFERENCE, place, shown, event);
         }

@@ -13,16 +13,16 @@
 
 use crate::control::Log;
 use crate::control::next;
-use crate::image::AxisToNck;
+use crate::image::{AxisToNck, axis_to_nck, channel_to_nck};
 use crate::motion::Motion;
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::Axis;
-use crate::sinumerik::inputs::axis_bit;
+use crate::sinumerik::inputs::{axis_signal, channel_signal};
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::referencing::state::{APPROACH_CHART, Approach, Phase, TRANSITIONS};
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, Position};
-use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity, SignalBit};
+use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity};
 
 /// How an approach went on in this cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,7 +113,11 @@ impl Approach {
         }
         let (axis, reference) = (view.axis, &view.parameters.reference);
         let on_cam = view.signals.deceleration_reference_point_approach();
-        let cam = [axis_bit(view.number, 12, 7, on_cam), Input::None, Input::None];
+        let cam = [
+            axis_signal(view.number, axis_to_nck::deceleration_reference_point_approach, on_cam),
+            Input::None,
+            Input::None,
+        ];
         let creep_from_rising_edge = reference.marker_reverse[view.encoder];
         match self.phase {
             Phase::Idle | Phase::PassShift => {}
@@ -195,9 +199,9 @@ impl Approach {
     fn interrupted(&mut self, log: &mut Log, view: &View<'_>) -> Option<Outcome> {
         let creeping = matches!(self.phase, Phase::LeaveCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark);
         let input = if view.axis.feed_disabled {
-            Input::Bit(SignalBit { place: Place::Channel(view.parameters.channel), byte: 6, bit: 0 }, true)
+            channel_signal(view.parameters.channel, channel_to_nck::feed_disable, true)
         } else if creeping && view.axis.feed_factor <= 0.0 {
-            axis_bit(view.number, 1, 7, true)
+            axis_signal(view.number, axis_to_nck::override_active, true)
         } else {
             return None;
         };

@@ -5,17 +5,17 @@
 //! key that is pressed before the axes are in position control stays pending until they are. Channel-specific referencing
 //! (33.0 = 1) waits for an axis of its turn that cannot start (1.3, parked, MD34200 other than 1) until RESET or until REF is left.
 
-use crate::image::ToNck;
+use crate::image::{ToNck, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck};
 use crate::sinumerik::alarms;
-use crate::sinumerik::inputs::axis_bit;
-use crate::sinumerik::jog::keys::key_direction;
+use crate::sinumerik::inputs::{axis_signal, channel_signal, mode_group_signal};
+use crate::sinumerik::jog::keys::{key_direction, key_signal};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::referencing::approach::Outcome;
 use crate::sinumerik::referencing::state::ChannelReferencing;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, ChannelNumber, Position};
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, SignalBit};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 
 impl State {
     /// An axis that belongs to no closed grouping.
@@ -113,12 +113,10 @@ impl State {
             return None;
         }
         self.axes[number].key_used = true;
-        let bit = if key > 0 { 7 } else { 6 };
-        let active = SignalBit { place: Place::ModeGroup(unit.mode_group), byte: 7, bit: 2 };
         let inputs = [
-            axis_bit(number, 4, bit, true),
+            axis_signal(number, key_signal(key), true),
             Input::Datum(34010, Some(number), f64::from(u8::from(forward < 0))),
-            Input::Bit(active, true),
+            mode_group_signal(unit.mode_group, mode_group_from_nck::active_machine_function_ref, true),
         ];
         let parent = self.mode_group(unit).function_cause;
         let event = self.log.note(Place::Axis(number), Rule::KeyStartsApproach, inputs, parent);
@@ -176,7 +174,7 @@ impl State {
         if !self.channels[unit.channel].reset
             && let Some(off) = unit.members().find(|&axis| !to_nck.axes[axis].controller_enable())
         {
-            let input = axis_bit(off, 2, 1, false);
+            let input = axis_signal(off, axis_to_nck::controller_enable, false);
             let event = self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, parent);
             return Some((Some(alarms::APPROACH_ABORTED), event));
         }
@@ -195,18 +193,18 @@ impl State {
         }
         let pressed = key_direction(&to_nck.axes[number]);
         let (alarm, input) = if let Some(off) = unit.members().find(|&axis| !self.axes[axis].enabling.is_on()) {
-            (Some(alarms::APPROACH_ABORTED), axis_bit(off, 61, 5, false))
+            (Some(alarms::APPROACH_ABORTED), axis_signal(off, axis_from_nck::position_controller_active, false))
         } else if let Some(forbidden) = self.motion_forbidden(unit) {
             (Some(alarms::APPROACH_ABORTED), forbidden)
         } else if key != 0 && parameters.jog_mode && pressed != key {
-            let released = axis_bit(number, 4, if key > 0 { 7 } else { 6 }, false);
+            let released = axis_signal(number, key_signal(key), false);
             // The datum that makes the approach end with its key.
             let held = Input::Datum(11300, None, 1.0);
             let inputs = [released, held, Input::None];
             let event = self.log.note(Place::Axis(number), Rule::ApproachAborted, inputs, parent);
             return Some((Some(alarms::APPROACH_ABORTED), event));
         } else if key != 0 && !parameters.jog_mode && pressed == -key {
-            (None, axis_bit(number, 4, if key > 0 { 6 } else { 7 }, true))
+            (None, axis_signal(number, key_signal(-key), true))
         } else {
             return None;
         };
@@ -269,7 +267,7 @@ impl State {
                 continue;
             }
             let place = Place::Channel(channel);
-            let input = Input::Bit(SignalBit { place, byte: 1, bit: 0 }, true);
+            let input = channel_signal(channel, channel_to_nck::activate_referencing, true);
             let cause = self.log.note_one(place, Rule::ApproachStartedByChannel, input, EventId::NONE);
             let number = self.next_cycle_number(channel, 0, parameters);
             self.channels[channel].referencing = ChannelReferencing { number, started: 0, was: true, cause };
