@@ -111,7 +111,7 @@
 //! |---|---|---|
 //! | a signal | a row in `db10.rs`, `db11.rs`, `db21.rs` or `db31.rs` of `image/sinumerik/`, in address order | accessor, constant, docs, symbol, trace column; overlaps stop the build |
 //! | an interface of another control | a static [`image::Interface`] with its tables, as `tests/machine/own_interface.rs` does | symbols, addresses, presets, mapped image; gaps and foreign bytes stop the build |
-//! | its value | a line in `sinumerik/publish.rs`, its cause in `sinumerik/causes.rs` | golden traces that show it |
+//! | its value and its cause | a row in `sinumerik/publish/` | golden traces that show it |
 //! | a machine datum | a row in `sinumerik/machine_data/`, a field in `sinumerik/parameters/axis.rs` | its number and name are read, checked and written |
 //! | an alarm | a row in `sinumerik/alarms/mod.rs`, a `raise` where it happens | `alarm(N)` in scenarios, its text in traces |
 //! | a rule | a row in `sinumerik/rules.rs`, a `note` where it is decided | the cause behind an edge |

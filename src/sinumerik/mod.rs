@@ -16,13 +16,12 @@
 //! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `referencing/state.rs` or `gantry/state.rs` |
 //! | something that all axes depend on | a field of `Shared` in `resting.rs`, or nobody wakes for it |
 //! | something to watch | a file in `monitoring/`, a row in its table |
-//! | a signal that the control shows | a line in `publish.rs`, and its cause in `causes.rs` |
+//! | a signal that the control shows, and its cause | a row in `publish/` |
 
 mod alarms;
 mod awake;
 mod axis;
 mod boundary;
-mod causes;
 mod commissioning;
 mod gantry;
 mod inputs;

@@ -1,0 +1,64 @@
+//! Why alarms came and went, and the events of a cycle, for the record.
+
+use crate::sinumerik::alarms::{self, Alarm, Cancel};
+use crate::sinumerik::gantry::state::Grouping;
+use crate::sinumerik::nck::Nck;
+use crate::sinumerik::state::State;
+use crate::units::AxisNumber;
+use crate::variables::{AlarmNumber, Event, EventId, Place};
+
+impl Nck {
+    /// The event behind a pending alarm.
+    #[must_use]
+    pub fn alarm_cause(&self, number: AlarmNumber, place: Place) -> EventId {
+        let pending = &self.state.alarms;
+        pending
+            .iter()
+            .find(|(alarm, _)| alarm.number == number && alarm.place == place)
+            .map_or(EventId::NONE, |(_, cause)| cause)
+    }
+
+    /// The event that took an alarm away: of one that goes by itself, what its place did last; else RESET, a key or power on.
+    #[must_use]
+    pub fn cleared_cause(&self, number: AlarmNumber, place: Place) -> EventId {
+        let state = &*self.state;
+        let cancel = Alarm::find(number).map(|alarm| alarm.cancel);
+        let cause = match (number, place) {
+            (alarms::EMERGENCY_STOP, _) => state.emergency_stop.cause,
+            (alarms::GANTRY_WARNING_LIMIT, Place::Axis(axis)) => state.monitored(axis, false),
+            (alarms::GANTRY_WAITING | alarms::GANTRY_SYNCHRONISING, Place::Axis(axis)) => {
+                let reset = state.channels[self.parameters.axes[axis].channel].reset_cause;
+                state.grouping_of(axis).map_or(EventId::NONE, |grouping| grouping.cause.max(reset))
+            }
+            (alarms::WAITING_FOR_DRIVE, Place::Axis(_)) => state.run_up.cause,
+            (_, Place::Axis(axis)) if cancel == Some(Cancel::ByItself) => state.axes[axis].causes.motion,
+            (_, Place::Axis(axis)) => state.channels[self.parameters.axes[axis].channel].cancel_cause,
+            (_, Place::Channel(channel)) => state.channels[channel].cancel_cause,
+            (_, Place::Nck | Place::ModeGroup(_)) => state.cancel_event(),
+        };
+        if cause.is_some() { cause } else { state.power_on_cause }
+    }
+
+    /// The number of the latest event.
+    #[must_use]
+    pub fn last_event(&self) -> EventId {
+        self.state.log.events.last()
+    }
+
+    /// The events after this one.
+    pub fn events_since(&self, id: EventId) -> impl Iterator<Item = &Event> {
+        self.state.log.events.since(id)
+    }
+}
+
+impl State {
+    fn grouping_of(&self, axis: AxisNumber) -> Option<&Grouping> {
+        self.groupings.iter().find(|grouping| grouping.coupling.leader() == axis)
+    }
+
+    fn monitored(&self, axis: AxisNumber, trip: bool) -> EventId {
+        let mut all = self.groupings.iter().flat_map(Grouping::monitored);
+        let found = all.find(|monitored| monitored.axis == axis).map(|monitored| monitored.causes);
+        found.map_or(EventId::NONE, |causes| if trip { causes.trip } else { causes.warning })
+    }
+}

@@ -1,0 +1,141 @@
+//! What an axis shows: DB31 to DB61, with 101.x of gantry axes.
+
+use crate::image::axis_from_nck;
+use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::gantry::state::{Grouping, Monitored, Phase};
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::axis::AxisParameters;
+use crate::sinumerik::publish::rows::{Rows, Why};
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
+use crate::units::{AxisNumber, Position};
+use crate::variables::{Input, Place, Quantity};
+
+impl State {
+    /// DB31 to DB61, of one axis, but for 101.x.
+    #[inline]
+    pub(super) fn show_axis(
+        &self,
+        number: AxisNumber,
+        parameters: &AxisParameters,
+        all: &Parameters,
+        rows: &mut impl Rows,
+    ) {
+        let axis = &self.axes[number];
+        let (causes, set) = (&axis.causes, axis.active_set(parameters));
+        let channel = parameters.channel;
+        let mode = || self.mode_groups[all.mode_group(channel)].cause();
+        let [first, second] = &axis.monitor.encoders;
+        rows.bit(axis_from_nck::encoder_limit_frequency_exceeded_1, first.frequency_exceeded, || {
+            Why::Event(first.frequency_cause)
+        });
+        rows.bit(axis_from_nck::encoder_limit_frequency_exceeded_2, second.frequency_exceeded, || {
+            Why::Event(second.frequency_cause)
+        });
+        rows.bit(axis_from_nck::referenced_synchronized_1, axis.referenced[0], || Why::Event(causes.reference[0]));
+        rows.bit(axis_from_nck::referenced_synchronized_2, axis.referenced[1], || Why::Event(causes.reference[1]));
+        let [current, speed, position] = axis.enabling.controllers();
+        let at_rest = position && axis.setpoint.is_at_rest() && axis.traverse_command == 0;
+        let within = |window: Position| at_rest && axis.deviation().abs() <= window;
+        let exact_stop = |datum: u32, window: Position| {
+            if axis.is_in_motion() {
+                return Why::Event(causes.motion);
+            }
+            let measured = Input::Length(Quantity::Deviation, number, axis.deviation());
+            let limit = Input::Datum(datum, Some(number), window.user());
+            Why::Tested(Rule::ExactStop, [measured, limit, Input::None], causes.motion)
+        };
+        let (coarse, fine) = (set.exact_stop_coarse, set.exact_stop_fine);
+        rows.bit(axis_from_nck::position_reached_exact_stop_coarse, within(coarse), || exact_stop(36000, coarse));
+        rows.bit(axis_from_nck::position_reached_exact_stop_fine, within(fine), || exact_stop(36010, fine));
+        let alarm = self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, Some(Place::Axis(number)));
+        let cancelled = || self.channels[channel].cancel_cause;
+        rows.bit(axis_from_nck::axis_specific_alarm, alarm.is_some(), || Why::Event(alarm.unwrap_or_else(cancelled)));
+        let drive = || self.run_up.cause.max(axis.monitor.drive_cause);
+        let ready = axis.drive_ready && axis.measuring_system.is_some() && alarm.is_none();
+        rows.bit(axis_from_nck::axis_ready, ready, || {
+            Why::Event(alarm.unwrap_or_else(|| match axis.measuring_system {
+                None => causes.measuring_system,
+                Some(_) if !axis.drive_ready => drive(),
+                Some(_) => self.run_up.cause.max(causes.measuring_system).max(cancelled()),
+            }))
+        });
+        // A parked axis has no actual value that it could follow.
+        let follows_up = axis.enabling.follow_up && axis.measuring_system.is_some();
+        let enabling = || Why::Event(causes.enabling);
+        rows.bit(axis_from_nck::follow_up_active, follows_up, enabling);
+        rows.bit(axis_from_nck::axis_stationary, axis.velocity.abs() < parameters.standstill_velocity, || {
+            #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
+            let velocity = Position::new(axis.velocity.abs() as i64);
+            let measured = Input::Length(Quantity::Velocity, number, velocity);
+            let limit = parameters.standstill_velocity * 60.0 / Position::PER_USER_UNIT;
+            let limit = Input::Datum(36060, Some(number), limit);
+            Why::Tested(Rule::Standstill, [measured, limit, Input::None], causes.motion)
+        });
+        rows.bit(axis_from_nck::position_controller_active, position, enabling);
+        rows.bit(axis_from_nck::speed_controller_active, speed, enabling);
+        rows.bit(axis_from_nck::current_controller_active, current, enabling);
+        let jogging = &axis.jogging;
+        let handwheel = || Why::Event(jogging.handwheel_cause.max(mode()));
+        rows.group(axis_from_nck::handwheel_1_active, axis_from_nck::handwheel_3_active, jogging.handwheels, handwheel);
+        let motion = || Why::Event(causes.motion);
+        rows.bit(axis_from_nck::traverse_request_minus, axis.traverse_request < 0, motion);
+        rows.bit(axis_from_nck::traverse_request_plus, axis.traverse_request > 0, motion);
+        rows.bit(axis_from_nck::traverse_command_minus, axis.traverse_command < 0, motion);
+        rows.bit(axis_from_nck::traverse_command_plus, axis.traverse_command > 0, motion);
+        rows.group(
+            axis_from_nck::active_machine_function_increment_1,
+            axis_from_nck::active_machine_function_continuous,
+            jogging.shown,
+            || Why::Event(jogging.function_cause.max(mode())),
+        );
+        rows.bit(axis_from_nck::invert_handwheel_direction_of_rotation_active, jogging.inverted, handwheel);
+        rows.number(axis_from_nck::active_controller_parameter_set, axis.parameter_set, || {
+            Why::Event(causes.parameter_set)
+        });
+        rows.bit(axis_from_nck::ramp_function_generator_disable_active, axis.signals.fast_stop, || {
+            Why::Event(axis.signals.fast_stop_cause)
+        });
+        rows.number(axis_from_nck::active_drive_data_set, axis.drive_data_set, || Why::Event(causes.drive_data_set));
+        rows.bit(axis_from_nck::drive_ready, axis.drive_ready, || Why::Event(drive()));
+        rows.bit(axis_from_nck::pulses_enabled, axis.enabling.pulses_enabled(), || Why::Event(causes.drive));
+        let measuring_system = || Why::Event(causes.measuring_system);
+        let active = axis.measuring_system;
+        rows.bit(axis_from_nck::position_measuring_system_1_activated, active == Some(0), measuring_system);
+        rows.bit(axis_from_nck::position_measuring_system_2_activated, active == Some(1), measuring_system);
+    }
+
+    /// 101.x of the leading axis of a grouping.
+    pub(super) fn show_leading_axis(&self, grouping: &Grouping, rows: &mut impl Rows) {
+        // O-07: 101.4 stays through a motion that was waited for; one that began by itself never set it.
+        let started = grouping.phase == Phase::Synchronising && grouping.waited_for;
+        let ready = grouping.phase == Phase::WaitingForStart || started;
+        let (phase, defined) = (|| Why::Event(grouping.cause), || Why::Event(self.definition_cause));
+        rows.bit(axis_from_nck::gantry_synchronization_ready_to_start, ready, phase);
+        let synchronised = grouping.phase == Phase::Synchronised;
+        rows.bit(axis_from_nck::gantry_grouping_is_synchronized, synchronised, phase);
+        rows.bit(axis_from_nck::gantry_leading_axis, true, defined);
+        rows.bit(axis_from_nck::gantry_axis, true, defined);
+    }
+
+    /// 101.x of a synchronous axis.
+    pub(super) fn show_synchronous_axis(&self, monitored: &Monitored, rows: &mut impl Rows) {
+        rows.bit(axis_from_nck::gantry_trip_limit_exceeded, monitored.trip, || Why::Event(monitored.causes.trip));
+        rows.bit(axis_from_nck::gantry_warning_limit_exceeded, monitored.warning, || {
+            Why::Event(monitored.causes.warning)
+        });
+        rows.bit(axis_from_nck::gantry_axis, true, || Why::Event(self.definition_cause));
+    }
+
+    /// 101.x of an axis, whichever place it has in a grouping.
+    pub(super) fn show_gantry_axis(&self, number: AxisNumber, rows: &mut impl Rows) {
+        for grouping in &self.groupings {
+            if grouping.coupling.leader() == number {
+                self.show_leading_axis(grouping, rows);
+            }
+            for monitored in grouping.monitored().filter(|monitored| monitored.axis == number) {
+                self.show_synchronous_axis(&monitored, rows);
+            }
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! What a channel shows: DB21 to DB30.
+
+use crate::image::channel_from_nck;
+use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::publish::rows::{Rows, Why};
+use crate::sinumerik::state::State;
+use crate::units::ChannelNumber;
+use crate::variables::EventId;
+
+impl State {
+    /// "At least one axis is being traversed in JOG", or referenced.
+    pub(super) fn is_channel_active(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
+        !self.summary.in_motion.and(parameters.channels[channel].axes).is_empty()
+    }
+
+    /// DB21 to DB30, of one channel.
+    pub(super) fn show_channel(&self, channel: ChannelNumber, parameters: &Parameters, rows: &mut impl Rows) {
+        let active = self.is_channel_active(channel, parameters);
+        let motion = || Why::Event(self.motion_event(|of| of == channel, parameters));
+        // The first alarm with the reaction that a signal sums up; once there is none any more, what cancelled the last.
+        let alarm = |reaction| self.channel_alarm(channel, reaction, parameters);
+        let or_cancelled = |alarm: Option<EventId>| alarm.unwrap_or(self.channels[channel].cancel_cause);
+        rows.bit(channel_from_nck::referencing_active, self.channels[channel].is_referencing(), || {
+            Why::Event(self.channels[channel].referencing.cause)
+        });
+        // Without a program its state is "aborted", as after RESET.
+        rows.bit(channel_from_nck::program_state_aborted, true, || Why::Event(EventId::NONE));
+        rows.bit(channel_from_nck::channel_state_active, active, motion);
+        rows.bit(channel_from_nck::channel_state_reset, !active, motion);
+        let referenced = self.is_referenced(channel, parameters);
+        rows.bit(channel_from_nck::all_axes_requiring_reference_point_are_referenced, referenced, || {
+            Why::Event(self.reference_event(channel, parameters))
+        });
+        let standing = self.summary.standing.has_all_of(parameters.channels[channel].axes);
+        rows.bit(channel_from_nck::all_axes_stationary, standing, motion);
+        let not_ready = alarm(Reaction::CHANNEL_NOT_READY);
+        let ready = self.run_up.is_nc_ready() && not_ready.is_none();
+        rows.bit(channel_from_nck::channel_ready, ready, || Why::Event(or_cancelled(not_ready).max(self.run_up.cause)));
+        let pending = alarm(Reaction::INTERFACE_SIGNALS);
+        rows.bit(channel_from_nck::channel_specific_nck_alarm_active, pending.is_some(), || {
+            Why::Event(or_cancelled(pending))
+        });
+        let stopping = alarm(Reaction::STOP);
+        rows.bit(channel_from_nck::nck_alarm_with_machining_stop_active, stopping.is_some(), || {
+            Why::Event(or_cancelled(stopping))
+        });
+    }
+
+    /// The latest movement of any axis of these channels.
+    pub(super) fn motion_event(&self, channels: impl Fn(ChannelNumber) -> bool, parameters: &Parameters) -> EventId {
+        let axes = parameters.existing().filter(|(_, axis)| channels(axis.channel));
+        axes.map(|(number, _)| self.axes[number].causes.motion).max().unwrap_or(EventId::NONE)
+    }
+
+    fn reference_event(&self, channel: ChannelNumber, parameters: &Parameters) -> EventId {
+        let axes = parameters.existing().filter(|(_, axis)| axis.channel == channel);
+        let causes = axes.map(|(number, _)| self.axes[number].causes.reference);
+        causes.map(|[first, second]| first.max(second)).max().unwrap_or(EventId::NONE)
+    }
+}

@@ -1,0 +1,85 @@
+//! What the control as a whole shows, and its mode groups: DB10 and DB11.
+
+use crate::image::{mode_group_from_nck, mode_group_hmi, nck_from_nck};
+use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::jog::state::Function;
+use crate::sinumerik::operation::state::{MachineFunction, Mode};
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::publish::rows::{Rows, Why};
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
+use crate::units::ModeGroupNumber;
+use crate::variables::{EventId, Input};
+
+impl State {
+    /// DB10.
+    pub(super) fn show_nck(&self, rows: &mut impl Rows) {
+        let run_up = || Why::Event(self.run_up.cause);
+        let turned = || Why::Tested(Rule::HandwheelTurned, [Input::None; 3], EventId::NONE);
+        rows.number(nck_from_nck::handwheel_1_moved, self.handwheels[0].counter, turned);
+        rows.number(nck_from_nck::handwheel_2_moved, self.handwheels[1].counter, turned);
+        rows.number(nck_from_nck::handwheel_3_moved, self.handwheels[2].counter, turned);
+        rows.bit(nck_from_nck::nc_cpu_ready, self.run_up.is_cpu_ready(), run_up);
+        rows.bit(nck_from_nck::emergency_stop_active, self.emergency_stop.is_active(), || {
+            Why::Event(self.emergency_stop.cause)
+        });
+        rows.bit(nck_from_nck::drives_in_cyclic_operation, self.run_up.are_drives_cyclic(), run_up);
+        rows.bit(nck_from_nck::drives_ready, self.run_up.are_drives_ready(), run_up);
+        rows.bit(nck_from_nck::nc_ready, self.is_nc_ready(), || {
+            Why::Event(if self.run_up.is_nc_ready() && !self.is_nc_ready() {
+                self.any_alarm_event(Reaction::NC_NOT_READY)
+            } else {
+                self.run_up.cause
+            })
+        });
+        let alarm = self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, None);
+        rows.bit(nck_from_nck::nc_alarm_active, alarm.is_some(), || {
+            Why::Event(self.any_alarm_event(Reaction::INTERFACE_SIGNALS))
+        });
+    }
+
+    /// DB11, of one mode group.
+    pub(super) fn show_mode_group(&self, number: ModeGroupNumber, parameters: &Parameters, rows: &mut impl Rows) {
+        let (group, jog) = (&self.mode_groups[number], &self.group_functions[number]);
+        let (mode, function) = (|| Why::Event(group.mode_cause), || Why::Event(group.function_cause));
+        rows.bit(mode_group_from_nck::active_mode_automatic, group.mode == Mode::Automatic, mode);
+        rows.bit(mode_group_from_nck::active_mode_mdi, group.mode == Mode::Mda, mode);
+        rows.bit(mode_group_from_nck::active_mode_jog, group.mode == Mode::Jog, mode);
+        let not_ready = self.mode_group_not_ready(number, parameters);
+        let ready = self.run_up.is_nc_ready() && not_ready.is_none();
+        rows.bit(mode_group_from_nck::mode_group_ready, ready, || {
+            Why::Event(not_ready.unwrap_or_else(|| self.cancel_event()).max(self.run_up.cause))
+        });
+        let mut channels = parameters.existing_channels().filter(|(_, group)| *group == number);
+        let reset = channels.all(|(channel, _)| !self.is_channel_active(channel, parameters));
+        rows.bit(mode_group_from_nck::all_channels_in_reset_state, reset, || {
+            Why::Event(self.motion_event(|channel| parameters.mode_group(channel) == number, parameters))
+        });
+        let teach_in = group.function == MachineFunction::TeachIn;
+        rows.bit(mode_group_from_nck::active_machine_function_teach_in, teach_in, function);
+        let repos = group.function == MachineFunction::Repos;
+        rows.bit(mode_group_from_nck::active_machine_function_repos, repos, function);
+        rows.bit(mode_group_from_nck::active_machine_function_ref, group.is_referencing(), function);
+        rows.group(
+            mode_group_from_nck::active_machine_function_increment_1,
+            mode_group_from_nck::active_machine_function_continuous,
+            jog.function.map_or(0, Function::bits),
+            || Why::Event(jog.cause.max(group.cause())),
+        );
+    }
+
+    /// What it mirrors to the bytes of the HMI in DB11, of one mode group.
+    pub(super) fn show_selection(&self, number: ModeGroupNumber, rows: &mut impl Rows) {
+        let group = &self.mode_groups[number];
+        rows.bit(mode_group_hmi::ref_selected, group.is_referencing(), || Why::Event(group.function_cause));
+    }
+
+    fn any_alarm_event(&self, reaction: Reaction) -> EventId {
+        self.alarms.with_reaction(reaction, None).unwrap_or_else(|| self.cancel_event())
+    }
+
+    /// What took alarms away last, in any channel.
+    pub(super) fn cancel_event(&self) -> EventId {
+        self.channels.iter().map(|(_, channel)| channel.cancel_cause).max().unwrap_or(EventId::NONE)
+    }
+}

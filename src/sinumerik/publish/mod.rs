@@ -1,0 +1,148 @@
+//! Publication: the NCK's half of the interface and the variables, written once per cycle, at its end; and the event behind each bit
+//! of it, asked for when the bit has changed.
+//!
+//! Each block is a table of rows ([`rows`]): a row names a signal, its value and its cause. States have their events; for what
+//! follows from a value at the moment (exact stop, standstill) an event is noted when its edge is seen.
+//!
+//! Signals are set axis by axis (SIG-09). What somebody else wrote into a bit of the NCK is overwritten here (SIG-11).
+
+mod alarms;
+mod axis;
+mod channel;
+mod control;
+mod rows;
+
+use zerocopy::IntoBytes;
+
+use crate::image::{AxisFromNck, ChannelFromNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi, NckFromNck};
+use crate::motion::Motion;
+use crate::sinumerik::jog::state::Movement;
+use crate::sinumerik::nck::Nck;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::axis::AxisParameters;
+use crate::sinumerik::publish::rows::{Asked, Why, Written};
+use crate::sinumerik::state::State;
+use crate::units::{AxisNumber, AxisSet, Position};
+use crate::variables::{AxisValues, EventId, Place, Variables};
+
+impl Nck {
+    /// Writes what the control shows. Of `restless` axes the iron has not come to rest.
+    pub fn publish(&mut self, from_nck: &mut FromNck, hmi: &mut Hmi, variables: &mut Variables, restless: AxisSet) {
+        let mut shown = self.awake();
+        let (parameters, state) = (&*self.parameters, &mut *self.state);
+        if std::mem::take(&mut state.overwritten) {
+            from_nck.clear_signals();
+            shown = parameters.existing;
+        }
+        state.show_nck(&mut Written::new(from_nck.nck.as_mut_bytes(), NckFromNck::FIRST));
+        for group in parameters.existing_mode_groups() {
+            let bytes = from_nck.mode_groups[group].as_mut_bytes();
+            state.show_mode_group(group, parameters, &mut Written::new(bytes, ModeGroupFromNck::FIRST));
+            if !state.mode_groups[group].strobe_is_the_hmi_s {
+                let bytes = hmi.mode_groups[group].as_mut_bytes();
+                state.show_selection(group, &mut Written::new(bytes, ModeGroupHmi::FIRST));
+            }
+        }
+        for (channel, _) in parameters.existing_channels() {
+            let bytes = from_nck.channels[channel].as_mut_bytes();
+            state.show_channel(channel, parameters, &mut Written::new(bytes, ChannelFromNck::FIRST));
+        }
+        for number in shown.iter() {
+            let axis = &parameters.axes[number];
+            if !axis.silent {
+                let bytes = from_nck.axes[number].as_mut_bytes();
+                state.show_axis(number, axis, parameters, &mut Written::new(bytes, AxisFromNck::FIRST));
+            }
+            variables.axes[number] = state.values(number, axis);
+        }
+        for index in 0..state.groupings.len() {
+            let members: AxisSet = state.groupings[index].coupling.members().collect();
+            if shown.and(members).is_empty() {
+                continue;
+            }
+            state.publish_grouping(index, from_nck, parameters, variables);
+        }
+        if state.alarms.take_changed() {
+            variables.alarms.publish(state.alarms.iter().map(|(alarm, _)| *alarm));
+        }
+        self.rest(restless);
+    }
+
+    /// The event behind the value of a bit that was published in this cycle.
+    pub fn cause(&mut self, place: Place, byte: u16, bit: u8) -> EventId {
+        let mut asked = Asked::new(byte, bit);
+        let (parameters, state) = (&*self.parameters, &mut *self.state);
+        match place {
+            Place::Nck => state.show_nck(&mut asked),
+            Place::ModeGroup(group) => {
+                state.show_mode_group(group, parameters, &mut asked);
+                state.show_selection(group, &mut asked);
+            }
+            Place::Channel(channel) => state.show_channel(channel, parameters, &mut asked),
+            Place::Axis(axis) => {
+                state.show_axis(axis, &parameters.axes[axis], parameters, &mut asked);
+                state.show_gantry_axis(axis, &mut asked);
+            }
+        }
+        let cause = match asked.found() {
+            None => EventId::NONE,
+            Some(Why::Event(event)) => event,
+            Some(Why::Tested(rule, inputs, parent)) => state.log.note(place, rule, inputs, parent),
+        };
+        // What nothing has changed yet is as power on left it.
+        if cause.is_some() { cause } else { state.power_on_cause }
+    }
+}
+
+impl State {
+    fn publish_grouping(
+        &self,
+        index: usize,
+        from_nck: &mut FromNck,
+        parameters: &Parameters,
+        variables: &mut Variables,
+    ) {
+        let grouping = &self.groupings[index];
+        let leader = grouping.coupling.leader();
+        if !parameters.axes[leader].silent {
+            let bytes = from_nck.axes[leader].as_mut_bytes();
+            self.show_leading_axis(grouping, &mut Written::new(bytes, AxisFromNck::FIRST));
+        }
+        for monitored in grouping.monitored() {
+            let axis = monitored.axis;
+            variables.axes[axis].synchronism_difference = monitored.difference;
+            if !parameters.axes[axis].silent {
+                let bytes = from_nck.axes[axis].as_mut_bytes();
+                self.show_synchronous_axis(&monitored, &mut Written::new(bytes, AxisFromNck::FIRST));
+            }
+        }
+    }
+
+    fn values(&self, number: AxisNumber, parameters: &AxisParameters) -> AxisValues {
+        let axis = &self.axes[number];
+        let per_user_unit = if parameters.rotary { 360.0 } else { 1.0 };
+        let encoders = std::array::from_fn(|encoder| {
+            if encoder < usize::from(parameters.encoders) {
+                self.feedback[number].encoders[encoder].value + axis.offset[encoder]
+            } else {
+                Position::ZERO
+            }
+        });
+        let setpoint = axis.setpoint.position;
+        let distance_to_go = match (axis.jogging.movement, axis.motion) {
+            (Movement::None, Motion::GoTo { target, .. }) => target - setpoint,
+            (movement, _) => movement.distance_to_go(setpoint),
+        };
+        AxisValues {
+            // With axis disable the display goes on with the setpoint (SIG-03).
+            position: if axis.signals.disabled_at().is_some() { axis.setpoint.position } else { axis.actual },
+            setpoint: axis.setpoint.position,
+            velocity: axis.velocity * 60.0 / Position::PER_USER_UNIT / per_user_unit,
+            following_error: axis.deviation(),
+            slide: axis.slide,
+            synchronism_difference: Position::ZERO,
+            encoders,
+            distance_to_go,
+        }
+    }
+}
