@@ -32,6 +32,7 @@
 
 mod because;
 mod causes;
+mod check;
 mod compare;
 mod history;
 mod json;
@@ -48,6 +49,7 @@ mod watch;
 mod waves;
 mod why;
 
+pub use check::{CauseFault, CauseFinding};
 pub use compare::{Comparison, Reading};
 pub use history::Trace;
 pub use lines::{AlarmLine, Line, LineKind, SignalLine};

@@ -1,0 +1,165 @@
+//! Whether the causes that a trace gives are true: the record is replayed, and each cause is compared with it.
+//!
+//! A cause of an edge is an event. It is true when it happened in the cycle of the edge, when it names something that was tested or
+//! an event that led to it, and when each signal that it names had the value that it names. A signal of the PLC counts as it was at
+//! the end of the cycle: inputs, scan and forces of the cycle are in it. A signal of the control counts as it was decided in the
+//! cycle or as it was published in the cycle before. Machine data, lengths and alarms among the inputs are not compared.
+
+use std::fmt;
+
+use super::because::because;
+use super::places::Places;
+use super::printable::mask_in_byte;
+use super::{By, Change, Row, Trace, Watch};
+use crate::image::{Format, Interface, Kind, Location, Memory, Part, Signal, Writer};
+use crate::units::Time;
+use crate::variables::{Describe, Event, Input, SignalBit, place_name};
+
+/// A cause that is not true, or says nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CauseFinding {
+    /// When the signal changed, since the start of the trace.
+    pub time: Time,
+    /// The signal: its symbol and its address.
+    pub signal: String,
+    /// The cause as the trace gives it, where there is one.
+    pub because: Option<String>,
+    /// What is wrong with it.
+    pub fault: CauseFault,
+}
+
+/// What is wrong with a cause.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CauseFault {
+    /// The edge has no event.
+    Missing,
+    /// The event names neither something that was tested nor an event that led to it.
+    Empty,
+    /// The event happened in another cycle, at this time.
+    AnotherCycle(Time),
+    /// It names this signal with the value that is given; the signal had the other one.
+    Untrue(String, bool),
+}
+
+impl fmt::Display for CauseFinding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}: ", self.time, self.signal)?;
+        match &self.fault {
+            CauseFault::Missing => f.write_str("no cause")?,
+            CauseFault::Empty => f.write_str("the cause names nothing that was tested")?,
+            CauseFault::AnotherCycle(time) => write!(f, "the cause is an event of {time}")?,
+            CauseFault::Untrue(signal, value) => {
+                write!(f, "the cause names {signal} = {}, found {}", u8::from(*value), u8::from(!*value))?;
+            }
+        }
+        self.because.as_ref().map_or(Ok(()), |because| write!(f, " ({because})"))
+    }
+}
+
+impl Trace {
+    /// Compares the cause of every edge by the control, of the signals that `watch` shows, with the record. A trace that lost rows
+    /// cannot be checked from there on.
+    #[must_use]
+    pub fn check_causes(&self, describe: &dyn Describe, watch: &Watch) -> Vec<CauseFinding> {
+        let names = describe.names();
+        let mut places = Places::new(names, watch);
+        let mut memory = self.start.clone();
+        let mut findings = Vec::new();
+        for rows in self.rows.chunk_by(|one, next| one.cycle == next.cycle) {
+            let cycle = rows[0].cycle;
+            for row in rows {
+                if let Change::Byte { part, offset, new, .. } = row.change {
+                    memory.write(byte(part, offset), new.into());
+                }
+            }
+            let seen = Seen { memory: &memory, rows, interface: names.interface() };
+            for row in rows {
+                let Change::Byte { part, offset, old, new, by, causes } = row.change else { continue };
+                for printable in places.at(part, offset) {
+                    let changed = (old ^ new) & mask_in_byte(printable.location, offset);
+                    let bit = changed.trailing_zeros() as usize;
+                    if changed == 0 || by[bit] != By::Nck {
+                        continue;
+                    }
+                    let event = self.event(causes[bit], cycle);
+                    let signal = match &printable.symbol {
+                        Some(symbol) => format!("{symbol} ({})", printable.address),
+                        None => printable.address.clone(),
+                    };
+                    findings.extend(self.faults(event, cycle, &seen, describe).into_iter().map(|fault| CauseFinding {
+                        time: self.time(cycle),
+                        signal: signal.clone(),
+                        because: event.map(|event| because(event, describe)),
+                        fault,
+                    }));
+                }
+            }
+        }
+        findings
+    }
+
+    fn faults(&self, event: Option<&Event>, cycle: u64, seen: &Seen<'_>, describe: &dyn Describe) -> Vec<CauseFault> {
+        let Some(event) = event else { return vec![CauseFault::Missing] };
+        let mut faults = Vec::new();
+        if event.cycle != cycle {
+            faults.push(CauseFault::AnotherCycle(self.time(event.cycle)));
+        }
+        if !event.parent.is_some() && event.inputs.iter().all(|input| *input == Input::None) {
+            faults.push(CauseFault::Empty);
+        }
+        for input in event.inputs {
+            if let Input::Bit(bit, value) = input
+                && !seen.had(bit, value)
+            {
+                faults.push(CauseFault::Untrue(called(bit, describe), value));
+            }
+        }
+        faults
+    }
+}
+
+/// The memory at the end of a cycle, and what changed in it.
+struct Seen<'a> {
+    memory: &'a Memory,
+    rows: &'a [Row],
+    interface: &'static Interface,
+}
+
+impl Seen<'_> {
+    /// Whether a signal had this value when it could be tested.
+    fn had(&self, bit: SignalBit, value: bool) -> bool {
+        let (block, number) = bit.place.block();
+        // Of this row only block, byte and bit count.
+        let signal =
+            Signal { name: "", block, byte: bit.byte, bit: bit.bit, kind: Kind::Bit, writer: Writer::Nck, doc: "" };
+        let Some(location) = self.interface.location(&signal, number) else { return false };
+        let now = self.memory.read(location) == 1;
+        let before = || {
+            let changed = self.rows.iter().find_map(|row| match row.change {
+                Change::Byte { part, offset, old, .. } if (part, offset) == (location.part, location.offset) => {
+                    Some(old >> location.bit & 1 == 1)
+                }
+                Change::Byte { .. } | Change::Alarm { .. } | Change::Overwritten { .. } => None,
+            });
+            changed.unwrap_or(now)
+        };
+        now == value || matches!(location.part, Part::FromNck | Part::Hmi) && before() == value
+    }
+}
+
+const fn byte(part: Part, offset: u32) -> Location {
+    Location { part, offset, bit: 0, width: 8, format: Format::Unsigned }
+}
+
+/// How a finding calls a signal.
+fn called(bit: SignalBit, describe: &dyn Describe) -> String {
+    let names = describe.names();
+    let owner = place_name(bit.place, names);
+    match super::printable::signal_at(bit, names.interface()) {
+        Some(signal) => format!("{owner}.{}", signal.name),
+        None => format!("{owner} byte {} bit {}", bit.byte, bit.bit),
+    }
+}
+
+#[cfg(test)]
+mod tests;

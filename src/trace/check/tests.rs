@@ -1,0 +1,134 @@
+//! Hand-made records whose causes are true, untrue, late or empty.
+
+use super::*;
+use crate::image::Names;
+use crate::trace::Recorder;
+use crate::units::AxisNumber;
+use crate::variables::{AlarmNumber, EventId, Place, RaisedAlarm, Rule, RuleNumber};
+
+struct Control(Names);
+
+impl Describe for Control {
+    fn datum_name(&self, number: u32) -> String {
+        format!("MD{number}")
+    }
+    fn names(&self) -> &Names {
+        &self.0
+    }
+    fn alarm_text(&self, alarm: &RaisedAlarm) -> String {
+        alarm.number.0.to_string()
+    }
+    fn alarm_name(&self, number: AlarmNumber) -> String {
+        number.0.to_string()
+    }
+    fn alarm_number(&self, _: &str) -> Option<AlarmNumber> {
+        None
+    }
+    fn rule(&self, _: RuleNumber) -> Rule {
+        Rule { id: "JOG", text: "key" }
+    }
+}
+
+/// DB31.DBX4.7 = 1 in cycle 12; in cycle 13 the control sets DB31.DBX64.7, and DBX61.5 goes.
+struct Run {
+    control: Control,
+    recorder: Recorder,
+}
+
+fn bit(byte: u16, bit: u8, value: bool) -> Input {
+    Input::Bit(SignalBit { place: Place::Axis(AxisNumber::FIRST), byte, bit }, value)
+}
+
+impl Run {
+    fn new() -> Self {
+        let mut names = Names::default();
+        names.axes[AxisNumber::FIRST] = Some("X".to_owned());
+        let mut run = Self { control: Control(names), recorder: Recorder::default() };
+        run.write(12, "DB31.DBX4.7", true, By::Plc, 0);
+        run.write(12, "DB31.DBX61.5", true, By::Nck, 0);
+        run.write(13, "DB31.DBX61.5", false, By::Nck, 0);
+        run.write(13, "DB31.DBX64.7", true, By::Nck, 1);
+        run
+    }
+
+    fn write(&mut self, cycle: u64, address: &str, value: bool, by: By, cause: u32) {
+        let location = self.control.0.resolve(&Memory::new(), address).unwrap();
+        let (old, new) = (u8::from(!value) << location.bit, u8::from(value) << location.bit);
+        let (by, causes) = ([by; 8], [EventId(cause); 8]);
+        let change = Change::Byte { part: location.part, offset: location.offset, old, new, by, causes };
+        self.recorder.push(Row { cycle, change });
+    }
+
+    /// What is found of 64.7 when its event is of this cycle, with this input and this parent.
+    fn findings(mut self, cycle: u64, input: Input, parent: u32) -> Vec<CauseFault> {
+        let (place, rule, inputs) = (Place::Nck, RuleNumber(0), [input, Input::None, Input::None]);
+        let event = Event { id: EventId(1), cycle, place, rule, inputs, parent: EventId(parent) };
+        self.recorder.events([event].iter());
+        let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10);
+        trace.extend(&self.recorder);
+        let watch = Watch::parse(&["X.traverse_command_plus"], &self.control.0, &Memory::new()).unwrap();
+        let findings = trace.check_causes(&self.control, &watch);
+        findings.into_iter().map(|finding| finding.fault).collect()
+    }
+}
+
+#[test]
+fn what_was_tested_and_had_its_value_is_true() {
+    assert_eq!(Run::new().findings(13, bit(4, 7, true), 0), []);
+    // A bit of the control: as it was decided now, or as it was published before.
+    assert_eq!(Run::new().findings(13, bit(61, 5, true), 0), []);
+    assert_eq!(Run::new().findings(13, bit(61, 5, false), 0), []);
+    assert_eq!(Run::new().findings(13, bit(64, 7, true), 0), []);
+    // Data and lengths are not compared; an event that led to it is enough.
+    assert_eq!(Run::new().findings(13, Input::Datum(11300, None, 1.0), 0), []);
+    assert_eq!(Run::new().findings(13, Input::None, 7), []);
+}
+
+#[test]
+fn a_signal_that_had_the_other_value_is_found() {
+    let untrue = |signal: &str, value| [CauseFault::Untrue(signal.to_owned(), value)];
+    assert_eq!(Run::new().findings(13, bit(4, 7, false), 0), untrue("X.traversing_key_plus", false));
+    assert_eq!(Run::new().findings(13, bit(4, 6, true), 0), untrue("X.traversing_key_minus", true));
+    assert_eq!(Run::new().findings(13, bit(93, 5, true), 0), untrue("X.drive_ready", true));
+    // A bit of the PLC counts as it is now, not as it was before.
+    let mut run = Run::new();
+    run.write(13, "DB31.DBX4.7", false, By::Plc, 0);
+    assert_eq!(run.findings(13, bit(4, 7, true), 0), untrue("X.traversing_key_plus", true));
+}
+
+#[test]
+fn an_event_of_another_cycle_is_found() {
+    let late = [CauseFault::AnotherCycle(Time::from_millis(4))];
+    assert_eq!(Run::new().findings(12, bit(4, 7, true), 0), late);
+}
+
+#[test]
+fn a_cause_that_says_nothing_is_found() {
+    assert_eq!(Run::new().findings(13, Input::None, 0), [CauseFault::Empty]);
+    let mut run = Run::new();
+    run.write(14, "DB31.DBX64.7", false, By::Nck, 0);
+    assert_eq!(run.findings(13, bit(4, 7, true), 0), [CauseFault::Missing]);
+}
+
+#[test]
+fn signals_that_are_not_asked_for_and_writes_of_others_are_not_checked() {
+    let mut run = Run::new();
+    run.write(14, "DB31.DBX93.5", true, By::Nck, 0);
+    run.write(14, "DB31.DBX64.7", false, By::Outside, 0);
+    assert_eq!(run.findings(13, bit(4, 7, true), 0), []);
+}
+
+#[test]
+fn a_finding_says_when_which_signal_and_what_is_wrong() {
+    let finding = CauseFinding {
+        time: Time::from_millis(6),
+        signal: "X.traverse_command_plus (DB31.DBX64.7)".to_owned(),
+        because: Some("JOG: key, X.traversing_key_plus = 0".to_owned()),
+        fault: CauseFault::Untrue("X.traversing_key_plus".to_owned(), false),
+    };
+    assert_eq!(
+        finding.to_string(),
+        "0.006 X.traverse_command_plus (DB31.DBX64.7): the cause names X.traversing_key_plus = 0, found 1 (JOG: key, \
+         X.traversing_key_plus = 0)"
+    );
+}
