@@ -23,6 +23,18 @@ impl Log {
         self.events.push(self.cycle, place, rule.into(), inputs, parent)
     }
 
+    /// Whether this event was noted in the cycle that runs.
+    #[must_use]
+    pub fn is_of_this_cycle(&self, id: EventId) -> bool {
+        self.events.find(id).is_some_and(|event| event.cycle == self.cycle)
+    }
+
+    /// The event behind something that happens now: `cause` itself if it was noted in this cycle; else a new one with what was tested
+    /// now, which `cause` has led to.
+    pub fn now(&mut self, place: Place, cause: EventId, rule: impl Into<RuleNumber>, inputs: [Input; 3]) -> EventId {
+        if self.is_of_this_cycle(cause) { cause } else { self.note(place, rule, inputs, cause) }
+    }
+
     /// Notes it with one input.
     pub fn note_one(&mut self, place: Place, rule: impl Into<RuleNumber>, input: Input, parent: EventId) -> EventId {
         self.note(place, rule, [input, Input::None, Input::None], parent)

@@ -72,7 +72,6 @@ impl Nck {
         let taken = self.state.log.taken;
         *self.state = State::new(&self.parameters);
         self.state.log = Log { cycle, events, taken };
-        self.state.note_power_on();
         self.resting.begin_anew(&self.state);
         self.fix_strobes();
     }
@@ -192,6 +191,7 @@ impl Nck {
     pub fn decide(&mut self, cycle: u64, to_nck: &ToNck, changes: Changes) {
         let cancel_key = std::mem::take(&mut self.cancel_key);
         self.state.log.cycle = cycle;
+        self.state.note_power_on();
         self.state.run_up(&self.parameters);
         self.state.select_modes(&self.parameters, to_nck);
         self.state.watch_emergency_stop(&self.parameters, to_nck);

@@ -21,8 +21,11 @@ macro_rules! rules {
 
 rules! {
     // Start-up and enabling.
-    PowerOn "power on" "as after power on";
+    PowerOn "power on" "power was switched on";
+    AsAfterPowerOn "power on" "as after power on";
     RunUp "O-20" "run-up of control and drives";
+    DriveReady "O-20" "the drive has run up";
+    DriveLost "drive" "the drive is not ready";
     PulsesEnabled "O-20" "pulses enabled";
     PulsesDisabled "O-20" "pulses disabled";
     ControllerOn "O-20" "controller enable";
@@ -31,6 +34,7 @@ rules! {
     FollowUpByAlarm "SYN-01" "alarm with the reaction follow-up";
     MeasuringSystem "REF-33" "measuring system selected";
     Parking "SYN-01" "both measuring systems off";
+    FollowUpByParking "SYN-01" "follow-up of a parked axis";
     ParameterSet "SIG-05" "parameter set that 9.0 to 9.2 select";
     ParameterSetRefused "25200" "9.0 to 9.2 select a parameter set that there is not";
     ParameterSetJumps "26050" "the parameter set that 9.0 to 9.2 select has another load gear: the actual value would jump";
@@ -41,9 +45,23 @@ rules! {
     // Limits.
     HardwareLimitSwitch "MON-14" "hardware limit switch";
     SoftwareLimit "MON-13" "on the software limit switch";
+    // What stops and holds movements.
+    StoppedByAlarm "ALARM" "an alarm stops the movement";
+    StoppedByReset "RESET" "RESET is pressed, nothing moves";
+    StoppedByEmergencyStop "E-06" "emergency stop, nothing moves";
+    HeldByFeedStop "SIG-06" "feed stop holds the movement";
+    HeldByOverride "O-03" "an override of 0 % holds the movement";
+    FeedReleased "SIG-06" "feed stop holds the movement no more";
+    OverrideReleased "O-03" "the override holds the movement no more";
+    TargetReached "REF-31" "the setpoint has reached the target";
+    CommandOfLeadingAxis "SIG-09" "the traverse command of the leading axis shows here, too";
+    WithoutCommand "SIG-09" "follows a synchronous axis, without a traverse command";
+    ChannelActive "channel" "an axis of the channel moves or is to move";
+    ChannelAtRest "channel" "no axis of the channel moves or is to move";
     // Modes.
     ModeSelected "O-19" "mode";
     MachineFunction "O-19" "machine function";
+    KeysWithoutJog "O-19" "keys move nothing in this mode or machine function";
     StrobeOwnedByHmi "E-01" "DB11.DBB5 was written from outside and is the HMI's from now on";
     ResetDone "RESET" "RESET";
     StartRefused "10203" "NC start without reference point";
@@ -95,6 +113,7 @@ rules! {
     StartByPlc "REF-14" "start";
     SynchronisationAborted "REF-13" "synchronisation interrupted, all axes referenced";
     ReferencingAborted "REF-12" "referencing interrupted";
+    SynchronisingMotion "REF-09" "moves to the common position";
     Synchronised "REF-10" "all axes at their target";
     SynchronismRestored "SYN-06" "back in position control within the standstill tolerance";
     SynchronismLostFollowUp "SYN-05" "follow-up";
@@ -138,6 +157,8 @@ rules! {
     DriveNotReady "25202" "the drive does not run up";
     AlarmCancelled "ALARM" "alarm cancelled";
     ExactStop "exact stop" "";
+    ExactStopInMotion "exact stop" "the axis moves or is to move";
+    ExactStopWithoutControl "exact stop" "no position control";
     Standstill "standstill" "";
 }
 

@@ -88,6 +88,8 @@ pub(super) struct State {
     pub handwheels: [Handwheel; HANDWHEELS],
     pub group_functions: PerModeGroup<GroupFunction>,
     pub power_on_cause: EventId,
+    /// What is as power on left it.
+    pub as_after_power_on: EventId,
     pub definition_cause: EventId,
     pub plc_missing: bool,
     pub plc_cause: EventId,
@@ -114,20 +116,25 @@ impl State {
             handwheels: Default::default(),
             group_functions: PerModeGroup::default(),
             power_on_cause: EventId::NONE,
+            as_after_power_on: EventId::NONE,
             definition_cause: EventId::NONE,
             plc_missing: false,
             plc_cause: EventId::NONE,
             declared: Declared::default(),
             overwritten: true,
         };
-        state.note_power_on();
         state.form_units(parameters);
         state.prepare_position_control(parameters);
         state
     }
 
+    /// The first cycle after power on notes it: what it shows is of this cycle.
     pub(super) fn note_power_on(&mut self) {
+        if self.power_on_cause.is_some() {
+            return;
+        }
         self.power_on_cause = self.log.note_plain(Place::Nck, Rule::PowerOn, EventId::NONE);
+        self.as_after_power_on = self.log.note_plain(Place::Nck, Rule::AsAfterPowerOn, self.power_on_cause);
         self.definition_cause = self.log.note_plain(Place::Nck, Rule::GroupingDefined, self.power_on_cause);
     }
 
@@ -155,7 +162,7 @@ impl State {
 
     /// Every axis is in position control, and nothing stops.
     pub(super) fn unit_can_move(&self, unit: &Unit, parameters: &Parameters) -> bool {
-        let free = self.stop_cause(unit.channel, parameters).is_none() && self.motion_forbidden(unit).is_none();
+        let free = self.stop(unit.channel, parameters).is_none() && self.motion_forbidden(unit).is_none();
         free && unit.members().all(|axis| self.axes[axis].enabling.is_on())
     }
 

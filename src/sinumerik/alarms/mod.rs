@@ -444,12 +444,19 @@ impl Pending {
     #[must_use]
     #[inline]
     pub(super) fn first(&self, meant: impl Fn(Place, &Alarm) -> bool) -> Option<EventId> {
+        self.first_alarm(meant).map(|(_, cause)| cause)
+    }
+
+    /// The number of the first pending alarm that is meant, and the event behind it.
+    #[must_use]
+    #[inline]
+    pub(super) fn first_alarm(&self, meant: impl Fn(Place, &Alarm) -> bool) -> Option<(AlarmNumber, EventId)> {
         if self.entries.is_empty() {
             return None;
         }
         let is_meant =
             |entry: &&Entry| Alarm::find(entry.alarm.number).is_some_and(|alarm| meant(entry.alarm.place, alarm));
-        self.entries.iter().find(is_meant).map(|entry| entry.cause)
+        self.entries.iter().find(is_meant).map(|entry| (entry.alarm.number, entry.cause))
     }
 }
 

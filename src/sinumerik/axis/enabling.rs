@@ -4,11 +4,11 @@
 //! 2.1 and 21.7 of each axis; axes of a closed grouping form one unit that is enabled, braked and held in the same
 //! manner (SIG-01, SIG-02). Writes the state from which 61.3, 61.5 to 61.7, 93.5, 93.7 and 102.5/.6 follow.
 
-use crate::image::{ToNck, axis_from_nck, axis_to_nck};
+use crate::image::{ToNck, axis_from_nck, axis_to_nck, nck_from_nck};
 use crate::motion::Motion;
 use crate::sinumerik::alarms::{self, Reaction};
 use crate::sinumerik::axis::state::{Axis, ControllerState, STEP};
-use crate::sinumerik::inputs::axis_signal;
+use crate::sinumerik::inputs::{axis_signal, nck_signal};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::resting::Resting;
@@ -160,15 +160,15 @@ impl State {
 
     fn enable_pulses(&mut self, number: AxisNumber, enable: bool) {
         let axis = &mut self.axes[number];
-        let (ready, before) = (axis.drive_ready && self.run_up.is_nc_ready(), axis.enabling.pulses);
-        axis.enabling.pulses = if ready && enable { (before + 1).min(STEP) } else { 0 };
+        let (run_up, before) = (self.run_up.is_nc_ready(), axis.enabling.pulses);
+        axis.enabling.pulses = if axis.drive_ready && run_up && enable { (before + 1).min(STEP) } else { 0 };
         let (was, is) = (before >= STEP, axis.enabling.pulses_enabled());
         if was != is {
             let rule = if is { Rule::PulsesEnabled } else { Rule::PulsesDisabled };
             let inputs = [
                 axis_signal(number, axis_to_nck::pulse_enable, enable),
-                axis_signal(number, axis_from_nck::drive_ready, ready),
-                Input::None,
+                axis_signal(number, axis_from_nck::drive_ready, axis.drive_ready),
+                if run_up { Input::None } else { nck_signal(nck_from_nck::nc_ready, false) },
             ];
             axis.causes.drive = self.log.note(Place::Axis(number), rule, inputs, axis.causes.drive);
         }
@@ -201,15 +201,15 @@ impl State {
                 Some((axis_signal(number, axis_from_nck::position_measuring_system_1_activated, false), 0))
             } else if !axis.enabling.pulses_enabled() {
                 conditions.healthy = false;
-                let by_plc = !signals.pulse_enable();
-                Some((
-                    axis_signal(
-                        number,
-                        if by_plc { axis_to_nck::pulse_enable } else { axis_from_nck::drive_ready },
-                        false,
-                    ),
-                    if by_plc { 2 } else { 4 },
-                ))
+                let (missing, cause) = if !signals.pulse_enable() {
+                    (axis_to_nck::pulse_enable, 2)
+                } else if !axis.drive_ready {
+                    (axis_from_nck::drive_ready, 4)
+                } else {
+                    // The drive is ready, and its pulses are on their way.
+                    (axis_from_nck::pulses_enabled, 4)
+                };
+                Some((axis_signal(number, missing, false), cause))
             } else {
                 None
             };
@@ -256,6 +256,8 @@ impl State {
                 (Rule::ControllerOn, EventId::NONE)
             } else if conditions.alarm.is_some() {
                 (Rule::FollowUpByAlarm, conditions.alarm)
+            } else if follow_up && !before.follow_up && parked {
+                (Rule::FollowUpByParking, self.axes[number].causes.measuring_system)
             } else if follow_up && !before.follow_up {
                 (Rule::FollowUp, EventId::NONE)
             } else {

@@ -72,17 +72,18 @@ impl State {
         self.alarms.raise(alarm, Place::Axis(number), parameters, cause);
     }
 
-    /// The event of a hardware limit switch of the unit that a movement in this direction leads further onto.
-    pub(in crate::sinumerik) fn limited(&self, unit: &Unit, direction: i8) -> Option<EventId> {
-        unit.members()
-            .map(|axis| self.axes[axis].limits)
-            .find(|limits| limits.blocks(direction))
-            .map(|limits| limits.cause)
+    /// The axis of the unit with a hardware limit switch that a movement in this direction leads further onto.
+    pub(in crate::sinumerik) fn limited_by(&self, unit: &Unit, direction: i8) -> Option<AxisNumber> {
+        unit.members().find(|&axis| self.axes[axis].limits.blocks(direction))
     }
 
-    /// The event of any hardware limit switch of the unit that is pressed.
-    pub(in crate::sinumerik) fn on_limit_switch(&self, unit: &Unit) -> Option<EventId> {
-        self.limited(unit, 1).or_else(|| self.limited(unit, -1))
+    /// Any hardware limit switch of the unit that is pressed: the signal, and the event of it.
+    pub(in crate::sinumerik) fn on_limit_switch(&self, unit: &Unit) -> Option<(Input, EventId)> {
+        [1, -1].into_iter().find_map(|direction| {
+            let axis = self.limited_by(unit, direction)?;
+            let limits = self.axes[axis].limits;
+            Some((limits.input(axis, direction), limits.cause))
+        })
     }
 
     /// The unit brakes because of a hardware limit switch, as MD36600 of the axis on it says.

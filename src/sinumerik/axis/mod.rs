@@ -10,3 +10,4 @@ pub(super) mod position_control;
 pub(super) mod shaping;
 pub(super) mod signals;
 pub(super) mod state;
+pub(super) mod traversing;

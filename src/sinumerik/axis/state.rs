@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::image::axis_to_nck;
 use crate::motion::{Feedback, Motion, Setpoint, coupling};
 use crate::sinumerik::axis::shaping::Shaping;
+use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::jog::state::Jogging;
 use crate::sinumerik::monitoring::state::AxisMonitor;
 use crate::sinumerik::parameters::axis::AxisParameters;
@@ -87,7 +89,7 @@ pub(in crate::sinumerik) struct Axis {
     pub feed_held: bool,
     /// Feed disable of its channel.
     pub feed_disabled: bool,
-    /// The signal that holds it, of itself or of another axis of its unit.
+    /// The signal that holds it, of itself or of another axis of its unit; in the cycle in which it lets go, that signal with 0.
     pub feed_holder: Input,
     /// Hardware limit switches.
     pub limits: LimitSwitches,
@@ -306,6 +308,15 @@ pub(in crate::sinumerik) struct LimitSwitches {
 }
 
 impl LimitSwitches {
+    /// The switch of this axis that lies in a direction, as it is.
+    pub(in crate::sinumerik) const fn input(self, axis: AxisNumber, direction: i8) -> Input {
+        if direction > 0 {
+            axis_signal(axis, axis_to_nck::hardware_limit_switch_plus, self.plus)
+        } else {
+            axis_signal(axis, axis_to_nck::hardware_limit_switch_minus, self.minus)
+        }
+    }
+
     /// A movement in this direction leads further onto a switch.
     pub(in crate::sinumerik) const fn blocks(self, direction: i8) -> bool {
         direction > 0 && self.plus || direction < 0 && self.minus

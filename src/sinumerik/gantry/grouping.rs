@@ -11,16 +11,17 @@
 //! away and leaves 101.4 (O-09); a synchronising motion that does not end in exact stop fine within MD36020 ends with 20005.
 
 use crate::control::Log;
-use crate::image::ToNck;
+use crate::image::{ToNck, mode_group_from_nck};
 use crate::motion::Motion;
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::gantry::view::{Permit, View, Want, Wants};
+use crate::sinumerik::inputs::mode_group_signal;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::referencing::approach::Outcome;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, EventId, Input, Place};
+use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity};
 
 impl State {
     /// One cycle of a grouping.
@@ -79,8 +80,7 @@ impl State {
             self.jog(unit, parameters, to_nck);
         } else if idle {
             // A key that moved the grouping lost its meaning with the mode.
-            let cause = self.mode_group(unit).cause();
-            self.traverse(leader, 0, 0, cause);
+            self.traverse_without_jog(unit);
         }
     }
 
@@ -130,7 +130,27 @@ impl State {
     fn permit(&self, unit: &Unit, parameters: &Parameters) -> Permit {
         let free = self.unit_can_move(unit, parameters) && self.on_limit_switch(unit).is_none();
         let granted = free && self.mode_group(unit).is_referencing();
-        Permit { granted, stop: self.stop_cause(unit.channel, parameters) }
+        let hindrance = if granted { (Input::None, EventId::NONE) } else { self.hindrance(unit, parameters) };
+        Permit { granted, hindrance }
+    }
+
+    /// What forbids a synchronising motion: what was tested, and the event behind it.
+    fn hindrance(&self, unit: &Unit, parameters: &Parameters) -> (Input, EventId) {
+        if let Some(stop) = self.stop(unit.channel, parameters) {
+            return (stop.tested().1, stop.cause());
+        }
+        let group = self.mode_group(unit);
+        if !group.is_referencing() {
+            let referencing = mode_group_from_nck::active_machine_function_ref;
+            return (mode_group_signal(unit.mode_group, referencing, false), group.function_cause);
+        }
+        if let Some(forbidden) = self.motion_forbidden(unit) {
+            return (forbidden, EventId::NONE);
+        }
+        if let Some(axis) = unit.members().find(|&axis| !self.axes[axis].enabling.is_on()) {
+            return (Input::None, self.axes[axis].causes.enabling);
+        }
+        self.on_limit_switch(unit).unwrap_or((Input::None, EventId::NONE))
     }
 
     /// Asks a grouping what it wants, and does it.
@@ -151,7 +171,12 @@ impl State {
             match want {
                 Want::Move { axis, motion, request, command, cause } => {
                     self.axes[axis].motion = motion;
-                    self.traverse(axis, request, command, cause);
+                    if let Motion::GoTo { target, .. } = motion {
+                        let begins = (Rule::SynchronisingMotion, Input::Length(Quantity::Position, axis, target));
+                        self.traverse_on(axis, (request, command), cause, begins, target);
+                    } else {
+                        self.traverse(axis, request, command, cause);
+                    }
                 }
                 Want::Rest { axis, cause } => self.traverse(axis, 0, 0, cause),
                 Want::StartApproach { axis, direction, cause } => self.start_approach(axis, direction, cause),

@@ -3,10 +3,14 @@
 
 use arrayvec::ArrayVec;
 
+use crate::sinumerik::axis::traversing::command_signal;
+use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::SYNCHRONOUS_AXES;
+use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::AxisNumber;
+use crate::variables::{Input, Place};
 
 impl State {
     /// Setpoints of one unit.
@@ -42,7 +46,7 @@ impl State {
         self.axes[leads].execute(self.shaping[leads].as_deref_mut(), &parameters.axes[leads], cycle);
         let axis = &self.axes[leads];
         let moves = axis.enabling.moves();
-        let (request, command, cause) = (axis.traverse_request, axis.traverse_command, axis.causes.motion);
+        let (request, command) = (axis.traverse_request, axis.traverse_command);
         // Braking harder than any acceleration, and towards being switched off, is a stop that all axes make alike.
         let stops = !axis.enabling.is_on() || axis.motion.is_fast(parameters.axes[leads].dynamics.jerk.hardest);
         let movement = axis.setpoint.moved_from(before);
@@ -59,7 +63,17 @@ impl State {
             }
             // SIG-09: when the leading axis is traversed, its command shows on the synchronous axes, too.
             let mirrored = if leads == leader { (request, command) } else { (0, 0) };
-            self.traverse(axis, mirrored.0, mirrored.1, cause);
+            let led = &self.axes[axis];
+            if (led.traverse_request, led.traverse_command) != mirrored {
+                let (rule, begun) = if leads == leader {
+                    (Rule::CommandOfLeadingAxis, self.axes[leader].causes.motion)
+                } else {
+                    (Rule::WithoutCommand, self.groupings[index].cause)
+                };
+                let commands = [1, -1].map(|sign| axis_signal(leads, command_signal(sign), command == sign));
+                let cause = self.log.now(Place::Axis(axis), begun, rule, [commands[0], commands[1], Input::None]);
+                self.traverse(axis, mirrored.0, mirrored.1, cause);
+            }
         }
     }
 }

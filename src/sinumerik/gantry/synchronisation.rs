@@ -107,7 +107,9 @@ impl Grouping {
     pub(in crate::sinumerik) fn synchronise(&mut self, view: &View<'_>, permit: Permit, log: &mut Log) -> Wants {
         let mut wants = Wants::new();
         if !permit.granted {
-            self.abort_synchronising(permit.stop.unwrap_or(self.cause), log, &mut wants);
+            let (input, cause) = permit.hindrance;
+            let cause = if cause.is_some() { cause } else { self.cause };
+            self.abort_synchronising([input, Input::None, Input::None], cause, log, &mut wants);
             return wants;
         }
         let limits = |number| velocity_and_acceleration(view, number);
@@ -133,7 +135,10 @@ impl Grouping {
             Progress::Waiting(axis, cycles) if cycles > view.parameters.axes[axis].positioning_cycles => {
                 let cause = self.cause;
                 wants.push(Want::RaiseOfAxis { alarm: alarms::APPROACH_ABORTED, axis, cause });
-                self.abort_synchronising(cause, log, &mut wants);
+                let set = view.axes[axis].active_set(&view.parameters.axes[axis]);
+                let measured = Input::Length(Quantity::Deviation, axis, view.axes[axis].deviation().abs());
+                let limit = Input::Datum(36010, Some(axis), set.exact_stop_fine.user());
+                self.abort_synchronising([measured, limit, Input::None], cause, log, &mut wants);
             }
             Progress::Waiting(..) => {}
             Progress::Done(target) => self.close_synchronised(target, view, log, &mut wants),
@@ -141,10 +146,10 @@ impl Grouping {
         wants
     }
 
-    fn abort_synchronising(&mut self, cause: EventId, log: &mut Log, wants: &mut Wants) {
-        self.step(log, Rule::SynchronisationAborted, [Input::None; 3], cause);
+    fn abort_synchronising(&mut self, inputs: [Input; 3], cause: EventId, log: &mut Log, wants: &mut Wants) {
+        self.step(log, Rule::SynchronisationAborted, inputs, cause);
         self.from_referencing = false;
-        self.rest(cause, wants);
+        self.rest(if log.is_of_this_cycle(cause) { cause } else { self.cause }, wants);
     }
 
     /// All axes are at their target: synchronised, and the coupling acts again (REF-10).
@@ -193,8 +198,9 @@ impl Grouping {
                 self.end_ready(input, cause, log, wants);
             }
             (Phase::WaitingForStart | Phase::Synchronising, None) => {
-                if let Some(cause) = self.trip_cause() {
-                    self.end_ready(Input::None, cause, log, wants);
+                if let Some((axis, cause)) = self.tripped() {
+                    let trip = axis_signal(axis, axis_from_nck::gantry_trip_limit_exceeded, true);
+                    self.end_ready(trip, cause, log, wants);
                 }
             }
             (Phase::NotSynchronised, None) => self.make_ready(view, log),
@@ -223,17 +229,17 @@ impl Grouping {
     /// Not ready any more; a synchronising motion ends with it.
     fn end_ready(&mut self, input: Input, cause: EventId, log: &mut Log, wants: &mut Wants) {
         self.step(log, Rule::ReadyNoMore, [input, Input::None, Input::None], cause);
-        self.rest(cause, wants);
+        self.rest(if log.is_of_this_cycle(cause) { cause } else { self.cause }, wants);
     }
 
-    /// The event behind a difference that is beyond its trip limit.
-    fn trip_cause(&self) -> Option<EventId> {
-        self.monitored().find(|monitored| monitored.trip).map(|monitored| monitored.causes.trip)
+    /// A synchronous axis whose difference is beyond its trip limit, and the event behind it.
+    fn tripped(&self) -> Option<(AxisNumber, EventId)> {
+        self.monitored().find(|monitored| monitored.trip).map(|monitored| (monitored.axis, monitored.causes.trip))
     }
 
     /// E-13: all referenced, not synchronised, difference within MD37130.
     fn make_ready(&mut self, view: &View<'_>, log: &mut Log) {
-        if self.out_of_trip_limit(view).is_none() && self.trip_cause().is_none() {
+        if self.out_of_trip_limit(view).is_none() && self.tripped().is_none() {
             self.step(log, Rule::ReadyAgain, [Input::None; 3], self.cause);
             self.from_referencing = false;
         }

@@ -10,7 +10,7 @@ use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::SYNCHRONOUS_AXES;
 use crate::units::{AxisNumber, PerAxis};
-use crate::variables::{AlarmNumber, EventId, Parameter, Place};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 
 /// What a grouping reads.
 #[derive(Clone, Copy)]
@@ -24,14 +24,14 @@ pub(in crate::sinumerik) struct View<'a> {
 pub(in crate::sinumerik) struct Permit {
     /// REF is active, every axis is in position control, and nothing stops or limits one.
     pub granted: bool,
-    /// What stops the channel.
-    pub stop: Option<EventId>,
+    /// Why not: what was tested, and the event behind it.
+    pub hindrance: (Input, EventId),
 }
 
 /// One thing that a grouping wants.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::sinumerik) enum Want {
-    /// An axis moves: the travel request and the travel command that show it, and the event behind them.
+    /// An axis moves: the travel request and the travel command that show it, and the event that began it.
     Move { axis: AxisNumber, motion: Motion, request: i8, command: i8, cause: EventId },
     /// An axis has no travel request and no travel command any more.
     Rest { axis: AxisNumber, cause: EventId },

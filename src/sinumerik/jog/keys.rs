@@ -8,7 +8,7 @@
 //! feed disable, RESET, an alarm that stops and a limit take the command and leave the request. What has an end
 //! goes on to it after feed stop, feed disable and 0 %, and is dropped by everything else that stops.
 
-use crate::image::{AxisToNck, Signal, ToNck, axis_to_nck, channel_to_nck};
+use crate::image::{AxisToNck, Signal, ToNck, axis_from_nck, axis_to_nck, channel_to_nck};
 use crate::motion::Motion;
 use crate::sinumerik::axis::limits::Ahead;
 use crate::sinumerik::axis::state::Axis;
@@ -20,7 +20,7 @@ use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::AxisNumber;
-use crate::variables::{EventId, Input, Place};
+use crate::variables::{EventId, Input, Place, Quantity};
 
 /// The direction of the traversing keys: +1, −1, or 0 for none, both, or keys that are disabled (4.4).
 #[must_use]
@@ -53,9 +53,14 @@ impl State {
             let factor =
                 if signals.override_active() { parameters.axis_override(signals.feed_override()) } else { 1.0 };
             self.axes[axis].feed_factor = factor;
+            let before = self.axes[axis].feed_holder;
+            let released = match before {
+                Input::Bit(signal, true) if !stopped && !disabled => Input::Bit(signal, false),
+                _ => holder,
+            };
             self.axes[axis].feed_held = stopped || disabled;
             self.axes[axis].feed_disabled = disabled;
-            self.axes[axis].feed_holder = holder;
+            self.axes[axis].feed_holder = released;
         }
     }
 
@@ -71,19 +76,25 @@ impl State {
         self.take_handwheels(number, parameters, signals);
         self.raise_handwheel_alarms(number, key);
         let axis = &self.axes[number];
-        if let Some(cause) = self.stop_cause(unit.channel, parameters) {
+        if let Some(stop) = self.stop(unit.channel, parameters) {
             // The unit brakes as it was told (O-04).
-            self.stop_jogging(number, parameters, signals, cause);
+            let (rule, input) = stop.tested();
+            self.stop_jogging(number, parameters, signals, rule, [input, Input::None, Input::None], stop.cause());
             return;
         }
-        if let Some(cause) = self.limited(unit, axis.jogging.movement.direction(axis.setpoint.position)) {
+        let direction = axis.jogging.movement.direction(axis.setpoint.position);
+        if let Some(pressed) = self.limited_by(unit, direction) {
             // Towards a pressed switch nothing moves; away from it everything does.
             self.brake_at_limit(unit, parameters);
-            self.stop_jogging(number, parameters, signals, cause);
+            let limits = self.axes[pressed].limits;
+            let inputs = [limits.input(pressed, direction), Input::None, Input::None];
+            self.stop_jogging(number, parameters, signals, Rule::HardwareLimitSwitch, inputs, limits.cause);
             return;
         }
         if axis.signals.fast_stop {
-            self.stop_jogging(number, parameters, signals, axis.signals.fast_stop_cause);
+            let shown = axis_signal(number, axis_from_nck::ramp_function_generator_disable_active, true);
+            let (inputs, cause) = ([shown, Input::None, Input::None], axis.signals.fast_stop_cause);
+            self.stop_jogging(number, parameters, signals, Rule::FastStop, inputs, cause);
             return;
         }
         self.axes[number].motion = Motion::Brake { deceleration: axis_parameters.jog_acceleration };
@@ -116,8 +127,16 @@ impl State {
         self.show_jogging(number, direction, command, if held { Rule::MotionBlocked } else { rule }, signals);
     }
 
-    /// Something stops: what has an end is dropped, a key that acts while it is held stays visible.
-    fn stop_jogging(&mut self, number: AxisNumber, parameters: &Parameters, signals: &AxisToNck, cause: EventId) {
+    /// Something stops, by this rule: what has an end is dropped, a key that acts while it is held stays visible.
+    fn stop_jogging(
+        &mut self,
+        number: AxisNumber,
+        parameters: &Parameters,
+        signals: &AxisToNck,
+        rule: Rule,
+        inputs: [Input; 3],
+        cause: EventId,
+    ) {
         let axis = &mut self.axes[number];
         if !(parameters.key_modes.continuous_held && matches!(axis.jogging.movement, Movement::Continuous(_))) {
             axis.jogging.movement = Movement::None;
@@ -128,7 +147,8 @@ impl State {
             let rule = if request == 0 { Rule::KeyReleased } else { Rule::MotionBlocked };
             let event = self.log.note(Place::Axis(number), rule, key_inputs(number, axis, signals), cause);
             self.traverse(number, request, 0, event);
-        } else {
+        } else if (axis.traverse_request, axis.traverse_command) != (request, 0) {
+            let cause = self.log.now(Place::Axis(number), cause, rule, inputs);
             self.traverse(number, request, 0, cause);
         }
     }
@@ -142,10 +162,12 @@ impl State {
     ) {
         let axis = &self.axes[number];
         let mut cause = axis.causes.motion;
+        let reached = Input::Length(Quantity::Position, number, axis.setpoint.position);
+        let inputs = [reached, Input::None, Input::None];
         if (axis.traverse_request, axis.traverse_command) != (direction, 0) {
-            cause = self.log.note_plain(Place::Axis(number), Rule::SoftwareLimit, cause);
+            cause = self.log.note(Place::Axis(number), Rule::SoftwareLimit, inputs, cause);
         }
-        self.stop_jogging(number, parameters, signals, cause);
+        self.stop_jogging(number, parameters, signals, Rule::SoftwareLimit, inputs, cause);
     }
 
     fn show_jogging(&mut self, number: AxisNumber, request: i8, command: i8, rule: Rule, signals: &AxisToNck) {
@@ -162,16 +184,6 @@ impl State {
             self.log.note(Place::Axis(number), rule, key_inputs(number, axis, signals), parent)
         };
         self.traverse(number, request, command, event);
-    }
-
-    /// What is wanted (64.4, 64.5) and commanded (64.6, 64.7), with the event behind a change.
-    pub(in crate::sinumerik) fn traverse(&mut self, number: AxisNumber, request: i8, command: i8, cause: EventId) {
-        let axis = &mut self.axes[number];
-        if (axis.traverse_request, axis.traverse_command) != (request, command) {
-            axis.traverse_request = request;
-            axis.traverse_command = command;
-            axis.causes.motion = cause;
-        }
     }
 }
 

@@ -20,18 +20,29 @@ impl State {
         if ready {
             let monitor = &mut self.axes[number].monitor;
             monitor.drive_waits = 0;
-            if !was_ready && monitor.drive_cause.is_some() {
-                let parent = monitor.drive_cause;
-                monitor.drive_cause = self.log.note_plain(Place::Axis(number), Rule::DriveReadyAgain, parent);
+            if !was_ready {
+                let before = monitor.drive_cause;
+                let (rule, parent) = if before.is_some() {
+                    (Rule::DriveReadyAgain, before)
+                } else {
+                    (Rule::DriveReady, self.power_on_cause)
+                };
+                monitor.drive_cause = self.log.note_plain(Place::Axis(number), rule, parent);
             }
             return;
         }
         if fault {
             self.raise_monitoring(alarms::DRIVE_FAULT, number, Rule::DriveFault, [Input::None; 3]);
-            if was_ready {
-                self.axes[number].monitor.drive_cause = self.alarms.cause(alarms::DRIVE_FAULT, Place::Axis(number));
-            }
-        } else if self.run_up.are_drives_cyclic() {
+        }
+        if was_ready {
+            let fault = self.alarms.cause(alarms::DRIVE_FAULT, Place::Axis(number));
+            let parent = if fault.is_some() { fault } else { self.axes[number].monitor.drive_cause };
+            self.axes[number].monitor.drive_cause = self.log.note_plain(Place::Axis(number), Rule::DriveLost, parent);
+        }
+        if fault {
+            return;
+        }
+        if self.run_up.are_drives_cyclic() {
             let (monitor, patience) = (&mut self.axes[number].monitor, PATIENCE.in_cycles(parameters.cycle));
             monitor.drive_waits = (monitor.drive_waits + 1).min(patience + 1);
             if monitor.drive_waits > patience {

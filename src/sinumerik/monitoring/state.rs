@@ -28,7 +28,7 @@ pub(in crate::sinumerik) struct AxisMonitor {
     pub drive_waits: u64,
     /// The drive was ready in the last cycle.
     pub drive_was_ready: bool,
-    /// Why 93.5 went, or came again; none after the run-up.
+    /// Why 93.5 came or went last.
     pub drive_cause: EventId,
 }
 

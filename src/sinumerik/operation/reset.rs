@@ -6,7 +6,8 @@
 //! NC start does no more than to cancel alarms and to be refused without a reference point (10203).
 
 use crate::image::{ToNck, channel_from_nck, channel_to_nck, mode_group_to_nck};
-use crate::sinumerik::alarms::{self, Cancel, Reaction};
+use crate::sinumerik::alarms::{self, Alarm, Cancel, Reaction};
+use crate::sinumerik::axis::traversing::Stop;
 use crate::sinumerik::inputs::{channel_signal, mode_group_signal};
 use crate::sinumerik::machine_data::Effect;
 use crate::sinumerik::nck::Nck;
@@ -113,19 +114,20 @@ impl State {
     }
 
     /// What stops every movement of a channel: RESET, or an alarm that says NC stop, NC not ready or mode group not ready.
-    pub(in crate::sinumerik) fn stop_cause(&self, channel: ChannelNumber, parameters: &Parameters) -> Option<EventId> {
+    pub(in crate::sinumerik) fn stop(&self, channel: ChannelNumber, parameters: &Parameters) -> Option<Stop> {
         if let Some(cause) = self.emergency_stop.active_cause() {
-            return Some(cause);
+            return Some(Stop::EmergencyStop(cause));
         }
         if self.channels[channel].reset {
-            return Some(self.channels[channel].reset_cause);
+            return Some(Stop::Reset(self.channels[channel].reset_cause));
         }
-        self.alarms
-            .first(|place, alarm| {
-                alarm.reaction.has(Reaction::STOP) && parameters.concerns_channel(place, channel)
-                    || alarm.reaction.has(Reaction::NC_NOT_READY)
-            })
-            .or_else(|| self.mode_group_not_ready(parameters.mode_group(channel), parameters))
+        let stops = self.alarms.first_alarm(|place, alarm| {
+            alarm.reaction.has(Reaction::STOP) && parameters.concerns_channel(place, channel)
+                || alarm.reaction.has(Reaction::NC_NOT_READY)
+        });
+        let group = parameters.mode_group(channel);
+        let not_ready = || self.alarms.first_alarm(|place, alarm| takes_ready(group, parameters, place, alarm));
+        stops.or_else(not_ready).map(|(number, cause)| Stop::Alarm(number, cause))
     }
 
     /// The alarm that takes "mode group ready" from a group; one that concerns a single axis does not stop the others.
@@ -134,11 +136,7 @@ impl State {
         group: ModeGroupNumber,
         parameters: &Parameters,
     ) -> Option<EventId> {
-        self.alarms.first(|place, alarm| {
-            let only_channel = parameters.only_channel_not_ready && alarm.reaction.has(Reaction::CHANNEL_NOT_READY);
-            let not_ready = alarm.reaction.has(Reaction::MODE_GROUP_NOT_READY) && !only_channel;
-            not_ready && parameters.concerns_mode_group(place, group)
-        })
+        self.alarms.first(|place, alarm| takes_ready(group, parameters, place, alarm))
     }
 
     /// The first alarm with a reaction that concerns a channel.
@@ -155,4 +153,11 @@ impl State {
     pub(in crate::sinumerik) fn is_referenced(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
         self.summary.referenced.has_all_of(parameters.channels[channel].reference_needed)
     }
+}
+
+/// Whether an alarm of this place takes "mode group ready" from a group.
+fn takes_ready(group: ModeGroupNumber, parameters: &Parameters, place: Place, alarm: &Alarm) -> bool {
+    let only_channel = parameters.only_channel_not_ready && alarm.reaction.has(Reaction::CHANNEL_NOT_READY);
+    let not_ready = alarm.reaction.has(Reaction::MODE_GROUP_NOT_READY) && !only_channel;
+    not_ready && parameters.concerns_mode_group(place, group)
 }

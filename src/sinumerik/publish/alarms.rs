@@ -36,7 +36,7 @@ impl Nck {
             (_, Place::Channel(channel)) => state.channels[channel].cancel_cause,
             (_, Place::Nck | Place::ModeGroup(_)) => state.cancel_event(),
         };
-        if cause.is_some() { cause } else { state.power_on_cause }
+        if cause.is_some() { cause } else { state.as_after_power_on }
     }
 
     /// The number of the latest event.

@@ -2,7 +2,9 @@
 
 use crate::image::axis_from_nck;
 use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::axis::traversing::command_signal;
 use crate::sinumerik::gantry::state::{Grouping, Monitored, Phase};
+use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::publish::rows::{Rows, Why};
@@ -38,8 +40,25 @@ impl State {
         let at_rest = position && axis.setpoint.is_at_rest() && axis.traverse_command == 0;
         let within = |window: Position| at_rest && axis.deviation().abs() <= window;
         let exact_stop = |datum: u32, window: Position| {
-            if axis.is_in_motion() {
+            if !position {
+                let control = axis_signal(number, axis_from_nck::position_controller_active, false);
+                return Why::Tested(
+                    Rule::ExactStopWithoutControl,
+                    [control, Input::None, Input::None],
+                    causes.enabling,
+                );
+            }
+            if axis.is_in_motion() && self.log.is_of_this_cycle(causes.motion) {
                 return Why::Event(causes.motion);
+            }
+            if axis.is_in_motion() {
+                let mover = self.mover(number);
+                let input = match self.axes[mover].traverse_command {
+                    0 => Input::None,
+                    command => axis_signal(mover, command_signal(command), true),
+                };
+                let inputs = [input, Input::None, Input::None];
+                return Why::Tested(Rule::ExactStopInMotion, inputs, self.axes[mover].causes.motion);
             }
             let measured = Input::Length(Quantity::Deviation, number, axis.deviation());
             let limit = Input::Datum(datum, Some(number), window.user());
@@ -51,19 +70,22 @@ impl State {
         let alarm = self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, Some(Place::Axis(number)));
         let cancelled = || self.channels[channel].cancel_cause;
         rows.bit(axis_from_nck::axis_specific_alarm, alarm.is_some(), || Why::Event(alarm.unwrap_or_else(cancelled)));
-        let drive = || self.run_up.cause.max(axis.monitor.drive_cause);
+        let drive = || axis.monitor.drive_cause;
         let ready = axis.drive_ready && axis.measuring_system.is_some() && alarm.is_none();
         rows.bit(axis_from_nck::axis_ready, ready, || {
             Why::Event(alarm.unwrap_or_else(|| match axis.measuring_system {
                 None => causes.measuring_system,
                 Some(_) if !axis.drive_ready => drive(),
-                Some(_) => self.run_up.cause.max(causes.measuring_system).max(cancelled()),
+                Some(_) => drive().max(causes.measuring_system).max(cancelled()),
             }))
         });
         // A parked axis has no actual value that it could follow.
         let follows_up = axis.enabling.follow_up && axis.measuring_system.is_some();
         let enabling = || Why::Event(causes.enabling);
-        rows.bit(axis_from_nck::follow_up_active, follows_up, enabling);
+        rows.bit(axis_from_nck::follow_up_active, follows_up, || match axis.measuring_system {
+            None => Why::Event(causes.measuring_system),
+            Some(_) => Why::Event(causes.enabling.max(causes.measuring_system)),
+        });
         rows.bit(axis_from_nck::axis_stationary, axis.velocity.abs() < parameters.standstill_velocity, || {
             #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
             let velocity = Position::new(axis.velocity.abs() as i64);
@@ -103,6 +125,14 @@ impl State {
         let active = axis.measuring_system;
         rows.bit(axis_from_nck::position_measuring_system_1_activated, active == Some(0), measuring_system);
         rows.bit(axis_from_nck::position_measuring_system_2_activated, active == Some(1), measuring_system);
+    }
+
+    /// The axis whose movement an axis makes: the one that leads its grouping now, or itself.
+    fn mover(&self, number: AxisNumber) -> AxisNumber {
+        let is_of = |grouping: &&Grouping| {
+            grouping.coupling.is_closed() && grouping.coupling.members().any(|axis| axis == number)
+        };
+        self.groupings.iter().find(is_of).map_or(number, |grouping| grouping.coupling.leads_now())
     }
 
     /// 101.x of the leading axis of a grouping.

@@ -1,12 +1,17 @@
 //! What a channel shows: DB21 to DB30.
 
+use std::cmp::Reverse;
+
 use crate::image::channel_from_nck;
 use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::axis::traversing::command_signal;
+use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::publish::rows::{Rows, Why};
+use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
-use crate::units::ChannelNumber;
-use crate::variables::EventId;
+use crate::units::{AxisNumber, ChannelNumber};
+use crate::variables::{EventId, Input};
 
 impl State {
     /// "At least one axis is being traversed in JOG", or referenced.
@@ -17,7 +22,7 @@ impl State {
     /// DB21 to DB30, of one channel.
     pub(super) fn show_channel(&self, channel: ChannelNumber, parameters: &Parameters, rows: &mut impl Rows) {
         let active = self.is_channel_active(channel, parameters);
-        let motion = || Why::Event(self.motion_event(|of| of == channel, parameters));
+        let motion = || self.activity(|of| of == channel, active, parameters);
         // The first alarm with the reaction that a signal sums up; once there is none any more, what cancelled the last.
         let alarm = |reaction| self.channel_alarm(channel, reaction, parameters);
         let or_cancelled = |alarm: Option<EventId>| alarm.unwrap_or(self.channels[channel].cancel_cause);
@@ -33,7 +38,9 @@ impl State {
             Why::Event(self.reference_event(channel, parameters))
         });
         let standing = self.summary.standing.has_all_of(parameters.channels[channel].axes);
-        rows.bit(channel_from_nck::all_axes_stationary, standing, motion);
+        rows.bit(channel_from_nck::all_axes_stationary, standing, || {
+            Why::Event(self.motion_event(|of| of == channel, parameters))
+        });
         let not_ready = alarm(Reaction::CHANNEL_NOT_READY);
         let ready = self.run_up.is_nc_ready() && not_ready.is_none();
         rows.bit(channel_from_nck::channel_ready, ready, || Why::Event(or_cancelled(not_ready).max(self.run_up.cause)));
@@ -45,6 +52,40 @@ impl State {
         rows.bit(channel_from_nck::nck_alarm_with_machining_stop_active, stopping.is_some(), || {
             Why::Event(or_cancelled(stopping))
         });
+    }
+
+    /// Why channels are active, or not.
+    pub(super) fn activity(
+        &self,
+        channels: impl Fn(ChannelNumber) -> bool + Copy,
+        active: bool,
+        parameters: &Parameters,
+    ) -> Why {
+        let of_channels = parameters.existing().filter(|(_, axis)| channels(axis.channel)).map(|(number, _)| number);
+        let counts = |axis: &AxisNumber| !active || self.summary.in_motion.contains(*axis);
+        // The one that was moved or stopped last; of axes that move together the first.
+        let order = |axis: &AxisNumber| {
+            let commanded = active && self.axes[*axis].traverse_command != 0;
+            (commanded, self.axes[*axis].causes.motion, Reverse(*axis))
+        };
+        let Some(number) = of_channels.filter(counts).max_by_key(order) else { return Why::Event(EventId::NONE) };
+        let axis = &self.axes[number];
+        let parent = if active && axis.approach.is_running() { axis.approach.cause() } else { axis.causes.motion };
+        if self.log.is_of_this_cycle(axis.causes.motion) {
+            return Why::Event(axis.causes.motion);
+        }
+        let input = |direction: i8, value: bool| match parameters.axes[number].silent {
+            true => Input::None,
+            false => axis_signal(number, command_signal(direction), value),
+        };
+        match (active, axis.traverse_command) {
+            (true, 0) => Why::Tested(Rule::ChannelActive, [Input::None; 3], parent),
+            (true, command) => {
+                Why::Tested(Rule::ChannelActive, [input(command, true), Input::None, Input::None], parent)
+            }
+            (false, _) if !parent.is_some() => Why::Event(EventId::NONE),
+            (false, _) => Why::Tested(Rule::ChannelAtRest, [input(1, false), input(-1, false), Input::None], parent),
+        }
     }
 
     /// The latest movement of any axis of these channels.

@@ -53,7 +53,7 @@ impl State {
         let mut channels = parameters.existing_channels().filter(|(_, group)| *group == number);
         let reset = channels.all(|(channel, _)| !self.is_channel_active(channel, parameters));
         rows.bit(mode_group_from_nck::all_channels_in_reset_state, reset, || {
-            Why::Event(self.motion_event(|channel| parameters.mode_group(channel) == number, parameters))
+            self.activity(|channel| parameters.mode_group(channel) == number, !reset, parameters)
         });
         let teach_in = group.function == MachineFunction::TeachIn;
         rows.bit(mode_group_from_nck::active_machine_function_teach_in, teach_in, function);

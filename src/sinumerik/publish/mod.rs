@@ -90,7 +90,7 @@ impl Nck {
             Some(Why::Tested(rule, inputs, parent)) => state.log.note(place, rule, inputs, parent),
         };
         // What nothing has changed yet is as power on left it.
-        if cause.is_some() { cause } else { state.power_on_cause }
+        if cause.is_some() { cause } else { state.as_after_power_on }
     }
 }
 

@@ -29,8 +29,7 @@ impl State {
         } else if self.is_jogging(unit) {
             self.jog(unit, parameters, to_nck);
         } else {
-            let cause = self.mode_group(unit).cause();
-            self.traverse(number, 0, 0, cause);
+            self.traverse_without_jog(unit);
             if self.unit_can_move(unit, parameters)
                 && !self.is_gantry_axis(number)
                 && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
@@ -152,11 +151,10 @@ impl State {
         // A movement that feed stop or an override of 0 % holds is still wanted.
         let held = axis.feed_held || motion.is_held();
         let request = if direction == 0 && held { axis.traverse_request } else { direction };
-        if (axis.traverse_request, axis.traverse_command) != (request, direction) {
-            axis.causes.motion = approach.cause();
-            axis.traverse_request = request;
-            axis.traverse_command = direction;
-        }
+        let cam = axis_to_nck::deceleration_reference_point_approach;
+        let cam = axis_signal(number, cam, signals.deceleration_reference_point_approach());
+        let (begun, begins) = (approach.cause(), (Rule::ApproachStarted, cam));
+        self.traverse_on(number, (request, direction), begun, begins, approach.target);
         outcome
     }
 
@@ -178,21 +176,35 @@ impl State {
             let event = self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, parent);
             return Some((Some(alarms::APPROACH_ABORTED), event));
         }
-        if let Some(cause) = self.stop_cause(unit.channel, parameters) {
-            return Some((None, cause));
+        if let Some(stop) = self.stop(unit.channel, parameters) {
+            let (_, input) = stop.tested();
+            let inputs = [input, Input::None, Input::None];
+            return Some((None, self.log.now(Place::Axis(number), stop.cause(), Rule::ApproachAborted, inputs)));
         }
         // A hardware limit switch in the way ends the approach; its own alarm says so.
         let direction = unit.members().map(|axis| self.axes[axis].traverse_command).find(|&command| command != 0);
-        if let Some(cause) = self.limited(unit, direction.unwrap_or(0)) {
+        let direction = direction.unwrap_or(0);
+        if let Some(pressed) = self.limited_by(unit, direction) {
             self.brake_at_limit(unit, parameters);
-            return Some((None, self.log.note_plain(Place::Axis(number), Rule::ApproachAborted, cause)));
+            let limits = self.axes[pressed].limits;
+            let input = limits.input(pressed, direction);
+            return Some((None, self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, limits.cause)));
         }
         if !self.mode_group(unit).is_referencing() {
             let cause = self.mode_group(unit).function_cause;
-            return Some((None, self.log.note_plain(Place::Axis(number), Rule::ApproachAborted, cause)));
+            let referencing = mode_group_from_nck::active_machine_function_ref;
+            let input = mode_group_signal(unit.mode_group, referencing, false);
+            return Some((None, self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, cause)));
         }
         let pressed = key_direction(&to_nck.axes[number]);
         let (alarm, input) = if let Some(off) = unit.members().find(|&axis| !self.axes[axis].enabling.is_on()) {
+            let axis = &self.axes[off];
+            if axis.enabling.controllers()[2] {
+                // It brakes in position control, towards being switched off.
+                let cause = axis.causes.enabling;
+                let event = self.log.note_plain(Place::Axis(number), Rule::ApproachAborted, cause);
+                return Some((Some(alarms::APPROACH_ABORTED), event));
+            }
             (Some(alarms::APPROACH_ABORTED), axis_signal(off, axis_from_nck::position_controller_active, false))
         } else if let Some(forbidden) = self.motion_forbidden(unit) {
             (Some(alarms::APPROACH_ABORTED), forbidden)
@@ -263,7 +275,7 @@ impl State {
             let before = self.channels[channel].referencing;
             self.channels[channel].referencing.was = wanted;
             let rises = wanted && !before.was && !before.is_active();
-            if !rises || self.stop_cause(channel, parameters).is_some() || !self.mode_groups[group].is_referencing() {
+            if !rises || self.stop(channel, parameters).is_some() || !self.mode_groups[group].is_referencing() {
                 continue;
             }
             let place = Place::Channel(channel);
@@ -281,7 +293,7 @@ impl State {
                 continue;
             }
             let (finished, failed) = self.channel_referencing_progress(channel, parameters);
-            if failed || self.stop_cause(channel, parameters).is_some() || !self.mode_groups[group].is_referencing() {
+            if failed || self.stop(channel, parameters).is_some() || !self.mode_groups[group].is_referencing() {
                 self.end_channel_referencing(channel, 0);
             } else if finished {
                 let number = self.channels[channel].referencing.number;
