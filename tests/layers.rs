@@ -63,6 +63,15 @@ const REFUSED_IN_ROOMS: &[(&str, &str)] = &[
     ("super::\x73uper", "`crate::room::…`, so that the table of rooms sees it"),
 ];
 
+/// Refused in the control except in [`INPUTS`]: a signal is named by its constant, so that a moved address does not compile.
+const REFUSED_IN_CONTROL: &[(&str, &str)] = &[
+    ("Signal\x42it", "the constant of the signal with `axis_signal` and its kin of `sinumerik/inputs.rs`"),
+    ("match (byte, \x62it)", "the constant of the signal, in a row of `sinumerik/publish/`"),
+];
+
+/// The one file of the control that makes a place of a block out of a signal.
+const INPUTS: &str = "src/sinumerik/inputs.rs";
+
 /// Refused in `src` except in [`OUTSIDE`].
 const REFUSED_INSIDE: &[(&str, &str)] = &[
     ("std::time", "`opennck::units::Time`; a step does not ask a clock"),
@@ -154,6 +163,14 @@ fn nothing_is_left_open() {
 #[test]
 fn imports_go_by_rooms() {
     report(rust("src").iter().flat_map(|file| refused(&file.path, &file.text, REFUSED_IN_ROOMS)).collect());
+}
+
+#[test]
+fn the_control_names_signals_by_their_constants() {
+    let control = rust("src/sinumerik").into_iter().filter(|file| file.path != INPUTS);
+    report(control.flat_map(|file| refused(&file.path, &file.text, REFUSED_IN_CONTROL)).collect());
+    assert!(!refused("src/x.rs", "Signal\x42it { place, byte: 61, bit: 5 }", REFUSED_IN_CONTROL).is_empty());
+    assert!(!refused("src/x.rs", "match (byte, \x62it) {", REFUSED_IN_CONTROL).is_empty());
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //!
 //! One binary for many files, because each binary links the library once more.
 
+mod causes;
 mod cli;
 mod determinism;
 mod dynamics;

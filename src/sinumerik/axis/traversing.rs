@@ -15,7 +15,7 @@ use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::sinumerik) enum Stop {
     /// Emergency stop.
-    EmergencyStop(EventId),
+    Emergency(EventId),
     /// RESET is pressed.
     Reset(EventId),
     /// An alarm.
@@ -26,7 +26,7 @@ impl Stop {
     /// The event that began it.
     pub(in crate::sinumerik) const fn cause(self) -> EventId {
         match self {
-            Self::EmergencyStop(cause) | Self::Reset(cause) | Self::Alarm(_, cause) => cause,
+            Self::Emergency(cause) | Self::Reset(cause) | Self::Alarm(_, cause) => cause,
         }
     }
 
@@ -34,7 +34,7 @@ impl Stop {
     pub(in crate::sinumerik) fn tested(self) -> (Rule, Input) {
         use crate::image::nck_from_nck::emergency_stop_active;
         match self {
-            Self::EmergencyStop(_) => (Rule::StoppedByEmergencyStop, nck_signal(emergency_stop_active, true)),
+            Self::Emergency(_) => (Rule::StoppedByEmergencyStop, nck_signal(emergency_stop_active, true)),
             Self::Reset(_) => (Rule::StoppedByReset, Input::None),
             Self::Alarm(number, _) => (Rule::StoppedByAlarm, Input::Alarm(number.0)),
         }

@@ -116,7 +116,7 @@ impl State {
     /// What stops every movement of a channel: RESET, or an alarm that says NC stop, NC not ready or mode group not ready.
     pub(in crate::sinumerik) fn stop(&self, channel: ChannelNumber, parameters: &Parameters) -> Option<Stop> {
         if let Some(cause) = self.emergency_stop.active_cause() {
-            return Some(Stop::EmergencyStop(cause));
+            return Some(Stop::Emergency(cause));
         }
         if self.channels[channel].reset {
             return Some(Stop::Reset(self.channels[channel].reset_cause));
