@@ -220,7 +220,7 @@ fn a_saved_machine_goes_on_elsewhere_byte_for_byte() {
             step(&mut restored);
             assert_same(&origin, &restored, &what);
             // What is not saved, or not restored, shows in what is saved next.
-            if origin.cycle() < saved_at + 20 || origin.cycle() % 100 == 0 {
+            if origin.cycle() < saved_at + 20 || origin.cycle().is_multiple_of(100) {
                 assert!(origin.save() == restored.save(), "{what}: saved states differ in cycle {}", origin.cycle());
             }
         }
