@@ -1,8 +1,8 @@
-//! Golden traces: every scenario below a directory runs, and its trace must be the one in the `.snap` beside it.
+//! Golden traces: runs every scenario below a directory and compares its trace with the `.snap` file beside it.
 //!
-//! `opennck test` and [`check`], which is for `cargo test`, do the same. It reads `name.toml` and `name.snap`, and writes
-//! the latter only where it is told to accept, or `name.snap.new` for review. The files have insta's format, so that
-//! insta's tools show and accept what changed: `cargo insta review`.
+//! `opennck test` does this on the command line, [`check`] does it for `cargo test`. Both read `name.toml` and `name.snap`. They write
+//! `name.snap` only when accepting is requested, and `name.snap.new` for review. The files have the format of insta, so that the tools
+//! of insta show and accept changes: `cargo insta review`.
 
 mod snapshot;
 
@@ -20,18 +20,18 @@ use crate::source::{Place, Problem, unreadable};
 use crate::trace::{difference, difference_in_sequence};
 use crate::units::Time;
 
-/// What happens to a golden file whose trace is another one, or that is missing.
+/// What to do with a golden file that is missing or whose trace differs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Update {
-    /// Nothing.
+    /// Leave it unchanged.
     No,
-    /// The trace is written beside it, as `name.snap.new`, for review.
+    /// Write the new trace beside it, as `name.snap.new`, for review.
     New,
-    /// It is rewritten.
+    /// Overwrite it with the new trace.
     Accept,
 }
 
-/// One scenario under one profile: one golden file.
+/// One scenario under one profile. It has one golden file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     /// The scenario.
@@ -42,31 +42,31 @@ pub struct Case {
     pub snap: PathBuf,
 }
 
-/// How a case ended.
+/// The result of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// Everything held, and the trace is the golden one.
+    /// All expectations hold, and the trace matches the golden file.
     Held,
-    /// Everything held, and the golden file was written.
+    /// All expectations hold, and the golden file was written.
     Accepted,
-    /// An expectation failed.
+    /// An expectation failed: the report.
     Failed(String),
-    /// Everything held, but the trace is another one: the first difference.
+    /// All expectations hold, but the trace differs: the first difference.
     Differs(String),
-    /// Everything held, but there is no golden file.
+    /// All expectations hold, but the golden file does not exist: its path.
     Missing(PathBuf),
     /// The scenario or its golden file cannot be used.
     Unusable(Problem),
 }
 
 impl Outcome {
-    /// Whether the case is as it should be.
+    /// Whether the case passed.
     #[must_use]
     pub const fn is_good(&self) -> bool {
         matches!(self, Self::Held | Self::Accepted)
     }
 
-    /// The exit code of the program for this outcome.
+    /// The exit code of the program for this result.
     #[must_use]
     pub const fn exit_code(&self) -> u8 {
         match self {
@@ -86,12 +86,13 @@ impl fmt::Display for Outcome {
             Self::Differs(difference) => {
                 write!(
                     f,
-                    "the trace is another one: {difference}\n  read it, then accept it with `opennck test --accept` or `cargo insta review`"
+                    "the trace differs from the golden file: {difference}\n  \
+                     review it, then accept it with `opennck test --accept` or `cargo insta review`"
                 )
             }
             Self::Missing(snap) => write!(
                 f,
-                "expected the golden file {}, found none\n  read the trace with `opennck run`, then accept it with `opennck test --accept`",
+                "golden file {} does not exist\n  review the trace with `opennck run`, then accept it with `opennck test --accept`",
                 snap.display()
             ),
             Self::Unusable(problem) => problem.fmt(f),
@@ -99,10 +100,10 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// All scenario files below the paths, sorted; a path may be a file itself.
+/// All scenario files below the paths, sorted. A path may also be a file.
 ///
 /// # Errors
-/// A path does not exist or cannot be read, or there is no scenario below it.
+/// A path does not exist or cannot be read, or it contains no scenario.
 pub fn scenario_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Problem> {
     let mut files = Vec::new();
     for path in paths {
@@ -110,7 +111,7 @@ pub fn scenario_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Problem> {
         collect(path, &mut files)?;
         if files.len() == before {
             return Err(Place::file(&path.display().to_string())
-                .problem("expected scenarios (*.toml), found none", "name a directory that holds some"));
+                .problem("expected scenarios (*.toml), found none", "name a directory that contains scenarios"));
         }
     }
     files.sort();
@@ -128,7 +129,7 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Problem> {
     for entry in entries {
         let entry = entry.map_err(|error| unreadable(path, &error))?;
         let path = entry.path();
-        // A machine may lie beside its scenarios.
+        // A machine may be stored beside its scenarios.
         let is_plant = path.file_name().is_some_and(|name| name == "plant.toml");
         let is_toml = path.extension().is_some_and(|extension| extension == "toml") && !is_plant;
         if path.is_dir() || is_toml {
@@ -138,8 +139,8 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Problem> {
     Ok(())
 }
 
-/// The cases of a scenario file: one for each of its profiles. The first has `<name>.snap`, each other one
-/// `<name>.<profile>.snap`.
+/// The cases of a scenario file: one for each of its profiles. The golden file of the first profile is `<name>.snap`, that of every other
+/// profile is `<name>.<profile>.snap`.
 ///
 /// # Errors
 /// The file cannot be used.
@@ -156,23 +157,23 @@ pub fn cases(file: &Path) -> Result<Vec<Case>, Problem> {
         .collect())
 }
 
-/// Which transitions a control has taken.
+/// The transitions that a control has taken.
 #[derive(Clone, Copy)]
 pub struct Exercised {
-    /// The words of the control, with the charts of its state machines.
+    /// The texts of the control, with the charts of its state machines.
     pub texts: &'static dyn Texts,
     /// The rows of the charts.
     pub taken: Taken,
 }
 
 impl Case {
-    /// Runs the case and compares its trace.
+    /// Runs the case and compares its trace with the golden file.
     #[must_use]
     pub fn run(&self, programs: &Programs, update: Update) -> Outcome {
         self.run_watched(programs, update).0
     }
 
-    /// Runs it likewise, and returns which transitions its control has taken; `None` where it could not run.
+    /// Runs the case, and also returns the transitions that its control has taken; `None` if it could not run.
     #[must_use]
     pub fn run_watched(&self, programs: &Programs, update: Update) -> (Outcome, Option<Exercised>) {
         self.run_on(programs, update, controls::read)
@@ -225,7 +226,7 @@ impl Case {
         })
     }
 
-    /// What was already another trace when a scenario failed: the golden file, as far as the scenario came.
+    /// The first difference from the golden file before the scenario failed, if there is one.
     fn difference_before(&self, finished: &Finished) -> Option<String> {
         let time = |row: &str| row.split_whitespace().next().and_then(|time| time.parse::<f64>().ok());
         let found = finished.golden();
@@ -233,17 +234,17 @@ impl Case {
         let known = Snapshot::read(&self.snap).ok()?;
         let came = |row: &&str| time(row).is_none_or(|time| time <= last);
         let expected: String = known.body.lines().filter(came).flat_map(|row| [row, "\n"]).collect();
-        // Columns are as wide as what stands in them, and less stands in a trace that ended early.
+        // The width of a column depends on its contents, and a trace that ended early has fewer contents.
         let tolerance = match self.scenario.compare {
             Compare::Exact => Some(Time::ZERO),
             Compare::Sequence => None,
             Compare::Within(tolerance) => Some(tolerance),
         };
         let difference = difference_in_sequence(&normalized(&expected), &normalized(&found), tolerance)?;
-        Some(format!("its trace was another one before: {}: {difference}", self.snap.display()))
+        Some(format!("the trace already differed before this failure: {}: {difference}", self.snap.display()))
     }
 
-    /// The first difference, as far as the scenario wants it told.
+    /// The first difference, under the comparison that the scenario selects.
     fn difference(&self, expected: &str, found: &str) -> Option<String> {
         let (expected, found) = (normalized(expected), normalized(found));
         match self.scenario.compare {
@@ -254,11 +255,11 @@ impl Case {
     }
 }
 
-/// Runs every scenario below a directory, for `cargo test`; `INSTA_UPDATE` says what happens to golden files as it does for insta: `no`
-/// nothing, `new` (the default outside CI) writes `.snap.new` for `cargo insta review`, `always` rewrites them.
+/// Runs every scenario below a directory, for `cargo test`. `INSTA_UPDATE` selects what happens to golden files, as in insta: `no` changes
+/// nothing, `new` (the default outside CI) writes `.snap.new` for `cargo insta review`, `always` overwrites them.
 ///
 /// # Panics
-/// With a readable report, when one of them does not hold or its trace is another one.
+/// A scenario fails or its trace differs. The message is a readable report.
 pub fn check(dir: impl AsRef<Path>, programs: &Programs) {
     let update = match std::env::var("INSTA_UPDATE").as_deref() {
         Ok("no") => Update::No,
@@ -271,7 +272,7 @@ pub fn check(dir: impl AsRef<Path>, programs: &Programs) {
     assert!(report.is_empty(), "{report}");
 }
 
-/// What does not hold below a directory; empty when all does.
+/// A report of all failed scenarios below a directory; empty if all pass.
 fn report(dir: &Path, programs: &Programs, update: Update) -> String {
     let files = match scenario_files(&[dir.to_owned()]) {
         Ok(files) => files,
@@ -296,7 +297,7 @@ fn report(dir: &Path, programs: &Programs, update: Update) -> String {
     if wrong.is_empty() {
         return String::new();
     }
-    format!("{} of {count} scenarios are not as they should be\n\n{}\n", wrong.len(), wrong.join("\n\n"))
+    format!("{} of {count} scenarios failed\n\n{}\n", wrong.len(), wrong.join("\n\n"))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
-//! `.snap` files in insta's format: a header between two lines of `---`, then the body.
+//! `.snap` files in the format of insta: a header between two lines of `---`, then the body.
 //!
-//! Bodies compare as insta compares them: line ends of Windows count as line ends, white space at the very end and
-//! empty lines at the very beginning do not count.
+//! Bodies are compared as in insta: Windows line ends are equal to Unix line ends, and white space at the end and empty lines at the
+//! beginning are ignored.
 
 use std::path::{Path, PathBuf};
 
@@ -10,9 +10,9 @@ use crate::source::{Place, Problem, read_text, unreadable};
 /// A golden file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Snapshot {
-    /// The lines between the two `---`; kept as they are when the body is rewritten.
+    /// The lines between the two `---`. They are kept unchanged when the body is rewritten.
     pub header: String,
-    /// What is compared.
+    /// The text that is compared.
     pub body: String,
 }
 
@@ -27,7 +27,7 @@ impl Snapshot {
     /// Reads a golden file.
     ///
     /// # Errors
-    /// It cannot be read, or has no header.
+    /// The file cannot be read, or has no header.
     pub fn read(path: &Path) -> Result<Self, Problem> {
         let text = read_text(path)?.replace("\r\n", "\n");
         let parts = text.strip_prefix("---\n").and_then(|rest| match rest.strip_prefix("---\n") {
@@ -47,7 +47,7 @@ impl Snapshot {
     /// Writes the golden file.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), Problem> {
         std::fs::write(path, self.to_string()).map_err(|error| unreadable(path, &error))
     }
@@ -59,13 +59,13 @@ impl std::fmt::Display for Snapshot {
     }
 }
 
-/// A body as it is compared.
+/// The normalized form of a body, which comparisons use.
 #[must_use]
 pub fn normalized(body: &str) -> String {
     body.trim_end().replace("\r\n", "\n").trim_start_matches(['\r', '\n']).to_owned()
 }
 
-/// The file that waits for review beside a golden file: `name.snap.new`.
+/// The path of the file for review beside a golden file: `name.snap.new`.
 #[must_use]
 pub fn pending(snap: &Path) -> PathBuf {
     let mut name = snap.as_os_str().to_owned();

@@ -1,10 +1,10 @@
-//! Golden files: missing, changed, accepted; one for each profile; and the format, which insta accepts as its own.
+//! Golden files: missing, changed, accepted; one per profile; and compatibility of the format with insta.
 
 use std::fs;
 
 use super::*;
 
-/// An empty directory of its own for a test, with one scenario.
+/// An empty directory for one test, with one scenario.
 fn directory(name: &str, scenario: &str) -> PathBuf {
     let directory = std::env::temp_dir().join(format!("opennck-golden-{}-{name}", std::process::id()));
     let _ = fs::remove_dir_all(&directory);
@@ -43,14 +43,14 @@ fn a_changed_trace_is_reported_with_its_first_difference_and_keeps_the_header_wh
     let golden = fs::read_to_string(&snap).unwrap();
     fs::write(&snap, golden.replace("0 -> 1", "1 -> 0").replace("source: opennck", "source: elsewhere")).unwrap();
     let report = report(&directory, &Programs::ready(), Update::No);
-    assert!(report.starts_with("1 of 1 scenarios are not as they should be"), "{report}");
+    assert!(report.starts_with("1 of 1 scenarios failed"), "{report}");
     assert!(report.contains("first difference in line 6") && report.contains("1 -> 0"), "{report}");
     assert_eq!(outcomes(&directory, Update::Accept), [Outcome::Accepted]);
     assert_eq!(fs::read_to_string(&snap).unwrap(), golden.replace("source: opennck", "source: elsewhere"));
 }
 
 #[test]
-fn a_failed_scenario_tells_where_its_trace_had_left_the_golden_file_before() {
+fn a_failed_scenario_reports_an_earlier_difference_from_its_golden_file() {
     let directory = directory("before", SCENARIO);
     outcomes(&directory, Update::Accept);
     let changed = SCENARIO.replace("\"M0.0\" = 1", "\"M0.1\" = 1");
@@ -60,7 +60,7 @@ fn a_failed_scenario_tells_where_its_trace_had_left_the_golden_file_before() {
         matches!(outcome, Outcome::Failed(text) if text.contains("first difference in line 6, at 0.002 s")),
         "{outcome}"
     );
-    // What the golden file has after the end of the failed run is no difference.
+    // Rows of the golden file after the end of the failed run are not a difference.
     fs::write(directory.join("flags.toml"), SCENARIO.replace("\"10ms\"", "\"2ms\"\n[[step]]\nexpect = \"M0.1\""))
         .unwrap();
     let outcome = &outcomes(&directory, Update::No)[0];
@@ -68,7 +68,7 @@ fn a_failed_scenario_tells_where_its_trace_had_left_the_golden_file_before() {
 }
 
 #[test]
-fn a_failed_expectation_and_an_unusable_file_are_told_apart() {
+fn a_failed_expectation_and_an_unusable_file_have_different_outcomes() {
     let directory = directory("failed", &format!("{SCENARIO}[[step]]\nexpect = \"M0.1\"\n"));
     let outcome = &outcomes(&directory, Update::Accept)[0];
     assert!(matches!(outcome, Outcome::Failed(text) if text.contains("M0.1 = 0")), "{outcome}");
