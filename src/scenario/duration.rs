@@ -1,9 +1,9 @@
-//! Durations in scenarios: `100ms`, `1.5s`, `2min`, `10cycles`; rounded up to whole cycles, at least one.
+//! Durations in scenarios: `100ms`, `1.5s`, `2min`, `10cycles`. They are rounded up to whole cycles, at least one.
 
 use crate::source::Problem;
 use crate::units::Time;
 
-/// A span of time as a scenario writes it.
+/// A duration as written in a scenario.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Duration {
     /// A span of time.
@@ -16,12 +16,12 @@ impl Duration {
     /// Reads `<n>cycles`, or a number and a unit as [`Time::parse_saturating`] does.
     ///
     /// # Errors
-    /// It is neither.
+    /// The text has neither form.
     pub fn parse(text: &str) -> Result<Self, Problem> {
         let problem = || {
             Problem::new(
                 format!("expected a duration, found `{text}`"),
-                "write a number and a unit, us, ms, s, min or h, or a number of cycles: \"100ms\", \"10cycles\"",
+                "write a number with a unit (us, ms, s, min or h) or a number of cycles: \"100ms\", \"10cycles\"",
             )
         };
         let trimmed = text.trim();
@@ -32,7 +32,7 @@ impl Duration {
         read.ok_or_else(problem)
     }
 
-    /// How many cycles it takes.
+    /// The duration in cycles.
     #[must_use]
     pub fn cycles(self, cycle: Time) -> u64 {
         match self {
@@ -41,7 +41,7 @@ impl Duration {
         }
     }
 
-    /// How long it is, before rounding.
+    /// The duration in time, before rounding.
     #[must_use]
     pub fn time(self, cycle: Time) -> Time {
         match self {
@@ -51,7 +51,7 @@ impl Duration {
     }
 }
 
-/// Digits only: no sign.
+/// Accepts digits only, no sign.
 fn whole_number(text: &str) -> Option<u64> {
     text.bytes().all(|digit| digit.is_ascii_digit()).then(|| text.parse().ok()).flatten()
 }

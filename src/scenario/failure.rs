@@ -1,4 +1,4 @@
-//! Why a scenario did not hold: what was expected, what every signal in it was then, and which alarms were pending.
+//! Why a scenario failed: what it expected, the value of every signal in the expression, and the pending alarms.
 
 use std::fmt;
 
@@ -8,9 +8,9 @@ use crate::units::Time;
 /// A step that did not succeed.
 #[derive(Clone, PartialEq)]
 pub enum Failure {
-    /// The input cannot be used; nothing was run for it.
+    /// The input is invalid; nothing was run for it.
     Unusable(Problem),
-    /// The machine did something else than expected.
+    /// The machine did not behave as expected.
     Missed(Box<Missed>),
 }
 
@@ -19,18 +19,18 @@ pub enum Failure {
 pub struct Missed {
     /// The step, if it is in a file.
     pub place: Option<Place>,
-    /// Since the start of the scenario.
+    /// Time since the start of the scenario.
     pub time: Time,
     /// What was expected, and for how long.
     pub what: String,
-    /// Each signal and value in the expression, with what it was then.
+    /// Each signal and value in the expression, with its value at that time.
     pub operands: Vec<String>,
     /// Each pending alarm with its text.
     pub alarms: Vec<String>,
 }
 
 impl Failure {
-    /// The same failure, at this place unless it already has one.
+    /// The same failure with this place, unless it already has one.
     #[must_use]
     pub(super) fn at(self, place: &Place) -> Self {
         match self {
@@ -83,7 +83,7 @@ impl fmt::Display for Failure {
     }
 }
 
-/// As it is displayed, so that a test that unwraps a failure shows it readably.
+/// Prints the same text as `Display`, so that a test that unwraps a failure shows it readably.
 impl fmt::Debug for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

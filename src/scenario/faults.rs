@@ -5,12 +5,12 @@ use crate::machine::{Fault, FaultKind, Machine, Switch};
 use crate::source::{Node, Problem, Value, did_you_mean};
 use crate::units::Position;
 
-/// The fastest drift, in mm or degrees per second: nothing real is faster.
+/// The fastest drift in mm or degrees per second. No real axis is faster.
 const FASTEST_DRIFT: f64 = 1e6;
-/// A kilometre is beyond every machine.
+/// The largest push in mm or degrees: one kilometre, longer than any machine.
 const FARTHEST_PUSH: f64 = 1e6;
 
-/// Reads a fault; how much it is must be said where it begins.
+/// Reads a fault. If the fault begins, its amount is required.
 pub(super) fn fault(node: Node, begins: bool, machine: &Machine) -> Result<Fault, Problem> {
     let place = node.place.clone();
     let mut table = node.into_table("a fault, as { axis = \"XF\", kind = \"block\" }")?;
@@ -55,15 +55,16 @@ pub(super) fn fault(node: Node, begins: bool, machine: &Machine) -> Result<Fault
             FaultKind::EncoderFault { encoder: table.take("encoder").map(|node| encoder(&node)).transpose()? }
         }
         "friction" => {
-            let share = by("a share of the velocity, 0 to 1", 1.0, "0 loses nothing, 1 all of it")?;
+            let share = by("a share of the velocity, 0 to 1", 1.0, "0 loses nothing, 1 loses everything")?;
             if share < 0.0 {
-                return Err(place.problem("expected a share of the velocity, 0 to 1", "0 loses nothing, 1 all of it"));
+                return Err(place
+                    .problem("expected a share of the velocity, 0 to 1, found a negative number", "0 loses nothing"));
             }
             FaultKind::Friction { by: share }
         }
         "drift" => {
             let what = "a velocity in mm or degrees per second";
-            let velocity = by(what, FASTEST_DRIFT, "velocities are from -1000000 to 1000000")?;
+            let velocity = by(what, FASTEST_DRIFT, "write a velocity from -1000000 to 1000000")?;
             FaultKind::Drift { by: velocity * Position::PER_USER_UNIT }
         }
         other => {
@@ -103,7 +104,7 @@ fn encoder(node: &Node) -> Result<u8, Problem> {
     match node.value {
         Value::Integer(1) => Ok(0),
         Value::Integer(2) => Ok(1),
-        _ => Err(node.expected("encoder 1 or 2", "write encoder = 2, or leave it out for the active one")),
+        _ => Err(node.expected("encoder 1 or 2", "write encoder = 2, or omit it for the active encoder")),
     }
 }
 

@@ -1,7 +1,7 @@
-//! The scenario file: its head read and checked, its steps still as they stand in the file.
+//! The scenario file: the head is read and checked, the steps are kept as written.
 //!
-//! Nothing of the machine is known here. The names and values in the steps are looked up when the scenario is
-//! prepared for a machine, before anything runs.
+//! This module does not know the machine. Names and values in the steps are looked up when the scenario is prepared for a machine, before
+//! anything runs.
 
 use std::path::{Path, PathBuf};
 
@@ -11,36 +11,36 @@ use crate::image::Profile;
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean, read_text};
 use crate::units::Time;
 
-/// A scenario as its file says.
+/// A scenario as read from its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
     /// The file.
     pub path: PathBuf,
-    /// What it shows, in one sentence.
+    /// What the scenario shows, in one sentence.
     pub title: String,
-    /// The machine as the file names it.
+    /// The machine, as named in the file.
     pub machine: Named,
-    /// Requirement IDs that it shows.
+    /// IDs of the requirements that the scenario shows.
     pub covers: Vec<String>,
-    /// The interface profiles under which it runs.
+    /// The interface profiles under which the scenario runs.
     pub profiles: Vec<Profile>,
     /// The PLC program, by name.
     pub plc: Option<Named>,
     /// The PLC memory image, by name or file.
     pub plc_image: Option<Named>,
-    /// The bound on simulated time.
+    /// The limit of simulated time.
     pub limit: Duration,
-    /// What the trace shows; nothing means the default.
+    /// What the trace shows; `None` selects the default.
     pub watch: Option<Vec<Named>>,
     /// Whether golden rows show causes.
     pub causes: bool,
-    /// What must be false in every cycle.
+    /// Expressions that must be false in every cycle.
     pub never: Vec<Named>,
-    /// What must be true in every cycle.
+    /// Expressions that must be true in every cycle.
     pub always: Vec<Named>,
-    /// How its trace is compared.
+    /// How the trace is compared with the golden trace.
     pub compare: Compare,
-    /// What is merged into `plant.toml`.
+    /// Data that are merged into `plant.toml`.
     pub plant: Option<Table>,
     pub(super) steps: Vec<Table>,
 }
@@ -50,43 +50,43 @@ pub struct Scenario {
 pub struct Named {
     /// The text.
     pub text: String,
-    /// Where it stands.
+    /// Its place in the file.
     pub place: Place,
 }
 
-/// How a trace is compared with the golden one.
+/// How a trace is compared with the golden trace.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Compare {
     /// Every character.
     #[default]
     Exact,
-    /// The order of the rows, whatever their times.
+    /// The order of the rows; times are ignored.
     Sequence,
-    /// The order of the rows, and their times within this much.
+    /// The order of the rows, and their times within this tolerance.
     Within(Time),
 }
 
-/// Bound on simulated time where a scenario names none.
+/// The limit of simulated time if a scenario does not set one.
 const DEFAULT_LIMIT: Time = Time::from_millis(300_000);
 
 impl Scenario {
     /// Reads a scenario file.
     ///
     /// # Errors
-    /// The file cannot be read or is no scenario; the problem names file and line.
+    /// The file cannot be read or is not a scenario; the problem names file and line.
     pub fn read(path: &Path) -> Result<Self, Problem> {
         if path.is_dir() {
             let place = Place::file(&path.display().to_string());
-            let cure = "name the scenarios in it; `opennck test` runs all below a folder";
+            let cure = "name one of its scenarios; `opennck test` runs all scenarios below a folder";
             return Err(place.problem("expected a scenario, found a folder", cure));
         }
         Self::parse(&read_text(path)?, path)
     }
 
-    /// Reads a scenario from its text; `path` names it and is what its relative paths start from.
+    /// Reads a scenario from its text. `path` names it in messages and is the base of its relative paths.
     ///
     /// # Errors
-    /// It is no scenario; the problem names file and line.
+    /// The text is not a scenario; the problem names file and line.
     pub fn parse(text: &str, path: &Path) -> Result<Self, Problem> {
         let file = path.display().to_string();
         let mut table = Table::parse(text, &file)?;
@@ -98,7 +98,7 @@ impl Scenario {
         };
         let title = match table.take("title") {
             Some(title) => title.text("a title")?.to_owned(),
-            // A scenario without a title is called as its file.
+            // A scenario without a title has the name of its file.
             None => path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
         };
         let machine = required(table.take("machine"), "machine", "\"g1_example\"")?;
@@ -110,10 +110,13 @@ impl Scenario {
             covers: texts(table.take("covers"), "requirement IDs")?.into_iter().map(|id| id.text).collect(),
             profiles: profiles(table.take("profile"))?,
             plc: table.take("plc").map(|node| named(&node, "the name of a PLC program")).transpose()?,
-            plc_image: table.take("plc_image").map(|node| named(&node, "the name of a PLC image")).transpose()?,
+            plc_image: table
+                .take("plc_image")
+                .map(|node| named(&node, "the name or file of a PLC image"))
+                .transpose()?,
             limit: table
                 .take("limit")
-                .map_or(Ok(Duration::Time(DEFAULT_LIMIT)), |node| duration(&node, "the bound on simulated time"))?,
+                .map_or(Ok(Duration::Time(DEFAULT_LIMIT)), |node| duration(&node, "the limit of simulated time"))?,
             watch: table.take("watch").map(|node| texts(Some(node), "signals to watch")).transpose()?,
             causes: table.take("causes").map_or(Ok(false), |node| node.boolean("true or false"))?,
             never: texts(table.take("never"), "expressions")?,
@@ -127,20 +130,20 @@ impl Scenario {
         Ok(scenario)
     }
 
-    /// The directory that the file's relative paths start from.
+    /// The directory that is the base of relative paths in the file.
     #[must_use]
     pub fn directory(&self) -> &Path {
         self.path.parent().unwrap_or_else(|| Path::new(""))
     }
 }
 
-/// The words for a profile in files and on the command line.
+/// The profile of this name, in files and on the command line.
 ///
 /// # Errors
-/// It is no profile.
+/// No profile has this name.
 pub fn profile_named(name: &str) -> Result<Profile, Problem> {
     controls::profile(name).ok_or_else(|| {
-        // A shortened name is nearer to the name it begins than any count of letters says.
+        // The edit distance misleads for a shortened name, so the profiles are listed.
         let known: Vec<&str> = controls::profiles().collect();
         let all = format!("profiles are {}", known.join(" and "));
         let shortened = |known: &&&str| known.starts_with(name);
@@ -174,7 +177,7 @@ fn profiles(node: Option<Node>) -> Result<Vec<Profile>, Problem> {
     for name in texts(Some(node), "a profile")? {
         let profile = profile_named(&name.text).map_err(|problem| problem.at(&name.place))?;
         if profiles.contains(&profile) {
-            return Err(name.place.problem(format!("the profile `{}` stands here twice", name.text), "remove one"));
+            return Err(name.place.problem(format!("the profile `{}` is listed twice", name.text), "remove one"));
         }
         profiles.push(profile);
     }
@@ -215,7 +218,7 @@ fn steps(node: Option<Node>, whole: &Place) -> Result<Vec<Table>, Problem> {
     if steps.is_empty() { Err(none()) } else { Ok(steps) }
 }
 
-/// What the format names and this version does not do.
+/// Rejects keys that the format reserves and this version does not support.
 fn refuse_later_keys(table: &mut Table) -> Result<(), Problem> {
     if let Some(node) = table.take("program") {
         return Err(not_available(&node.place, "the key `program`"));
@@ -224,5 +227,5 @@ fn refuse_later_keys(table: &mut Table) -> Result<(), Problem> {
 }
 
 pub(super) fn not_available(place: &Place, what: &str) -> Problem {
-    place.problem(format!("{what} is not available in this version"), "remove it, or use a version that has it")
+    place.problem(format!("{what} is not available in this version"), "remove it, or use a version that supports it")
 }

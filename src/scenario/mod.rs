@@ -1,10 +1,9 @@
-//! FILES THAT ACT: scenarios with their steps and expressions, and the session in which they and a user's tests run.
+//! Scenarios: files with steps and expressions, and the session that runs them and the tests of users.
 //!
-//! A scenario is read ([`Scenario::read`]), prepared for a profile ([`Scenario::prepare`]: here the machine is opened,
-//! every name looked up and every value checked), and run ([`Prepared::run`]). What can be wrong with a
-//! file is a [`Problem`](crate::source::Problem) with its line; what the machine did other than expected is a
-//! [`Failure`] that shows every signal of the expression. The other way round, [`Transcript`] writes down what is done to a machine as
-//! a scenario.
+//! A scenario is read ([`Scenario::read`]), prepared for a profile ([`Scenario::prepare`]) and run ([`Prepared::run`]). Preparing opens
+//! the machine, looks up every name and checks every value. A mistake in a file is a [`Problem`](crate::source::Problem) with its line.
+//! Unexpected behaviour of the machine is a [`Failure`] that shows every signal of the expression. [`Transcript`] does the reverse: it
+//! records the commands to a machine as a scenario.
 
 mod duration;
 mod failure;

@@ -1,4 +1,4 @@
-//! What names mean in a scenario: those of its machine, and those of the values that its steps captured.
+//! Names in a scenario: those of its machine, and those of the values that its steps captured.
 
 use crate::expression::Scope;
 use crate::image::{Location, Writer};
@@ -27,7 +27,7 @@ impl Scope for Known<'_> {
     }
 }
 
-/// The axis of this name.
+/// The axis with this name.
 pub(super) fn axis_named(machine: &Machine, name: &str) -> Result<AxisNumber, Problem> {
     let axes = &machine.names().axes;
     AxisNumber::all().find(|axis| axes[*axis].as_deref() == Some(name)).ok_or_else(|| {
@@ -40,7 +40,7 @@ pub(super) fn axis_named(machine: &Machine, name: &str) -> Result<AxisNumber, Pr
     })
 }
 
-/// A captured value has a plain name that means nothing else.
+/// Checks the name of a captured value: it must be a plain name without another meaning.
 pub(super) fn check_captured_name(name: &str) -> Result<(), Problem> {
     let plain = name.starts_with(|c: char| c.is_alphabetic() || c == '_')
         && name.chars().all(|c| c.is_alphanumeric() || c == '_');
@@ -49,17 +49,17 @@ pub(super) fn check_captured_name(name: &str) -> Result<(), Problem> {
     } else {
         Err(Problem::new(
             format!("expected a plain name for a captured value, found `{name}`"),
-            "use letters, digits and underscores, and not `time`",
+            "use letters, digits and underscores; `time` is reserved",
         ))
     }
 }
 
-/// The place of any signal: a client of the control can write each of them, and the NCK takes its own back.
+/// The location of any signal. A client of the control can write every signal; the NCK then overwrites its own signals.
 pub(super) fn place_named(machine: &Machine, name: &str) -> Result<Location, Problem> {
     machine.names().resolve(machine.memory(), name)
 }
 
-/// The place of a signal that something other than the NCK writes.
+/// The location of a signal that the NCK does not write.
 pub(super) fn writable(machine: &Machine, name: &str) -> Result<Location, Problem> {
     let names = machine.names();
     let location = names.resolve(machine.memory(), name)?;
@@ -67,7 +67,7 @@ pub(super) fn writable(machine: &Machine, name: &str) -> Result<Location, Proble
         let what = names.symbol(location).map_or_else(|| name.to_owned(), |symbol| format!("{symbol} ({name})"));
         return Err(Problem::new(
             format!("expected a signal that the PLC or the operator panel writes, found {what}, which the NCK writes"),
-            "the NCK would write it anew in the same cycle; `expect` it instead",
+            "the NCK overwrites it in the same cycle; use `expect` to check it",
         ));
     }
     Ok(location)

@@ -1,17 +1,17 @@
-//! The steps of a scenario, in order, on a machine that somebody steps: the runner as fast as it can, a server in real time.
+//! Executes the steps of a scenario in order. A caller steps the machine: the scenario runner at full speed, a server in real time.
 
 use super::failure::Failure;
 use super::passing::{Book, Next};
 use super::steps::{Action, Step};
 use crate::machine::Machine;
 
-/// Steps, and how far they have come.
+/// The steps and the progress through them.
 pub(super) struct Plan {
     steps: Vec<Step>,
     index: usize,
-    /// How many cycles the step has let pass.
+    /// The number of cycles that have passed in the current step.
     passed: u64,
-    /// It has been looked at.
+    /// Whether the current step has begun.
     has_begun: bool,
 }
 
@@ -20,7 +20,7 @@ impl Plan {
         Self { steps, index: 0, passed: 0, has_begun: false }
     }
 
-    /// Goes on until a cycle has to pass, which then must follow, or until all is over; gives each note to be noted.
+    /// Executes steps until a cycle must pass or all steps are done. The caller steps the machine next. Passes each note to the caller.
     pub(super) fn go_on(
         &mut self,
         book: &mut Book,
@@ -43,7 +43,7 @@ impl Plan {
         Ok(Next::Over)
     }
 
-    /// The cycle has passed.
+    /// Called after a cycle.
     pub(super) fn end_cycle(&mut self, book: &Book, machine: &Machine) -> Result<(), Failure> {
         let ended = book.end_cycle(machine);
         if let (Err(stopped), Some(step)) = (ended, self.steps.get(self.index)) {
@@ -69,22 +69,22 @@ impl Step {
     }
 }
 
-/// A scenario at work on a machine that somebody else steps.
+/// A scenario that runs on a machine which its caller steps.
 pub struct Operator {
     book: Book,
     plan: Plan,
     state: State,
 }
 
-/// How far an operator is.
+/// The progress of an operator.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum State {
-    /// At work.
+    /// Steps remain.
     #[default]
     Acting,
-    /// All steps were done.
+    /// All steps are done.
     Done,
-    /// One failed; the ones behind it were not done.
+    /// A step failed; the steps after it are not executed.
     Failed(Failure),
 }
 
@@ -93,7 +93,7 @@ impl Operator {
         Self { book, plan, state: State::Acting }
     }
 
-    /// Before each step of the machine: queues what is to be done at its edge. Gives the notes of the steps that begin.
+    /// Queues the commands for the next step of the machine; call it before each step. Returns the notes of the steps that begin.
     pub fn act(&mut self, machine: &mut Machine) -> Vec<String> {
         let mut notes = Vec::new();
         if self.state == State::Acting {
@@ -106,7 +106,7 @@ impl Operator {
         notes
     }
 
-    /// After each step, before the machine's record is drained: edges are found in the record.
+    /// Evaluates the last step. Call it after each step and before the record of the machine is drained, because edges are read from it.
     pub fn look(&mut self, machine: &Machine) {
         if self.state == State::Acting {
             self.book.note_changes(machine);
@@ -116,7 +116,7 @@ impl Operator {
         }
     }
 
-    /// How far it is.
+    /// The progress so far.
     #[must_use]
     pub fn state(&self) -> &State {
         &self.state

@@ -1,7 +1,7 @@
-//! How time passes in a session: cycle by cycle, what a step does before each, what must hold in each, and what a failure says.
+//! The progress of time in a session: the action before each cycle, the conditions that must hold in each cycle, the text of a failure.
 //!
-//! Nothing here steps a machine. The caller that does asks a [`Book`] before each cycle how an action goes on, and calls it after each
-//! cycle; so the same actions run as fast as they can, for a file or a test, and in real time, where others step.
+//! This module does not step the machine. The caller that steps it asks a [`Book`] before each cycle how an action continues, and calls
+//! the book again after each cycle. So the same actions run at full speed (for a file or a test) and in real time (for a server).
 
 use std::borrow::Cow;
 
@@ -15,30 +15,30 @@ use crate::trace::Past;
 use crate::units::Time;
 use crate::variables::{Describe, place_name};
 
-/// What a session keeps beside its machine.
+/// The state of a session beside its machine.
 #[derive(Clone, Debug)]
 pub(super) struct Book {
     /// The cycle that counts as time zero.
     start: u64,
-    /// Bits that were written and that no cycle has taken up yet.
+    /// Bits that were written and that no cycle has taken over yet.
     pending: Vec<(Location, u64)>,
     pub(super) captured_names: Vec<String>,
     captured: Vec<f64>,
     pub(super) conditions: Vec<Condition>,
-    /// Bound on the cycles of this session.
+    /// The maximum number of cycles of this session.
     pub(super) limit: Option<u64>,
-    /// What was shown one cycle ago, kept where an expression looks back.
+    /// The state one cycle ago, kept if an expression uses `rose` or `fell`.
     before: Option<Box<Before>>,
 }
 
-/// What the machine showed one cycle ago.
+/// The state of the machine one cycle ago.
 #[derive(Clone, Debug)]
 struct Before {
     past: Past,
     time: Time,
 }
 
-/// What must hold in every cycle.
+/// A condition that must hold in every cycle.
 #[derive(Clone, Debug)]
 pub(super) struct Condition {
     pub(super) expression: Expression,
@@ -47,23 +47,23 @@ pub(super) struct Condition {
     pub(super) place: Option<Place>,
 }
 
-/// How an action goes on.
+/// How an action continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Next {
-    /// A cycle has to pass.
+    /// One cycle must pass.
     Cycle,
-    /// It is over.
+    /// The action is complete.
     Over,
 }
 
-/// Why a cycle was the last one.
+/// Why no cycle may follow.
 pub(super) enum Stopped {
     Limit,
     Condition(usize),
 }
 
 impl Book {
-    /// Begins now.
+    /// Starts a session now.
     pub(super) fn new(machine: &Machine) -> Self {
         Self {
             start: machine.cycle(),
@@ -76,12 +76,12 @@ impl Book {
         }
     }
 
-    /// Whether the state before the last cycle is kept; needed where an expression has `rose` or `fell`.
+    /// Selects whether the state before the last cycle is kept; expressions with `rose` or `fell` need it.
     pub(super) fn look_back(&mut self, wanted: bool, machine: &Machine) {
         self.before = wanted.then(|| Box::new(Before::new(machine, self.time(machine))));
     }
 
-    /// Since the start of the session.
+    /// Time since the start of the session.
     pub(super) fn time(&self, machine: &Machine) -> Time {
         machine.cycle_time().times(machine.cycle() - self.start)
     }
@@ -101,7 +101,7 @@ impl Book {
         locations.iter().try_for_each(|&location| self.queue(Command::Write { location, value }, machine))
     }
 
-    /// What an action does when this many of its cycles have passed.
+    /// Executes an action after this number of its cycles has passed.
     pub(super) fn go_on(&mut self, action: &Action, passed: u64, machine: &mut Machine) -> Result<Next, Failure> {
         let while_below = |cycles: u64| if passed < cycles { Next::Cycle } else { Next::Over };
         match action {
@@ -123,7 +123,7 @@ impl Book {
                     return Ok(Next::Over);
                 }
                 if within.is_some_and(|within| passed >= within) {
-                    let what = format!("{}, and it did not become true", waited(passed, expression, machine));
+                    let what = format!("{}; it did not become true", waited(passed, expression, machine));
                     return Err(self.missed(what, Some(expression), machine));
                 }
                 Ok(Next::Cycle)
@@ -133,7 +133,7 @@ impl Book {
                     return Ok(while_below(*during));
                 }
                 let held = machine.cycle_time().times(passed);
-                let what = format!("expected `{}` to hold, found it false after {held} s", expression.source());
+                let what = format!("expected `{}` to stay true; it was false after {held} s", expression.source());
                 Err(self.missed(what, Some(expression), machine))
             }
             Action::Expect(expressions) => {
@@ -157,7 +157,7 @@ impl Book {
         }
     }
 
-    /// Before a cycle.
+    /// Called before a cycle.
     pub(super) fn begin_cycle(&mut self, machine: &Machine) -> Result<(), Stopped> {
         if self.limit.is_some_and(|limit| machine.cycle() - self.start >= limit) {
             return Err(Stopped::Limit);
@@ -170,7 +170,7 @@ impl Book {
         Ok(())
     }
 
-    /// After a cycle, before its record is drained: notes what it changed.
+    /// Called after a cycle, before its record is drained: stores the changes of the cycle.
     pub(super) fn note_changes(&mut self, machine: &Machine) {
         self.pending.clear();
         if let Some(before) = &mut self.before {
@@ -178,7 +178,7 @@ impl Book {
         }
     }
 
-    /// After a cycle and [`Book::note_changes`]: what must hold in it.
+    /// Called after a cycle and after [`Book::note_changes`]: checks the conditions.
     pub(super) fn end_cycle(&self, machine: &Machine) -> Result<(), Stopped> {
         let broken = self.conditions.iter().position(|condition| {
             self.with_view(self.last(machine), machine, |view| condition.expression.holds(view)) != condition.wanted
@@ -186,7 +186,7 @@ impl Book {
         broken.map_or(Ok(()), |index| Err(Stopped::Condition(index)))
     }
 
-    /// The failure of a cycle that was the last one of an action.
+    /// The failure when a cycle ended an action early.
     pub(super) fn stopped(&self, stopped: &Stopped, action: &Action, passed: u64, machine: &Machine) -> Failure {
         let run = |cycles: u64| format!("after {} s of a run", machine.cycle_time().times(cycles));
         let (doing, expression) = match action {
@@ -206,7 +206,7 @@ impl Book {
                 let condition = &self.conditions[*index];
                 let (word, found) = if condition.wanted { ("always", "false") } else { ("never", "true") };
                 let source = condition.expression.source();
-                let what = format!("expected {word} `{source}`, found it {found}");
+                let what = format!("`{word}` is violated: `{source}` is {found}");
                 let failure = self.missed(what, Some(&condition.expression), machine);
                 match &condition.place {
                     Some(place) => failure.at(place),
@@ -216,17 +216,17 @@ impl Book {
         }
     }
 
-    /// Must be true now.
+    /// The expression must be true now.
     pub(super) fn expect(&self, expression: &Expression, machine: &Machine) -> Result<(), Failure> {
         if self.holds(expression, machine) {
             Ok(())
         } else {
-            let what = format!("expected `{}`, found it false", expression.source());
+            let what = format!("expected `{}`, but it is false", expression.source());
             Err(self.missed(what, Some(expression), machine))
         }
     }
 
-    /// Keeps a value.
+    /// Stores a value.
     pub(super) fn keep(&mut self, index: usize, expression: &Expression, machine: &Machine) -> f64 {
         let value = self.evaluated(expression, machine);
         if self.captured.len() <= index {
@@ -236,7 +236,7 @@ impl Book {
         value
     }
 
-    /// These bits must be there now.
+    /// The location must have these bits now.
     fn expect_bits(&self, location: Location, bits: u64, machine: &Machine) -> Result<(), Failure> {
         let found = self.now(machine).read(location);
         if found == bits {
@@ -259,7 +259,7 @@ impl Book {
         }
     }
 
-    /// Looks at the two last cycles and at `now`.
+    /// Evaluates the last two cycles and `now`.
     fn with_view<T>(&self, now: Moment<'_>, machine: &Machine, look: impl FnOnce(&View<'_>) -> T) -> T {
         let last = self.last(machine);
         let before = self.before.as_ref().map_or(last, |before| Moment {
@@ -271,7 +271,7 @@ impl Book {
         look(&View { now, last, before })
     }
 
-    /// The memory now: after the last cycle, with what was written since.
+    /// The memory now: after the last cycle, including writes since then.
     fn now<'a>(&self, machine: &'a Machine) -> Cow<'a, Memory> {
         if self.pending.is_empty() {
             return Cow::Borrowed(machine.memory());

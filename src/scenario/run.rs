@@ -1,4 +1,4 @@
-//! The scenario runner: prepares a scenario for a machine, so that every mistake is found before anything runs, and runs it.
+//! The scenario runner: prepares a scenario for a machine, so that every mistake is reported before anything runs, and runs it.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ use crate::plc::Programs;
 use crate::source::Problem;
 use crate::trace::{Head, Watch};
 
-/// A scenario that is ready to run: machine opened, names looked up, values checked.
+/// A scenario that is ready to run: the machine is open, names are looked up, values are checked.
 pub struct Prepared {
     session: Session,
     plan: Plan,
@@ -24,7 +24,7 @@ pub struct Prepared {
     causes: bool,
 }
 
-/// A scenario that has run.
+/// A scenario after its run.
 pub struct Finished {
     session: Session,
     head: Head,
@@ -37,7 +37,7 @@ impl Scenario {
     /// Opens the machine under a profile, and looks up and checks everything that the steps name.
     ///
     /// # Errors
-    /// Something cannot be used; the problem names file and line.
+    /// Something is invalid; the problem names file and line.
     pub fn prepare(&self, profile: Profile, programs: &Programs) -> Result<Prepared, Problem> {
         self.prepare_on(profile, programs, controls::read)
     }
@@ -52,7 +52,7 @@ impl Scenario {
         let mut reader = Reader::new(&machine);
         let plan = Plan::new(self.steps.iter().map(|step| reader.step(step.clone())).collect::<Result<_, _>>()?);
         let captured = std::mem::take(&mut reader.captured);
-        // What must hold from the first cycle on cannot wait for a value that a step captures.
+        // Conditions hold from the first cycle on, so they cannot use a value that a later step captures.
         let conditions = self.conditions(&reader, &captured)?;
         let looks_back = conditions.iter().any(|condition| condition.expression.looks_back()) || plan.looks_back();
         let limit = self.limit.cycles(machine.cycle_time());
@@ -62,7 +62,7 @@ impl Scenario {
             profile: (profile != Profile::default()).then(|| profile.name().to_owned()),
             cycle_time: machine.cycle_time(),
         };
-        // Only now: what is wrong with the file is said first.
+        // The program is looked up last, so that mistakes in the file are reported first.
         if let Some(name) = &self.plc {
             let program = programs.program(&name.text, machine.names());
             machine.load_program(program.map_err(|problem| problem.at(&name.place))?);
@@ -89,28 +89,31 @@ impl Scenario {
             .map_err(|problem| problem.at(&self.machine.place))
     }
 
-    /// The file of its PLC image, if it has one.
+    /// The file of the PLC image of the scenario, if it has one.
     ///
     /// # Errors
-    /// There is no file of that name.
+    /// No file has this name.
     pub fn image_file(&self) -> Result<Option<PathBuf>, Problem> {
         self.plc_image.as_ref().map(|image| self.file_of(image)).transpose()
     }
 
-    /// A PLC image: a file, or a name that is looked for in `plc_images` beside the scenario or above it.
+    /// The file of a PLC image: a path, or a name that is searched in `plc_images` beside the scenario and in the folders above.
     fn file_of(&self, image: &Named) -> Result<PathBuf, Problem> {
         Ok(if image.text.ends_with(".toml") {
             self.directory().join(&image.text)
         } else {
             let name = Path::new("plc_images").join(format!("{}.toml", image.text));
             let above = self.directory().ancestors().map(|directory| directory.join(&name));
-            // A relative path ends at the folder where the program was started; the folders above it count, too.
+            // A relative path ends at the working directory; the folders above it are searched, too.
             let start = Path::new(".").join(self.directory()).canonicalize().unwrap_or_default();
             let further: Vec<PathBuf> = start.ancestors().map(|directory| directory.join(&name)).collect();
             above.chain(further).find(|file| file.is_file()).ok_or_else(|| {
                 image.place.problem(
-                    format!("expected a PLC image, found no plc_images/{}.toml here or above", image.text),
-                    "name a file that ends in .toml, relative to the scenario",
+                    format!(
+                        "PLC image plc_images/{}.toml does not exist beside the scenario or in a folder above it",
+                        image.text
+                    ),
+                    "write a path that ends in .toml, relative to the scenario",
                 )
             })?
         })
@@ -133,7 +136,7 @@ impl Scenario {
             .map(|(text, wanted)| {
                 let expression = reader.expression(&text.text, &text.place).map_err(|mut problem| {
                     if captured.iter().any(|name| problem.what.contains(&format!("`{name}`"))) {
-                        "a captured value is known from its step on; `never` and `always` hold from the start"
+                        "a captured value exists only after its step; `never` and `always` apply from the start"
                             .clone_into(&mut problem.cure);
                     }
                     problem
@@ -145,7 +148,7 @@ impl Scenario {
 }
 
 impl Prepared {
-    /// Runs the steps in order, up to the first that fails.
+    /// Runs the steps in order until one fails.
     #[must_use]
     pub fn run(mut self) -> Finished {
         let failure = loop {
@@ -164,21 +167,21 @@ impl Prepared {
         Finished { session: self.session, head: self.head, causes: self.causes, failure }
     }
 
-    /// The machine, for somebody else to step, the scenario at work on it, and what its trace shows.
+    /// Returns the machine, for a caller that steps it, the operator that executes the scenario, and the signals of the trace.
     #[must_use]
     pub fn into_operator(self) -> (Machine, Operator, Watch) {
         let Session { machine, book, watch, .. } = self.session;
         (machine, Operator::new(book, self.plan), watch)
     }
 
-    /// Computes every axis in every cycle, also those that rest: slower, and the same trace.
+    /// Computes every axis in every cycle, including axes at rest. This is slower and gives the same trace.
     #[must_use]
     pub fn never_rest(mut self) -> Self {
         self.session.machine.never_rest();
         self
     }
 
-    /// What the machine's files made it warn of.
+    /// The warnings from the files of the machine.
     #[must_use]
     pub fn warnings(&self) -> &[String] {
         self.session.machine().warnings()
@@ -186,13 +189,13 @@ impl Prepared {
 }
 
 impl Finished {
-    /// The body of the golden file: head and rows, with causes only where the scenario asks for them.
+    /// The body of the golden file: head and rows. Causes are included only if the scenario selects them.
     #[must_use]
     pub fn golden(&self) -> String {
         self.with_head(self.causes)
     }
 
-    /// Head and rows with causes, for people.
+    /// Head and rows with causes, for readers.
     #[must_use]
     pub fn text(&self) -> String {
         self.with_head(true)
@@ -209,7 +212,7 @@ impl Finished {
         self.session.json_lines()
     }
 
-    /// The trace as a waveform, for GTKWave and its kind.
+    /// The trace as a waveform (VCD), for GTKWave and similar viewers.
     #[must_use]
     pub fn vcd(&self) -> String {
         self.session.vcd()
@@ -221,7 +224,7 @@ impl Finished {
         self.session.svg(&self.head)
     }
 
-    /// The machine as it ended, with its trace.
+    /// The machine at the end, with its trace.
     #[must_use]
     pub fn session(&self) -> &Session {
         &self.session

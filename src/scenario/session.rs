@@ -1,7 +1,7 @@
-//! A machine at work: what a test in Rust does with it, step by step, and what the scenario runner does for a file.
+//! A machine under test: the calls that a test in Rust uses step by step. The scenario runner uses the same calls for a file.
 //!
-//! Time stands still between the calls; `run`, `wait`, `hold` and `pulse` let it pass, in whole cycles. "Now" is the
-//! state after the last cycle plus what this session has written and no cycle has taken up yet.
+//! Time does not pass between calls. `run`, `wait`, `hold` and `pulse` let whole cycles pass. "Now" is the state after the last cycle
+//! plus the writes of this session that no cycle has taken over yet.
 
 use std::path::Path;
 
@@ -38,10 +38,10 @@ pub struct Session {
 }
 
 impl Session {
-    /// Opens a machine: a directory, an archive file, or the name of a built-in one.
+    /// Opens a machine: a directory, an archive file, or the name of a built-in machine.
     ///
     /// # Errors
-    /// Its files cannot be used.
+    /// The files of the machine are invalid.
     pub fn open(machine: impl AsRef<Path>) -> Result<Self, Failure> {
         Ok(Self::new(Machine::open(machine)?))
     }
@@ -70,19 +70,19 @@ impl Session {
         &self.machine
     }
 
-    /// Everything that changed so far.
+    /// All changes so far.
     #[must_use]
     pub fn trace(&self) -> &Trace {
         &self.trace
     }
 
-    /// The trace for people, with causes.
+    /// The trace as text, with causes.
     #[must_use]
     pub fn text(&self) -> String {
         self.rows(true)
     }
 
-    /// The trace without causes, as golden files have it: for snapshots, which a better wording must not break.
+    /// The trace without causes, as in golden files. Use it for snapshots, so that a reworded cause does not change them.
     #[must_use]
     pub fn sequence(&self) -> String {
         self.rows(false)
@@ -92,13 +92,13 @@ impl Session {
         self.trace.text(&self.machine, &self.watch, causes)
     }
 
-    /// The trace for programs, as JSON lines.
+    /// The trace as JSON lines, for programs.
     #[must_use]
     pub fn json_lines(&self) -> String {
         self.trace.json_lines(&self.machine, &self.watch)
     }
 
-    /// The trace as a waveform, for GTKWave and its kind.
+    /// The trace as a waveform (VCD), for GTKWave and similar viewers.
     #[must_use]
     pub fn vcd(&self) -> String {
         self.trace.vcd(&self.machine, &self.watch)
@@ -110,16 +110,16 @@ impl Session {
         self.trace.svg(&self.machine, &self.watch, head)
     }
 
-    /// Since the start of the session.
+    /// Time since the start of the session.
     #[must_use]
     pub fn time(&self) -> Time {
         self.book.time(&self.machine)
     }
 
-    /// Chooses what the texts of the trace show, as `watch` of a scenario does; values are noted from now on.
+    /// Selects what the texts of the trace show, like `watch` in a scenario. Values are recorded from now on.
     ///
     /// # Errors
-    /// An entry names nothing.
+    /// An entry does not name a signal or value.
     pub fn watch(&mut self, entries: &[&str]) -> Result<(), Failure> {
         let watch = Watch::parse(entries, self.machine.names(), self.machine.memory());
         self.set_watch(watch.map_err(|(_, problem)| problem)?);
@@ -134,13 +134,13 @@ impl Session {
     /// Writes a signal once, in the next cycle; the PLC program may overwrite it.
     ///
     /// # Errors
-    /// There is no such signal, the NCK writes it, or the value does not fit.
+    /// The signal does not exist, the NCK writes it, or the value does not fit.
     pub fn set(&mut self, signal: &str, value: impl Into<Setting>) -> Result<(), Failure> {
         let (location, bits) = self.resolved(signal, value.into())?;
         self.queue(Command::Write { location, value: bits })
     }
 
-    /// Holds a signal after every scan of the PLC program, until it is released.
+    /// Overrides a signal after every scan of the PLC program, until [`Session::release`].
     ///
     /// # Errors
     /// As [`Session::set`].
@@ -149,10 +149,10 @@ impl Session {
         self.queue(Command::Force { location, value: bits })
     }
 
-    /// Ends the forcing of a signal.
+    /// Ends the override of a signal.
     ///
     /// # Errors
-    /// There is no such signal.
+    /// The signal does not exist.
     pub fn release(&mut self, signal: &str) -> Result<(), Failure> {
         let location = writable(&self.machine, signal)?;
         self.queue(Command::Release { location })
@@ -163,15 +163,15 @@ impl Session {
         Ok((location, value.bits(signal, location, self.machine.override_coding())?))
     }
 
-    /// Sets a bit for 100 ms and resets it; ends one cycle after that, in which the bit is 0 again.
+    /// Sets a bit for 100 ms and resets it. It returns one cycle later, when the bit is 0 again.
     ///
     /// # Errors
-    /// There is no such bit, the NCK writes it, or something that must hold in every cycle did not.
+    /// The bit does not exist, the NCK writes it, or a condition that must hold in every cycle failed.
     pub fn pulse(&mut self, signal: &str) -> Result<(), Failure> {
         self.pulse_for(signal, "100ms")
     }
 
-    /// Sets a bit for this long and resets it; ends one cycle after that, in which the bit is 0 again.
+    /// Sets a bit for the given time and resets it. It returns one cycle later, when the bit is 0 again.
     ///
     /// # Errors
     /// As [`Session::pulse`].
@@ -184,54 +184,54 @@ impl Session {
     /// Lets time pass.
     ///
     /// # Errors
-    /// It is no duration, or something that must hold in every cycle did not.
+    /// The text is not a duration, or a condition that must hold in every cycle failed.
     pub fn run(&mut self, time: &str) -> Result<(), Failure> {
         let cycles = self.cycles(time)?;
         self.act(&Action::Run(cycles))
     }
 
-    /// Lets time pass until an expression is true; goes on in the cycle in which it became true.
+    /// Lets time pass until an expression is true, and returns in the cycle in which it becomes true.
     ///
     /// # Errors
-    /// The time has passed; the failure says what every signal in the expression was then.
+    /// The time has expired; the failure shows every signal in the expression.
     pub fn wait(&mut self, expression: &str, within: &str) -> Result<(), Failure> {
         let expression = self.expression(expression)?;
         let within = self.cycles(within)?;
         self.act(&Action::Wait(expression, Some(within)))
     }
 
-    /// Lets time pass, in every cycle of which an expression must be true; it must be true now, too.
+    /// Lets time pass. The expression must be true now and in every cycle.
     ///
     /// # Errors
-    /// It was false; the failure says what every signal in it was then.
+    /// The expression became false; the failure shows every signal in it.
     pub fn hold(&mut self, expression: &str, during: &str) -> Result<(), Failure> {
         let expression = self.expression(expression)?;
         let during = self.cycles(during)?;
         self.act(&Action::Hold(expression, during))
     }
 
-    /// An expression must be true now.
+    /// The expression must be true now.
     ///
     /// # Errors
-    /// It is not; the failure says what every signal in it is.
+    /// The expression is false; the failure shows every signal in it.
     pub fn expect(&mut self, expression: &str) -> Result<(), Failure> {
         let expression = self.expression(expression)?;
         self.book.expect(&expression, &self.machine)
     }
 
-    /// What an expression is now.
+    /// The value of an expression now.
     ///
     /// # Errors
-    /// It is no expression, or a name in it is unknown.
+    /// The text is not an expression, or a name in it is unknown.
     pub fn value(&self, expression: &str) -> Result<f64, Failure> {
         let expression = self.expression(expression)?;
         Ok(self.book.evaluated(&expression, &self.machine))
     }
 
-    /// Keeps a value for later expressions.
+    /// Stores a value for later expressions.
     ///
     /// # Errors
-    /// The name is not plain, or the expression cannot be used.
+    /// The name is not a plain name, or the expression is invalid.
     pub fn capture(&mut self, name: &str, expression: &str) -> Result<f64, Failure> {
         check_captured_name(name)?;
         let expression = self.expression(expression)?;
@@ -244,10 +244,10 @@ impl Session {
         Ok(self.book.keep(index, &expression, &self.machine))
     }
 
-    /// Stores a machine datum, as `34090[XF]`; it acts when its class says.
+    /// Stores a machine datum, as `34090[XF]`. It takes effect as its activation class defines.
     ///
     /// # Errors
-    /// There is no such machine datum, or it refuses the value.
+    /// The machine datum does not exist, or it rejects the value.
     pub fn machine_data(&mut self, target: &str, value: impl Into<Setting>) -> Result<(), Failure> {
         let value = match value.into() {
             Setting::Integer(number) => DatumValue::Integer(number),
@@ -258,18 +258,18 @@ impl Session {
         self.queue(Command::MachineDatum { target: target.to_owned(), value })
     }
 
-    /// "Set machine data active".
+    /// "Set machine data active" (NEWCONF).
     ///
     /// # Errors
-    /// The machine refuses it.
+    /// The machine rejects the command.
     pub fn new_conf(&mut self) -> Result<(), Failure> {
         self.queue(Command::NewConf)
     }
 
-    /// Off and on again.
+    /// Switches the control off and on again.
     ///
     /// # Errors
-    /// The machine refuses it.
+    /// The machine rejects the command.
     pub fn power_on(&mut self) -> Result<(), Failure> {
         self.queue(Command::PowerOn)
     }
@@ -277,7 +277,7 @@ impl Session {
     /// Stops the PLC.
     ///
     /// # Errors
-    /// The machine refuses it.
+    /// The machine rejects the command.
     pub fn plc_stop(&mut self) -> Result<(), Failure> {
         self.queue(Command::PlcStop)
     }
@@ -285,7 +285,7 @@ impl Session {
     /// Restarts the PLC.
     ///
     /// # Errors
-    /// The machine refuses it.
+    /// The machine rejects the command.
     pub fn plc_run(&mut self) -> Result<(), Failure> {
         self.queue(Command::PlcRun)
     }
@@ -293,35 +293,35 @@ impl Session {
     /// The operator's alarm-cancel key.
     ///
     /// # Errors
-    /// The machine refuses it.
+    /// The machine rejects the command.
     pub fn cancel(&mut self) -> Result<(), Failure> {
         self.queue(Command::Cancel)
     }
 
-    /// Makes something break on an axis.
+    /// Begins a fault on an axis.
     ///
     /// # Errors
-    /// There is no such axis.
+    /// The axis does not exist.
     pub fn fault(&mut self, axis: &str, kind: FaultKind) -> Result<(), Failure> {
         let axis = axis_named(&self.machine, axis)?;
         self.queue(Command::Fault(Fault { axis, kind }))
     }
 
-    /// Repairs it.
+    /// Ends a fault on an axis.
     ///
     /// # Errors
-    /// There is no such axis.
+    /// The axis does not exist.
     pub fn clear_fault(&mut self, axis: &str, kind: FaultKind) -> Result<(), Failure> {
         let axis = axis_named(&self.machine, axis)?;
         self.queue(Command::ClearFault(Fault { axis, kind }))
     }
 
-    /// Notes a text in the trace, at the time of the next cycle.
+    /// Writes a note into the trace, at the time of the next cycle.
     pub fn note(&mut self, text: &str) {
         self.trace.note(self.machine.cycle() + 1, text);
     }
 
-    /// A second session that goes its own way from here.
+    /// A second session that continues independently from this state.
     ///
     /// # Errors
     /// The PLC program cannot be copied.
@@ -339,7 +339,7 @@ impl Session {
         self.book.queue(command, &mut self.machine)
     }
 
-    /// Does what a step does.
+    /// Executes the action of a step.
     fn act(&mut self, action: &Action) -> Result<(), Failure> {
         let mut passed = 0;
         while self.book.go_on(action, passed, &mut self.machine)? == Next::Cycle {
@@ -354,7 +354,7 @@ impl Session {
         Ok(())
     }
 
-    /// One cycle, and its record.
+    /// Runs one cycle and records it.
     pub(super) fn cycle(&mut self) {
         self.machine.step();
         self.trace.extend(self.machine.recorder());

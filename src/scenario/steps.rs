@@ -1,4 +1,4 @@
-//! The steps of a scenario, looked up and checked for one machine, before anything runs.
+//! The steps of a scenario: names are looked up and values are checked for one machine before anything runs.
 
 use std::ops::RangeInclusive;
 
@@ -11,7 +11,7 @@ use crate::machine::{Command, DatumValue, Machine};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
 use crate::units::{ChannelNumber, Time};
 
-/// A step, ready to run.
+/// A step that is ready to run.
 #[derive(Debug)]
 pub(super) struct Step {
     pub(super) place: Place,
@@ -19,24 +19,24 @@ pub(super) struct Step {
     pub(super) action: Action,
 }
 
-/// What a step does.
+/// The action of a step.
 #[derive(Debug)]
 pub(super) enum Action {
     /// Queues commands for the next cycle.
     Queue(Vec<Command>),
-    /// Sets bits, lets time pass, resets them.
+    /// Sets bits, lets cycles pass, resets the bits.
     Pulse(Vec<Location>, u64),
     /// Lets cycles pass.
     Run(u64),
-    /// Lets cycles pass until the expression is true, at most this many.
+    /// Lets cycles pass until the expression is true, at most this number.
     Wait(Expression, Option<u64>),
-    /// Lets cycles pass, in each of which the expression must be true.
+    /// Lets cycles pass; the expression must be true in each of them.
     Hold(Expression, u64),
-    /// Must all be true now.
+    /// All expressions must be true now.
     Expect(Vec<(Place, Expression)>),
-    /// Keeps values.
+    /// Stores values.
     Capture(Vec<(usize, Expression)>),
-    /// Must be these bits now.
+    /// The locations must have these bits now.
     Image(Vec<(Place, Location, u64)>),
 }
 
@@ -64,16 +64,16 @@ const VERBS: [&str; 20] = [
     "image",
 ];
 
-/// Verbs of the format that later versions have.
+/// Verbs that the format reserves for later versions.
 const LATER_VERBS: [&str; 1] = ["program"];
 
-/// How long a pulse is unless said.
+/// The length of a pulse if `for` is absent.
 const PULSE: Time = Time::from_millis(100);
 
-/// Reads steps for one machine, one after the other, because a captured name is known only after its step.
+/// Reads the steps for one machine in order, because a captured name is known only after its step.
 pub(super) struct Reader<'a> {
     machine: &'a Machine,
-    /// The names of captured values so far.
+    /// The names captured so far.
     pub(super) captured: Vec<String>,
 }
 
@@ -104,11 +104,11 @@ impl<'a> Reader<'a> {
         }
         let mut verbs = verbs.into_iter();
         let Some((verb, node)) = verbs.next() else {
-            // A misspelt verb is the likeliest reason for having none, and modifiers are no verbs.
+            // A misspelt verb is the most likely reason that no verb is found. Modifiers are not verbs.
             for modifier in ["within", "for", "during"] {
                 if let Some(node) = table.take(modifier) {
                     return Err(node.place.problem(
-                        format!("expected a verb beside `{modifier}`, found none"),
+                        format!("expected a verb together with `{modifier}`, found none"),
                         "`within` belongs to `wait`, `for` to `pulse`, `during` to `hold`",
                     ));
                 }
@@ -119,7 +119,7 @@ impl<'a> Reader<'a> {
         if let Some((second, node)) = verbs.next() {
             return Err(node.place.problem(
                 format!("expected one verb in a step, found `{verb}` and `{second}`"),
-                "give each its own [[step]]; time stands still between them",
+                "write one [[step]] for each; no time passes between steps",
             ));
         }
         let action = self.action(verb, node, &mut table)?;
@@ -133,7 +133,7 @@ impl<'a> Reader<'a> {
         Ok(Step { place, note, action })
     }
 
-    /// What the machine refuses is refused before anything runs.
+    /// Checks a command against the machine, so that it is rejected before anything runs.
     fn judge(&self, command: &Command, place: &Place) -> Result<(), Problem> {
         self.machine.check(command).map_err(|problem| problem.at(place))
     }
@@ -142,7 +142,7 @@ impl<'a> Reader<'a> {
         for (modifier, owner) in [("within", "wait"), ("for", "pulse"), ("during", "hold")] {
             if let Some(node) = table.take(modifier) {
                 return Err(node.place.problem(
-                    format!("expected no `{modifier}` beside `{verb}`, found one"),
+                    format!("`{modifier}` cannot be combined with `{verb}`"),
                     format!("`{modifier}` belongs to `{owner}`"),
                 ));
             }
@@ -167,7 +167,7 @@ impl<'a> Reader<'a> {
                 Action::Queue(places.into_iter().map(|(_, location)| Command::Release { location }).collect())
             }
             "pulse" => {
-                let time = table.take("for").map(|node| duration(&node, "how long the pulse is")).transpose()?;
+                let time = table.take("for").map(|node| duration(&node, "the length of the pulse")).transpose()?;
                 let cycles = time.map_or_else(|| PULSE.in_cycles(cycle), |time| time.cycles(cycle));
                 let mut locations = Vec::new();
                 for (named, location) in self.locations(node)? {
@@ -181,16 +181,17 @@ impl<'a> Reader<'a> {
                 }
                 Action::Pulse(locations, cycles)
             }
-            "run" => Action::Run(duration(&node, "how much time passes")?.cycles(cycle)),
+            "run" => Action::Run(duration(&node, "the time to run")?.cycles(cycle)),
             "wait" => {
-                let within = table.take("within").map(|node| duration(&node, "how long to wait")).transpose()?;
+                let within =
+                    table.take("within").map(|node| duration(&node, "the longest time to wait")).transpose()?;
                 Action::Wait(self.one_expression(&node)?, within.map(|within| within.cycles(cycle)))
             }
             "hold" => {
                 let during = table.take("during").ok_or_else(|| {
-                    place.problem("expected `during` beside `hold`, found none", "write during = \"2s\"")
+                    place.problem("expected `during` together with `hold`, found none", "write during = \"2s\"")
                 })?;
-                let during = duration(&during, "how long it holds")?;
+                let during = duration(&during, "the time to hold")?;
                 Action::Hold(self.one_expression(&node)?, during.cycles(cycle))
             }
             "expect" => {
@@ -215,7 +216,7 @@ impl<'a> Reader<'a> {
                         &did_you_mean(
                             other,
                             ["stop", "run", "cold"],
-                            "a PLC program is chosen at the head of the file",
+                            "the PLC program is selected by the key `plc` at the head of the file",
                         ),
                     ));
                 }
@@ -243,7 +244,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A list of places that the PLC or the operator panel may write.
+    /// The locations in a list; the PLC or the operator panel must be able to write them.
     fn locations(&self, node: Node) -> Result<Vec<(super::file::Named, Location)>, Problem> {
         let texts = texts(Some(node), "an address or a list of them")?;
         texts
@@ -297,14 +298,14 @@ impl<'a> Reader<'a> {
                 Value::Integer(number) => DatumValue::Integer(*number),
                 Value::Float(number) => DatumValue::Real(*number),
                 Value::Boolean(value) => DatumValue::Boolean(*value),
-                // Bits are written as in an archive, 'H0F' or 'B101', where the datum wants bits.
+                // Bit values are written as in an archive, 'H0F' or 'B101', if the machine datum has the type of bits.
                 Value::Text(text) => match DatumValue::parse(text) {
                     Some(bits @ DatumValue::Integer(_)) if text.starts_with('\'') => bits,
                     _ => DatumValue::Text(text.clone()),
                 },
                 Value::Array(_) | Value::Table(_) => {
                     return Err(
-                        node.expected("a value of a machine datum", "one value per index: \"34100[2,XF]\" = 5.0")
+                        node.expected("a value of a machine datum", "write one value per index: \"34100[2,XF]\" = 5.0")
                     );
                 }
             };
@@ -315,7 +316,7 @@ impl<'a> Reader<'a> {
         Ok(commands)
     }
 
-    /// `R5` of the first channel, `R5[CHAN2]` of another.
+    /// Writes to R parameters: `R5` of the first channel, `R5[CHAN2]` of channel 2.
     fn r_parameters(&self, node: Node) -> Result<Vec<Command>, Problem> {
         let mut table = node.into_table("R parameters with their values")?;
         let mut commands = Vec::new();
@@ -323,7 +324,7 @@ impl<'a> Reader<'a> {
             let Some((channel, number)) = r_parameter(&name) else {
                 return Err(place.problem(
                     format!("expected an R parameter, found {name:?}"),
-                    "write \"R5\", or \"R5[CHAN2]\" for another channel than the first",
+                    "write \"R5\" for the first channel, \"R5[CHAN2]\" for channel 2",
                 ));
             };
             let command = Command::RParameter { channel, number, value: node.number("a number")? };
@@ -358,7 +359,7 @@ fn verbs_in_words() -> String {
     format!("verbs are {}", VERBS.join(", "))
 }
 
-/// A turn of a handwheel.
+/// A rotation of a handwheel.
 fn handwheel(node: Node, cycle: Time) -> Result<Command, Problem> {
     let place = node.place.clone();
     let mut table = node.into_table("a turn, as { number = 1, pulses = 50, over = \"1s\" }")?;
@@ -374,7 +375,7 @@ fn handwheel(node: Node, cycle: Time) -> Result<Command, Problem> {
     let command = Command::Handwheel {
         number: whole(&number, "the number of a handwheel, 1 to 3", 1..=3)?,
         pulses: whole(&pulses, "a number of pulses between -1000000 and 1000000", -1_000_000..=1_000_000)?,
-        cycles: duration(&over, "how long the turn takes")?.cycles(cycle),
+        cycles: duration(&over, "the time of the turn")?.cycles(cycle),
     };
     table.finish()?;
     Ok(command)

@@ -1,6 +1,6 @@
-//! Scenarios: every kind of mistake with its line and its cure, and what each verb does with time and memory.
+//! Scenarios: every kind of mistake, with its line and remedy, and the effect of each verb on time and memory.
 //!
-//! What the verbs do is shown with flags of the PLC, which nothing but the scenario writes.
+//! The tests of verbs use PLC flags, which only the scenario writes.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::image::Profile;
 use crate::plc::Programs;
 use crate::source::Problem;
 
-/// Head of two lines; the steps begin in line 3.
+/// A head of two lines; the steps begin in line 3.
 fn scenario(rest: &str) -> Result<Scenario, Problem> {
     let text = format!("title = \"t\"\nmachine = \"g1_example\"\n{rest}");
     Scenario::parse(&text, Path::new("s.toml"))
@@ -23,9 +23,9 @@ fn run(rest: &str) -> Finished {
     prepared(rest).unwrap_or_else(|problem| panic!("{problem}")).run()
 }
 
-/// What a run that fails says.
+/// The failure text of a run.
 fn missed(rest: &str) -> String {
-    run(rest).failure.expect("it fails").to_string()
+    run(rest).failure.expect("the run must fail").to_string()
 }
 
 fn held(rest: &str) -> Finished {
@@ -47,7 +47,7 @@ fn every_mistake_in_the_head_names_its_line_and_a_cure() {
         ("plc = 5\n", 3, "the name of a PLC program, found the integer 5", "quotes"),
         ("plc_image = \"no_such\"\n", 3, "plc_images/no_such.toml", ".toml"),
         ("limit = \"5\"\n", 3, "a duration, found `5`", "us, ms, s, min or h"),
-        ("limit = 5\n", 3, "the bound on simulated time, found the integer 5", "quotes"),
+        ("limit = 5\n", 3, "the limit of simulated time, found the integer 5", "quotes"),
         ("watch = [\"X.*\",\n \"X.positoin\"]\n", 4, "X.positoin", "did you mean"),
         ("causes = 1\n", 3, "found the integer 1", "true or false"),
         ("never = [\"1 <\"]\n", 3, "found the end", "operators are"),
@@ -66,7 +66,7 @@ fn every_mistake_in_the_head_names_its_line_and_a_cure() {
 }
 
 #[test]
-fn a_file_without_machine_or_steps_is_refused_and_without_title_is_called_as_the_file() {
+fn a_file_without_machine_or_steps_is_refused_and_without_a_title_it_has_the_name_of_its_file() {
     for (text, cause) in [
         ("title = \"t\"\n[[step]]\nrun = \"1s\"", "the key `machine`"),
         ("title = \"t\"\nmachine = \"g1_example\"", "at least one `[[step]]`"),
@@ -89,10 +89,10 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
     for (step, line, cause, cure) in [
         ("note = \"n\"", 3, "one verb, found none", "verbs are"),
         ("sett = { \"M0.0\" = 1 }", 4, "unknown key `sett`", "did you mean `set`?"),
-        ("run = \"1s\"\nwait = \"1\"", 0, "found `run` and `wait`", "its own [[step]]"),
-        ("within = \"1s\"", 4, "a verb beside `within`", "belongs to `wait`"),
-        ("run = \"1s\"\nwithin = \"1s\"", 5, "no `within` beside `run`", "belongs to `wait`"),
-        ("set = { \"M0.0\" = 1 }\nfor = \"1s\"", 5, "no `for` beside `set`", "belongs to `pulse`"),
+        ("run = \"1s\"\nwait = \"1\"", 0, "found `run` and `wait`", "one [[step]] for each"),
+        ("within = \"1s\"", 4, "a verb together with `within`", "belongs to `wait`"),
+        ("run = \"1s\"\nwithin = \"1s\"", 5, "`within` cannot be combined with `run`", "belongs to `wait`"),
+        ("set = { \"M0.0\" = 1 }\nfor = \"1s\"", 5, "`for` cannot be combined with `set`", "belongs to `pulse`"),
         ("set = 5", 4, "signals with their values", "table"),
         ("set = { \"X.traversing_key_pls\" = 1 }", 4, "X.traversing_key_pls", "traversing_key_plus"),
         ("set = { \"Z.traversing_key_plus\" = 1 }", 4, "found `Z`", "did you mean"),
@@ -110,15 +110,15 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
         ("set = { MB0 = [1] }", 4, "found an array", ""),
         ("set = { M300 = 1 }", 4, "M300", ""),
         ("release = [\"M400.0\"]", 4, "256 bytes", "255"),
-        ("run = 5", 4, "how much time passes, found the integer 5", "quotes"),
+        ("run = 5", 4, "the time to run, found the integer 5", "quotes"),
         ("run = \"5 days\"", 4, "a duration, found `5 days`", "10cycles"),
         ("wait = \"X.ready\"", 4, "X.ready", ""),
-        ("wait = \"1\"\nwithin = 5", 5, "how long to wait", "quotes"),
-        ("hold = \"1\"", 4, "`during` beside `hold`", "during = "),
+        ("wait = \"1\"\nwithin = 5", 5, "the longest time to wait", "quotes"),
+        ("hold = \"1\"", 4, "`during` together with `hold`", "during = "),
         ("expect = [\"1\",\n\"1 < 2 < 3\"]", 5, "one comparison", "do not chain"),
         ("expect = \"later > 1\"", 4, "later", ""),
         ("capture = { \"a.b\" = \"1\" }", 4, "a plain name", "letters, digits and underscores"),
-        ("capture = { time = \"1\" }", 4, "a plain name", "not `time`"),
+        ("capture = { time = \"1\" }", 4, "a plain name", "`time` is reserved"),
         ("machine_data = { \"nonsense\" = 1 }", 4, "nonsense", ""),
         ("machine_data = { \"34090[XF]\" = [1] }", 4, "a value of a machine datum", "one value per index"),
         ("new_conf = false", 4, "expected true, found false", "new_conf = true"),
@@ -139,7 +139,12 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
         ("fault = { axis = \"XF\", kind = \"blok\" }", 4, "a kind of fault", "did you mean `block`?"),
         ("fault = { axis = \"XF\", kind = \"drift\" }", 4, "the key `by`", "by = "),
         ("fault = { axis = \"XF\", kind = \"drift\", by = 1e7 }", 4, "a velocity in mm", "1000000"),
-        ("fault = { axis = \"XF\", kind = \"friction\", by = 1.5 }", 4, "a share of the velocity", "0 loses nothing"),
+        (
+            "fault = { axis = \"XF\", kind = \"friction\", by = 1.5 }",
+            4,
+            "a share of the velocity",
+            "1 loses everything",
+        ),
         ("fault = { axis = \"XF\", kind = \"drive_fault\", by = 1 }", 4, "unknown key `by`", ""),
         ("fault = { axis = \"XF\", kind = \"encoder_fault\", encoder = 3 }", 4, "encoder 1 or 2", "active"),
         ("fault = { axis = \"XF\", kind = \"push\" }", 4, "the key `by`", "by = "),
@@ -156,7 +161,7 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
     ] {
         let problem = prepared(&format!("[[step]]\n{step}\n")).err().unwrap_or_else(|| panic!("{step} is accepted"));
         let place = problem.place.as_ref().map(ToString::to_string).unwrap_or_default();
-        // Two verbs are reported at the second of them in the order of the verbs, whichever that is.
+        // Two verbs are reported at the verb that is second in the order of `VERBS`.
         let expected = if line == 0 { place.clone() } else { format!("s.toml:{line}") };
         assert_eq!(place, expected, "{step}: {problem}");
         assert!(problem.what.contains(cause) && problem.cure.contains(cure), "{step}: {problem}");
@@ -169,7 +174,7 @@ fn what_a_later_step_captures_is_unknown_before() {
     let problem = prepared(steps).err().unwrap();
     assert_eq!(problem.place.unwrap().line, 4);
     let steps = "never = \"begun > 1\"\n[[step]]\ncapture = { begun = \"time\" }\n";
-    assert!(prepared(steps).err().unwrap().cure.contains("from its step on"));
+    assert!(prepared(steps).err().unwrap().cure.contains("only after its step"));
     held(
         "[[step]]\ncapture = { begun = \"time + 1\" }\n[[step]]\nrun = \"1s\"\n[[step]]\nexpect = \"time == begun\"\n",
     );
@@ -225,12 +230,12 @@ fn a_wait_goes_on_in_the_cycle_in_which_it_became_true() {
 }
 
 #[test]
-fn a_failed_wait_says_what_it_waited_for_how_long_and_what_everything_was_then() {
+fn a_failed_wait_reports_its_expression_its_time_and_every_signal() {
     let text = missed("[[step]]\nwait = \"M0.0 && X.traversing_key_plus\"\nwithin = \"10ms\"\n");
     let first = text.lines().next().unwrap();
     assert_eq!(
         first,
-        "s.toml:3: waited 0.010 s for `M0.0 && X.traversing_key_plus`, and it did not become true (at 0.010 s)"
+        "s.toml:3: waited 0.010 s for `M0.0 && X.traversing_key_plus`; it did not become true (at 0.010 s)"
     );
     assert!(text.contains("\n  M0.0 = 0") && text.contains("\n  X.traversing_key_plus (DB31.DBX4.7) = 0"), "{text}");
 }
@@ -253,7 +258,7 @@ fn the_limit_ends_every_step_that_lets_time_pass() {
 fn a_hold_must_be_true_now_and_in_every_cycle() {
     held("[[step]]\nhold = \"time <= 0.1\"\nduring = \"100ms\"\n[[step]]\nexpect = \"time == 0.1\"\n");
     let text = missed("[[step]]\nhold = \"time < 0.05\"\nduring = \"100ms\"\n");
-    assert!(text.contains("found it false after 0.050 s"), "{text}");
+    assert!(text.contains("it was false after 0.050 s"), "{text}");
     assert!(missed("[[step]]\nhold = \"M0.0\"\nduring = \"1s\"\n").contains("after 0.000 s"));
 }
 
@@ -274,9 +279,9 @@ fn a_pulse_takes_its_time_and_one_cycle_more() {
 #[test]
 fn never_and_always_are_checked_in_every_cycle_and_named_with_their_line() {
     let text = missed(&format!("never = [\"M0.1\",\n\"time > 0.01\"]\n{STEP}"));
-    assert!(text.starts_with("s.toml:4: expected never `time > 0.01`, found it true (at 0.012 s)"), "{text}");
+    assert!(text.starts_with("s.toml:4: `never` is violated: `time > 0.01` is true (at 0.012 s)"), "{text}");
     let text = missed(&format!("always = \"time < 0.01\"\n{STEP}"));
-    assert!(text.starts_with("s.toml:3: expected always `time < 0.01`, found it false (at 0.010 s)"), "{text}");
+    assert!(text.starts_with("s.toml:3: `always` is violated: `time < 0.01` is false (at 0.010 s)"), "{text}");
 }
 
 #[test]
@@ -286,7 +291,7 @@ fn an_expected_byte_is_shown_in_bits() {
 }
 
 #[test]
-fn notes_and_watched_memory_stand_in_the_golden_text() {
+fn notes_and_watched_memory_are_in_the_golden_text() {
     let finished = held(
         r#"watch = ["M0.*"]
         [[step]]
@@ -361,7 +366,7 @@ fn a_force_wins_until_it_is_released() {
 }
 
 #[test]
-fn what_the_plc_program_overwrites_is_said() {
+fn an_overwrite_by_the_plc_program_is_reported() {
     let finished = held(
         r#"plc = "enable_all"
         [[step]]
@@ -387,7 +392,7 @@ fn the_plant_of_a_scenario_is_merged_over_that_of_the_machine() {
 }
 
 #[test]
-fn power_on_empties_the_memory_and_keeps_stored_machine_data_refused_ones_never_run() {
+fn power_on_clears_the_memory_and_keeps_stored_machine_data_and_a_rejected_value_never_runs() {
     held(
         r#"
         [[step]]

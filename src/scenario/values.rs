@@ -10,7 +10,7 @@ pub enum Setting {
     Integer(i64),
     /// A number, for a REAL.
     Float(f64),
-    /// For one bit.
+    /// A value for one bit.
     Boolean(bool),
     /// A percentage for an override, or a number with its base.
     Text(String),
@@ -47,7 +47,7 @@ impl From<&str> for Setting {
 }
 
 impl Setting {
-    /// The bits of this value at a place that the user called `name`.
+    /// The bits of this value at a location with the given name.
     pub(super) fn bits(self, name: &str, location: Location, coding: OverrideCoding) -> Result<u64, Problem> {
         let value = match self {
             Self::Integer(number) => Value::Integer(number),

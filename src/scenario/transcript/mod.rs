@@ -1,9 +1,9 @@
-//! What is done to a machine, written down as a scenario that does the same again: the reverse of `steps.rs`.
+//! Records the commands to a machine as a scenario that repeats them: the reverse of `steps.rs`.
 //!
-//! Whoever steps the machine calls [`Transcript::edge`] before each step. What is queued then becomes steps in the order in
-//! which it was queued, and the cycles between become `run`; run from power on with the same PLC program and image, the scenario has
-//! the same trace, byte for byte. Writes that follow one another stand in one table, unless a place stands in it already. A bit of the
-//! NCK is written with `write`, everything else with `set`.
+//! The caller that steps the machine calls [`Transcript::edge`] before each step. The queued commands become steps in their order, and
+//! the cycles between them become `run`. If the scenario runs from power on with the same PLC program and image, it has the same trace,
+//! byte for byte. Consecutive writes share one table, unless the table already contains the place. `write` is used for a bit of the NCK,
+//! `set` for everything else.
 
 use std::fmt::Write;
 
@@ -12,34 +12,34 @@ use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine, Switch};
 use crate::source::{Table, Value as SourceValue};
 use crate::units::{AxisNumber, Position};
 
-/// The bound on simulated time: a transcript does not know how long it will become.
+/// The limit of simulated time, because the final length of a transcript is not known.
 const LIMIT: &str = "8760h";
 
-/// What stands above the steps.
+/// The head of a transcript, above the steps.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Heading<'a> {
-    /// What it shows.
+    /// What the transcript shows.
     pub title: &'a str,
     /// The machine, relative to the file.
     pub machine: &'a str,
-    /// Under which numbers the interface blocks are known.
+    /// The profile, which selects the numbers of the interface blocks.
     pub profile: Profile,
     /// The PLC program.
     pub plc: Option<&'a str>,
-    /// The PLC image, relative to the file.
+    /// The PLC image: a path relative to the file.
     pub plc_image: Option<&'a str>,
     /// What the trace shows.
     pub watch: Option<&'a [String]>,
-    /// What is merged into the plant.
+    /// Data that are merged into the plant.
     pub plant: Option<&'a Table>,
 }
 
-/// Words about the commands from one on.
+/// A comment about the commands that follow it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Remark {
-    /// How many commands stand before it.
+    /// The number of commands before it.
     pub before: usize,
-    /// The words, which the scenario has as a comment.
+    /// The text, which becomes a comment in the scenario.
     pub text: String,
 }
 
@@ -47,15 +47,15 @@ pub struct Remark {
 #[derive(Clone, Debug)]
 pub struct Transcript {
     text: String,
-    /// The cycle up to which time is written.
+    /// The cycle up to which time has been written.
     written: u64,
     /// Notes for the next step.
     notes: Vec<String>,
-    /// The table of the step that is being written.
+    /// The table of the step that is still open for entries.
     open: Option<Open>,
 }
 
-/// A step with a table that may take more entries.
+/// A step whose table can take more entries.
 #[derive(Clone, Debug)]
 struct Open {
     verb: &'static str,
@@ -63,7 +63,7 @@ struct Open {
 }
 
 impl Transcript {
-    /// Begins before the first step of a machine.
+    /// Starts a transcript before the first step of a machine.
     #[must_use]
     pub fn begin(heading: &Heading<'_>) -> Self {
         let mut text = format!("title = {}\nmachine = {}\n", quoted(heading.title), quoted(heading.machine));
@@ -86,12 +86,12 @@ impl Transcript {
         Self { text, written: 0, notes: Vec::new(), open: None }
     }
 
-    /// Notes a text, as the machine's trace does at the end of its next step.
+    /// Adds a note, as the trace of the machine does at the end of its next step.
     pub fn note(&mut self, text: &str) {
         self.notes.push(text.to_owned());
     }
 
-    /// Writes down what a machine will do at the edge of its next step; `remarks` in order.
+    /// Records the commands that the machine executes at the edge of its next step; `remarks` are in order.
     pub fn edge(&mut self, machine: &Machine, remarks: &[Remark]) {
         let commands = machine.queued();
         if commands.is_empty() && self.notes.is_empty() {
@@ -100,7 +100,7 @@ impl Transcript {
         self.time(machine.cycle());
         let mut remarks = remarks.iter().peekable();
         for (index, command) in commands.iter().enumerate() {
-            // Somebody may have asked for nothing: the last word counts.
+            // A remark without a command of its own is at the same position as the next one; the last one counts.
             let said = std::iter::from_fn(|| remarks.next_if(|remark| remark.before <= index)).last();
             if let Some(remark) = said {
                 self.close();
@@ -115,13 +115,13 @@ impl Transcript {
         }
     }
 
-    /// What was written since the last call.
+    /// The text since the last call.
     #[must_use]
     pub fn take_text(&mut self) -> String {
         std::mem::take(&mut self.text)
     }
 
-    /// The step that lets time pass from what was written last to the end of a cycle: a scenario that ends there ends with it.
+    /// The step that runs from the last written cycle to the end of a cycle. Append it to end the scenario there.
     #[must_use]
     pub fn rest(&self, cycle: u64) -> String {
         run(cycle.saturating_sub(self.written).max(1))
@@ -178,7 +178,7 @@ impl Transcript {
         }
     }
 
-    /// A step with one value.
+    /// Writes a step with one value.
     fn step(&mut self, verb: &str, value: &str) {
         self.close();
         self.text += "\n[[step]]\n";
@@ -189,7 +189,7 @@ impl Transcript {
         self.text += &format!("{verb} = {value}\n");
     }
 
-    /// An entry in the table of a step: the one before it where it has the same verb and no such entry.
+    /// Adds an entry to the table of a step. The previous step is extended if it has the same verb and not this entry.
     fn put(&mut self, verb: &'static str, key: String, value: String) {
         let goes_on = |open: &Open| open.verb == verb && open.entries.iter().all(|(other, _)| *other != key);
         if !self.open.as_ref().is_some_and(goes_on) {
@@ -201,7 +201,7 @@ impl Transcript {
         }
     }
 
-    /// Writes the table of the step that takes no more entries.
+    /// Writes the open table, which then takes no more entries.
     fn close(&mut self) {
         let Some(Open { verb, entries }) = self.open.take() else {
             return;
@@ -215,7 +215,7 @@ fn run(cycles: u64) -> String {
     format!("\n[[step]]\nrun = \"{cycles}cycles\"\n")
 }
 
-/// A place and its value as `set` has them: by symbol where there is one, as a plain number where nothing else says the same bits.
+/// A location and its value in the form of `set`: the symbol if one exists, or a plain number if only that gives the same bits.
 fn entry(location: Location, raw: u64, machine: &Machine) -> (String, String) {
     let plain = Address { format: Some(Format::Unsigned), ..machine.names().address(location) };
     let usual = [place_text(location, machine), plain.to_string()];
@@ -228,8 +228,11 @@ fn entry(location: Location, raw: u64, machine: &Machine) -> (String, String) {
     said.unwrap_or_else(|| (quoted(&plain.to_string()), (raw & location.mask()).to_string()))
 }
 
-/// A number as the format of its place has it; nothing for what is none.
-#[expect(clippy::cast_possible_truncation, reason = "a REAL has 32 bits; what does not come back is refused")]
+/// A number in the format of its location; `None` if the bits are not a finite number.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a REAL has 32 bits; a value that does not convert back is rejected"
+)]
 fn number(raw: u64, location: Location) -> Option<String> {
     match location.format {
         Format::Unsigned => Some(raw.to_string()),
@@ -246,7 +249,7 @@ fn number(raw: u64, location: Location) -> Option<String> {
     }
 }
 
-/// The symbol of a place, or its address.
+/// The symbol of a location, or its address.
 fn place_text(location: Location, machine: &Machine) -> String {
     let names = machine.names();
     names.symbol(location).unwrap_or_else(|| names.address(location).to_string())
@@ -280,7 +283,7 @@ fn broken(Fault { axis, kind }: Fault, machine: &Machine) -> String {
     format!("{{ axis = {}, kind = \"{kind}\"{more} }}", axis_name(axis, machine))
 }
 
-/// Increments per second in the units of users, such that they come back as the same increments.
+/// Increments per second in user units, chosen so that they convert back to the same increments.
 fn per_second(increments: f64) -> f64 {
     let near = increments / Position::PER_USER_UNIT;
     let same = |user: &f64| (user * Position::PER_USER_UNIT).to_bits() == increments.to_bits();
@@ -291,7 +294,7 @@ fn axis_name(axis: AxisNumber, machine: &Machine) -> String {
     quoted(machine.names().axes[axis].as_deref().unwrap_or_default())
 }
 
-/// A value as TOML has it, in one line.
+/// A value as TOML in one line.
 fn toml(value: &SourceValue) -> String {
     match value {
         SourceValue::Text(text) => quoted(text),
@@ -311,7 +314,7 @@ fn toml(value: &SourceValue) -> String {
     }
 }
 
-/// A text as TOML has it.
+/// A text as a TOML string.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for letter in text.chars() {

@@ -1,4 +1,4 @@
-//! Whatever is written down runs again with the same trace.
+//! Every transcript runs again with the same trace.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ const HEADING: Heading<'_> = Heading {
     plant: None,
 };
 
-/// Does all of it to a machine, writes it down, and runs that.
+/// Sends all commands to a machine, records them, and runs the recorded scenario.
 #[track_caller]
 fn runs_again(heading: &Heading<'_>, edges: &[(u64, Vec<Command>)], end: u64) -> String {
     let options = crate::machine::OpenOptions { profile: heading.profile, ..Default::default() };
@@ -50,7 +50,7 @@ fn runs_again(heading: &Heading<'_>, edges: &[(u64, Vec<Command>)], end: u64) ->
 }
 
 #[test]
-fn every_command_comes_back() {
+fn every_command_is_repeated() {
     let machine = Machine::open("g1_example").unwrap();
     let place = |name: &str| machine.names().resolve(machine.memory(), name).unwrap();
     let write = |name: &str, value| Command::Write { location: place(name), value };
@@ -116,7 +116,7 @@ fn every_command_comes_back() {
 
 /// Every byte of every part, with all widths, under both profiles.
 #[test]
-fn every_place_comes_back() {
+fn every_location_is_repeated() {
     for profile in [Profile::SINUMERIK_840D_SL, Profile::SINUMERIK_828D] {
         let heading = Heading { profile, ..HEADING };
         let options = crate::machine::OpenOptions { profile, ..Default::default() };
@@ -130,7 +130,7 @@ fn every_place_comes_back() {
                 for (bit, width) in [(bit, 1), (0, 8), (0, 16), (0, 32)] {
                     let location = Location { part, offset, bit, width, format: Format::Unsigned };
                     let found = memory.locate(&machine.names().address(location), profile);
-                    // What the profile does not show, or what spans two parts, nobody can write.
+                    // A client cannot write a location that the profile does not show or that spans two parts.
                     if found.is_ok_and(|found| Location { format: location.format, ..found } == location) {
                         commands.push(Command::Write {
                             location,
@@ -146,7 +146,7 @@ fn every_place_comes_back() {
 }
 
 #[test]
-fn a_real_stands_as_a_number_and_what_is_none_as_its_bits() {
+fn a_real_is_written_as_a_number_or_else_as_its_bits() {
     let machine = Machine::open("g1_example").unwrap();
     let location = machine.names().resolve(machine.memory(), "DB19.DBD0:REAL").unwrap();
     for (bits, text) in [
@@ -166,7 +166,7 @@ fn a_real_stands_as_a_number_and_what_is_none_as_its_bits() {
 }
 
 #[test]
-fn notes_stand_at_their_cycle_with_or_without_commands() {
+fn notes_are_at_their_cycle_with_or_without_commands() {
     let mut machine = Machine::open("g1_example").unwrap();
     let mut transcript = Transcript::begin(&HEADING);
     for _ in 0..3 {
