@@ -1,4 +1,4 @@
-//! From words to terms: operator precedence parsing, and the looking up of names.
+//! The parser: operator precedence, and the lookup of names.
 
 use super::scope::Scope;
 use super::term::{Operator, Term};
@@ -7,10 +7,10 @@ use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber};
 use crate::variables::{AlarmNumber, AxisValue, Place};
 
-/// How deep parentheses may be nested.
+/// The maximum nesting depth of parentheses.
 const DEPTH: usize = 100;
 
-/// The functions there are.
+/// All functions.
 const FUNCTIONS: [&str; 8] = ["alarm", "alarm_parameter", "alarms", "rose", "fell", "abs", "min", "max"];
 
 struct Parser<'a> {
@@ -73,7 +73,7 @@ impl Parser<'_> {
             if operator.binding() == Operator::COMPARISON {
                 if compared {
                     let mut problem = self.expected("one comparison");
-                    "comparisons do not chain: write `a < b && b < c`".clone_into(&mut problem.cure);
+                    "comparisons do not chain; write `a < b && b < c`".clone_into(&mut problem.cure);
                     return Err(problem);
                 }
                 compared = true;
@@ -152,7 +152,7 @@ impl Parser<'_> {
             }
             "rose" | "fell" => {
                 if self.inside_edge {
-                    let cure = "rose and fell are not nested: combine them with && or ||";
+                    let cure = "rose and fell cannot be nested; combine them with && or ||";
                     let mut problem = mistake(self.source, column, "a signal or a condition", &format!("`{name}`"));
                     cure.clone_into(&mut problem.cure);
                     return Err(problem);
@@ -191,7 +191,7 @@ impl Parser<'_> {
         Ok(term)
     }
 
-    /// The number of an alarm, or in quotes its name where it has only a name.
+    /// The number of an alarm, or the quoted name of an alarm that has no number.
     fn alarm(&mut self) -> Result<AlarmNumber, Problem> {
         let whole = self.expected("the number of an alarm");
         match self.next() {
@@ -203,7 +203,7 @@ impl Parser<'_> {
                 })
             }
             Token::Quoted(name) => self.scope.describe().alarm_number(&name).ok_or_else(|| Problem {
-                cure: "see the alarms of this control, or give a number".to_owned(),
+                cure: "list the alarms of this control, or write a number".to_owned(),
                 ..whole
             }),
             Token::Name(name) => Err(Problem { cure: format!("put a name in quotes: alarm('{name}')"), ..whole }),
@@ -236,12 +236,12 @@ impl Parser<'_> {
             let axes = AxisNumber::all().filter_map(|axis| names.axes[axis].as_deref());
             let channels = ChannelNumber::all().filter_map(|channel| names.channels[channel].as_deref());
             let known: Vec<_> = axes.chain(channels).collect();
-            let fallback = format!("known are {}", known.join(", "));
+            let fallback = format!("known names are {}", known.join(", "));
             Problem { cure: did_you_mean(&name, known.iter().copied(), &fallback), ..problem }
         })
     }
 
-    /// `time`, a value of the caller, `X.position`, a symbol, an address.
+    /// `time`, a value of the caller, `X.position`, a symbol or an address.
     fn name(&self, name: &str, column: usize) -> Result<Term, Problem> {
         if name == "time" {
             return Ok(Term::Time);
@@ -280,7 +280,7 @@ impl Parser<'_> {
     }
 }
 
-/// A number that is whole, not negative and not above `largest`.
+/// The number as an integer, if it is whole, not negative and not above `largest`.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested before the cast")]
 fn whole_number(number: f64, largest: u32) -> Option<u32> {
     (number.fract() == 0.0 && (0.0..=f64::from(largest)).contains(&number)).then_some(number as u32)

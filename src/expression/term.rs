@@ -1,4 +1,4 @@
-//! The terms of an expression: what they are worth at a moment, and what a person calls their operands.
+//! The terms of an expression: their values at a moment, and the names of their operands in messages.
 
 use super::view::{Moment, View};
 use crate::image::Location;
@@ -40,7 +40,7 @@ pub(super) enum Term {
     Pair(Operator, Box<Self>, Box<Self>),
 }
 
-/// 0 is false; so is what has no value, as 0/0.
+/// 0 is false, and so is an undefined value such as 0/0.
 pub(super) fn truth(value: f64) -> bool {
     value != 0.0 && !value.is_nan()
 }
@@ -49,7 +49,7 @@ fn number(truth: bool) -> f64 {
     if truth { 1.0 } else { 0.0 }
 }
 
-/// A value of the caller; one that is not there yet has no value.
+/// A value of the caller; NaN if it is not available yet.
 fn named_value(moment: &Moment<'_>, index: usize) -> f64 {
     moment.named_values.get(index).copied().unwrap_or(f64::NAN)
 }
@@ -122,7 +122,7 @@ impl Term {
         }
     }
 
-    /// What a person calls this operand; nothing for what is no operand.
+    /// The name of this operand in a message; `None` if the term is not an operand.
     fn name(&self, describe: &dyn Describe) -> Option<String> {
         let names = describe.names();
         let name = match self {
@@ -152,13 +152,13 @@ impl Term {
     }
 }
 
-/// A value for a message: six decimals for what is measured, as short as possible for the rest.
+/// A value in a message: six decimals for measured values, the shortest form for all others.
 fn shown(value: f64, measured: bool) -> String {
     if measured { six_decimals(value) } else { format!("{value}") }
 }
 
 impl Operator {
-    /// How strongly it binds, as in Rust.
+    /// Its precedence, as in Rust.
     pub(super) const fn binding(self) -> u8 {
         match self {
             Self::Or => 1,
@@ -194,7 +194,7 @@ impl Operator {
 
     #[expect(
         clippy::float_cmp,
-        reason = "`==` in a scenario means equal; the writer of a scenario takes `abs` where not"
+        reason = "`==` in a scenario means exact equality; a scenario uses `abs` for a tolerance"
     )]
     fn apply(self, left: f64, right: impl FnOnce() -> f64) -> f64 {
         match self {

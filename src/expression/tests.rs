@@ -1,4 +1,4 @@
-//! Expressions by table: values, precedence, names, mistakes.
+//! Tables of expressions: values, precedence, names, mistakes.
 
 use super::*;
 use crate::image::{Location, Memory, Names};
@@ -43,7 +43,7 @@ impl Describe for Machine {
     }
 }
 
-/// The names of the machine, its memory, and a value of the caller.
+/// The names of the machine, its memory, and one value of the caller.
 struct Known {
     machine: Machine,
     memory: Memory,
@@ -62,7 +62,7 @@ impl Scope for Known {
     }
 }
 
-/// A memory and variables in which every name of the tests has a value of its own.
+/// A memory and variables in which every name of the tests has a different value.
 fn state(machine: &Machine) -> (Memory, Variables) {
     let mut memory = Memory::new();
     let mut write = |name: &str, raw| {
@@ -184,7 +184,7 @@ fn alarms_are_found_by_number_place_and_own_name() {
 }
 
 #[test]
-fn an_edge_lies_between_the_last_two_cycles_and_not_in_pending_writes() {
+fn an_edge_is_between_the_last_two_cycles_and_not_in_pending_writes() {
     let machine = Machine::new();
     let (memory, variables) = state(&machine);
     let empty = Memory::new();
@@ -202,7 +202,7 @@ fn an_edge_lies_between_the_last_two_cycles_and_not_in_pending_writes() {
 }
 
 #[test]
-fn a_mistake_says_what_was_expected_where_and_what_to_do() {
+fn an_error_names_the_expectation_the_place_and_the_remedy() {
     for (source, cause, cure) in [
         ("1 < 2 < 3", "one comparison, found `<` at character 7", "do not chain"),
         ("1 == 1 == 1", "one comparison", "do not chain"),
@@ -215,17 +215,17 @@ fn a_mistake_says_what_was_expected_where_and_what_to_do() {
         ("a | b", "found `|`", "||"),
         ("1 = 1", "found `=`", "=="),
         ("1 % 2", "found `%`", "operators are"),
-        ("12abc", "a number, found `12abc`", "numbers are written"),
-        ("1__0", "a number", "numbers are written"),
-        ("2#2", "a number", "numbers are written"),
-        ("1.", "a number", "numbers are written"),
+        ("12abc", "a number, found `12abc`", "write a number as"),
+        ("1__0", "a number", "write a number as"),
+        ("2#2", "a number", "write a number as"),
+        ("1.", "a number", "write a number as"),
         ("strat", "`strat`", "did you mean `start`?"),
         ("X.positoin", "`X.positoin`", "did you mean `X.position`?"),
         ("X.traversing_key_pls", "`X.traversing_key_pls`", "traversing_key_plus"),
         ("alarm", "`alarm`", "parentheses"),
         ("alram(10653)", "a function, found `alram`", "did you mean `alarm`?"),
         ("alarm(x)", "the number of an alarm", "quotes"),
-        ("alarm('nothing')", "the number of an alarm, found 'nothing'", "give a number"),
+        ("alarm('nothing')", "the number of an alarm, found 'nothing'", "write a number"),
         ("alarm(1.5)", "the number of an alarm", "`opennck alarms`"),
         ("alarm(1653)", "the number of an alarm", "`opennck alarms`"),
         ("alarm('open)", "a closing quote", "operators are"),
@@ -234,7 +234,7 @@ fn a_mistake_says_what_was_expected_where_and_what_to_do() {
         ("alarm_parameter(10651, 5)", "1 to 4", "operators are"),
         ("alarms(1)", "expected `)`", "operators are"),
         ("min(1)", "expected `,`", "operators are"),
-        ("rose(fell(M10.3))", "found `fell`", "not nested"),
+        ("rose(fell(M10.3))", "found `fell`", "cannot be nested"),
         ("DB99.DBX0.0", "DB99", "PLC image"),
         ("DB31.DBX148.0", "148 bytes", "the last byte is 147"),
     ] {
@@ -245,7 +245,7 @@ fn a_mistake_says_what_was_expected_where_and_what_to_do() {
 }
 
 #[test]
-fn nesting_has_an_end() {
+fn nesting_is_limited() {
     let deep = |depth: usize| format!("{}1{}", "(".repeat(depth), ")".repeat(depth));
     assert!(parsed(&deep(50)).is_ok());
     assert!(parsed(&deep(100_000)).is_err());

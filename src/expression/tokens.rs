@@ -1,8 +1,8 @@
-//! The words of an expression: numbers, names, operators.
+//! The tokens of an expression: numbers, names, operators.
 
 use crate::source::Problem;
 
-/// One word of an expression.
+/// One token of an expression.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Token {
     /// `1.5`, `2#1101_0000`.
@@ -13,12 +13,12 @@ pub(super) enum Token {
     Quoted(String),
     /// `&&`, `<=`, `(`, `,`.
     Sign(&'static str),
-    /// After the last word.
+    /// The end of the expression.
     End,
 }
 
 impl Token {
-    /// The word as a message shows it.
+    /// The token in a message.
     pub(super) fn shown(&self) -> String {
         match self {
             Self::Number(number) => format!("the number {number}"),
@@ -30,10 +30,10 @@ impl Token {
     }
 }
 
-/// The signs, longer ones before their beginnings.
+/// The operators and punctuation; a longer one precedes its own prefix.
 const SIGNS: [&str; 15] = ["==", "!=", "<=", ">=", "&&", "||", "<", ">", "!", "+", "-", "*", "/", "(", ")"];
 
-/// Cuts an expression into words, each with its column from one.
+/// Splits an expression into tokens, each with its column, counted from one.
 pub(super) fn tokens(source: &str) -> Result<Vec<(usize, Token)>, Problem> {
     let mut found = Vec::new();
     let mut rest = source;
@@ -66,9 +66,9 @@ pub(super) fn tokens(source: &str) -> Result<Vec<(usize, Token)>, Problem> {
         } else {
             let mut problem = mistake(source, column, "a number, a name or an operator", &format!("`{first}`"));
             match first {
-                '&' => problem.cure = "`and` is written `&&`".to_owned(),
-                '|' => problem.cure = "`or` is written `||`".to_owned(),
-                '=' => problem.cure = "`equal` is written `==`".to_owned(),
+                '&' => problem.cure = "write `&&` for `and`".to_owned(),
+                '|' => problem.cure = "write `||` for `or`".to_owned(),
+                '=' => problem.cure = "write `==` for `equal`".to_owned(),
                 _ => {}
             }
             return Err(problem);
@@ -86,7 +86,7 @@ pub(super) fn mistake(source: &str, column: usize, expected: &str, found: &str) 
     )
 }
 
-/// A number as a program writes it: `1.5`, `1_000`, or with its base, `16#D0`.
+/// A number in the notation of the PLC: `1.5`, `1_000`, or with its base, `16#D0`.
 fn parse_number(word: &str) -> Option<f64> {
     if let Some((base, digits)) = word.split_once('#') {
         let base = base.parse().ok().filter(|base| (2..=16).contains(base))?;
@@ -99,7 +99,7 @@ fn parse_number(word: &str) -> Option<f64> {
     if well_formed { digits.parse().ok() } else { None }
 }
 
-/// Digits without the `_` between them; an underscore stands between two digits or it is a mistake.
+/// Digits without underscores. An underscore is valid only between two digits.
 fn without_separators(word: &str) -> Option<String> {
     let misplaced = word.starts_with('_') || word.ends_with('_') || word.contains("__");
     (!misplaced && !word.is_empty()).then(|| word.replace('_', ""))
@@ -108,7 +108,7 @@ fn without_separators(word: &str) -> Option<String> {
 fn number(word: &str, source: &str, column: usize) -> Result<f64, Problem> {
     parse_number(word).ok_or_else(|| {
         let mut problem = mistake(source, column, "a number", &format!("`{word}`"));
-        problem.cure = "numbers are written 12, 1.5, 1_000, 2#1101_0000 or 16#D0".to_owned();
+        problem.cure = "write a number as 12, 1.5, 1_000, 2#1101_0000 or 16#D0".to_owned();
         problem
     })
 }

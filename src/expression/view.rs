@@ -1,35 +1,36 @@
-//! What an expression is evaluated against: borrowed moments of a machine.
+//! The input of an evaluation: borrowed moments of a machine.
 
 use crate::image::Memory;
 use crate::units::Time;
 use crate::variables::Variables;
 
-/// Everything that an expression looks at, at one moment.
+/// The state of a machine at one moment, as far as expressions read it.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment<'a> {
     /// The signals.
     pub memory: &'a Memory,
     /// Axis values and alarms.
     pub variables: &'a Variables,
-    /// Since the caller's time zero, such as the start of a scenario.
+    /// Time since time zero of the caller, such as the start of a scenario.
     pub time: Time,
-    /// The caller's own values, in the order of [`Scope::named_values`](super::Scope::named_values); one that is not there yet has no value (NaN).
+    /// The values of the caller, in the order of [`Scope::named_values`](super::Scope::named_values); NaN for a value that is not yet
+    /// available.
     pub named_values: &'a [f64],
 }
 
-/// Now, and the last two cycles, between which edges are found.
+/// The current state, and the last two cycles for the detection of edges.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
-    /// What everything but an edge looks at.
+    /// The state that everything except an edge reads.
     pub now: Moment<'a>,
-    /// After the last cycle.
+    /// The state after the last cycle.
     pub last: Moment<'a>,
-    /// After the cycle before it.
+    /// The state after the cycle before the last one.
     pub before: Moment<'a>,
 }
 
 impl<'a> View<'a> {
-    /// One moment without a history, in which nothing rises or falls.
+    /// One moment without a history, in which no edge occurs.
     #[must_use]
     pub fn at(now: Moment<'a>) -> Self {
         Self { now, last: now, before: now }
