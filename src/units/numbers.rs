@@ -1,12 +1,11 @@
-//! Numbers of axes, channels and mode groups, which count from one as in the manuals; tables with one place for each number,
-//! and sets of axes.
+//! Numbers of axes, channels and mode groups, which count from one as in the manuals; tables with one element per number; sets of axes.
 
 use std::fmt;
 use std::ops::{Index, IndexMut};
 
 use serde::{Deserialize, Serialize};
 
-/// Makes a number that counts from one, with its largest value.
+/// Defines a number that counts from one, with its maximum, and a table with one element per number.
 macro_rules! number_from_one {
     ($(#[$doc:meta])* $name:ident, $table:ident, $max:literal) => {
         $(#[$doc])*
@@ -14,44 +13,44 @@ macro_rules! number_from_one {
         #[serde(try_from = "u8")]
         pub struct $name(u8);
 
-        /// A saved number is checked when it is read, because it is used as a place in a table.
+        /// A saved number is checked when it is read, because it is used as an index.
         impl TryFrom<u8> for $name {
             type Error = &'static str;
             fn try_from(number: u8) -> Result<Self, Self::Error> {
-                Self::new(number).ok_or(concat!("a ", stringify!($name), " is from 1 to ", $max))
+                Self::new(number).ok_or(concat!("a ", stringify!($name), " must be from 1 to ", $max))
             }
         }
 
         impl $name {
-            /// The largest number there is.
+            /// The largest number.
             pub const MAX: u8 = $max;
             /// Number one.
             pub const FIRST: Self = Self(1);
 
-            /// The number as the manuals count it, from one; `None` for 0 and beyond the largest.
+            /// The number as counted in the manuals, from one; `None` for 0 and for numbers above the maximum.
             #[must_use]
             pub const fn new(number: u8) -> Option<Self> {
                 if number >= 1 && number <= $max { Some(Self(number)) } else { None }
             }
 
-            /// The number as the manuals count it.
+            /// The number as counted in the manuals.
             #[must_use]
             pub const fn number(self) -> u8 {
                 self.0
             }
 
-            /// Its place in a table, from zero.
+            /// The index in a table, from zero.
             #[must_use]
             pub const fn index(self) -> usize {
                 self.0 as usize - 1
             }
 
-            /// All of them, ascending.
+            /// All numbers, ascending.
             pub fn all() -> impl DoubleEndedIterator<Item = Self> {
                 Self::up_to($max)
             }
 
-            /// The first `count` of them, ascending; all where it is more.
+            /// The first `count` numbers, ascending; all numbers if `count` is larger.
             pub fn up_to(count: u8) -> impl DoubleEndedIterator<Item = Self> {
                 (1..=count.min($max)).map(Self)
             }
@@ -63,7 +62,7 @@ macro_rules! number_from_one {
             }
         }
 
-        /// One of something for each number.
+        /// A table with one element per number.
         #[derive(
             Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize,
             zerocopy::FromBytes, zerocopy::IntoBytes, zerocopy::Immutable, zerocopy::KnownLayout, zerocopy::Unaligned,
@@ -79,26 +78,26 @@ macro_rules! number_from_one {
                 Self(table)
             }
 
-            /// One made for each number.
+            /// A table whose elements are computed from their numbers.
             pub fn from_fn(make: impl FnMut($name) -> T) -> Self {
                 let mut make = make;
                 Self(std::array::from_fn(|index| {
-                    #[expect(clippy::cast_possible_truncation, reason = "a table has at most 32 places")]
+                    #[expect(clippy::cast_possible_truncation, reason = "a table has at most 32 elements")]
                     make($name(index as u8 + 1))
                 }))
             }
 
-            /// One of something else for each.
+            /// A table of the converted elements.
             pub fn map<U>(self, make: impl FnMut(T) -> U) -> $table<U> {
                 $table(self.0.map(make))
             }
 
-            /// Each with its number, ascending.
+            /// Each element with its number, ascending.
             pub fn iter(&self) -> impl Iterator<Item = ($name, &T)> {
                 $name::all().zip(self.0.iter())
             }
 
-            /// Each with its number, ascending.
+            /// Each element with its number, ascending.
             pub fn iter_mut(&mut self) -> impl Iterator<Item = ($name, &mut T)> {
                 $name::all().zip(self.0.iter_mut())
             }
@@ -137,7 +136,7 @@ pub struct AxisSet(u32);
 impl AxisSet {
     /// No axis.
     pub const NONE: Self = Self(0);
-    /// All that there can be.
+    /// All possible axes.
     pub const ALL: Self = Self(u32::MAX >> (u32::BITS - AxisNumber::MAX as u32));
 
     /// One axis.
@@ -146,42 +145,42 @@ impl AxisSet {
         Self(1 << axis.index())
     }
 
-    /// Whether nothing is in it.
+    /// Whether the set is empty.
     #[must_use]
     pub const fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// Whether it has this axis.
+    /// Whether the set contains this axis.
     #[must_use]
     pub const fn contains(self, axis: AxisNumber) -> bool {
         self.0 >> axis.index() & 1 == 1
     }
 
-    /// Takes an axis in, or out.
+    /// Adds an axis or removes it.
     pub const fn set(&mut self, axis: AxisNumber, member: bool) {
         self.0 = self.0 & !(1 << axis.index()) | (member as u32) << axis.index();
     }
 
-    /// What is in either.
+    /// The union of both sets.
     #[must_use]
     pub const fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
-    /// What is in both.
+    /// The intersection of both sets.
     #[must_use]
     pub const fn and(self, other: Self) -> Self {
         Self(self.0 & other.0)
     }
 
-    /// Whether all of the other are in it.
+    /// Whether this set contains all axes of the other set.
     #[must_use]
     pub const fn has_all_of(self, other: Self) -> bool {
         self.0 & other.0 == other.0
     }
 
-    /// Its axes, ascending.
+    /// The axes of the set, ascending.
     pub fn iter(self) -> impl Iterator<Item = AxisNumber> {
         let mut rest = self.0;
         std::iter::from_fn(move || {
@@ -203,7 +202,7 @@ number_from_one!(
     ChannelNumber, PerChannel, 10
 );
 number_from_one!(
-    /// Number of a mode group, 1 or 2; both live in DB11.
+    /// Number of a mode group, 1 or 2; both are in DB11.
     ModeGroupNumber, PerModeGroup, 2
 );
 
@@ -212,7 +211,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_set_of_axes_gives_them_back_in_order() {
+    fn a_set_of_axes_iterates_in_order() {
         let axes = [32, 1, 8].map(|number| AxisNumber::new(number).unwrap());
         let mut set: AxisSet = axes.into_iter().collect();
         assert_eq!(set.iter().map(AxisNumber::number).collect::<Vec<_>>(), [1, 8, 32]);

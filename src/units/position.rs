@@ -12,35 +12,35 @@ pub struct Position(i64);
 impl Position {
     /// Zero.
     pub const ZERO: Self = Self(0);
-    /// How many of these make one millimetre or one degree.
+    /// The number of increments per millimetre or degree.
     pub const PER_USER_UNIT: f64 = 1e6;
 
-    /// From whole nanometres or millionths of a degree.
+    /// Makes a position from whole nanometres or millionths of a degree.
     #[must_use]
     pub const fn new(increments: i64) -> Self {
         Self(increments)
     }
 
-    /// From millimetres or degrees, rounded to the nearest increment.
+    /// Makes a position from millimetres or degrees, rounded to the nearest increment.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "float to integer casts saturate")]
     pub fn from_user(millimetres_or_degrees: f64) -> Self {
         Self((millimetres_or_degrees * Self::PER_USER_UNIT).round() as i64)
     }
 
-    /// Whole nanometres or millionths of a degree.
+    /// The position in whole nanometres or millionths of a degree.
     #[must_use]
     pub const fn increments(self) -> i64 {
         self.0
     }
 
-    /// Millimetres or degrees.
+    /// The position in millimetres or degrees.
     #[must_use]
     pub fn user(self) -> f64 {
         self.0 as f64 / Self::PER_USER_UNIT
     }
 
-    /// Without its sign; the one position that has no positive counterpart becomes the largest.
+    /// The absolute value. The smallest position has no positive counterpart and becomes the largest position.
     #[must_use]
     pub const fn abs(self) -> Self {
         Self(self.0.saturating_abs())
@@ -80,7 +80,7 @@ impl SubAssign for Position {
     }
 }
 
-/// Millimetres or degrees with three decimals, more only where they are needed: `0.941`, `-0.00025`.
+/// Prints millimetres or degrees with three decimals, and more only if they are needed: `0.941`, `-0.00025`.
 impl fmt::Display for Position {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let sign = if self.0 < 0 { "-" } else { "" };

@@ -1,51 +1,51 @@
-//! Points and spans of time, in whole nanoseconds.
+//! Points in time and durations, in whole nanoseconds.
 
 use std::fmt;
 use std::ops::{Add, AddAssign, Sub};
 
 use serde::{Deserialize, Serialize};
 
-/// A point in time or a span of time, in whole nanoseconds.
+/// A point in time or a duration, in whole nanoseconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Time(i64);
 
 impl Time {
-    /// The start of everything, or no time at all.
+    /// Time zero, or a duration of zero.
     pub const ZERO: Self = Self(0);
 
-    /// From whole nanoseconds.
+    /// Makes a time from whole nanoseconds.
     #[must_use]
     pub const fn from_nanos(nanos: i64) -> Self {
         Self(nanos)
     }
 
-    /// From whole microseconds.
+    /// Makes a time from whole microseconds.
     #[must_use]
     pub const fn from_micros(micros: i64) -> Self {
         Self(micros * 1_000)
     }
 
-    /// From whole milliseconds.
+    /// Makes a time from whole milliseconds.
     #[must_use]
     pub const fn from_millis(millis: i64) -> Self {
         Self(millis * 1_000_000)
     }
 
-    /// From seconds, rounded to the nearest nanosecond; saturates beyond 292 years.
+    /// Makes a time from seconds, rounded to the nearest nanosecond; saturates beyond 292 years.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "float to integer casts saturate, as documented")]
     pub fn from_seconds(seconds: f64) -> Self {
         Self((seconds * 1e9).round() as i64)
     }
 
-    /// Reads a number and its unit, `us`, `ms`, `s`, `min` or `h`: `10ms`, `0.5 s`. `None` where it is something
-    /// else, negative, or beyond 292 years.
+    /// Parses a number with a unit, `us`, `ms`, `s`, `min` or `h`: `10ms`, `0.5 s`. `None` if the text has another form, is negative, or is
+    /// beyond 292 years.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         Self::parse_saturating(text).filter(|time| time.0 < 9_200_000_000_000_000_000)
     }
 
-    /// Reads as [`Time::parse`]; a time beyond 292 years is the longest one.
+    /// Parses like [`Time::parse`], but a time beyond 292 years becomes the maximum.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "float to integer casts saturate, as documented")]
     pub fn parse_saturating(text: &str) -> Option<Self> {
@@ -63,26 +63,26 @@ impl Time {
         Some(Self((number.parse::<f64>().ok()? * nanos_per_unit).round() as i64))
     }
 
-    /// Whole nanoseconds.
+    /// The time in whole nanoseconds.
     #[must_use]
     pub const fn nanos(self) -> i64 {
         self.0
     }
 
-    /// Seconds, for display and for the arithmetic of the model.
+    /// The time in seconds, for display and for the arithmetic of the model.
     #[must_use]
     pub fn seconds(self) -> f64 {
         self.0 as f64 / 1e9
     }
 
-    /// How many cycles of `cycle` this span takes: rounded up, at least one.
+    /// The duration in cycles of length `cycle`: rounded up, at least one.
     #[must_use]
     pub fn in_cycles(self, cycle: Self) -> u64 {
         let cycles = self.0.max(1).unsigned_abs().div_ceil(cycle.0.max(1).unsigned_abs());
         cycles.max(1)
     }
 
-    /// This span `count` times.
+    /// The duration multiplied by `count`.
     #[must_use]
     pub const fn times(self, count: u64) -> Self {
         Self(self.0.saturating_mul(count.cast_signed()))
@@ -109,7 +109,7 @@ impl AddAssign for Time {
     }
 }
 
-/// Seconds with milliseconds, more digits only where they are needed: `12.346`, `0.0005`.
+/// Prints seconds with three decimals, and more only if they are needed: `12.346`, `0.0005`.
 impl fmt::Display for Time {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let sign = if self.0 < 0 { "-" } else { "" };
@@ -126,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_span_is_rounded_up_to_whole_cycles_and_takes_at_least_one() {
+    fn a_duration_is_rounded_up_to_whole_cycles_and_takes_at_least_one() {
         let cycle = Time::from_millis(2);
         assert_eq!(Time::from_millis(4).in_cycles(cycle), 2);
         assert_eq!(Time::from_micros(4_001).in_cycles(cycle), 3);
