@@ -1,8 +1,7 @@
-//! Where it stands: files with their lines, and problems that say where, what was expected, what came and what to do.
+//! Source files: places with lines, and error messages that name the place, the expectation, the finding and the remedy.
 //!
-//! Every reader of a file in this project (machine data, `plant.toml`, PLC images, scenarios) reports with
-//! [`Problem`], so that a person meets one form of message. TOML files are read into a tree of [`Node`]s in
-//! which each value knows its place; merged files keep the places of both.
+//! Every reader of a file in this project (machine data, `plant.toml`, PLC images, scenarios) reports with [`Problem`], so that all
+//! messages have one form. TOML files are read into a tree of [`Node`]s in which each value knows its place; merged files keep the places of both.
 
 mod node;
 
@@ -16,12 +15,12 @@ use std::sync::Arc;
 pub struct Place {
     /// The file as the user named it.
     pub file: Arc<str>,
-    /// The line, from one; 0 where the whole file is meant.
+    /// The line, counted from one; 0 for the whole file.
     pub line: u32,
 }
 
 impl Place {
-    /// A whole file.
+    /// The place of a whole file.
     #[must_use]
     pub fn file(file: &str) -> Self {
         Self { file: file.into(), line: 0 }
@@ -33,7 +32,7 @@ impl Place {
         Self { file: Arc::clone(&self.file), line }
     }
 
-    /// A problem here.
+    /// A problem at this place.
     #[must_use]
     pub fn problem(&self, what: impl Into<String>, cure: impl Into<String>) -> Problem {
         Problem { place: Some(self.clone()), what: what.into(), cure: cure.into() }
@@ -46,25 +45,25 @@ impl fmt::Display for Place {
     }
 }
 
-/// Unusable input: one line of cause (what was expected and what came), one line of cure.
+/// Invalid input: one line with the cause (what was expected and what was found), one line with the remedy.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct Problem {
-    /// Where, if it is in a file.
+    /// The place, if the input is a file.
     pub place: Option<Place>,
-    /// What was expected and what came.
+    /// What was expected and what was found.
     pub what: String,
-    /// What to do about it; may be empty.
+    /// The remedy; may be empty.
     pub cure: String,
 }
 
 impl Problem {
-    /// A problem that is not in a file.
+    /// A problem outside a file.
     #[must_use]
     pub fn new(what: impl Into<String>, cure: impl Into<String>) -> Self {
         Self { place: None, what: what.into(), cure: cure.into() }
     }
 
-    /// The same problem, at this place unless it already has one.
+    /// The same problem with this place, unless it already has one.
     #[must_use]
     pub fn at(mut self, place: &Place) -> Self {
         self.place.get_or_insert_with(|| place.clone());
@@ -85,7 +84,7 @@ impl fmt::Display for Problem {
     }
 }
 
-/// The known name nearest to a misspelt one, if one is near enough to be meant.
+/// The known name that is nearest to a misspelt name, if one is near enough.
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = (name.chars().count() / 3).max(2);
@@ -97,22 +96,22 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .map(|(_, candidate)| candidate)
 }
 
-/// `did you mean …?`, or the fallback where nothing is near.
+/// `did you mean …?`, or the fallback if no known name is near.
 #[must_use]
 pub fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a str>, fallback: &str) -> String {
     nearest(name, known).map_or_else(|| fallback.to_owned(), |near| format!("did you mean `{near}`?"))
 }
 
-/// Reads a text file; a byte order mark is dropped, bytes that are not UTF-8 are taken as Latin-1, as controls write them.
+/// Reads a text file. A byte order mark is removed; bytes that are not UTF-8 are read as Latin-1, which controls write.
 ///
 /// # Errors
-/// The file cannot be read; the problem names it and says why.
+/// The file cannot be read; the problem names the file and the reason.
 pub fn read_text(path: &std::path::Path) -> Result<String, Problem> {
     let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
     Ok(decode(&bytes))
 }
 
-/// The text of a file: without its byte order mark; bytes that are not UTF-8 are taken as Latin-1.
+/// The text of a file without its byte order mark; bytes that are not UTF-8 are read as Latin-1.
 #[must_use]
 pub fn decode(bytes: &[u8]) -> String {
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
@@ -140,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn a_misspelt_name_finds_its_neighbour_and_a_foreign_one_does_not() {
+    fn a_misspelt_name_gets_a_suggestion_and_an_unrelated_name_does_not() {
         let known = ["controller_enable", "pulse_enable"];
         assert_eq!(nearest("controler_enable", known), Some("controller_enable"));
         assert_eq!(nearest("spindle", known), None);

@@ -1,7 +1,7 @@
-//! A TOML 1.0 file as a tree in which every value knows its line, and the reading of it.
+//! A TOML 1.0 file as a tree in which every value knows its line, and the functions that read the tree.
 //!
-//! Readers take what they know with [`Table::take`] and end with [`Table::finish`], which refuses what is left
-//! over by name; so an unknown key can never be ignored.
+//! Readers take the keys that they know with [`Table::take`] and end with [`Table::finish`], which rejects all remaining keys by name. So
+//! an unknown key is never ignored.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::{Place, Problem, did_you_mean};
 
-/// A value and where it stands.
+/// A value and its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
     /// The line of the value.
@@ -18,7 +18,7 @@ pub struct Node {
     pub value: Value,
 }
 
-/// What TOML knows, but for dates, which nothing here needs.
+/// All TOML types except dates, which this project does not use.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// `"text"`.
@@ -38,7 +38,7 @@ pub enum Value {
 /// Keys with their values, in the order of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// Where the table begins.
+    /// The place where the table begins.
     pub place: Place,
     entries: Vec<(String, Place, Node)>,
     known: Vec<&'static str>,
@@ -48,15 +48,15 @@ impl Table {
     /// Reads a TOML document.
     ///
     /// # Errors
-    /// The first place where it is not TOML 1.0.
+    /// The first place that is not valid TOML 1.0.
     pub fn parse(text: &str, file: &str) -> Result<Self, Problem> {
         let start = Place::file(file);
         let lines = Lines::new(text);
         let document = DeTable::parse(text).map_err(|error| {
             let line = error.span().map_or(0, |span| lines.line(span.start));
             start.at_line(line).problem(
-                format!("expected TOML, found a mistake: {}", error.message().replace('\n', "; ")),
-                "TOML 1.0: strings in quotes, tables in brackets, one value per key",
+                format!("invalid TOML: {}", error.message().replace('\n', "; ")),
+                "TOML 1.0 has strings in quotes, tables in brackets, one value per key",
             )
         })?;
         table(document.get_ref(), &start.at_line(1), &lines, &start)
@@ -68,27 +68,27 @@ impl Table {
         Self { place, entries: Vec::new(), known: Vec::new() }
     }
 
-    /// Takes a value out by its name, and notes the name as known.
+    /// Removes a value by its key and returns it; the key counts as known from now on.
     pub fn take(&mut self, key: &'static str) -> Option<Node> {
         self.known.push(key);
         let index = self.entries.iter().position(|(name, ..)| name == key)?;
         Some(self.entries.remove(index).2)
     }
 
-    /// Takes everything that is left: name, place of the name, value.
+    /// Removes and returns all remaining entries: key, place of the key, value.
     pub fn take_rest(&mut self) -> Vec<(String, Place, Node)> {
         std::mem::take(&mut self.entries)
     }
 
-    /// The names that are left.
+    /// The remaining keys.
     pub fn keys(&self) -> impl Iterator<Item = &str> {
         self.entries.iter().map(|(name, ..)| name.as_str())
     }
 
-    /// Refuses what nobody took.
+    /// Rejects all keys that were not taken.
     ///
     /// # Errors
-    /// The first name that is left, with the nearest known one.
+    /// The first remaining key, with the nearest known key.
     pub fn finish(&self) -> Result<(), Problem> {
         let Some((name, place, _)) = self.entries.first() else {
             return Ok(());
@@ -98,7 +98,7 @@ impl Table {
         Err(place.problem(format!("expected one of `{known}`, found the unknown key `{name}`"), cure))
     }
 
-    /// Merges another table over this one: tables merge, everything else is replaced, a table by `false`, too.
+    /// Merges another table over this one: tables are merged, all other values are replaced; `false` also replaces a table.
     pub fn merge(&mut self, over: Self) {
         for (name, place, node) in over.entries {
             let existing = self.entries.iter().position(|(other, ..)| *other == name);
@@ -117,7 +117,7 @@ impl Table {
 }
 
 impl Node {
-    /// What kind of value this is, in words for a message.
+    /// The type of this value and its content, as text for a message.
     #[must_use]
     pub fn found(&self) -> String {
         match &self.value {
@@ -136,10 +136,10 @@ impl Node {
         self.place.problem(format!("expected {what}, found {}", self.found()), cure)
     }
 
-    /// A text.
+    /// The value as a text.
     ///
     /// # Errors
-    /// It is something else.
+    /// The value has another type.
     pub fn text(&self, what: &str) -> Result<&str, Problem> {
         match &self.value {
             Value::Text(text) => Ok(text),
@@ -147,10 +147,10 @@ impl Node {
         }
     }
 
-    /// A number, whole or not; it must be finite.
+    /// The value as a number, whole or not; it must be finite.
     ///
     /// # Errors
-    /// It is something else, or `inf` or `nan`.
+    /// The value has another type, or is `inf` or `nan`.
     pub fn number(&self, what: &str) -> Result<f64, Problem> {
         match self.value {
             Value::Integer(number) => Ok(number as f64),
@@ -159,10 +159,10 @@ impl Node {
         }
     }
 
-    /// A whole number.
+    /// The value as a whole number.
     ///
     /// # Errors
-    /// It is something else.
+    /// The value has another type.
     pub fn integer(&self, what: &str) -> Result<i64, Problem> {
         match self.value {
             Value::Integer(number) => Ok(number),
@@ -170,10 +170,10 @@ impl Node {
         }
     }
 
-    /// `true` or `false`.
+    /// The value as `true` or `false`.
     ///
     /// # Errors
-    /// It is something else.
+    /// The value has another type.
     pub fn boolean(&self, what: &str) -> Result<bool, Problem> {
         match self.value {
             Value::Boolean(value) => Ok(value),
@@ -181,10 +181,10 @@ impl Node {
         }
     }
 
-    /// A table.
+    /// The value as a table.
     ///
     /// # Errors
-    /// It is something else.
+    /// The value has another type.
     pub fn into_table(self, what: &str) -> Result<Table, Problem> {
         match self.value {
             Value::Table(table) => Ok(table),
@@ -192,7 +192,7 @@ impl Node {
         }
     }
 
-    /// An array; a single value counts as an array of one.
+    /// The value as an array; a single value becomes an array with one element.
     #[must_use]
     pub fn into_list(self) -> Vec<Self> {
         match self.value {
@@ -202,7 +202,7 @@ impl Node {
     }
 }
 
-/// Finds the line of a byte offset.
+/// The offsets of all line ends, to find the line of a byte offset.
 struct Lines(Vec<usize>);
 
 impl Lines {
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_knows_its_line_and_kind() {
+    fn a_value_knows_its_line_and_type() {
         let mut table = parsed("a = 1\n\n[b]\nc = \"x\"\n");
         assert_eq!(table.take("a").unwrap().place.line, 1);
         let mut b = table.take("b").unwrap().into_table("b").unwrap();
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn what_nobody_took_is_refused_with_the_nearest_name() {
+    fn a_key_that_was_not_taken_is_rejected_with_the_nearest_name() {
         let mut table = parsed("strat = 1\n");
         assert_eq!(table.take("start"), None);
         let problem = table.finish().unwrap_err().to_string();
