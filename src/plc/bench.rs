@@ -1,4 +1,4 @@
-//! A test bench: a program on a memory, scan by scan.
+//! A test bench: runs a program on a memory, scan by scan.
 
 use crate::image::{AsBytes, Location, Memory, Names, Profile};
 use crate::plc::{PlcFault, PlcIo, PlcProgram};
@@ -21,7 +21,7 @@ impl Bench {
         Self { memory: Memory::new(), names, time: Time::ZERO }
     }
 
-    /// What stands at an address.
+    /// The value at an address.
     pub(super) fn get(&self, address: &str) -> u64 {
         self.memory.read(self.at(address))
     }

@@ -1,18 +1,18 @@
-//! The small blocks that programs are made of, with the meaning of IEC 61131-3. Each is plain data that belongs to
-//! the program's state; the time comes from [`PlcIo::time`](super::PlcIo).
+//! The basic function blocks of IEC 61131-3 for PLC programs. Each is plain data in the state of a program. The time comes from
+//! [`PlcIo::time`](super::PlcIo).
 
 use serde::{Deserialize, Serialize};
 
 use crate::units::Time;
 
-/// R_TRIG: true for one scan when its input rises. A first scan with the input on counts as rising.
+/// R_TRIG: true for one scan when its input rises. An input that is on in the first scan counts as a rising edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RisingEdge {
     last: bool,
 }
 
 impl RisingEdge {
-    /// Looks at the input once in this scan.
+    /// Evaluates the input; call it once per scan.
     pub fn scan(&mut self, input: bool) -> bool {
         let rose = input && !self.last;
         self.last = input;
@@ -20,14 +20,14 @@ impl RisingEdge {
     }
 }
 
-/// F_TRIG: true for one scan when its input falls. A first scan with the input off does not count.
+/// F_TRIG: true for one scan when its input falls. An input that is off in the first scan does not count as a falling edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FallingEdge {
     last: bool,
 }
 
 impl FallingEdge {
-    /// Looks at the input once in this scan.
+    /// Evaluates the input; call it once per scan.
     pub fn scan(&mut self, input: bool) -> bool {
         let fell = !input && self.last;
         self.last = input;
@@ -42,7 +42,7 @@ pub struct OnDelay {
 }
 
 impl OnDelay {
-    /// Looks at the input once in this scan, at this time.
+    /// Evaluates the input at the time of this scan; call it once per scan.
     pub fn scan(&mut self, input: bool, delay: Time, now: Time) -> bool {
         if !input {
             self.since = None;
@@ -51,7 +51,7 @@ impl OnDelay {
         now - *self.since.get_or_insert(now) >= delay
     }
 
-    /// ET: how long the input has been on, at most the delay.
+    /// ET: the time for which the input has been on, at most the delay.
     #[must_use]
     pub fn elapsed(&self, delay: Time, now: Time) -> Time {
         self.since.map_or(Time::ZERO, |since| (now - since).min(delay))
@@ -66,7 +66,7 @@ pub struct OffDelay {
 }
 
 impl OffDelay {
-    /// Looks at the input once in this scan, at this time.
+    /// Evaluates the input at the time of this scan; call it once per scan.
     pub fn scan(&mut self, input: bool, delay: Time, now: Time) -> bool {
         if input {
             self.since = None;
@@ -77,35 +77,35 @@ impl OffDelay {
         self.on
     }
 
-    /// ET: how long the input has been off while the output was still on, at most the delay.
+    /// ET: the time for which the input has been off while the output was still on, at most the delay.
     #[must_use]
     pub fn elapsed(&self, delay: Time, now: Time) -> Time {
         self.since.map_or(Time::ZERO, |since| (now - since).min(delay))
     }
 }
 
-/// SR: remembers; with both inputs on it is set.
+/// SR: a latch; if both inputs are on, it is set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SetDominantLatch {
     on: bool,
 }
 
 impl SetDominantLatch {
-    /// Looks at the inputs once in this scan.
+    /// Evaluates the inputs; call it once per scan.
     pub fn scan(&mut self, set: bool, reset: bool) -> bool {
         self.on = set || self.on && !reset;
         self.on
     }
 }
 
-/// RS: remembers; with both inputs on it is reset.
+/// RS: a latch; if both inputs are on, it is reset.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ResetDominantLatch {
     on: bool,
 }
 
 impl ResetDominantLatch {
-    /// Looks at the inputs once in this scan.
+    /// Evaluates the inputs; call it once per scan.
     pub fn scan(&mut self, set: bool, reset: bool) -> bool {
         self.on = !reset && (set || self.on);
         self.on
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_is_seen_in_one_scan_only() {
+    fn an_edge_lasts_one_scan() {
         let (mut rising, mut falling) = (RisingEdge::default(), FallingEdge::default());
         let input = [false, true, true, false, false, true];
         assert_eq!(input.map(|on| rising.scan(on)), [false, true, false, false, false, true]);
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn an_on_delay_waits_its_whole_time_and_forgets_at_once() {
+    fn an_on_delay_waits_its_full_time_and_resets_at_once() {
         let mut delay = OnDelay::default();
         assert!(!delay.scan(true, DELAY, at(0)));
         assert!(!delay.scan(true, DELAY, at(29)));
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn an_off_delay_comes_at_once_and_leaves_after_its_whole_time() {
+    fn an_off_delay_switches_on_at_once_and_off_after_its_full_time() {
         let mut delay = OffDelay::default();
         assert!(!delay.scan(false, DELAY, at(0)));
         assert!(delay.scan(true, DELAY, at(10)));
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn an_off_delay_starts_anew_when_its_input_returns() {
+    fn an_off_delay_restarts_when_its_input_returns() {
         let mut delay = OffDelay::default();
         delay.scan(true, DELAY, at(0));
         assert!(delay.scan(false, DELAY, at(10)));

@@ -1,4 +1,4 @@
-//! Programs written as Rust closures.
+//! PLC programs written as Rust closures.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use super::{PlcFault, PlcIo, PlcProgram};
 
 type Code<S, L> = Arc<dyn Fn(&mut S, &mut PlcIo<'_, L>) -> Result<(), PlcFault> + Send + Sync>;
 
-/// A closure and the state it works on. The code is shared between forks, the state is not.
+/// A closure and its state. Forks share the code; each fork has its own state.
 pub struct ClosureProgram<S, L: Layout = Sinumerik> {
     name: String,
     initial: S,
@@ -21,10 +21,10 @@ pub struct ClosureProgram<S, L: Layout = Sinumerik> {
     scan: Code<S, L>,
 }
 
-/// A program from a closure that runs once in each PLC cycle; `state` is all that it remembers.
+/// Makes a program from a closure that runs once in each PLC cycle; `state` is its complete memory.
 ///
-/// The state is a block of this room, a tuple of them, or a structure that derives `Clone` and serde's `Serialize` and
-/// `Deserialize`: forks and saved machines take it along.
+/// The state is a block of this module, a tuple of blocks, or a structure that derives `Clone` and the `Serialize` and `Deserialize` of
+/// serde. Forks and saved machines include it.
 pub fn program<S>(
     name: impl Into<String>,
     state: S,
@@ -39,7 +39,7 @@ where
     })
 }
 
-/// As [`program`], for a closure that may stop the PLC.
+/// Like [`program`], for a closure that can stop the PLC.
 pub fn program_with_fault<S>(
     name: impl Into<String>,
     state: S,
@@ -51,7 +51,7 @@ where
     program_for(name, state, scan)
 }
 
-/// As [`program_with_fault`], for a control of another layout: `program_for::<_, Own>("name", (), |(), io| …)`.
+/// Like [`program_with_fault`], for a control with another layout: `program_for::<_, Own>("name", (), |(), io| …)`.
 pub fn program_for<S, L: Layout>(
     name: impl Into<String>,
     state: S,
@@ -67,13 +67,17 @@ impl<S, L: Layout> ClosureProgram<S, L>
 where
     S: Clone + Serialize + DeserializeOwned + Send + 'static,
 {
-    /// The parts as structures of the control that it is written for.
+    /// The parts as structures of the control for which the program is written.
     fn io<'a>(name: &str, io: &'a mut PlcIo<'_, AsBytes>) -> Result<PlcIo<'a, L>, PlcFault> {
         let found = io.names.interface();
-        io.typed().ok_or_else(|| PlcFault::new(format!("`{name}` is written for another interface than {found:?}")))
+        io.typed().ok_or_else(|| {
+            PlcFault::new(format!(
+                "`{name}` is written for another interface than {found:?}, the interface of this machine"
+            ))
+        })
     }
 
-    /// Runs this closure after power on, before the first scan (OB100).
+    /// Sets a closure that runs after power on, before the first scan (OB100).
     #[must_use]
     pub fn on_startup(mut self, startup: impl Fn(&mut S, &mut PlcIo<'_, L>) + Send + Sync + 'static) -> Self {
         self.startup = Some(Arc::new(move |state, io| {
@@ -83,7 +87,7 @@ where
         self
     }
 
-    /// As a program of any kind.
+    /// The program as a trait object.
     #[must_use]
     pub fn boxed(self) -> Box<dyn PlcProgram> {
         Box::new(self)
@@ -110,18 +114,18 @@ where
     }
 
     fn save(&self) -> Vec<u8> {
-        postcard::to_stdvec(&self.state).expect("plain data can be written to memory")
+        postcard::to_stdvec(&self.state).expect("plain data can be serialized")
     }
 
     fn restore(&mut self, saved: &[u8]) -> Result<(), Problem> {
         let foreign = || {
             Problem::new(
                 format!(
-                    "expected the saved state of the PLC program `{}`, found {} bytes of another",
+                    "expected the saved state of the PLC program `{}`, found {} bytes of another program",
                     self.name,
                     saved.len()
                 ),
-                "restore it with the program that was saved",
+                "restore it with the program that saved it",
             )
         };
         let (state, rest) = postcard::take_from_bytes(saved).map_err(|_| foreign())?;

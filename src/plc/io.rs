@@ -1,58 +1,58 @@
-//! What a program sees in one scan.
+//! The memory as a PLC program sees it in one scan.
 
 use zerocopy::IntoBytes;
 
 use crate::image::{AsBytes, Blocks, Bytes, Layout, Names, Part, Parts, Sinumerik, View};
 use crate::units::{AxisNumber, ChannelNumber, Time};
 
-/// The PLC's view of the memory during one scan: its own side to write, the others' to read.
+/// The memory during one scan: the program writes the PLC side and reads all other parts.
 ///
-/// The three parts of the interface are structures of a control, of the SINUMERIK where nothing is said, or the bytes that
-/// they are (`PlcIo<'_, AsBytes>`), which [`typed`](PlcIo::typed) makes structures of.
+/// The three parts of the interface are structures of a control (of the SINUMERIK by default) or plain bytes (`PlcIo<'_, AsBytes>`).
+/// [`typed`](PlcIo::typed) converts bytes into structures.
 #[derive(Debug)]
 pub struct PlcIo<'a, L: Layout = Sinumerik> {
-    /// What the PLC writes to the NCK.
+    /// The signals that the PLC writes to the NCK.
     pub to_nck: &'a mut L::ToNck,
-    /// What the NCK writes.
+    /// The signals that the NCK writes.
     pub from_nck: &'a L::FromNck,
-    /// What the HMI writes.
+    /// The signals that the HMI writes.
     pub hmi: &'a L::Hmi,
-    /// I: `io.inputs.bit(3, 4)` is I3.4.
+    /// Inputs (I): `io.inputs.bit(3, 4)` is I3.4.
     pub inputs: &'a Bytes,
-    /// Q: `io.outputs.set_bit(4, 0, true)` sets Q4.0.
+    /// Outputs (Q): `io.outputs.set_bit(4, 0, true)` sets Q4.0.
     pub outputs: &'a mut Bytes,
-    /// M.
+    /// Flags (M).
     pub flags: &'a mut Bytes,
-    /// T, two bytes each.
+    /// Timers (T), two bytes each.
     pub timers: &'a mut Bytes,
-    /// C, two bytes each.
+    /// Counters (C), two bytes each.
     pub counters: &'a mut Bytes,
-    /// The program's own data blocks.
+    /// The data blocks of the program.
     pub blocks: &'a mut Blocks,
-    /// The cycle of the NC in which this scan is.
+    /// The NC cycle of this scan.
     pub cycle: u64,
     /// The time of this scan.
     pub time: Time,
     /// The time since the last scan.
     pub cycle_time: Time,
-    /// What the machine calls its axes and channels.
+    /// The names of the axes and channels of the machine.
     pub names: &'a Names,
 }
 
 impl<'a, L: Layout> PlcIo<'a, L> {
-    /// The number of the machine axis of this name.
+    /// The number of the machine axis with this name.
     #[must_use]
     pub fn axis(&self, name: &str) -> Option<AxisNumber> {
         self.names.axis(name)
     }
 
-    /// The number of the channel of this name.
+    /// The number of the channel with this name.
     #[must_use]
     pub fn channel(&self, name: &str) -> Option<ChannelNumber> {
         self.names.channel(name)
     }
 
-    /// The numbers of all axes that the machine has, ascending; a loop over them may write.
+    /// The numbers of all axes of the machine, ascending. The iterator does not borrow, so the loop body can write.
     pub fn axes(&self) -> impl Iterator<Item = AxisNumber> + use<'a, L> {
         let names = self.names;
         names.axes.iter().filter(|(_, name)| name.is_some()).map(|(number, _)| number)
@@ -60,7 +60,7 @@ impl<'a, L: Layout> PlcIo<'a, L> {
 }
 
 impl PlcIo<'_, AsBytes> {
-    /// The same with the parts as structures of a control; `None` where the machine has the interface of another.
+    /// The same view with the parts as structures of a control; `None` if the machine has the interface of another control.
     #[must_use]
     pub fn typed<L: Layout>(&mut self) -> Option<PlcIo<'_, L>> {
         if !L::is_of(self.names.interface()) {
@@ -84,7 +84,7 @@ impl PlcIo<'_, AsBytes> {
     }
 }
 
-/// All of the memory to read, the PLC's own to write.
+/// Reads the complete memory; writes the PLC side only.
 impl<L: Layout> Parts for PlcIo<'_, L> {
     fn part(&self, part: Part) -> &[u8] {
         match part {

@@ -1,14 +1,14 @@
-//! THE PROGRAM: what runs in the PLC, cycle after cycle, on the PLC's side of the interface.
+//! The PLC program: it runs in every PLC cycle on the PLC side of the interface.
 //!
-//! A program is a closure over its own state and [`PlcIo`], the PLC's view of the memory: it writes what the PLC
-//! writes, and reads the rest. The closure captures nothing it could change, so all that it remembers is in its
-//! state, and a fork or a saved run goes on exactly as the original does.
+//! A program is a closure over its own state and [`PlcIo`], the view of the PLC on the memory: it writes the PLC side and reads all other
+//! parts. The closure captures nothing that it can change, so its state is its complete memory. A fork or a saved run therefore continues
+//! exactly like the original.
 //!
 //! ```
 //! use opennck::plc::{OnDelay, program};
 //! use opennck::units::Time;
 //!
-//! // The drive of axis XF gets its pulses half a second after input I3.4 is on.
+//! // The drive of axis XF gets pulse enable half a second after input I3.4 is on.
 //! let delayed = program("delayed_pulses", OnDelay::default(), |delay, io| {
 //!     let Some(axis) = io.axis("XF") else { return };
 //!     let on = delay.scan(io.inputs.bit(3, 4), Time::from_millis(500), io.time);
@@ -17,10 +17,10 @@
 //! # let _ = delayed;
 //! ```
 //!
-//! Programs for another control than the SINUMERIK are closures over its own structures, or over bytes: [`program_for`].
+//! Programs for controls other than the SINUMERIK are closures over the structures of that control, or over bytes: [`program_for`].
 //!
-//! The machine calls [`PlcProgram::startup`] once after power on (OB100) and [`PlcProgram::scan`] in each PLC cycle
-//! (OB1); between two scans nobody else writes to the PLC's side but queued commands and forces.
+//! The machine calls [`PlcProgram::startup`] once after power on (OB100) and [`PlcProgram::scan`] in each PLC cycle (OB1). Between two
+//! scans, only queued commands and forces write to the PLC side.
 
 #[cfg(test)]
 mod bench;
@@ -44,26 +44,26 @@ pub use registry::Programs;
 use crate::image::AsBytes;
 use crate::source::Problem;
 
-/// The PLC program cannot go on: the PLC stops, and the NCK misses its sign of life (alarm 2000).
+/// The PLC program cannot continue: the PLC stops, and the NCK detects the missing sign of life (alarm 2000).
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the PLC program stopped: {reason}")]
 pub struct PlcFault {
-    /// Why, in words of the program.
+    /// The reason, in the words of the program.
     pub reason: String,
 }
 
 impl PlcFault {
-    /// A fault with its reason.
+    /// A fault with the given reason.
     #[must_use]
     pub fn new(reason: impl Into<String>) -> Self {
         Self { reason: reason.into() }
     }
 }
 
-/// A program of the PLC, of whatever kind. It sees the parts of the interface as bytes, whichever control they are of;
-/// [`PlcIo::typed`] gives the structures of one.
+/// A PLC program of any kind. It sees the parts of the interface as bytes, independent of the control. [`PlcIo::typed`] gives the
+/// structures of one control.
 pub trait PlcProgram: Send {
-    /// What it is called.
+    /// The name of the program.
     fn name(&self) -> &str;
 
     /// OB100: runs once after power on and after each restart of the PLC, before the first scan.
@@ -75,21 +75,21 @@ pub trait PlcProgram: Send {
     /// OB1: runs once in each PLC cycle.
     ///
     /// # Errors
-    /// The program cannot go on; the PLC stops.
+    /// The program cannot continue; the PLC stops.
     fn scan(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault>;
 
-    /// All that the program remembers, as bytes.
+    /// The complete state of the program, as bytes.
     fn save(&self) -> Vec<u8>;
 
-    /// Takes back what [`PlcProgram::save`] gave.
+    /// Restores a state from [`PlcProgram::save`].
     ///
     /// # Errors
-    /// The bytes are from another program; then nothing has changed.
+    /// The bytes are from another program; the state is then unchanged.
     fn restore(&mut self, saved: &[u8]) -> Result<(), Problem>;
 
-    /// A second program that remembers the same and goes on by itself; `None` where the kind of program cannot do it.
+    /// A second program with the same state that runs independently; `None` if this kind of program cannot be forked.
     fn fork(&self) -> Option<Box<dyn PlcProgram>>;
 
-    /// Forgets everything, as after power on.
+    /// Clears the state, as after power on.
     fn reset(&mut self);
 }

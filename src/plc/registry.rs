@@ -1,4 +1,4 @@
-//! Programs by name, as `plc = "…"` in a scenario and `--plc` on the command line ask for them.
+//! PLC programs by name, for `plc = "…"` in a scenario and `--plc` on the command line.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use super::{PlcProgram, enable_all, gantry_start, limit_edge_marker, machine_con
 
 type Constructor = Arc<dyn Fn(&Names) -> Result<Box<dyn PlcProgram>, Problem> + Send + Sync>;
 
-/// Programs by name: the ready ones, and those that a user adds with [`Programs::with`].
+/// PLC programs by name: the built-in programs, and those that a user adds with [`Programs::with`].
 #[derive(Clone)]
 pub struct Programs(BTreeMap<String, Constructor>);
 
@@ -21,7 +21,7 @@ impl Default for Programs {
 }
 
 impl Programs {
-    /// The ready programs: `enable_all`, `gantry_start`, `limit_edge_marker`, `machine_control_panel`, `shared_reference_cam`.
+    /// The built-in programs: `enable_all`, `gantry_start`, `limit_edge_marker`, `machine_control_panel`, `shared_reference_cam`.
     #[must_use]
     pub fn ready() -> Self {
         Self(BTreeMap::new())
@@ -32,7 +32,7 @@ impl Programs {
             .with("shared_reference_cam", |_| Ok(shared_reference_cam().boxed()))
     }
 
-    /// Adds a program under a name, in place of one that has it. The constructor may refuse a machine by its names.
+    /// Adds a program under a name and replaces an existing one. The constructor can reject a machine by its names.
     #[must_use]
     pub fn with(
         mut self,
@@ -48,10 +48,10 @@ impl Programs {
         self.0.keys().map(String::as_str)
     }
 
-    /// A new program of this name for a machine.
+    /// A new program with this name for a machine.
     ///
     /// # Errors
-    /// There is no such program, or it cannot run on this machine.
+    /// The program does not exist, or it cannot run on this machine.
     pub fn program(&self, name: &str, machine: &Names) -> Result<Box<dyn PlcProgram>, Problem> {
         let Some(constructor) = self.0.get(name) else {
             let known = self.names().collect::<Vec<_>>().join("`, `");

@@ -1,4 +1,4 @@
-//! Tests of programs in general and of the registry.
+//! Tests of PLC programs in general and of the registry.
 
 use crate::image::Names;
 use crate::units::Time;
@@ -27,7 +27,7 @@ fn count(bench: &mut Bench, program: &mut dyn PlcProgram) -> u16 {
 }
 
 #[test]
-fn a_program_remembers_from_scan_to_scan_and_forgets_at_reset() {
+fn a_program_keeps_its_state_between_scans_and_clears_it_at_reset() {
     let (mut bench, mut program) = (Bench::with_axes(&["X"]), counting());
     assert_eq!(count(&mut bench, &mut *program), 1);
     assert_eq!(count(&mut bench, &mut *program), 2);
@@ -44,7 +44,7 @@ fn startup_runs_before_the_first_scan_and_only_when_called() {
 }
 
 #[test]
-fn a_fork_goes_on_by_itself() {
+fn a_fork_continues_independently() {
     let (mut bench, mut program) = (Bench::with_axes(&["X"]), counting());
     count(&mut bench, &mut *program);
     let mut fork = program.fork().unwrap();
@@ -55,7 +55,7 @@ fn a_fork_goes_on_by_itself() {
 }
 
 #[test]
-fn a_saved_program_goes_on_where_it_was() {
+fn a_saved_program_continues_where_it_stopped() {
     let (mut bench, mut first) = (Bench::with_axes(&["X"]), counting());
     count(&mut bench, &mut *first);
     let saved = first.save();
@@ -78,11 +78,11 @@ fn the_state_of_another_program_is_refused() {
 fn a_program_can_stop_the_plc() {
     let mut bench = Bench::with_axes(&["X"]);
     let mut stops = program_with_fault("stops", (), |(), io| {
-        if io.time > Time::from_millis(15) { Err(PlcFault::new("I0.0 broke")) } else { Ok(()) }
+        if io.time > Time::from_millis(15) { Err(PlcFault::new("I0.0 failed")) } else { Ok(()) }
     });
     assert_eq!(bench.scan(&mut stops), Ok(()));
     let fault = bench.scan(&mut stops).unwrap_err();
-    assert_eq!(fault.to_string(), "the PLC program stopped: I0.0 broke");
+    assert_eq!(fault.to_string(), "the PLC program stopped: I0.0 failed");
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn a_program_finds_axes_by_name() {
 }
 
 #[test]
-fn programs_are_found_by_name_and_a_misspelt_one_names_its_neighbour() {
+fn programs_are_found_by_name_and_a_misspelt_name_gets_a_suggestion() {
     let programs = Programs::ready().with("mine", |_| Ok(counting()));
     let names = Names::default();
     assert!(programs.names().eq([

@@ -256,7 +256,7 @@ fn a_closure_works_on_its_own_structures_and_one_for_another_control_stops_the_p
     count.scan(&mut io(&mut memory, &names)).unwrap();
     assert_eq!(memory.to_nck[1], 1);
     let fault = enable_all().scan(&mut io(&mut memory, &names)).unwrap_err();
-    assert_eq!(fault.reason, "`enable_all` is written for another interface than own");
+    assert_eq!(fault.reason, "`enable_all` is written for another interface than own, the interface of this machine");
 }
 
 #[test]

@@ -1,17 +1,17 @@
-//! `enable_all`: every axis of the machine is enabled, always.
+//! `enable_all`: enables every axis of the machine at all times.
 //!
-//! On each axis that exists it sets position measuring system 1 (DBX1.5), controller enable (DBX2.1) and pulse enable
-//! (DBX21.7), and touches nothing else. No override is needed: with override active (DBX1.7) at 0 it counts as 100 %.
+//! On each existing axis it sets position measuring system 1 (DBX1.5), controller enable (DBX2.1) and pulse enable (DBX21.7). It writes
+//! no other signal. No override is needed: while override active (DBX1.7) is 0, the override is 100 %.
 
 use crate::plc::{ClosureProgram, PlcIo, program};
 
-/// Every axis enabled.
+/// Enables every axis.
 #[must_use]
 pub fn enable_all() -> ClosureProgram<()> {
     program("enable_all", (), |(), io| enable(io))
 }
 
-/// What every ready program does first.
+/// The part that all built-in programs have in common.
 pub(super) fn enable(io: &mut PlcIo<'_>) {
     for number in io.axes() {
         let axis = io.to_nck.axis(number);
@@ -44,7 +44,7 @@ mod tests {
     }
 
     #[test]
-    fn what_somebody_takes_away_is_set_again_in_the_next_scan() {
+    fn a_signal_that_was_reset_is_set_again_in_the_next_scan() {
         let mut bench = Bench::with_axes(&["X"]);
         let mut program = enable_all();
         bench.scan(&mut program).unwrap();

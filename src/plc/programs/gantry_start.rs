@@ -1,13 +1,13 @@
-//! `gantry_start`: enables every axis, and starts the synchronization of a gantry grouping as soon as it may start.
+//! `gantry_start`: enables every axis, and starts the synchronization of a gantry grouping as soon as the grouping is ready.
 //!
-//! On each axis, start gantry synchronization (DBX29.4) follows gantry synchronization ready to start (DBX101.4); the
-//! NCK reports it, and evaluates the answer, on the leading axis only.
+//! On each axis, start gantry synchronization (DBX29.4) follows gantry synchronization ready to start (DBX101.4). The NCK reports this
+//! signal on the leading axis only, and evaluates the start signal there only.
 
 use crate::plc::{ClosureProgram, program};
 
 use super::enable_all::enable;
 
-/// Every axis enabled, every grouping synchronized as soon as it is ready.
+/// Enables every axis and synchronizes every gantry grouping as soon as it is ready.
 #[must_use]
 pub fn gantry_start() -> ClosureProgram<()> {
     program("gantry_start", (), |(), io| {

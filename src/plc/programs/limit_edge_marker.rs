@@ -1,18 +1,18 @@
-//! `limit_edge_marker`: enables every axis, and keeps in flags what a warning did that nobody saw.
+//! `limit_edge_marker`: enables every axis, and records short warnings in flags.
 //!
-//! A warning limit that is exceeded for a moment only (gantry warning limit exceeded, DBX101.3) is gone before anybody looks
-//! (G1 2.7.4: the setting of the limits). Here each rising edge on a synchronous axis (101.7 = 1, 101.6 = 0) leaves a marker and is
-//! counted; the axis has its number in the machine:
-//!
+//! A warning limit can be exceeded for a moment only (gantry warning limit exceeded, DBX101.3), too short for an operator to notice
+//! (G1 2.7.4: the setting of the limits). This program sets a marker and counts each rising edge on a synchronous axis (101.7 = 1,
+//! 101.6 = 0). The axis number is the number in the machine:
+//! | flag | meaning |
 //! | flag | what |
 //! |---|---|
 //! | M20.0 to M23.6 | marker of axis 1 to 31: M20.0 is axis 1, M20.7 axis 8, M21.0 axis 9 |
 //! | M24.0 | a marker of any axis |
-//! | M24.1 | set from outside: markers and counts go to 0; the program puts it back |
+//! | M24.1 | reset request from outside: markers and counts are set to 0; the program then resets M24.1 |
 //! | MW30 to MW90 | edges of axis 1 to 31: MW(28 + 2 × axis), at most 65535 |
 //!
-//! A limit that is exceeded when the program starts counts as an edge. An edge that comes and goes between two scans of the PLC
-//! is not seen: `plc_cycle` of the plant says how often it scans.
+//! A limit that is already exceeded when the program starts counts as an edge. An edge that begins and ends between two scans of the PLC
+//! is not detected; `plc_cycle` of the plant sets the scan interval.
 
 use serde::{Deserialize, Serialize};
 
@@ -21,20 +21,20 @@ use crate::units::PerAxis;
 
 use super::enable_all::enable;
 
-/// The marker of axis 1; the others follow bit by bit.
+/// The byte of the marker of axis 1; the other markers follow bit by bit.
 const MARKERS: usize = 20;
-/// A marker of any axis, and what takes all of them back.
+/// The byte with the summary marker (any axis) and the reset request.
 const SUMMARY: usize = 24;
-/// The count of axis 1; the others follow word by word.
+/// The byte of the count of axis 1; the other counts follow word by word.
 const COUNTS: usize = 30;
 
-/// What it remembers: 101.3 of each axis in the last scan.
+/// The state: DBX101.3 of each axis in the previous scan.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct LimitEdgeMarker {
     edges: PerAxis<RisingEdge>,
 }
 
-/// Every axis enabled; each rising edge of DBX101.3 of a synchronous axis is marked and counted in flags.
+/// Enables every axis; marks and counts each rising edge of DBX101.3 of a synchronous axis in flags.
 #[must_use]
 pub fn limit_edge_marker() -> ClosureProgram<LimitEdgeMarker> {
     program("limit_edge_marker", LimitEdgeMarker::default(), |memory, io| {
@@ -64,7 +64,7 @@ mod tests {
     use crate::plc::bench::Bench;
 
     #[test]
-    fn edges_of_synchronous_axes_are_marked_and_counted_and_those_of_no_other() {
+    fn only_edges_of_synchronous_axes_are_marked_and_counted() {
         let mut bench = Bench::with_axes(&["X", "Y", "XF"]);
         let mut program = limit_edge_marker();
         for value in [0, 1, 1, 0, 1] {
@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn markers_and_counts_are_taken_back_and_what_is_still_there_is_no_new_edge() {
+    fn markers_and_counts_are_reset_and_a_limit_still_exceeded_is_no_new_edge() {
         let mut bench = Bench::with_axes(&["X", "XF"]);
         let mut program = limit_edge_marker();
         bench.set("DB32.DBB101", 0b1000_1000);
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn a_count_stays_at_its_greatest_value() {
+    fn a_count_stops_at_its_maximum() {
         let mut bench = Bench::with_axes(&["X", "XF"]);
         bench.set("MW32", 65535);
         bench.set("DB32.DBB101", 0b1000_1000);

@@ -1,29 +1,29 @@
-//! `machine_control_panel`: a machine driven by the keys of a machine control panel, as inputs I0.0 to I7.7, with the lamps of
-//! the keys at the same places of Q. It enables every axis as `enable_all` does.
+//! `machine_control_panel`: operates a machine with the keys of a machine control panel. The keys are inputs I0.0 to I7.7, the lamps of
+//! the keys are the outputs with the same numbers. The program enables every axis like `enable_all`.
 //!
-//! The layout is ours. It groups the keys as the panels of such controls do (modes, increments, program keys, override switch,
-//! axes, directions), but is no image of one of them:
+//! The layout belongs to this project. It groups the keys like the panels of such controls (modes, increments, program keys, override
+//! switch, axes, directions), but does not copy a particular panel:
 //!
 //! ```text
 #![doc = include_str!("machine_control_panel.txt")]
 //! ```
 //!
-//! ACK is E-STOP ACK, CHAIN the emergency stop chain, OVR the override switch, KEY the key-operated switch. The lamp of a key has
-//! the place of the key; `ref'd` are the axes that are referenced, `stop` is the emergency stop (106.1), `ready` NC ready (108.7).
+//! ACK is E-STOP ACK, CHAIN is the emergency stop chain, OVR is the override switch, KEY is the key-operated switch. The lamp of a key has
+//! the same position as the key. `ref'd` are the referenced axes, `stop` is the emergency stop (106.1), `ready` is NC ready (108.7).
 //!
-//! * Keys are 1 while they are pressed. A mode key asks for its mode (DB11.DBX0.0 to 0.2) while it is pressed.
-//! * REF asks for JOG, and for the machine function REF (DB11.DBX1.2) until a mode key is pressed or JOG is not active any more.
-//! * An increment key selects its increment (DB11.DBB2, with DB10.DBX57.0) until JOG or REF is pressed: continuous (2.6) again.
-//! * An axis key selects its axis; of several the lowest, and only one that the machine has. Nothing is selected after power on.
-//! * The direction keys (I5.0 minus, I5.2 plus, I5.1 rapid traverse) are those of the selected axis (DBX4.6, 4.7, 4.5); all
-//!   other axes have theirs at 0. Both directions together are passed on; the control takes them as none.
-//! * The override switch has its position in Gray code, I3.0 the lowest bit: MD12000 and MD12020 must say Gray, as they do by
-//!   default. It goes to every axis (DBB0 with 1.7) and to channel 1 (DB21.DBB4 with 6.7). All 0 is position 1, 0 %.
-//! * RESET is RESET of mode group 1 (DB11.DBX0.7) and of channel 1 (DB21.DBX7.7). START, STOP (of the NC) and SINGLE (block) are
+//! * A key is 1 while it is pressed. A mode key requests its mode (DB11.DBX0.0 to 0.2) while it is pressed.
+//! * REF requests JOG, and also the machine function REF (DB11.DBX1.2) until a mode key is pressed or JOG is no longer active.
+//! * An increment key selects its increment (DB11.DBB2, with DB10.DBX57.0) until JOG or REF is pressed, which select continuous (2.6).
+//! * An axis key selects its axis if the machine has it; of several keys, the lowest wins. No axis is selected after power on.
+//! * The direction keys (I5.0 minus, I5.2 plus, I5.1 rapid traverse) act on the selected axis (DBX4.6, 4.7, 4.5); these signals are 0 on
+//!   all other axes. Both directions at once are passed on; the control treats them as no direction.
+//! * The override switch gives its position in Gray code, I3.0 is the lowest bit. MD12000 and MD12020 must be set to Gray, which is their
+//!   default. The position is written to every axis (DBB0 with 1.7) and to channel 1 (DB21.DBB4 with 6.7). All 0 is position 1, 0 %.
+//! * RESET acts on mode group 1 (DB11.DBX0.7) and on channel 1 (DB21.DBX7.7). START, STOP (of the NC) and SINGLE (block) are
 //!   DB21.DBX7.1, 7.3 and 0.4. The key-operated switch is DB10.DBX56.4 to 56.7.
-//! * The emergency stop chain is closed current: I7.0 = 0 is an emergency stop (DB10.DBX56.1), so a panel without any input stands
-//!   still. E-STOP ACK, pressed when the chain is closed, holds 56.2 and mode group RESET of both mode groups (DB11.DBX0.7 and
-//!   20.7) until the control has left the emergency stop (106.1 = 0); an open chain ends that.
+//! * The emergency stop chain is a closed circuit: I7.0 = 0 is an emergency stop (DB10.DBX56.1), so a panel without inputs keeps the
+//!   machine stopped. E-STOP ACK, pressed while the chain is closed, holds 56.2 and mode group RESET of both mode groups (DB11.DBX0.7 and
+//!   20.7) until the control has left the emergency stop (106.1 = 0) or the chain opens.
 
 use serde::{Deserialize, Serialize};
 
@@ -32,25 +32,25 @@ use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 
 use super::enable_all::enable;
 
-/// Which bit is what, as the head of `machine_control_panel` shows it.
+/// The assignment of the bits, as shown in the docs of `machine_control_panel`.
 pub const MACHINE_CONTROL_PANEL_LAYOUT: &str = include_str!("machine_control_panel.txt");
 
-/// How many axes have keys.
+/// The number of axes that have keys.
 const AXIS_KEYS: u8 = 8;
 
-/// What the panel remembers of its keys.
+/// The state of the keys.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct MachineControlPanel {
     reference: bool,
-    /// Bit of DB11.DBB2.
+    /// The selected bit of DB11.DBB2.
     increment: Option<u8>,
     selected: Option<AxisNumber>,
     acknowledge: RisingEdge,
-    /// Acknowledge and RESET are held until the emergency stop is left.
+    /// Whether acknowledge and RESET are held until the emergency stop is left.
     acknowledging: bool,
 }
 
-/// Every axis enabled; keys at I0.0 to I7.1, lamps at Q0.0 to Q7.3.
+/// Enables every axis; keys at I0.0 to I7.1, lamps at Q0.0 to Q7.3.
 #[must_use]
 pub fn machine_control_panel() -> ClosureProgram<MachineControlPanel> {
     program("machine_control_panel", MachineControlPanel::default(), |panel, io| {
@@ -106,7 +106,7 @@ impl MachineControlPanel {
         nck.set_key_operated_switch_position_3(io.inputs.bit(2, 7));
         io.to_nck.mode_group(ModeGroupNumber::FIRST).set_mode_group_reset(reset || self.acknowledging);
         io.to_nck.channel(ChannelNumber::FIRST).set_channel_reset(reset);
-        // RESET of another mode group is not the panel's, but for the acknowledgement, which needs it of all.
+        // The panel does not RESET other mode groups, except for the acknowledgement, which requires the RESET of all mode groups.
         if self.acknowledging || acknowledged {
             for group in ModeGroupNumber::all().filter(|group| *group != ModeGroupNumber::FIRST) {
                 io.to_nck.mode_group(group).set_mode_group_reset(self.acknowledging);
@@ -170,7 +170,7 @@ impl MachineControlPanel {
     }
 }
 
-/// NC start and stop, single block, the override of channel 1.
+/// NC start and stop, single block, and the override of channel 1.
 fn run_programs(io: &mut PlcIo<'_>) {
     let channel = io.to_nck.channel(ChannelNumber::FIRST);
     channel.set_nc_stop(io.inputs.bit(2, 0));
@@ -186,7 +186,7 @@ mod tests {
     use crate::plc::ClosureProgram;
     use crate::plc::bench::Bench;
 
-    /// A key is pressed for one scan, and released for another.
+    /// Presses a key for one scan and releases it for the next.
     fn press<S>(bench: &mut Bench, program: &mut ClosureProgram<S>, key: &str)
     where
         ClosureProgram<S>: crate::plc::PlcProgram,
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn every_key_has_one_place_and_writes_one_signal_while_it_is_pressed() {
+    fn every_key_has_one_input_and_writes_its_signal_while_it_is_pressed() {
         let keys = [
             ("I0.0", "DB11.DBX0.0"),
             ("I0.1", "DB11.DBX0.1"),
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn an_increment_stays_until_jog_gives_continuous_back() {
+    fn an_increment_stays_until_jog_selects_continuous() {
         let mut bench = Bench::with_axes(&["X"]);
         let mut program = machine_control_panel();
         bench.scan(&mut program).unwrap();
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn the_direction_keys_are_those_of_the_selected_axis() {
+    fn the_direction_keys_act_on_the_selected_axis() {
         let mut bench = Bench::with_axes(&["X", "Y"]);
         let mut program = machine_control_panel();
         let keys = |bench: &Bench| [bench.get("DB31.DBB4"), bench.get("DB32.DBB4")];
@@ -267,7 +267,7 @@ mod tests {
         press(&mut bench, &mut program, "I4.1");
         assert_eq!(keys(&bench), [0, 0b1000_0000]);
         press(&mut bench, &mut program, "I4.2");
-        assert_eq!(keys(&bench), [0, 0b1000_0000], "there is no third axis");
+        assert_eq!(keys(&bench), [0, 0b1000_0000], "the machine has no third axis");
         press(&mut bench, &mut program, "I4.0");
         bench.set("IB5", 0b011);
         bench.scan(&mut program).unwrap();

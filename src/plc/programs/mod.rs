@@ -1,4 +1,4 @@
-//! The ready programs, one file each.
+//! The built-in programs, one file each.
 
 mod enable_all;
 mod gantry_start;

@@ -1,15 +1,14 @@
-//! `shared_reference_cam`: enables every axis; one reference cam, that of the leading axis, serves all axes of the
-//! gantry grouping.
+//! `shared_reference_cam`: enables every axis, and uses the reference cam of the leading axis for all axes of the gantry grouping.
 //!
-//! The leading axis is the first axis with gantry leading axis (DBX101.6) = 1. Its deceleration of reference point
-//! approach (DBX12.7), wherever that comes from, is copied to every other axis with gantry axis (DBX101.7) = 1.
-//! Without a leading axis nothing is copied. A machine with two groupings and two cams needs a program of its own.
+//! The leading axis is the first axis with gantry leading axis (DBX101.6) = 1. Its deceleration of reference point approach (DBX12.7),
+//! from any source, is copied to every other axis with gantry axis (DBX101.7) = 1. Without a leading axis, nothing is copied. A machine
+//! with two groupings and two cams needs its own program.
 
 use crate::plc::{ClosureProgram, program};
 
 use super::enable_all::enable;
 
-/// Every axis enabled, one reference cam for the grouping.
+/// Enables every axis; one reference cam serves the gantry grouping.
 #[must_use]
 pub fn shared_reference_cam() -> ClosureProgram<()> {
     program("shared_reference_cam", (), |(), io| {
