@@ -1,4 +1,4 @@
-//! The alarms that are pending, and when each of them came.
+//! The pending alarms, and the time at which each of them was raised.
 
 use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::Place;
 use crate::units::{AxisNumber, ChannelNumber, Time};
 
-/// How many alarms can be pending at once.
+/// The maximum number of pending alarms.
 const ALARMS: usize = 64;
 
 /// One parameter of an alarm, `%1` to `%4` in its text.
@@ -25,52 +25,53 @@ pub enum Parameter {
     Direction(i8),
 }
 
-/// Number of an alarm in the manual's list; from [`AlarmNumber::OWN`] on, one that has only a name of our own (O-18).
+/// Number of an alarm in the list of the manual. Numbers from [`AlarmNumber::OWN`] on stand for alarms that have only a name (O-18).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct AlarmNumber(pub u32);
 
 impl AlarmNumber {
-    /// The first number that stands for a name of our own and is never shown.
+    /// The first number that stands for a name; it is never shown.
     pub const OWN: u32 = 1_000_000;
 }
 
 /// An alarm or message that is pending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RaisedAlarm {
-    /// Which one.
+    /// The number of the alarm.
     pub number: AlarmNumber,
-    /// Whose.
+    /// The place that it belongs to.
     pub place: Place,
-    /// `%1` to `%4`.
+    /// The parameters `%1` to `%4`.
     pub parameters: [Parameter; 4],
 }
 
-/// When an alarm came.
+/// When an alarm was raised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Arrival {
-    /// The how many-th alarm since power on it is, from 1.
+    /// Sequence number since power on, from 1.
     pub ordinal: u32,
-    /// Simulated time of the cycle that raised it.
+    /// Simulated time of the cycle that raised the alarm.
     pub time: Time,
 }
 
-/// The alarms that are pending, in order of number and place; bounded, because a list on a control is.
+/// The pending alarms, in order of number and place. The list is bounded, as on a real control.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Alarms {
     raised: ArrayVec<RaisedAlarm, ALARMS>,
-    /// Of each of them, at the same index.
+    /// The arrival of each alarm, at the same index.
     arrivals: ArrayVec<Arrival, ALARMS>,
-    /// How many there were since power on.
+    /// The number of alarms since power on.
     ordinals: u32,
-    /// How many of those have their time.
+    /// The number of alarms that have a time.
     dated: u32,
 }
 
 impl Alarms {
-    /// How many alarms can be pending at once.
+    /// The maximum number of pending alarms.
     pub const CAPACITY: usize = ALARMS;
 
-    /// Takes over what is pending now, in order of number and place. Who stays keeps its ordinal number and its time.
+    /// Takes over the alarms that are pending now, in order of number and place. An alarm that remains pending keeps its sequence number
+    /// and its time.
     pub fn publish(&mut self, pending: impl Iterator<Item = RaisedAlarm>) {
         let (before, arrivals) = (self.raised.clone(), self.arrivals.clone());
         self.raised.clear();
@@ -86,7 +87,7 @@ impl Alarms {
         }
     }
 
-    /// Gives the time to those that are new since it was last called.
+    /// Sets the time of the alarms that are new since the last call.
     pub fn date(&mut self, now: Time) {
         if self.dated != self.ordinals {
             for arrival in self.arrivals.iter_mut().filter(|arrival| arrival.ordinal > self.dated) {
@@ -96,23 +97,23 @@ impl Alarms {
         }
     }
 
-    /// All that are pending.
+    /// All pending alarms.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &RaisedAlarm> {
         self.raised.iter()
     }
 
-    /// All that are pending with their arrivals, in order of number and place.
+    /// All pending alarms with their arrivals, in order of number and place.
     pub fn arrivals(&self) -> impl ExactSizeIterator<Item = (&RaisedAlarm, Arrival)> {
         self.raised.iter().zip(self.arrivals.iter().copied())
     }
 
-    /// How many are pending.
+    /// The number of pending alarms.
     #[must_use]
     pub fn count(&self) -> usize {
         self.raised.len()
     }
 
-    /// The pending alarm of this number, at this place if one is named.
+    /// The pending alarm with this number, at this place if a place is given.
     #[must_use]
     pub fn find(&self, number: AlarmNumber, place: Option<Place>) -> Option<&RaisedAlarm> {
         self.raised.iter().find(|alarm| alarm.number == number && place.is_none_or(|place| alarm.place == place))
@@ -128,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn who_stays_keeps_its_ordinal_number_and_its_time() {
+    fn an_alarm_that_remains_pending_keeps_its_sequence_number_and_its_time() {
         let mut alarms = Alarms::default();
         alarms.publish([alarm(20000)].into_iter());
         alarms.date(Time::from_millis(2));
@@ -138,7 +139,7 @@ mod tests {
         let arrivals: Vec<_> =
             alarms.arrivals().map(|(alarm, came)| (alarm.number.0, came.ordinal, came.time)).collect();
         assert_eq!(arrivals, [(3000, 2, Time::from_millis(4)), (20000, 1, Time::from_millis(2))]);
-        // Who goes and comes again is another one.
+        // An alarm that is cleared and raised again is a new alarm.
         alarms.publish([alarm(3000)].into_iter());
         alarms.publish([alarm(3000), alarm(20000)].into_iter());
         alarms.date(Time::from_millis(8));

@@ -1,14 +1,14 @@
-//! Values beside signals, as scenarios and traces name them: `X.position`, `XF.synchronism_difference`.
+//! Axis values in addition to signals, with their names in scenarios and traces: `X.position`, `XF.synchronism_difference`.
 
 use std::fmt;
 
 use super::Variables;
 use crate::units::AxisNumber;
 
-/// What can be asked of a machine axis beside its signals.
+/// A value of a machine axis that is not a signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum AxisValue {
-    /// Actual value shown, in mm or degrees.
+    /// Displayed actual value, in mm or degrees.
     Position,
     /// Setpoint, in mm or degrees.
     Setpoint,
@@ -16,20 +16,20 @@ pub enum AxisValue {
     Velocity,
     /// Setpoint minus actual value, in mm or degrees.
     FollowingError,
-    /// True position of the slide, in mm or degrees.
+    /// True position of the simulated slide, in mm or degrees.
     Slide,
     /// Actual value minus ideal position of a synchronous axis, in mm or degrees.
     SynchronismDifference,
-    /// Actual value of encoder 1, in mm or degrees, whether it is active or not.
+    /// Actual value of encoder 1, in mm or degrees, active or not.
     Encoder1,
-    /// Actual value of encoder 2, as encoder 1.
+    /// Actual value of encoder 2, in mm or degrees, active or not.
     Encoder2,
-    /// The way that is left of a movement that has an end, in mm or degrees, with its sign.
+    /// Remaining distance of a movement with a target, in mm or degrees, with sign.
     DistanceToGo,
 }
 
 impl AxisValue {
-    /// All of them, in the order of the manual's service view.
+    /// All values, in the order of the service view of the manual.
     pub const ALL: [Self; 9] = [
         Self::Position,
         Self::Setpoint,
@@ -42,7 +42,7 @@ impl AxisValue {
         Self::DistanceToGo,
     ];
 
-    /// The name behind the axis name.
+    /// The name after the axis name.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -58,13 +58,13 @@ impl AxisValue {
         }
     }
 
-    /// The value of this name.
+    /// The value with this name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|value| value.name() == name)
     }
 
-    /// What it is on this axis now.
+    /// The value of this axis now.
     #[must_use]
     pub fn of(self, axis: AxisNumber, variables: &Variables) -> f64 {
         let values = &variables.axes[axis];
@@ -88,7 +88,7 @@ impl fmt::Display for AxisValue {
     }
 }
 
-/// Six decimals, and never a minus before zero.
+/// Formats with six decimals; a zero has no minus sign.
 #[must_use]
 pub fn six_decimals(value: f64) -> String {
     let text = format!("{value:.6}");
@@ -100,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_value_is_found_by_its_name_and_nothing_else_is() {
+    fn only_the_name_of_a_value_is_found() {
         for value in AxisValue::ALL {
             assert_eq!(AxisValue::named(value.name()), Some(value));
         }

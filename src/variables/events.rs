@@ -1,7 +1,7 @@
 //! Events: each transition of a state machine in the control, with the rule that allowed it and the inputs that it tested.
 //!
-//! An event is plain numbers; it becomes text only when somebody prints it. Events form chains: `parent` is the
-//! event (or the edge of a signal, among the inputs) that led to this one.
+//! An event consists of numbers; it becomes text only when it is printed. Events form chains: `parent` is the event that led to this one
+//! (an edge of a signal can also lead to it and is then among the inputs).
 
 use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::Place;
 use crate::units::{AxisNumber, Position};
 
-/// Number of an event, ascending from one; zero is "no event".
+/// Number of an event, ascending from one; zero means "no event".
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct EventId(pub u32);
 
@@ -17,18 +17,18 @@ impl EventId {
     /// No event.
     pub const NONE: Self = Self(0);
 
-    /// Whether there is one.
+    /// Whether this is an event.
     #[must_use]
     pub const fn is_some(self) -> bool {
         self.0 != 0
     }
 }
 
-/// Number of a rule in the control's table.
+/// Number of a rule in the table of the control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RuleNumber(pub u16);
 
-/// A rule: where it is written, and what it says happened.
+/// A rule: its source and the text of what happened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rule {
     /// Requirement ID, decision or place in a manual: `REF-11`.
@@ -37,10 +37,10 @@ pub struct Rule {
     pub text: &'static str,
 }
 
-/// One bit of the interface, by owner and place in its data block.
+/// One bit of the interface, by owner and position in its data block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SignalBit {
-    /// Whose block.
+    /// The owner of the block.
     pub place: Place,
     /// Byte of the block.
     pub byte: u16,
@@ -48,7 +48,7 @@ pub struct SignalBit {
     pub bit: u8,
 }
 
-/// What a measured or computed length is.
+/// The meaning of a measured or computed length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Quantity {
     /// Synchronism difference.
@@ -63,10 +63,10 @@ pub enum Quantity {
     Velocity,
 }
 
-/// An input of a decision with the value it had.
+/// An input of a decision, with its value at that time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Input {
-    /// Nothing.
+    /// Unused.
     #[default]
     None,
     /// A signal.
@@ -79,27 +79,27 @@ pub enum Input {
     Alarm(u32),
 }
 
-/// A transition: when, whose, by which rule, from which inputs, and what led to it.
+/// A transition: its cycle, place, rule, inputs and parent.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Event {
-    /// Its number.
+    /// The number of the event.
     pub id: EventId,
     /// The cycle in which it happened.
     pub cycle: u64,
-    /// Who.
+    /// The place where it happened.
     pub place: Place,
-    /// Which rule allowed it.
+    /// The rule that allowed it.
     pub rule: RuleNumber,
-    /// What was tested.
+    /// The inputs that were tested.
     pub inputs: [Input; 3],
-    /// What led to it.
+    /// The event that led to it.
     pub parent: EventId,
 }
 
-/// How many events are kept.
+/// The number of events that are kept.
 const CAPACITY: usize = 128;
 
-/// The latest events, in a ring.
+/// The latest events, in a ring buffer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Events {
     ring: ArrayVec<Event, CAPACITY>,
@@ -107,7 +107,7 @@ pub struct Events {
 }
 
 impl Events {
-    /// Notes an event.
+    /// Records an event and returns its number.
     pub fn push(&mut self, cycle: u64, place: Place, rule: RuleNumber, inputs: [Input; 3], parent: EventId) -> EventId {
         self.last = self.last.wrapping_add(1).max(1);
         let id = EventId(self.last);
@@ -124,12 +124,12 @@ impl Events {
         EventId(self.last)
     }
 
-    /// The events after this one, as far as they are kept, in order.
+    /// The events after the given one that are still kept, in order.
     pub fn since(&self, id: EventId) -> impl Iterator<Item = &Event> {
         (id.0.saturating_add(1)..=self.last).filter_map(|number| self.find(EventId(number)))
     }
 
-    /// An event that is still kept.
+    /// An event by its number, if it is still kept.
     #[must_use]
     pub fn find(&self, id: EventId) -> Option<&Event> {
         let place = (id.0 as usize).checked_sub(1)? % CAPACITY;

@@ -1,8 +1,7 @@
-//! WHAT THE CONTROL SHOWS BESIDES BITS: axis values, raised alarms, and events with their causes.
+//! The output of the control in addition to signals: axis values, raised alarms, and events with their causes.
 //!
-//! The control writes all of it once in each cycle, in the stage "publish"; traces, expressions and clients read it.
-//! Nothing here knows a particular control: alarms and rules are numbers, whose texts the control gives
-//! through [`Describe`].
+//! The control writes all of it once per cycle, in the stage "publish". Traces, expressions and clients read it. This module is
+//! independent of a particular control: alarms and rules are numbers, and the control provides their texts through [`Describe`].
 
 mod alarms;
 mod axis_value;
@@ -21,7 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::image::Names;
 use crate::units::{AxisNumber, PerAxis, Position};
 
-/// What one machine axis shows, as the actual-value display and the service-axes view do.
+/// The values of one machine axis, as in the actual-value display and the service-axes view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AxisValues {
     /// Actual value in the machine coordinate system, from the active measuring system.
@@ -34,42 +33,42 @@ pub struct AxisValues {
     pub following_error: Position,
     /// True position of the slide, in the machine frame of the plant.
     pub slide: Position,
-    /// Actual value minus ideal position (MON-01); zero on everything but a synchronous axis.
+    /// Actual value minus ideal position (MON-01); zero on every axis except a synchronous axis.
     pub synchronism_difference: Position,
-    /// Actual values of encoder 1 and 2, whichever of them is active; zero where there is none.
+    /// Actual values of encoders 1 and 2, active or not; zero for an encoder that does not exist.
     pub encoders: [Position; 2],
-    /// The way that is left of a movement that has an end.
+    /// Remaining distance of a movement with a target.
     pub distance_to_go: Position,
 }
 
-/// Everything that the control shows beside bits.
+/// The complete output of the control in addition to signals.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Variables {
     /// The values of each machine axis.
     pub axes: PerAxis<AxisValues>,
-    /// What is pending.
+    /// The pending alarms.
     pub alarms: Alarms,
 }
 
-/// The texts behind the numbers, given by the control.
+/// The texts for the numbers, provided by the control.
 pub trait Describe {
     /// The names of axes and channels.
     fn names(&self) -> &Names;
-    /// The alarm's text with its parameters filled in.
+    /// The text of the alarm with its parameters filled in.
     fn alarm_text(&self, alarm: &RaisedAlarm) -> String;
-    /// The alarm as it is called: its number, or a name of our own.
+    /// The displayed name of the alarm: its number, or its name if it has only a name.
     fn alarm_name(&self, number: AlarmNumber) -> String;
-    /// The number behind a name of our own.
+    /// The number that stands for the name of an alarm.
     fn alarm_number(&self, name: &str) -> Option<AlarmNumber>;
-    /// Whether the control has an alarm of this number at all.
+    /// Whether the control defines an alarm with this number.
     fn has_alarm(&self, _: AlarmNumber) -> bool {
         true
     }
-    /// A rule by its number.
+    /// The rule with this number.
     fn rule(&self, rule: RuleNumber) -> Rule;
-    /// What a machine datum is called: `MD37110`.
+    /// The displayed name of a machine datum: `MD37110`.
     fn datum_name(&self, number: u32) -> String;
-    /// Whether the lengths of an axis are degrees.
+    /// Whether positions of the axis are in degrees.
     fn is_rotary(&self, _axis: AxisNumber) -> bool {
         false
     }

@@ -1,11 +1,11 @@
-//! The places of a control: itself, its mode groups, channels and machine axes, and their names.
+//! The places of a control: the control itself, its mode groups, channels and machine axes, and their names.
 
 use serde::{Deserialize, Serialize};
 
 use crate::image::{Block, Names};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 
-/// Whose it is: the place of an alarm, of an event, of a signal.
+/// The owner of an alarm, an event or a signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Place {
     /// The whole control.
@@ -19,7 +19,7 @@ pub enum Place {
 }
 
 impl Place {
-    /// The place behind a block of the interface; `None` for a number that there cannot be.
+    /// The place that owns a block of the interface; `None` for an invalid number.
     #[must_use]
     pub fn of_block(block: Block, number: u8) -> Option<Self> {
         Some(match block {
@@ -30,7 +30,7 @@ impl Place {
         })
     }
 
-    /// The block of the interface that it has: its kind and its number.
+    /// The block of the interface that the place owns: its kind and its number.
     #[must_use]
     pub fn block(self) -> (Block, u8) {
         match self {
@@ -42,7 +42,7 @@ impl Place {
     }
 }
 
-/// Whose it is, by name: `X`, `CHAN1`, `mode_group_1`, `nck`.
+/// The name of a place: `X`, `CHAN1`, `mode_group_1`, `nck`.
 #[must_use]
 pub fn place_name(place: Place, names: &Names) -> String {
     let (block, number) = place.block();
@@ -57,7 +57,7 @@ pub fn place_name(place: Place, names: &Names) -> String {
     }
 }
 
-/// The name of a machine axis; `AX` and its number where it has none.
+/// The name of a machine axis; `AX` and its number if it has no name.
 #[must_use]
 pub fn axis_name(axis: AxisNumber, names: &Names) -> String {
     names.axes[axis].clone().unwrap_or_else(|| format!("AX{axis}"))
