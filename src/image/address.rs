@@ -1,6 +1,6 @@
-//! STEP 7 absolute addresses: `DB31.DBX101.5`, `DB31.DBB101`, `DB21.DBW4`, `DB31.DBD78`, `M10.3`, `IB0`, `QW4`, `T5`,
-//! `C3`, with `:INT`, `:DINT` or `:REAL` behind words and double words. The 828D's four-digit bytes (`DBX0001.2`) are
-//! the same addresses. A group of bits, which STEP 7 cannot name, is written `DB10.DBX100.0..4`.
+//! STEP 7 absolute addresses: `DB31.DBX101.5`, `DB31.DBB101`, `DB21.DBW4`, `DB31.DBD78`, `M10.3`, `IB0`, `QW4`, `T5`, `C3`, with `:INT`,
+//! `:DINT` or `:REAL` after words and double words. The four-digit bytes of the 828D (`DBX0001.2`) are the same addresses. STEP 7 has no
+//! notation for a group of bits; this project writes `DB10.DBX100.0..4`.
 
 use std::fmt;
 use std::str::FromStr;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::{Format, Part};
 use crate::source::Problem;
 
-/// What an address starts from.
+/// The area in which an address begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Area {
     /// A data block, `DB31`.
@@ -28,13 +28,13 @@ pub enum Area {
 }
 
 impl Area {
-    /// The area of a letter: `I`, `Q`, `M`, `T` or `C`.
+    /// The area with this letter: `I`, `Q`, `M`, `T` or `C`.
     pub(super) fn of_letter(letter: &str) -> Option<Self> {
         let areas = [Self::Inputs, Self::Outputs, Self::Flags, Self::Timers, Self::Counters];
         areas.into_iter().zip(["I", "Q", "M", "T", "C"]).find(|(_, known)| *known == letter).map(|(area, _)| area)
     }
 
-    /// Where its bytes lie; of a data block, those of a plain one.
+    /// The part that contains its bytes; for a data block, the part of the data blocks of the program.
     #[must_use]
     pub fn plain_part(self) -> Part {
         match self {
@@ -48,16 +48,16 @@ impl Area {
     }
 }
 
-/// How much an address takes.
+/// The size of an address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Width {
     /// One bit, 0 to 7.
     Bit(u8),
-    /// Neighbouring bits of one byte.
+    /// Adjacent bits of one byte.
     Bits {
-        /// The lowest.
+        /// The lowest bit.
         first: u8,
-        /// The highest.
+        /// The highest bit.
         last: u8,
     },
     /// One byte.
@@ -71,13 +71,13 @@ pub enum Width {
 /// A STEP 7 absolute address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Address {
-    /// Where it starts from.
+    /// The area.
     pub area: Area,
     /// The byte; the number of a timer or counter.
     pub byte: u16,
-    /// How much it takes; timers and counters are words.
+    /// The size; timers and counters are words.
     pub width: Width,
-    /// The number format behind the colon; `None` where the catalogue decides.
+    /// The number format after the colon; `None` if the catalogue decides.
     pub format: Option<Format>,
 }
 
@@ -149,7 +149,7 @@ impl FromStr for Address {
     }
 }
 
-/// The area and what follows it.
+/// The area of an address and the text after it.
 fn area(text: &str) -> Option<(Area, &str)> {
     if let Some(rest) = text.strip_prefix("DB") {
         let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
@@ -159,13 +159,13 @@ fn area(text: &str) -> Option<(Area, &str)> {
     Some((Area::of_letter(area)?, rest))
 }
 
-/// Byte and width of an element after its letter: X, B, W or D.
+/// Byte and size of an element, from the text after its letter: X, B, W or D.
 fn of_kind(kind: &str, rest: &str, text: &str) -> Result<(u16, Width), Problem> {
     let width = match kind {
         "X" => {
             let (byte, bit) = rest
                 .split_once('.')
-                .ok_or_else(|| Problem::new(format!("expected a bit behind the byte, found none in `{text}`"), CURE))?;
+                .ok_or_else(|| Problem::new(format!("expected a bit after the byte, found none in `{text}`"), CURE))?;
             let width = match bit.split_once("..") {
                 None => Width::Bit(bit_number(bit, text)?),
                 Some((first, last)) => {
@@ -173,7 +173,7 @@ fn of_kind(kind: &str, rest: &str, text: &str) -> Result<(u16, Width), Problem> 
                     if first >= last || last - first == 7 {
                         return Err(Problem::new(
                             format!("expected two to seven bits, lowest first, found `{text}`"),
-                            "write DB10.DBX100.0..4, or DBB for the whole byte",
+                            "write DB10.DBX100.0..4 for a group of bits, or DBB for the whole byte",
                         ));
                     }
                     Width::Bits { first, last }
@@ -194,7 +194,7 @@ fn bit_number(digit: &str, text: &str) -> Result<u8, Problem> {
         [digit @ b'0'..=b'7'] => Ok(digit - b'0'),
         _ => Err(Problem::new(
             format!("expected a bit from 0 to 7, found `{digit}` in `{text}`"),
-            "a byte has the bits 0 to 7",
+            "the bits of a byte are 0 to 7",
         )),
     }
 }
@@ -214,8 +214,8 @@ fn format(suffix: &str, width: Width, text: &str) -> Result<Format, Problem> {
         ("REAL", Width::Double) => Ok(Format::Real),
         ("WORD", Width::Word) | ("DWORD", Width::Double) => Ok(Format::Unsigned),
         _ => Err(Problem::new(
-            format!("expected `:INT` behind a word or `:DINT` or `:REAL` behind a double word, found `{text}`"),
-            "without a suffix the number is unsigned",
+            format!("expected `:INT` after a word, or `:DINT` or `:REAL` after a double word, found `{text}`"),
+            "omit the suffix for an unsigned number",
         )),
     }
 }

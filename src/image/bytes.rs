@@ -1,4 +1,4 @@
-//! Areas of plain bytes (inputs, outputs, flags, own data blocks), and how bytes are stored.
+//! Areas of plain bytes (inputs, outputs, flags, data blocks of the program), and their serialization.
 
 use std::fmt;
 use std::ops::{Deref, DerefMut};
@@ -7,24 +7,24 @@ use std::sync::Arc;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// An area of bytes, cheap to clone: copies share the bytes until one of them writes.
+/// An area of bytes. A clone is cheap: it shares the bytes until one of the copies is written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bytes(Arc<Vec<u8>>);
 
 impl Bytes {
-    /// So many bytes, all 0.
+    /// An area of this length, all bytes 0.
     #[must_use]
     pub fn zeroed(length: usize) -> Self {
         Self(Arc::new(vec![0; length]))
     }
 
-    /// One bit, `IB3` bit 4 for `I3.4`; `false` beyond the end.
+    /// One bit: `bit(3, 4)` is bit 4 of byte 3, as in `I3.4`; `false` beyond the end.
     #[must_use]
     pub fn bit(&self, byte: usize, bit: u8) -> bool {
         self.byte(byte) >> (bit % 8) & 1 == 1
     }
 
-    /// Sets one bit; nothing happens beyond the end.
+    /// Sets one bit; has no effect beyond the end.
     pub fn set_bit(&mut self, byte: usize, bit: u8, value: bool) {
         let mask = 1 << (bit % 8);
         let old = self.byte(byte);
@@ -37,7 +37,7 @@ impl Bytes {
         self.0.get(byte).copied().unwrap_or(0)
     }
 
-    /// Sets one byte; nothing happens beyond the end.
+    /// Sets one byte; has no effect beyond the end.
     pub fn set_byte(&mut self, byte: usize, value: u8) {
         if self.0.get(byte).is_some_and(|old| *old != value) {
             Arc::make_mut(&mut self.0)[byte] = value;
@@ -70,7 +70,7 @@ impl Bytes {
         }
     }
 
-    /// A REAL.
+    /// A REAL (floating point number of 32 bits).
     #[must_use]
     pub fn real(&self, byte: usize) -> f32 {
         f32::from_bits(self.double(byte))
@@ -113,7 +113,7 @@ impl<'de> Deserialize<'de> for Bytes {
     }
 }
 
-/// The bytes of a part of the interface. There are always as many as the interface says.
+/// The bytes of a part of the interface. Their number is fixed by the interface.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartBytes(Box<[u8]>);
 
@@ -150,7 +150,7 @@ impl<'de> Deserialize<'de> for PartBytes {
     }
 }
 
-/// Reads bytes in whichever form the format stored them.
+/// Reads bytes, stored either as bytes or as a sequence.
 fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<u8>, D::Error> {
     struct AnyBytes;
 

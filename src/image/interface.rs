@@ -1,5 +1,5 @@
-//! An interface as data: its kinds of block, whose every byte is, its signals and its names. A control brings one; the
-//! rest of this module works on it and knows no control.
+//! An interface as data: its kinds of block, the owner of every byte, its signals and its names. Each control provides one. All other
+//! files of this module use it and are independent of the control.
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -8,53 +8,53 @@ use crate::units::{AxisNumber, AxisSet};
 
 use super::{Block, Format, Kind, Location, Numbering, Part, Signal, Writer};
 
-/// What a control says of its interface.
+/// The description of an interface, provided by a control.
 #[derive(Debug)]
 pub struct Tables {
-    /// What it is called in saved machines.
+    /// The name of the interface in saved machines.
     pub name: &'static str,
-    /// Its kinds of block, each once, in the order of [`Block`].
+    /// The kinds of block, each once, in the order of [`Block`].
     pub blocks: &'static [BlockTable],
-    /// Its signals, run by run.
+    /// The signals, run by run.
     pub signals: &'static [&'static [Signal]],
-    /// Bytes that the PLC writes, with the plain bytes of the blocks.
+    /// The number of bytes that the PLC writes, including the plain bytes of the blocks.
     pub to_nck: usize,
-    /// Bytes that the NCK writes.
+    /// The number of bytes that the NCK writes.
     pub from_nck: usize,
-    /// Bytes that the HMI writes.
+    /// The number of bytes that the HMI writes.
     pub hmi: usize,
-    /// Under which data block numbers the PLC sees the blocks; the first is the usual one.
+    /// The numberings of the data blocks for the PLC; the first is the default.
     pub numberings: &'static [Numbering],
-    /// Data blocks of the control's basic program that exist as plain memory where no PLC image declares them.
+    /// Data blocks of the basic program of the control. They exist as plain memory unless a PLC image declares them.
     pub standard_blocks: &'static [u16],
-    /// Bytes that take a percentage of an override switch.
+    /// The bytes that accept a percentage of an override switch.
     pub overrides: &'static [(Signal, Override)],
-    /// Signals of an axis that the plant sets where a switch is not wired to an input.
+    /// Signals of an axis that the plant sets if a switch is not wired to an input.
     pub switches: Option<SwitchSignals>,
-    /// Where the machine's configuration names axes and channels, for cures of errors.
+    /// The machine data that name axes and channels, for the remedy in error messages.
     pub named_in: &'static str,
-    /// A symbol, for cures of errors.
+    /// An example of a symbol, for the remedy in error messages.
     pub example: &'static str,
 }
 
-/// One kind of block: the bytes that belong to one axis, one channel and so on.
+/// One kind of block: the bytes of one axis, one channel and so on.
 #[derive(Debug)]
 pub struct BlockTable {
-    /// Which kind.
+    /// The kind.
     pub block: Block,
-    /// How many there are.
+    /// The number of blocks of this kind.
     pub count: u8,
-    /// What is before the point of a symbol, one name for each; empty where the machine names them.
+    /// The names before the point of a symbol, one per block; empty if the machine defines the names.
     pub names: &'static [&'static str],
-    /// What messages call one of them: `axis`; where there is only one, with its article.
+    /// The term for one block in messages: `axis`; with its article if only one block exists.
     pub called: &'static str,
-    /// Blocks that share one data block lie so many bytes apart in it; `None`: each has its own.
+    /// The distance in bytes of blocks that share one data block; `None` if each block has its own data block.
     pub apart: Option<u16>,
-    /// Its bytes, ascending and without a gap.
+    /// The bytes of the block, ascending and without gaps.
     pub ranges: &'static [ByteRange],
 }
 
-/// One range of a block: bytes `first` to `last` lie in a part from `base`, `stride` further for each block.
+/// One range of a block: bytes `first` to `last` are stored in a part from `base` on, `stride` bytes apart for each block.
 #[derive(Debug)]
 pub struct ByteRange {
     first: u16,
@@ -66,13 +66,13 @@ pub struct ByteRange {
 }
 
 impl ByteRange {
-    /// Bytes with signals, in the part of their writer.
+    /// A range with signals, in the part of their writer.
     #[must_use]
     pub const fn signals(first: u16, last: u16, part: Part, base: usize, stride: usize) -> Self {
         Self { first, last, part, base, stride, is_plain: false }
     }
 
-    /// Bytes without signals: plain memory that everybody may use, in [`Part::ToNck`].
+    /// A range without signals: plain memory in [`Part::ToNck`] that every program can use.
     #[must_use]
     pub const fn plain(first: u16, last: u16, base: usize, stride: usize) -> Self {
         Self { first, last, part: Part::ToNck, base, stride, is_plain: true }
@@ -83,7 +83,7 @@ impl ByteRange {
     }
 }
 
-/// What an override switch acts on; how it is coded, [`OverrideCoding`](super::OverrideCoding) says.
+/// The object of an override switch. [`OverrideCoding`](super::OverrideCoding) defines its coding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Override {
     /// The feed of an axis.
@@ -94,7 +94,7 @@ pub enum Override {
     RapidTraverse,
 }
 
-/// The signals of an axis behind its switches.
+/// The signals of an axis that its switches set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SwitchSignals {
     /// Reference cam.
@@ -105,31 +105,31 @@ pub struct SwitchSignals {
     pub limit_minus: Signal,
 }
 
-/// Bytes that lie together in one part.
+/// Adjacent bytes in one part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Run {
     /// The part.
     pub(super) part: Part,
-    /// The byte in the part.
+    /// The first byte in the part.
     pub(super) offset: u32,
-    /// How many bytes follow together, this one included.
+    /// The number of adjacent bytes, including the first one.
     pub(super) left: u32,
 }
 
-/// One byte of the interface: whose block it is in, and the signals there.
+/// One byte of the interface: its block and its signals.
 #[derive(Clone, Copy, Debug)]
 pub struct ByteSignals {
     /// The kind of block.
     pub block: Block,
     /// Its number, from one.
     pub number: u8,
-    /// The byte in the block, counted from the block's own start.
+    /// The byte in the block, counted from the start of the block.
     pub byte: u16,
-    /// The signals that touch the byte, lowest bit first.
+    /// The signals that use the byte, lowest bit first.
     pub signals: &'static [&'static Signal],
 }
 
-/// The interface of a control. There is one of each in a process, so that it is compared by its place.
+/// The interface of a control. A process has one instance per control, so interfaces are compared by their address.
 pub struct Interface {
     tables: Tables,
     index: OnceLock<Index>,
@@ -149,17 +149,17 @@ impl fmt::Debug for Interface {
     }
 }
 
-/// What is found once: which signals are where.
+/// Search results that are computed once: the signals at each position.
 struct Index {
-    /// In order of block, byte and bit.
+    /// All signals in order of block, byte and bit.
     signals: Vec<&'static Signal>,
-    /// For each kind of block, the signals that touch each of its bytes.
+    /// For each kind of block, the signals that use each of its bytes.
     by_byte: Vec<Vec<Vec<&'static Signal>>>,
-    /// For each byte of the three parts: the place of its kind of block, the number of the block, and its byte there.
+    /// For each byte of the three parts: the index of its kind of block, the number of the block, and its byte there.
     by_part: [Vec<Option<(usize, u8, u16)>>; 3],
-    /// Which bits of each byte of the NCK's part have a name.
+    /// For each byte of the part of the NCK, the bits that have a name.
     named: Vec<u8>,
-    /// Where the signals of the PLC lie: those of one axis, or of nothing that has axes.
+    /// The positions of the PLC signals: those of one axis, or those without an axis.
     plc_runs: Vec<PlcRun>,
 }
 
@@ -171,11 +171,11 @@ struct PlcRun {
 }
 
 impl Interface {
-    /// An interface from its tables.
+    /// Makes an interface from its tables.
     ///
     /// # Panics
-    /// At compile time, when it is a static: ranges have gaps or leave their part, a signal lies outside its block or in
-    /// the part of another writer, or a kind of block has names for some of its blocks only.
+    /// At compile time, if it is a static: ranges have gaps or exceed their part, a signal is outside its block or in the part of another
+    /// writer, or a kind of block names only some of its blocks.
     #[must_use]
     pub const fn new(tables: Tables) -> Self {
         assert!(!tables.numberings.is_empty(), "an interface has at least one numbering");
@@ -199,26 +199,26 @@ impl Interface {
         Self { tables, index: OnceLock::new() }
     }
 
-    /// What the control says of it.
+    /// The tables of the interface.
     #[must_use]
     pub fn tables(&self) -> &Tables {
         &self.tables
     }
 
-    /// How many blocks of a kind there are.
+    /// The number of blocks of a kind.
     #[must_use]
     pub fn count(&self, block: Block) -> u8 {
         self.table(block).map_or(0, |table| table.count)
     }
 
-    /// The name of a block that has a fixed one.
+    /// The fixed name of a block, if it has one.
     #[must_use]
     pub fn fixed_name(&self, block: Block, number: u8) -> Option<&'static str> {
         let index = usize::from(number).checked_sub(1)?;
         self.table(block)?.names.get(index).copied()
     }
 
-    /// What messages call a block.
+    /// The term for a block in messages.
     pub(super) fn described(&self, block: Block, number: u8) -> String {
         match self.table(block) {
             Some(table) if table.count == 1 => table.called.to_owned(),
@@ -232,7 +232,7 @@ impl Interface {
         self.index().signals.iter().copied()
     }
 
-    /// Where a signal lies for block number `number` of its kind, from one; `None` if there is no such block.
+    /// The location of a signal in block number `number` of its kind, counted from one; `None` if the block does not exist.
     #[must_use]
     pub fn location(&self, signal: &Signal, number: u8) -> Option<Location> {
         if number == 0 || number > self.count(signal.block) {
@@ -245,8 +245,8 @@ impl Interface {
         Some(Location { part: run.part, offset: run.offset, bit, width, format })
     }
 
-    /// Which byte of which block a byte of a part is, and the signals that touch it; `None` for parts outside the
-    /// interface, beyond the end, and for bytes that no block shows.
+    /// The block and byte of a byte of a part, and the signals that use it. `None` for parts outside the interface, beyond the end, and for
+    /// bytes that belong to no block.
     #[must_use]
     pub fn signals_at(&'static self, part: Part, offset: u32) -> Option<ByteSignals> {
         let index = self.index();
@@ -255,7 +255,7 @@ impl Interface {
         Some(ByteSignals { block: self.tables.blocks[kind].block, number, byte, signals })
     }
 
-    /// The signals that share a bit with a place, with the numbers of their blocks.
+    /// The signals that share a bit with a location, with the numbers of their blocks.
     pub(super) fn touching(&'static self, location: Location) -> impl Iterator<Item = (u8, &'static Signal)> {
         let at = move |byte| self.signals_at(location.part, location.offset + byte);
         let bytes = (0..location.bytes()).filter_map(at);
@@ -263,7 +263,7 @@ impl Interface {
         all.filter(move |(number, signal)| self.location(signal, *number).is_some_and(|other| other.overlaps(location)))
     }
 
-    /// The signal that fills a place, with the number of its block.
+    /// The signal with exactly this location, with the number of its block.
     pub(super) fn exactly(&'static self, location: Location) -> Option<(u8, &'static Signal)> {
         self.touching(location).find(|(number, signal)| {
             let place = |l: Location| (l.part, l.offset, l.bit, l.width);
@@ -271,13 +271,13 @@ impl Interface {
         })
     }
 
-    /// What the signal means that fills a place, with its 1 and 0.
+    /// The meaning of the signal with exactly this location, with its 1 and 0.
     #[must_use]
     pub fn meaning(&'static self, location: Location) -> Option<&'static str> {
         self.exactly(location).map(|(_, signal)| signal.doc)
     }
 
-    /// How a number at a place is read when nothing else is said: REAL where the tables have a REAL.
+    /// The default number format of a location: REAL if the tables define a REAL there.
     pub(super) fn usual_format(&'static self, location: Location) -> Format {
         let is_real = self.touching(location).any(|(number, signal)| {
             let same = |other: Location| (other.offset, other.width) == (location.offset, location.width);
@@ -286,15 +286,15 @@ impl Interface {
         if is_real { Format::Real } else { Format::Unsigned }
     }
 
-    /// Sets every signal of the NCK to 0 and leaves plain memory alone: the control publishes anew what somebody else
-    /// overwrote.
+    /// Sets every signal of the NCK to 0 and keeps plain memory unchanged. The control then publishes all signals again, including those
+    /// that a client has overwritten.
     pub fn clear_signals(&'static self, from_nck: &mut [u8]) {
         for (byte, named) in from_nck.iter_mut().zip(self.index().named.iter()) {
             *byte &= !named;
         }
     }
 
-    /// In which blocks the PLC's signals differ: which axes, and whether any other block does.
+    /// The blocks in which PLC signals differ: the set of axes, and whether any other block differs.
     #[must_use]
     pub fn plc_changes(&'static self, before: &[u8], now: &[u8]) -> (AxisSet, bool) {
         let (mut axes, mut others) = (AxisSet::NONE, false);
@@ -309,21 +309,21 @@ impl Interface {
         (axes, others)
     }
 
-    /// How many bytes the data block of such a block has.
+    /// The length in bytes of the data block of this kind of block.
     pub(super) fn length(&self, block: Block) -> u16 {
         self.table(block).map_or(0, |table| length_of(table.ranges))
     }
 
-    /// Where a byte of the data block of block number `number` lies; `None` beyond its end. Blocks that share a data
-    /// block have the number 1.
+    /// The position of a byte of the data block of block number `number`; `None` beyond its end. Blocks that share a data block have the
+    /// number 1.
     pub(super) fn place(&self, block: Block, number: u8, byte: u16) -> Option<Run> {
         let range = self.table(block)?.ranges.iter().find(|range| range.last >= byte)?;
         let offset = range.base + range.stride * (usize::from(number) - 1) + usize::from(byte - range.first);
-        let offset = u32::try_from(offset).expect("the parts have some thousand bytes");
+        let offset = u32::try_from(offset).expect("a part has only some thousand bytes");
         Some(Run { part: range.part, offset, left: u32::from(range.last - byte) + 1 })
     }
 
-    /// The number and byte of a block's byte in the data block that it may share.
+    /// The number and byte of a byte of a block in the data block that the block may share.
     pub(super) fn shared(&self, block: Block, number: u8, byte: u16) -> (u8, u16) {
         match self.table(block).and_then(|table| table.apart) {
             Some(apart) => (1, byte + apart * (u16::from(number) - 1)),
@@ -341,12 +341,12 @@ impl Interface {
 }
 
 impl BlockTable {
-    /// How many data blocks they have.
+    /// The number of data blocks of this kind.
     pub(super) const fn data_blocks(&self) -> u8 {
         if self.apart.is_some() { 1 } else { self.count }
     }
 
-    /// The number and the own byte of the block behind a byte of a data block.
+    /// The number of a block, and its own byte, for a byte of a data block.
     fn own(&self, index: u8, byte: u16) -> (u8, u16) {
         match self.apart {
             Some(apart) => {
@@ -381,7 +381,7 @@ impl Index {
             for number in 1..=table.data_blocks() {
                 for byte in 0..length_of(table.ranges) {
                     let run = interface.place(table.block, number, byte).expect("the byte is below the length");
-                    let part = index_of(run.part).expect("interface blocks lie in the three parts");
+                    let part = index_of(run.part).expect("interface blocks are in the three parts");
                     let (own, own_byte) = table.own(number, byte);
                     by_part[part][run.offset as usize] = Some((kind, own, own_byte));
                 }
@@ -409,7 +409,7 @@ impl Index {
     }
 }
 
-/// The bits of a byte that its signals take.
+/// The bits of a byte that its signals use.
 fn named_bits(signals: &[&Signal]) -> u8 {
     signals.iter().fold(0, |mask, signal| match signal.kind.width() {
         width @ 1..=7 => mask | (0xFF >> (8 - width)) << signal.bit,
@@ -430,54 +430,54 @@ fn index_of(part: Part) -> Option<usize> {
     }
 }
 
-/// Ranges follow one another without a gap and stay inside their parts, and every block has a name or none has.
+/// Checks that ranges are contiguous and inside their parts, and that all blocks of a kind have a name or none has.
 const fn check_block(tables: &Tables, table: &BlockTable) {
     assert!(table.count > 0, "a kind of block has at least one block");
     assert!(
         table.names.is_empty() || table.names.len() == table.count as usize,
-        "every block of a kind has a fixed name, or none has"
+        "all blocks of a kind have a fixed name, or none has"
     );
     let (mut index, mut next) = (0, 0);
     while index < table.ranges.len() {
         let range = &table.ranges[index];
-        assert!(range.first == next && range.last >= next, "ranges must follow one another");
+        assert!(range.first == next && range.last >= next, "ranges must be contiguous");
         let length = match range.part {
             Part::ToNck => tables.to_nck,
             Part::FromNck => tables.from_nck,
             Part::Hmi => tables.hmi,
-            _ => panic!("an interface block lies in the three parts by writer"),
+            _ => panic!("an interface block must be in the three parts by writer"),
         };
         let last_block = range.base + range.stride * (table.data_blocks() as usize - 1);
-        assert!(last_block + range.length() <= length, "a range leaves its part");
+        assert!(last_block + range.length() <= length, "a range exceeds its part");
         next = range.last + 1;
         index += 1;
     }
 }
 
-/// Whether it is a bit of an axis that the PLC writes.
+/// Whether the signal is a bit of an axis that the PLC writes.
 const fn is_of_the_plc(signal: Signal) -> bool {
     matches!((signal.block, signal.writer, signal.kind), (Block::Axis, Writer::Plc, Kind::Bit))
 }
 
-/// A signal lies in one range of its block, in the part of its writer.
+/// Checks that a signal is in one range of its block, in the part of its writer.
 const fn check_signal(tables: &Tables, signal: &Signal) {
     let mut kind = 0;
     while tables.blocks[kind].block as u8 != signal.block as u8 {
         kind += 1;
-        assert!(kind < tables.blocks.len(), "a signal is of a kind of block that the interface does not have");
+        assert!(kind < tables.blocks.len(), "the interface does not have the kind of block of a signal");
     }
     let ranges = tables.blocks[kind].ranges;
     let mut index = 0;
     while ranges[index].last < signal.byte {
         index += 1;
-        assert!(index < ranges.len(), "a signal lies beyond its block");
+        assert!(index < ranges.len(), "a signal is beyond the end of its block");
     }
     let range = &ranges[index];
     let bytes = signal.kind.width().div_ceil(8) as u16;
-    assert!(signal.byte + bytes - 1 <= range.last, "a signal leaves its range");
+    assert!(signal.byte + bytes - 1 <= range.last, "a signal exceeds its range");
     let of_its_writer = matches!(
         (signal.writer, range.part),
         (Writer::Plc, Part::ToNck) | (Writer::Nck, Part::FromNck) | (Writer::Hmi, Part::Hmi)
     );
-    assert!(of_its_writer && !range.is_plain, "a signal lies among the bytes of another writer");
+    assert!(of_its_writer && !range.is_plain, "a signal is in the bytes of another writer");
 }

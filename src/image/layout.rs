@@ -1,4 +1,4 @@
-//! The parts by writer as structures of a control, or as the bytes that they are.
+//! The parts by writer, as structures of a control or as plain bytes.
 
 use std::fmt::Debug;
 
@@ -6,29 +6,29 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout};
 
 use super::Interface;
 
-/// How a PLC program sees the parts: [`Sinumerik`](super::Sinumerik) gives them as structures with accessors, another
-/// control its own, [`AsBytes`] fits every control.
+/// The types of the parts in a PLC program: [`Sinumerik`](super::Sinumerik) has structures with accessors, another control has its own
+/// structures, and [`AsBytes`] fits every control.
 pub trait Layout: Debug + 'static {
-    /// What the PLC writes.
+    /// The signals that the PLC writes.
     type ToNck: View + ?Sized;
-    /// What the NCK writes.
+    /// The signals that the NCK writes.
     type FromNck: View + ?Sized;
-    /// What the HMI writes.
+    /// The signals that the HMI writes.
     type Hmi: View + ?Sized;
 
-    /// Whether an interface is laid out so.
+    /// Whether an interface has this layout.
     fn is_of(interface: &Interface) -> bool;
 }
 
-/// A structure over bytes: without padding, and any bytes are one.
+/// A structure over bytes. It has no padding, and any bytes are a valid value.
 pub trait View: FromBytes + IntoBytes + KnownLayout + Immutable + Debug {
-    /// These bytes as the structure; `None` if they are too few or too many.
+    /// The bytes as the structure; `None` if their number is wrong.
     #[must_use]
     fn of_bytes(bytes: &[u8]) -> Option<&Self> {
         Self::ref_from_bytes(bytes).ok()
     }
 
-    /// These bytes as the structure, to be written.
+    /// The bytes as the mutable structure; `None` if their number is wrong.
     fn of_bytes_mut(bytes: &mut [u8]) -> Option<&mut Self> {
         Self::mut_from_bytes(bytes).ok()
     }
@@ -36,7 +36,7 @@ pub trait View: FromBytes + IntoBytes + KnownLayout + Immutable + Debug {
 
 impl<T: FromBytes + IntoBytes + KnownLayout + Immutable + Debug + ?Sized> View for T {}
 
-/// The parts as bytes.
+/// The parts as plain bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct AsBytes;
 

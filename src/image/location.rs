@@ -1,34 +1,34 @@
-//! Where something lies in memory, once a name or an address has been resolved.
+//! Locations in memory, the result of resolving a name or an address.
 
 use serde::{Deserialize, Serialize};
 
-/// A piece of the memory; each interface part has one writer.
+/// A part of the memory. Each part of the interface has one writer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Part {
-    /// What the PLC writes to the NCK, and plain bytes of the interface blocks.
+    /// The signals that the PLC writes to the NCK, and the plain bytes of the interface blocks.
     ToNck,
-    /// What the NCK writes.
+    /// The signals that the NCK writes.
     FromNck,
-    /// What the HMI writes.
+    /// The signals that the HMI writes.
     Hmi,
-    /// Inputs, I.
+    /// Inputs (I).
     Inputs,
-    /// Outputs, Q.
+    /// Outputs (Q).
     Outputs,
-    /// Flags, M.
+    /// Flags (M).
     Flags,
-    /// Timers, T: two bytes each.
+    /// Timers (T), two bytes each.
     Timers,
-    /// Counters, C: two bytes each.
+    /// Counters (C), two bytes each.
     Counters,
-    /// An own data block of the PLC program, by its number.
+    /// A data block of the PLC program, by its number.
     Block(u16),
 }
 
-/// How bits make a number.
+/// The number format of bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Format {
-    /// A whole number from 0.
+    /// A whole number without sign.
     Unsigned,
     /// A whole number in two's complement: INT or DINT.
     Signed,
@@ -36,23 +36,23 @@ pub enum Format {
     Real,
 }
 
-/// Some bits in memory and how to read them as a number.
+/// A group of bits in memory, with their number format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Location {
-    /// The piece of memory.
+    /// The part of the memory.
     pub part: Part,
-    /// The first byte in the piece.
+    /// The first byte in the part.
     pub offset: u32,
     /// The lowest bit in that byte; 0 for whole bytes.
     pub bit: u8,
-    /// How many bits: 1 to 8 inside one byte, or 16, or 32.
+    /// The number of bits: 1 to 8 inside one byte, or 16, or 32.
     pub width: u8,
-    /// How the bits make a number.
+    /// The number format.
     pub format: Format,
 }
 
 impl Location {
-    /// How many bytes it touches.
+    /// The number of bytes that it uses.
     #[must_use]
     pub const fn bytes(self) -> u32 {
         (self.width as u32).div_ceil(8)

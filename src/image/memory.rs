@@ -1,4 +1,4 @@
-//! The memory of one control: the interface by writer, and what the PLC program keeps beside it.
+//! The memory of one control: the interface by writer, and the areas of the PLC program.
 
 use std::sync::Arc;
 
@@ -9,23 +9,23 @@ use crate::source::Problem;
 use super::interface::Run;
 use super::{Address, Area, Bytes, Format, Interface, Location, Part, PartBytes, Profile, Width};
 
-/// An own data block of the PLC program.
+/// A data block of the PLC program.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DataBlock {
-    /// Its number.
+    /// The number of the block.
     pub number: u16,
-    /// Its name, for people.
+    /// The name of the block, for display.
     pub name: Option<Arc<str>>,
-    /// Its bytes.
+    /// The bytes of the block.
     pub bytes: Bytes,
 }
 
-/// The own data blocks of the PLC program, ascending by number.
+/// The data blocks of the PLC program, ascending by number.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Blocks(Vec<DataBlock>);
 
 impl Blocks {
-    /// All of them, ascending.
+    /// All blocks, ascending by number.
     pub fn iter(&self) -> impl Iterator<Item = &DataBlock> {
         self.0.iter()
     }
@@ -37,13 +37,13 @@ impl Blocks {
         Some(&self.0[index].bytes)
     }
 
-    /// The bytes of a block, to be written.
+    /// The bytes of a block, mutable.
     pub fn get_mut(&mut self, number: u16) -> Option<&mut Bytes> {
         let index = self.0.binary_search_by_key(&number, |block| block.number).ok()?;
         Some(&mut self.0[index].bytes)
     }
 
-    /// Puts a block in, in place of one with the same number.
+    /// Adds a block and replaces a block with the same number.
     pub fn put(&mut self, block: DataBlock) {
         match self.0.binary_search_by_key(&block.number, |other| other.number) {
             Ok(index) => self.0[index] = block,
@@ -52,38 +52,38 @@ impl Blocks {
     }
 }
 
-/// All memory that PLC programs, HMIs and the NCK share. A clone shares the plain areas until one side writes them.
+/// The memory that PLC programs, HMIs and the NCK share. A clone shares the plain areas until one of the copies is written.
 ///
-/// The parts of the interface are bytes; [`to_nck`](Memory::to_nck()) and its like show them as the structures of the
-/// SINUMERIK, and the [`Interface`] says what is where in those of any control.
+/// The parts of the interface are bytes. [`to_nck`](Memory::to_nck()) and similar methods show them as structures of the SINUMERIK; the
+/// [`Interface`] describes their contents for any control.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
-    /// What the PLC writes to the NCK.
+    /// The signals that the PLC writes to the NCK.
     pub to_nck: PartBytes,
-    /// What the NCK writes.
+    /// The signals that the NCK writes.
     pub from_nck: PartBytes,
-    /// What the HMI writes.
+    /// The signals that the HMI writes.
     pub hmi: PartBytes,
-    /// I.
+    /// Inputs (I).
     pub inputs: Bytes,
-    /// Q.
+    /// Outputs (Q).
     pub outputs: Bytes,
-    /// M.
+    /// Flags (M).
     pub flags: Bytes,
-    /// T, two bytes each.
+    /// Timers (T), two bytes each.
     pub timers: Bytes,
-    /// C, two bytes each.
+    /// Counters (C), two bytes each.
     pub counters: Bytes,
-    /// Own data blocks.
+    /// The data blocks of the PLC program.
     pub blocks: Blocks,
 }
 
-/// Memory by writer, whoever holds it.
+/// Access to the memory by writer, for all types that contain it.
 pub trait Parts {
-    /// The bytes of a part; none for a block that does not exist.
+    /// The bytes of a part; empty for a block that does not exist.
     fn part(&self, part: Part) -> &[u8];
 
-    /// The bytes of a part, to be written; none for one that may not be.
+    /// The bytes of a part, mutable; empty if the part must not be written.
     fn part_mut(&mut self, part: Part) -> &mut [u8];
 }
 
@@ -98,10 +98,10 @@ impl Parts for Memory {
 }
 
 impl Memory {
-    /// How many bytes each of the standard blocks of an interface has.
+    /// The number of bytes of each standard block of an interface.
     pub const STANDARD_LENGTH: usize = 256;
 
-    /// Everything 0: the interface, M 256, I 128, Q 128, T 64, C 64 bytes, and the standard blocks (O-24).
+    /// A memory of zeros: the interface, M 256, I 128, Q 128, T 64, C 64 bytes, and the standard blocks (O-24).
     #[must_use]
     pub fn of(interface: &Interface) -> Self {
         let block = |&number| DataBlock { number, name: None, bytes: Bytes::zeroed(Self::STANDARD_LENGTH) };
@@ -121,14 +121,14 @@ impl Memory {
         }
     }
 
-    /// Whether its parts are as long as those of an interface.
+    /// Whether its parts have the lengths that an interface defines.
     #[must_use]
     pub fn fits(&self, interface: &Interface) -> bool {
         let tables = interface.tables();
         (self.to_nck.len(), self.from_nck.len(), self.hmi.len()) == (tables.to_nck, tables.from_nck, tables.hmi)
     }
 
-    /// The bytes of a part; none for a block that does not exist.
+    /// The bytes of a part; empty for a block that does not exist.
     #[must_use]
     pub fn part(&self, part: Part) -> &[u8] {
         match part {
@@ -144,7 +144,7 @@ impl Memory {
         }
     }
 
-    /// The bytes of a part, to be written.
+    /// The bytes of a part, mutable.
     pub fn part_mut(&mut self, part: Part) -> &mut [u8] {
         match part {
             Part::ToNck => &mut self.to_nck,
@@ -159,10 +159,10 @@ impl Memory {
         }
     }
 
-    /// Where an address lies.
+    /// The location of an address.
     ///
     /// # Errors
-    /// There is no such data block, the address lies beyond its end, or it spans bytes of two writers.
+    /// The data block does not exist, the address is beyond its end, or it spans bytes of two writers.
     pub fn locate(&self, address: &Address, profile: Profile) -> Result<Location, Problem> {
         let (bit, width) = match address.width {
             Width::Bit(bit) => (bit, 1),
@@ -180,17 +180,14 @@ impl Memory {
             .run(address.area, byte, bytes, profile)
             .map_err(|problem| Problem { what: format!("{address}: {}", problem.what), ..problem })?;
         if run.left < bytes {
-            return Err(Problem::new(
-                format!("{address} spans bytes of two writers"),
-                "read or write its bytes one by one",
-            ));
+            return Err(Problem::new(format!("{address} spans bytes of two writers"), "read or write single bytes"));
         }
         let mut location = Location { part: run.part, offset: run.offset, bit, width, format: Format::Unsigned };
         location.format = address.format.unwrap_or_else(|| profile.interface().usual_format(location));
         Ok(location)
     }
 
-    /// The raw bits at a place; 0 where this memory has no such bytes.
+    /// The raw bits at a location; 0 if this memory does not contain it.
     #[must_use]
     pub fn read(&self, location: Location) -> u64 {
         let start = location.offset as usize;
@@ -199,9 +196,9 @@ impl Memory {
         number >> location.bit & location.mask()
     }
 
-    /// The number at a place, signed or REAL as its format says.
+    /// The number at a location, in the number format of the location.
     #[must_use]
-    #[expect(clippy::cast_possible_truncation, reason = "the width was checked: the number has at most 32 bits")]
+    #[expect(clippy::cast_possible_truncation, reason = "the width is checked: the number has at most 32 bits")]
     pub fn value(&self, location: Location) -> f64 {
         let raw = self.read(location);
         match location.format {
@@ -214,9 +211,8 @@ impl Memory {
         }
     }
 
-    /// Writes raw bits to a place; bits that do not fit are dropped, and nothing happens where this memory has no
-    /// such bytes.
-    #[expect(clippy::cast_possible_truncation, reason = "one byte after the other is taken out on purpose")]
+    /// Writes raw bits to a location. Bits that do not fit are dropped. It has no effect if this memory does not contain the location.
+    #[expect(clippy::cast_possible_truncation, reason = "each byte is extracted on purpose")]
     pub fn write(&mut self, location: Location, raw: u64) {
         if self.read(location) == raw & location.mask() {
             return; // a clone that shares the bytes keeps sharing them
@@ -235,7 +231,7 @@ impl Memory {
     /// Copies bytes of an area or a data block, as an S7 client reads them.
     ///
     /// # Errors
-    /// There is no such data block, or it ends before the last byte; then `into` is unchanged or partly filled.
+    /// The data block does not exist, or it ends before the last byte; `into` is then unchanged or partly filled.
     pub fn read_bytes(&self, area: Area, start: u32, into: &mut [u8], profile: Profile) -> Result<(), Problem> {
         let mut done = 0;
         while done < into.len() {
@@ -248,10 +244,10 @@ impl Memory {
         Ok(())
     }
 
-    /// Writes bytes of an area or a data block, as an S7 client writes them, whoever the bytes belong to.
+    /// Writes bytes of an area or a data block, as an S7 client writes them, regardless of the writer of the bytes.
     ///
     /// # Errors
-    /// There is no such data block, or it ends before the last byte; then nothing is written.
+    /// The data block does not exist, or it ends before the last byte; nothing is then written.
     pub fn write_bytes(&mut self, area: Area, start: u32, bytes: &[u8], profile: Profile) -> Result<(), Problem> {
         for write in [false, true] {
             let mut done = 0;
@@ -271,7 +267,7 @@ impl Memory {
     fn run_of(&self, area: Area, start: u32, done: usize, length: usize, profile: Profile) -> Result<Run, Problem> {
         let (done, length) = (u32::try_from(done), u32::try_from(length));
         let (Ok(done), Ok(length)) = (done, length) else {
-            return Err(Problem::new("expected at most 65536 bytes at once, found more", "read less"));
+            return Err(Problem::new("expected at most 65536 bytes at once, found more", "access fewer bytes at once"));
         };
         self.run(area, start.saturating_add(done), length - done, profile)
     }

@@ -1,9 +1,8 @@
-//! THE INTERFACE: the bytes that NCK, PLC and HMI exchange, and every way to name them.
+//! The interface: the bytes that NCK, PLC and HMI exchange, and all ways to name them.
 //!
-//! **Memory is by writer.** What the PLC writes to the NCK is [`ToNck`], what the NCK writes is [`FromNck`], what the
-//! operator panel writes is [`Hmi`]; each is one piece of contiguous bytes. A data block as STEP 7 sees it (DB31,
-//! bytes 0 to 147) is a table of ranges over the three. So direction is the borrow checker's business: a PLC program
-//! holds `&mut ToNck` and `&FromNck` and cannot write a bit of the NCK.
+//! **The memory is organized by writer.** The PLC writes [`ToNck`], the NCK writes [`FromNck`], the operator panel writes [`Hmi`]. Each of
+//! them is one contiguous piece of bytes. A data block as STEP 7 sees it (DB31, bytes 0 to 147) is a table of ranges over these three
+//! pieces. So the borrow checker enforces the direction: a PLC program has `&mut ToNck` and `&FromNck` and cannot write a bit of the NCK.
 //!
 //! ```
 //! use opennck::image::{FromNck, ToNck};
@@ -11,23 +10,23 @@
 //!
 //! let (mut to_nck, mut from_nck) = (ToNck::default(), FromNck::default());
 //! let x = AxisNumber::FIRST;
-//! from_nck.axes[x].set_gantry_synchronization_ready_to_start(true); // DB31.DBX101.4, as the NCK does it
+//! from_nck.axes[x].set_gantry_synchronization_ready_to_start(true); // DB31.DBX101.4, written by the NCK
 //! to_nck.axis(x).set_start_gantry_synchronization(from_nck.axis(x).gantry_synchronization_ready_to_start());
 //! assert!(to_nck.axes[x].start_gantry_synchronization()); // DB31.DBX29.4
 //! ```
 //!
-//! **The interface is data.** An [`Interface`] says which kinds of block a control has (the control as a whole, mode groups,
-//! channels, axes) and how many of each, whose each byte is, which signals there are, what blocks are called and under which
-//! data block numbers the PLC sees them. [`Memory`], [`Names`], [`Preset`], [`Profile`] and the mapped image work on it and know
-//! no control. [`SINUMERIK`] is the one that is there; `sinumerik/` has its tables and the structures [`ToNck`], [`FromNck`] and
-//! [`Hmi`] over its bytes. Another control brings a static of its own, with its own [`signals!`](crate::signals) tables and, for
-//! PLC programs, its own structures ([`Layout`]).
+//! **The interface is data.** An [`Interface`] defines the kinds of block of a control (the control as a whole, mode groups, channels,
+//! axes), the number of blocks of each kind, the owner of every byte, the signals, the names of the blocks, and their data block numbers
+//! for the PLC. [`Memory`], [`Names`], [`Preset`], [`Profile`] and the mapped image use it and are independent of the control. This crate
+//! contains one interface, [`SINUMERIK`]: `sinumerik/` has its tables and the structures [`ToNck`], [`FromNck`] and [`Hmi`] over its bytes.
+//! Another control provides its own static with its own [`signals!`](crate::signals) tables and, for PLC programs, its own structures
+//! ([`Layout`]).
 //!
-//! A signal is a row of a `signals!` table ([`Signal`]); from the row come accessor, documentation, symbol and address. The row
-//! is also a constant, by the name of its getter: [`axis_to_nck::controller_enable`] is DBX2.1 of an axis, for whoever needs a
-//! bit as data. An [`Address`] is the STEP 7 notation, a [`Location`] the place in memory it stands for, [`Names`] the names of
-//! this machine. The 828D ([`Profile::SINUMERIK_828D`]) is the same memory under other data block numbers, not a second
-//! model. What no signal names is plain memory that everybody may use.
+//! A signal is a row of a `signals!` table ([`Signal`]). The row defines accessor, documentation, symbol and address. It is also a constant
+//! with the name of its getter, for code that needs a bit as data: [`axis_to_nck::controller_enable`] is DBX2.1 of an axis. An [`Address`]
+//! is the STEP 7 notation, a [`Location`] is the position in memory, and [`Names`] are the names of this machine. The 828D
+//! ([`Profile::SINUMERIK_828D`]) is the same memory under other data block numbers, not a second model. Bytes without signals are plain
+//! memory that every program can use.
 
 mod address;
 mod bytes;

@@ -1,41 +1,41 @@
-//! The names of one machine: its axes and channels, and the profile under which its interface blocks are known.
+//! The names of one machine: its axes and channels, and the profile that numbers its interface blocks.
 
 use crate::source::{Problem, did_you_mean};
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel};
 
 use super::{Address, Area, Block, Interface, Location, Memory, Part, Profile, Width, Writer};
 
-/// What a machine calls its axes and channels, and whose interface under which numbers it has.
+/// The names of the axes and channels of a machine, its interface, and the numbering of the interface blocks.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
     /// Machine axis names; `None` for axes that do not exist.
     pub axes: PerAxis<Option<String>>,
     /// Channel names; `None` for channels that do not exist.
     pub channels: PerChannel<Option<String>>,
-    /// The interface, and under which numbers its blocks are known.
+    /// The interface with its numbering.
     pub profile: Profile,
 }
 
 impl Names {
-    /// The interface that the names are of.
+    /// The interface of the machine.
     #[must_use]
     pub fn interface(&self) -> &'static Interface {
         self.profile.interface()
     }
 
-    /// The number of an axis.
+    /// The number of the axis with this name.
     #[must_use]
     pub fn axis(&self, name: &str) -> Option<AxisNumber> {
         self.axes.iter().find(|(_, other)| other.as_deref() == Some(name)).map(|(number, _)| number)
     }
 
-    /// The number of a channel.
+    /// The number of the channel with this name.
     #[must_use]
     pub fn channel(&self, name: &str) -> Option<ChannelNumber> {
         self.channels.iter().find(|(_, other)| other.as_deref() == Some(name)).map(|(number, _)| number)
     }
 
-    /// Everything that can stand before the dot of a symbol, with its block: in the order of the kinds of block.
+    /// All names that can precede the dot of a symbol, with their blocks, in the order of the kinds of block.
     pub fn owners(&self) -> impl Iterator<Item = (&str, Block, u8)> {
         self.interface().tables().blocks.iter().flat_map(move |table| {
             let numbers = 1..=table.count;
@@ -43,7 +43,7 @@ impl Names {
         })
     }
 
-    /// What stands before the dot of a block's symbols; `None` for a block that has no name.
+    /// The name before the dot in the symbols of a block; `None` for a block without a name.
     #[must_use]
     pub fn owner(&self, block: Block, number: u8) -> Option<&str> {
         let by_the_machine = match block {
@@ -54,10 +54,10 @@ impl Names {
         self.interface().fixed_name(block, number).or(by_the_machine)
     }
 
-    /// Whether every name says one thing.
+    /// Checks that every name is valid and unique.
     ///
     /// # Errors
-    /// Two axes or channels have the same name, or a name is taken, or could not stand before a dot.
+    /// Two axes or channels have the same name, or a name is reserved or cannot precede a dot.
     pub fn check(&self) -> Result<(), Problem> {
         let named_in = self.interface().tables().named_in;
         let mut seen: Vec<(&str, Block, u8)> = Vec::new();
@@ -77,7 +77,7 @@ impl Names {
             if name.is_empty() || !name.chars().all(letters) || is_data_block {
                 return Err(Problem::new(
                     format!(
-                        "expected a name of letters, digits and _ that is no data block, found `{name}` for {what}"
+                        "expected a name of letters, digits and _ that is not a data block, found `{name}` for {what}"
                     ),
                     format!("rename it ({named_in})"),
                 ));
@@ -87,10 +87,10 @@ impl Names {
         Ok(())
     }
 
-    /// Where a symbol (`X.traversing_key_plus`) or an address (`DB31.DBX4.7`) lies.
+    /// The location of a symbol (`X.traversing_key_plus`) or an address (`DB31.DBX4.7`).
     ///
     /// # Errors
-    /// Nothing is called so, or the address does not exist; the cure names the nearest known name.
+    /// No signal has this name, or the address does not exist; the problem names the nearest known name.
     pub fn resolve(&self, memory: &Memory, text: &str) -> Result<Location, Problem> {
         match text.split_once('.') {
             Some((owner, signal)) if signal.starts_with(|c: char| c.is_ascii_lowercase()) => self.lookup(owner, signal),
@@ -104,14 +104,14 @@ impl Names {
     fn lookup(&self, owner: &str, name: &str) -> Result<Location, Problem> {
         let Some((_, block, number)) = self.owners().find(|(other, ..)| *other == owner) else {
             let known: Vec<&str> = self.owners().map(|(name, ..)| name).collect();
-            let cure = did_you_mean(owner, known.iter().copied(), "upper and lower case count");
+            let cure = did_you_mean(owner, known.iter().copied(), "names are case-sensitive");
             return Err(Problem::new(format!("expected one of `{}`, found `{owner}`", known.join("`, `")), cure));
         };
         let of_block = || self.interface().signals().filter(|signal| signal.block == block);
         let found = of_block().find(|signal| signal.name == name);
         let found = found.and_then(|signal| self.interface().location(signal, number));
         found.ok_or_else(|| {
-            let cure = did_you_mean(name, of_block().map(|signal| signal.name), "`opennck signals` lists them all");
+            let cure = did_you_mean(name, of_block().map(|signal| signal.name), "`opennck signals` lists all signals");
             Problem::new(
                 format!(
                     "expected a signal of `{owner}` ({}), found `{owner}.{name}`",
@@ -122,7 +122,7 @@ impl Names {
         })
     }
 
-    /// Somebody who writes `X` or `x.CONTROLLER_ENABLE` meant a symbol.
+    /// Improves the message for a text such as `X` or `x.CONTROLLER_ENABLE`, which is meant as a symbol.
     fn hint(&self, text: &str, problem: Problem) -> Problem {
         let (owner, signal) = text.split_once('.').unwrap_or((text, ""));
         if !self.owners().any(|(name, ..)| name == owner) {
@@ -131,10 +131,10 @@ impl Names {
         let example = format!("write {}", self.interface().tables().example);
         let known = self.interface().signals().map(|signal| signal.name);
         let cure = did_you_mean(&signal.to_ascii_lowercase(), known, &example);
-        Problem::new(format!("expected a signal name in lower case behind `{owner}.`, found `{text}`"), cure)
+        Problem::new(format!("expected a signal name in lower case after `{owner}.`, found `{text}`"), cure)
     }
 
-    /// The address of a place as this machine's profile writes it. What it does not show has its usual address.
+    /// The address of a location in the numbering of this machine. A location that the profile does not show has its default address.
     #[must_use]
     pub fn address(&self, location: Location) -> Address {
         let offset = u16::try_from(location.offset).unwrap_or(u16::MAX);
@@ -171,7 +171,7 @@ impl Names {
         self.profile.shown(at.block, at.number, at.byte).or_else(usual).unwrap_or_default()
     }
 
-    /// The symbol of a place, `X.controller_enable`, if exactly one signal lies there and its owner has a name.
+    /// The symbol of a location, `X.controller_enable`, if exactly one signal has this location and its owner has a name.
     #[must_use]
     pub fn symbol(&self, location: Location) -> Option<String> {
         let (number, signal) = self.interface().exactly(location)?;
@@ -179,7 +179,7 @@ impl Names {
         Some(format!("{owner}.{}", signal.name))
     }
 
-    /// Who writes the signals of the catalogue at a place; `None` for plain memory.
+    /// The writer of the signals at a location; `None` for plain memory.
     #[must_use]
     pub fn writer(&self, location: Location) -> Option<Writer> {
         self.interface().touching(location).next().map(|(_, signal)| signal.writer)

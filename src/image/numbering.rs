@@ -1,5 +1,4 @@
-//! Under which data block numbers the PLC sees an interface: windows from data blocks onto the bytes of its blocks. A bit
-//! keeps its number.
+//! The data block numbers of an interface for the PLC: windows from data blocks onto the bytes of its blocks. Bit numbers are unchanged.
 
 use super::Block;
 
@@ -8,19 +7,19 @@ use super::Block;
 pub struct Numbering {
     /// Its name in files and on the command line.
     pub name: &'static str,
-    /// What messages call the control that has it.
+    /// The name of the control with this numbering, in messages.
     pub title: &'static str,
     /// Its number in a mapped image.
     pub number: u64,
-    /// Its data blocks, ascending by number and byte.
+    /// The data blocks, ascending by number and byte.
     pub windows: &'static [Window],
-    /// Its data blocks in words, for messages.
+    /// The list of the data blocks, for messages.
     pub blocks: &'static str,
-    /// Where the block of an axis is, in words.
+    /// The data block number of an axis, for messages.
     pub axes: &'static str,
 }
 
-/// Bytes `first` to `last` of data block `db` (the next number for the next block) are the bytes of a block from `byte`.
+/// Bytes `first` to `last` of data block `db` show the bytes of a block from `byte` on. The next data block shows the next block.
 #[derive(Debug)]
 pub struct Window {
     pub(super) db: u16,
@@ -32,13 +31,13 @@ pub struct Window {
 }
 
 impl Window {
-    /// Bytes `first` to `last` of `count` data blocks from number `db` on show a block from `byte`.
+    /// Bytes `first` to `last` of `count` data blocks, from number `db` on, show the bytes of a block from `byte` on.
     #[must_use]
     pub const fn new(db: u16, first: u16, last: u16, block: Block, byte: u16, count: u8) -> Self {
         Self { db, first, last, block, byte, count }
     }
 
-    /// The number of the block that the window shows in data block `db`, if it is one of its own.
+    /// The number of the block that the window shows in data block `db`, if the window includes `db`.
     pub(super) fn number(&self, db: u16) -> Option<u8> {
         let index = db.checked_sub(self.db).filter(|index| *index < u16::from(self.count))?;
         u8::try_from(index + 1).ok()

@@ -1,9 +1,8 @@
-//! The override switches: which code a percentage has on the interface.
+//! The override switches: the code of a percentage on the interface.
 
 use super::{Interface, Location, Override, SINUMERIK};
 
-/// The per cent of the positions of the switch, from position 1: the defaults of MD12010. The positions behind the
-/// last one count as 120 % as well.
+/// The percentages of the switch positions, from position 1: the defaults of MD12010. Positions after the last one also mean 120 %.
 const POSITIONS: [u8; 23] = [0, 1, 2, 4, 6, 8, 10, 20, 30, 40, 50, 60, 70, 75, 80, 85, 90, 95, 100, 105, 110, 115, 120];
 
 /// The code of a percentage: the position of the switch in Gray code, or the percentage itself in binary up to 200.
@@ -19,10 +18,10 @@ pub fn override_code(percent: u16, gray: bool) -> Option<u8> {
     Some(position ^ position >> 1)
 }
 
-/// Which overrides are coded as positions in Gray code; all of them unless machine data say otherwise.
+/// The coding of each override: position in Gray code or binary percentage. The default is Gray code for all; machine data change it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OverrideCoding {
-    /// The interface, which says where overrides are.
+    /// The interface, which defines the bytes of the overrides.
     pub interface: &'static Interface,
     /// Axial feed override; on a SINUMERIK, MD12000.
     pub axis_is_gray: bool,
@@ -39,7 +38,7 @@ impl Default for OverrideCoding {
 }
 
 impl OverrideCoding {
-    /// Whether the override at a place is coded in Gray; `None` if no override lies there.
+    /// Whether the override at a location is in Gray code; `None` if the location is not an override.
     pub(super) fn at(self, location: Location) -> Option<bool> {
         let (_, signal) = self.interface.exactly(location)?;
         let (_, which) = self.interface.tables().overrides.iter().find(|(other, _)| other == signal)?;
@@ -50,7 +49,7 @@ impl OverrideCoding {
         })
     }
 
-    /// The per cent of a code at a place; `None` if no override lies there, or the code is of no position.
+    /// The percentage of a code at a location; `None` if the location is not an override, or if no position has the code.
     #[must_use]
     pub fn percent(self, location: Location, code: u8) -> Option<u16> {
         let gray = self.at(location)?;

@@ -1,4 +1,4 @@
-//! Where bytes of an area or a data block lie in the memory by writer.
+//! The positions of the bytes of an area or a data block in the memory by writer.
 
 use crate::source::Problem;
 
@@ -7,7 +7,7 @@ use super::profile::beyond;
 use super::{Area, Memory, Numbering, Profile};
 
 impl Memory {
-    /// Where `bytes` bytes from `byte` of an area lie; the run may be shorter, but the whole span exists.
+    /// The position of `bytes` bytes from `byte` of an area on. All of them exist, but the run can be shorter.
     pub(super) fn run(&self, area: Area, byte: u32, bytes: u32, profile: Profile) -> Result<Run, Problem> {
         if let Area::DataBlock(db) = area {
             if profile.has(db) {
@@ -31,10 +31,13 @@ impl Memory {
         let mut others = Profile::all(profile.interface()).filter(|other| *other != profile);
         let cure = match others.find(|other| other.has(db)) {
             Some(other) => {
-                format!("it is a block of {}: set its profile, or use a symbol", other.numbering().title)
+                format!("it is a block of {}; set its profile, or use a symbol", other.numbering().title)
             }
-            None => format!("an axis has {axes}; other blocks are declared in a PLC image"),
+            None => format!("the data block of an axis is {axes}; declare other blocks in a PLC image"),
         };
-        Problem::new(format!("expected {blocks} or an own block ({}), found DB{db}", own.join(", ")), cure)
+        Problem::new(
+            format!("expected {blocks} or a block of the PLC program ({}), found DB{db}", own.join(", ")),
+            cure,
+        )
     }
 }

@@ -1,4 +1,4 @@
-//! `plc_images/<name>.toml`: what the PLC program keeps beside the interface, and starting values for all of it.
+//! PLC images, `plc_images/<name>.toml`: the areas and data blocks of the PLC program, and starting values for the complete memory.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use crate::source::{Node, Place, Problem, Table, Value, read_text};
 
 use super::{Bytes, DataBlock, Location, Memory, Names, OverrideCoding, Writer, raw_value};
 
-/// A PLC image as read from its file; names and addresses are looked up when a memory is made from it.
+/// A PLC image as read from its file. Names and addresses are looked up when a memory is made from it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preset {
     areas: [Option<usize>; 5],
@@ -22,13 +22,13 @@ struct DeclaredBlock {
     values: Vec<(String, Place, Node)>,
 }
 
-const SIZE_CURE: &str = "a size is a number of bytes up to 65535";
+const SIZE_CURE: &str = "write a number of bytes up to 65535";
 
 impl Preset {
     /// Reads a PLC image from its text; `file` is its name in messages.
     ///
     /// # Errors
-    /// It is not TOML, has unknown keys, sizes beyond 65535, or two blocks of one number.
+    /// The text is not TOML, or it has unknown keys, sizes above 65535, or two blocks with one number.
     pub fn parse(text: &str, file: &str) -> Result<Self, Problem> {
         let mut top = Table::parse(text, file)?;
         let mut areas = [None; 5];
@@ -62,7 +62,7 @@ impl Preset {
     /// Reads a PLC image from a file.
     ///
     /// # Errors
-    /// As [`Preset::parse`], or the file cannot be read.
+    /// Like [`Preset::parse`], or the file cannot be read.
     pub fn read(path: &Path) -> Result<Self, Problem> {
         Self::parse(&read_text(path)?, &path.display().to_string())
     }
@@ -86,7 +86,7 @@ fn declared_block(node: Node) -> Result<DeclaredBlock, Problem> {
     let number = table.take("number").ok_or_else(|| missing("number"))?;
     let number = match u16::try_from(number.integer("the number of the data block")?) {
         Ok(valid) if valid > 0 => (valid, number.place),
-        _ => return Err(number.expected("a data block number from 1 to 65535", "DB1000 is 1000")),
+        _ => return Err(number.expected("a data block number from 1 to 65535", "write 1000 for DB1000")),
     };
     let (number, number_place) = number;
     let size = bytes_count(&table.take("size").ok_or_else(|| missing("size"))?, 1)?;
@@ -106,7 +106,7 @@ fn declared_block(node: Node) -> Result<DeclaredBlock, Problem> {
     Ok(DeclaredBlock { place: number_place, block: DataBlock { number, name, bytes: Bytes::from(bytes) }, values })
 }
 
-/// The bytes of `"8C 00 FF"`.
+/// The bytes of a hexadecimal text such as `"8C 00 FF"`.
 fn fill(node: &Node, size: usize) -> Result<Vec<u8>, Problem> {
     let text = node.text("bytes in hexadecimal")?;
     let byte = |part: &str| {
@@ -118,18 +118,18 @@ fn fill(node: &Node, size: usize) -> Result<Vec<u8>, Problem> {
         Some(bytes) if !bytes.is_empty() && bytes.len() <= size => Ok(bytes),
         Some(bytes) if !bytes.is_empty() => Err(node.place.problem(
             format!("expected at most {size} bytes to fill the block, found {}", bytes.len()),
-            "make the block larger",
+            "increase the size of the block",
         )),
         _ => Err(node.expected("bytes in hexadecimal", "write fill = \"8C 00 FF\"")),
     }
 }
 
 impl Memory {
-    /// A memory as a PLC image declares it, for a machine with these names.
+    /// Makes the memory that a PLC image declares, for a machine with these names.
     ///
     /// # Errors
-    /// A block has the number of an interface block, values overlap or do not fit, a name or address does not exist,
-    /// or a bit of the NCK is to be set; at its place in the file.
+    /// A block has the number of an interface block, values overlap or do not fit, a name or address does not exist, or a value belongs to
+    /// the NCK. The problem names the place in the file.
     pub fn from_preset(preset: &Preset, names: &Names, coding: OverrideCoding) -> Result<Self, Problem> {
         let mut memory = Self::of(names.interface());
         let Self { flags, inputs, outputs, timers, counters, .. } = &mut memory;
@@ -141,8 +141,11 @@ impl Memory {
         for DeclaredBlock { place, block, .. } in &preset.blocks {
             if names.profile.has(block.number) {
                 return Err(place.problem(
-                    format!("expected the number of an own block, found DB{}, an interface block", block.number),
-                    "use another number; starting values of the interface go into [interface]",
+                    format!(
+                        "expected the number of a block of the PLC program, found DB{}, an interface block",
+                        block.number
+                    ),
+                    "use another number; write starting values of the interface into [interface]",
                 ));
             }
             memory.blocks.put(block.clone());
@@ -166,7 +169,7 @@ impl Memory {
     }
 }
 
-/// Starting values written so far, so that none overlaps another.
+/// The starting values written so far, to detect overlaps.
 struct Writes<'a> {
     names: &'a Names,
     coding: OverrideCoding,
@@ -182,7 +185,7 @@ impl Writes<'_> {
         if self.names.writer(location) == Some(Writer::Nck) {
             return Err(place.problem(
                 format!("expected a signal of the PLC or the HMI, found `{key}`, which the NCK writes"),
-                "remove it: the NCK sets its signals itself",
+                "remove it; the NCK sets its own signals",
             ));
         }
         if let Some((_, other, at)) = self.done.iter().find(|(other, ..)| other.overlaps(location)) {

@@ -1,4 +1,4 @@
-//! An interface under one of its numberings: which data blocks it has, and where their bytes lie.
+//! An interface with one of its numberings: its data blocks, and the positions of their bytes.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use crate::source::Problem;
 use super::interface::Run;
 use super::{Area, Block, Interface, Numbering, Window};
 
-/// An interface under one of its numberings.
+/// An interface with one of its numberings.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Profile {
     interface: &'static Interface,
@@ -25,30 +25,30 @@ impl Profile {
         Self { interface, index }
     }
 
-    /// All of an interface, the usual one first.
+    /// All profiles of an interface, the default first.
     pub fn all(interface: &'static Interface) -> impl Iterator<Item = Self> {
         (0..interface.tables().numberings.len()).map(move |index| Self::new(interface, index))
     }
 
-    /// The one of this name.
+    /// The profile with this name.
     #[must_use]
     pub fn named(interface: &'static Interface, name: &str) -> Option<Self> {
         Self::all(interface).find(|profile| profile.name() == name)
     }
 
-    /// Whose numbering it is.
+    /// The interface of the profile.
     #[must_use]
     pub const fn interface(self) -> &'static Interface {
         self.interface
     }
 
-    /// Its name in files and on the command line.
+    /// The name in files and on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.numbering().name
     }
 
-    /// Its number in a mapped image.
+    /// The number in a mapped image.
     #[must_use]
     pub fn number(self) -> u64 {
         self.numbering().number
@@ -64,25 +64,25 @@ impl Profile {
         numbers
     }
 
-    /// Whether the interface has a data block of this number.
+    /// Whether the interface has a data block with this number.
     #[must_use]
     pub fn has(self, db: u16) -> bool {
         self.windows(db).next().is_some()
     }
 
-    /// The block that a data block shows; where blocks share a data block, the first.
+    /// The block that a data block shows; the first block if several blocks share the data block.
     #[must_use]
     pub fn block_of(self, db: u16) -> Option<(Block, u8)> {
         self.windows(db).find_map(|window| Some((window.block, window.number(db)?)))
     }
 
-    /// The bytes that an interface data block has: from, to before, ascending.
+    /// The byte ranges of an interface data block: from, to before, ascending.
     #[must_use]
     pub fn spans(self, db: u16) -> Vec<(u16, u16)> {
         self.windows(db).map(|window| (window.first, window.last + 1)).collect()
     }
 
-    /// The data block and byte under which it shows a byte of a block; `None` if it does not.
+    /// The data block and byte that show a byte of a block; `None` if the profile does not show it.
     #[must_use]
     pub fn shown(self, block: Block, number: u8, byte: u16) -> Option<(u16, u16)> {
         let (number, byte) = self.interface.shared(block, number, byte);
@@ -103,7 +103,7 @@ impl Profile {
         self.numbering().windows.iter().filter(move |window| window.number(db).is_some())
     }
 
-    /// Where the bytes of an interface data block from `byte` lie; all up to `last` must exist.
+    /// The position of the bytes of an interface data block from `byte` on; all bytes up to `last` must exist.
     pub(super) fn run(self, db: u16, byte: u32, last: u32) -> Result<Run, Problem> {
         let find = |byte| self.windows(db).find(|window| window.contains(byte));
         let mut next = byte;
@@ -118,7 +118,7 @@ impl Profile {
         found.ok_or_else(|| self.no_byte(db, next, last))
     }
 
-    /// The problem of a byte that an interface data block does not have.
+    /// The problem of a byte that an interface data block does not contain.
     fn no_byte(self, db: u16, byte: u32, last: u32) -> Problem {
         let area = Area::DataBlock(db);
         let is_whole =
@@ -135,7 +135,7 @@ impl Profile {
     }
 }
 
-/// The problem of an address behind the end.
+/// The problem of an address beyond the end.
 pub(super) fn beyond(what: &str, length: u32, needed: u32) -> Problem {
     Problem::new(
         format!("expected an address inside the {length} bytes of {what}, found one that needs {needed}"),

@@ -1,6 +1,6 @@
-//! One row of the interface as data: what a signal is called, where it lies and who writes it.
+//! One signal of the interface as data: its name, position and writer.
 
-/// Who writes a signal; everybody may read it.
+/// The writer of a signal. Every program can read it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Writer {
     /// The PLC program: requests and enables to the NCK.
@@ -11,7 +11,7 @@ pub enum Writer {
     Hmi,
 }
 
-/// What a block of signals belongs to. An interface has some of these kinds, and says how many blocks of each.
+/// The owner of a block of signals. An interface has some of these kinds, and a number of blocks of each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Block {
     /// The control as a whole.
@@ -24,12 +24,12 @@ pub enum Block {
     Axis,
 }
 
-/// What a signal is made of.
+/// The size and type of a signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
     /// One bit.
     Bit,
-    /// A binary number of this many bits inside one byte.
+    /// A binary number with this number of bits inside one byte.
     Bits(u8),
     /// A whole byte.
     Byte,
@@ -42,7 +42,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// How many bits it takes.
+    /// The number of bits.
     #[must_use]
     pub const fn width(self) -> u8 {
         match self {
@@ -54,7 +54,7 @@ impl Kind {
         }
     }
 
-    /// Whether it spans bytes.
+    /// Whether it is a number of several bytes.
     pub(super) const fn is_number(self) -> bool {
         self.width() > 8
     }
@@ -65,16 +65,16 @@ impl Kind {
 pub struct Signal {
     /// The name of the manual, in full, in lower case with underscores.
     pub name: &'static str,
-    /// The kind of block it lies in.
+    /// The kind of block that contains it.
     pub block: Block,
-    /// The byte in its block, counted from the block's own start.
+    /// The byte in its block, counted from the start of the block.
     pub byte: u16,
     /// The lowest bit in the byte.
     pub bit: u8,
-    /// What it is made of.
+    /// The size and type.
     pub kind: Kind,
-    /// Who writes it.
+    /// The writer.
     pub writer: Writer,
-    /// What it means, with its 1 and 0.
+    /// The meaning, with its 1 and 0.
     pub doc: &'static str,
 }

@@ -1,19 +1,19 @@
-//! The table form of a run of interface bytes: one row per signal, in address order, and everything else follows
-//! from the row: getter, setter, documentation with the address, the entry of the catalogue, and a check at compile
-//! time that the rows ascend, do not overlap and stay inside the run.
+//! The table of a run of interface bytes, with one row per signal in address order. From each row, the macro generates getter, setter,
+//! documentation with the address and the entry of the catalogue. At compile time it checks that the rows ascend, do not overlap and are
+//! inside the run.
 //!
 //! The head of a run names the structure, the module of its constants, the kind of block, the writer and the bytes:
-//! `pub struct AxisToNck, axis_to_nck: Axis, Plc, 0 to 29;`. The module has one [`Signal`] for each row, called as its
-//! getter: `axis_to_nck::controller_enable.byte` is 2, also in constants.
+//! `pub struct AxisToNck, axis_to_nck: Axis, Plc, 0 to 29;`. The module contains one [`Signal`] per row, with the name of its getter:
+//! `axis_to_nck::controller_enable.byte` is 2, also in constants.
 //!
-//! A bit row reads `bool, getter, setter: byte, bit;`, a group of bits `u8, getter, setter: byte, high to low;`. A
-//! number that spans bytes is never a bit row: it stands in the block `numbers` at the end of the run and is read and
-//! written big-endian, most significant byte first, as STEP 7 does.
+//! A bit row has the form `bool, getter, setter: byte, bit;`, a group of bits has the form `u8, getter, setter: byte, high to low;`. A
+//! number of several bytes is never a bit row: it is in the block `numbers` at the end of the run, and is read and written big-endian (most
+//! significant byte first) as in STEP 7.
 
 use super::{Block, Kind, Signal, Writer};
 
-/// Makes the bytes of one run, with accessors, constants and its part of the catalogue. Where it is used, the crates
-/// `bitfield` and `zerocopy` must be there, too.
+/// Generates the bytes of one run, with accessors, constants and its part of the catalogue. A crate that uses it must also depend on
+/// `bitfield` and `zerocopy`.
 #[macro_export]
 macro_rules! signals {
     (
@@ -76,7 +76,7 @@ macro_rules! signals {
         }
 
         #[doc = concat!("The signals of [`", stringify!($name), "`] as constants, by the name of their getter.")]
-        #[allow(non_upper_case_globals, reason = "a constant is called as its getter")]
+        #[allow(non_upper_case_globals, reason = "a constant has the name of its getter")]
         pub mod $constants {
             use $crate::image::{Block, Signal, Writer};
             $(
@@ -123,7 +123,7 @@ macro_rules! signals {
     };
 }
 
-/// The tables of this module: as [`signals!`](crate::signals), and tests can call every row.
+/// The tables of this module: like [`signals!`](crate::signals), with accessors for tests.
 macro_rules! tested_signals {
     ($($rows:tt)*) => {
         $crate::signals! { $($rows)* }
@@ -133,7 +133,7 @@ macro_rules! tested_signals {
 }
 pub(super) use tested_signals as signals;
 
-/// The rows of a run as a test calls them.
+/// The rows of a run, as tests call them.
 #[cfg(test)]
 macro_rules! accessors {
     (
@@ -180,11 +180,11 @@ pub const fn bits(
     doc: &'static str,
 ) -> Signal {
     let is_bit = matches!(kind.as_bytes(), b"bool");
-    assert!(is_bit == (span.len() == 1), "a `bool` row names one bit, a `u8` row two: high to low");
+    assert!(is_bit == (span.len() == 1), "a `bool` row names one bit, a `u8` row names two: high to low");
     let (bit, kind) = if is_bit {
         (span[0], Kind::Bit)
     } else {
-        assert!(span[0] > span[1], "a group is written high to low");
+        assert!(span[0] > span[1], "write a group high to low");
         let width = span[0] - span[1] + 1;
         (span[1], if width == 8 { Kind::Byte } else { Kind::Bits(width) })
     };
@@ -206,13 +206,12 @@ pub const fn number(
         b"f32" => Kind::Real,
         b"u16" => Kind::Word,
         b"u32" => Kind::Double,
-        _ => panic!("a number is a u16, a u32 or an f32"),
+        _ => panic!("a number must be a u16, a u32 or an f32"),
     };
     Signal { name, block, byte, bit: 0, kind, writer, doc: doc.trim_ascii() }
 }
 
-/// Holds at compile time: rows ascend, neighbours do not overlap, all stay inside the run, and no number touches
-/// another row.
+/// Checks at compile time that rows ascend, neighbours do not overlap, all rows are inside the run, and no number overlaps another row.
 #[doc(hidden)]
 pub const fn check(rows: &[Signal], first: u16, last: u16) {
     let mut index = 0;
@@ -220,8 +219,8 @@ pub const fn check(rows: &[Signal], first: u16, last: u16) {
         let row = &rows[index];
         let from = row.byte as u32 * 8 + row.bit as u32;
         let end = from + row.kind.width() as u32;
-        assert!(row.byte >= first && end <= (last as u32 + 1) * 8, "a signal lies outside its run");
-        assert!(row.bit as u32 + row.kind.width() as u32 <= 8 || row.bit == 0, "a signal leaves its byte");
+        assert!(row.byte >= first && end <= (last as u32 + 1) * 8, "a signal is outside its run");
+        assert!(row.bit as u32 + row.kind.width() as u32 <= 8 || row.bit == 0, "a signal exceeds its byte");
         if index + 1 < rows.len() && rows[index + 1].kind.is_number() == row.kind.is_number() {
             let next = &rows[index + 1];
             assert!(end <= next.byte as u32 * 8 + next.bit as u32, "rows must ascend and must not overlap");
@@ -239,11 +238,11 @@ pub const fn check(rows: &[Signal], first: u16, last: u16) {
     }
 }
 
-/// One row as a test calls it: name, getter, setter.
+/// One row, as tests call it: name, getter, setter.
 #[cfg(test)]
 pub(super) type Accessor<T> = (&'static str, fn(&T) -> u64, fn(&mut T, u64));
 
-/// The rows of a run as a test calls them.
+/// The rows of a run, as tests call them.
 #[cfg(test)]
 pub(super) trait Accessors: Sized {
     fn accessors() -> Vec<Accessor<Self>>;

@@ -1,23 +1,22 @@
-//! Values in files: what may be written to a place, and what bits it becomes.
+//! Values in files: the values that a location accepts, and their bits.
 
 use crate::source::{Node, Problem, Value};
 
 use super::{Format, Location, OverrideCoding, override_code};
 
-/// The raw bits of a value from a file: whole numbers must fit (negative ones as two's complement), numbers with a
-/// fraction only into a REAL, `true` and `false` only into a bit, `"100%"` only into an override, and text like
-/// `"2#1101_0000"` or `"16#D0"` is a whole number.
+/// The raw bits of a value from a file. A whole number must fit (a negative number as two's complement). A number with a fraction requires
+/// a REAL, `true` and `false` require a bit, `"100%"` requires an override. A text such as `"2#1101_0000"` or `"16#D0"` is a whole number.
 ///
 /// # Errors
-/// The value does not fit, at its place in the file.
+/// The value does not fit; the problem names its place in the file.
 pub fn raw_value(node: &Node, location: Location, coding: OverrideCoding) -> Result<u64, Problem> {
     match &node.value {
         Value::Boolean(value) if location.width == 1 => Ok(u64::from(*value)),
-        Value::Boolean(_) => Err(node.expected("a number", "true and false are for single bits")),
+        Value::Boolean(_) => Err(node.expected("a number", "use true and false for single bits only")),
         Value::Integer(number) => integer(*number, node, location),
         Value::Float(number) if location.format == Format::Real => real(*number, node),
         Value::Float(_) => {
-            Err(node.expected("a whole number", "only a REAL takes fractions: add :REAL to the address"))
+            Err(node.expected("a whole number", "add :REAL to the address; only a REAL accepts fractions"))
         }
         Value::Text(text) => match (text.strip_suffix('%'), based(text)) {
             (Some(percent), _) => per_cent(percent, node, location, coding),
@@ -28,7 +27,7 @@ pub fn raw_value(node: &Node, location: Location, coding: OverrideCoding) -> Res
     }
 }
 
-/// `2#1101_0000`, `8#17` and `16#D0`.
+/// The number of a text with a base: `2#1101_0000`, `8#17`, `16#D0`.
 fn based(text: &str) -> Option<i64> {
     let (base, digits) = text.split_once('#')?;
     let base = match base {
@@ -55,18 +54,18 @@ fn integer(number: i64, node: &Node, location: Location) -> Result<u64, Problem>
     } else {
         Err(node.place.problem(
             format!("expected a number from {least} to {most}, found {number}"),
-            format!("the place has {} bits", location.width),
+            format!("the address has {} bits", location.width),
         ))
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "a REAL has 32 bits; what does not fit is refused below")]
+#[expect(clippy::cast_possible_truncation, reason = "a REAL has 32 bits; a value that does not fit is rejected below")]
 fn real(number: f64, node: &Node) -> Result<u64, Problem> {
     let value = number as f32;
     if value.is_finite() {
         Ok(u64::from(value.to_bits()))
     } else {
-        Err(node.expected("a number that fits a REAL", "a REAL ends at 3.4e38"))
+        Err(node.expected("a number that fits a REAL", "the largest REAL is 3.4e38"))
     }
 }
 
@@ -75,13 +74,16 @@ fn per_cent(text: &str, node: &Node, location: Location, coding: OverrideCoding)
         let mut takers: Vec<_> = coding.interface.tables().overrides.iter().map(|(signal, _)| signal.name).collect();
         takers.dedup();
         let cure = match &takers[..] {
-            [] => "no signal of this control takes per cent".to_owned(),
-            takers => format!("only {} take per cent", takers.join(" and ")),
+            [] => "no signal of this control accepts a percentage".to_owned(),
+            takers => format!("only {} accept a percentage", takers.join(" and ")),
         };
         return Err(node.expected("a plain number", &cure));
     };
     let code = text.trim().parse().ok().and_then(|percent| override_code(percent, gray));
     code.map(u64::from).ok_or_else(|| {
-        node.expected("a percentage of the override switch", &format!("it has {}", OverrideCoding::known(gray)))
+        node.expected(
+            "a percentage of the override switch",
+            &format!("its percentages are {}", OverrideCoding::known(gray)),
+        )
     })
 }

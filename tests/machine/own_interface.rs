@@ -173,7 +173,9 @@ fn every_signal_is_found_by_its_symbol_and_by_its_address() {
 fn nothing_of_the_sinumerik_is_there() {
     let (memory, names) = (Memory::of(&OWN), names());
     let refused = |text: &str| names.resolve(&memory, text).unwrap_err().to_string();
-    assert!(refused("DB31.DBX2.1").contains("expected DB500, DB600 to DB631 or an own block (), found DB31"));
+    assert!(
+        refused("DB31.DBX2.1").contains("expected DB500, DB600 to DB631 or a block of the PLC program (), found DB31")
+    );
     assert!(refused("nck.nc_ready").contains("expected one of `platform`, `A1`"));
     assert!(refused("platform.power").contains("expected a signal of `platform` (the platform)"));
     assert!(refused("DB600.DBB5").contains("5 bytes of DB600"));

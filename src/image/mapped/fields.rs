@@ -1,13 +1,13 @@
-//! Where the fields of the file are: every one a number of 64 bits, least significant byte first, at a multiple of 8.
+//! The positions of all fields in the file. Every field is a number of 64 bits, least significant byte first, at a multiple of 8.
 
-/// What the file begins with.
+/// The first bytes of the file.
 pub const MAGIC: [u8; 8] = *b"OpenNCK\0";
 /// The version of the layout.
 pub const VERSION: u64 = 1;
-/// How many slots each side has.
+/// The number of slots of each side.
 pub const SLOTS: usize = 8;
 
-/// Defines the places of a table, and the table for those who hold a document against it.
+/// Defines the positions of a table, and the table itself, which tests compare with the documents.
 macro_rules! fields {
     ($(#[$doc:meta])* $table:ident: $($name:ident $offset:literal $bytes:literal;)+) => {
         $(pub(in crate::image::mapped) const $name: usize = $offset;)+
@@ -16,10 +16,10 @@ macro_rules! fields {
     };
 }
 
-/// The header: what the NC says once, the words of the NC from 256, the words of the PLC from 512.
+/// The header: constants of the NC, from 256 the words that the NC changes, from 512 the words that the PLC changes.
 pub mod header {
     fields! {
-        /// Place, length and name of each field.
+        /// Position, length and name of each field.
         FIELDS:
         MAGIC 0 8;
         VERSION 8 8;
@@ -47,14 +47,14 @@ pub mod header {
         ACKNOWLEDGE 528 8;
         POWER 536 8;
     }
-    /// Where the header ends and the table of sections begins.
+    /// The end of the header, where the table of sections begins.
     pub(in crate::image::mapped) const END: usize = 4096;
 }
 
 /// One entry of the table of sections.
 pub mod section {
     fields! {
-        /// Place, length and name of each field.
+        /// Position, length and name of each field.
         FIELDS:
         KIND 0 8;
         NUMBER 8 8;
@@ -64,14 +64,14 @@ pub mod section {
         WRITER 40 8;
         NAME 48 32;
     }
-    /// Bytes of an entry.
+    /// The number of bytes of an entry.
     pub(in crate::image::mapped) const BYTES: usize = 80;
 }
 
 /// A slot of the NC: one step.
 pub mod step {
     fields! {
-        /// Place, length and name of each field; the image follows them, and the checksum ends the slot.
+        /// Position, length and name of each field. The image follows the fields, and the checksum ends the slot.
         FIELDS:
         NUMBER 0 8;
         CYCLE 8 8;
@@ -86,7 +86,7 @@ pub mod step {
 /// A slot of the PLC: one answer.
 pub mod answer {
     fields! {
-        /// Place, length and name of each field; the image after the scan follows the image before it, and the checksum ends the slot.
+        /// Position, length and name of each field. The image before the scan and the image after it follow; the checksum ends the slot.
         FIELDS:
         NUMBER 0 8;
         ANSWERS 8 8;

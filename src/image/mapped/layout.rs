@@ -1,44 +1,44 @@
-//! Which byte of the image is which byte of the PLC: sections in the order of data block numbers, then I, Q, M, T and C.
+//! The order of bytes in the image: sections in the order of data block numbers, then I, Q, M, T and C.
 
 use super::fields::section;
 use super::words::field;
 use crate::image::{Area, Memory, Names, Part, Parts, Profile};
 use crate::source::Problem;
 
-/// Who writes the bytes of a section.
+/// The writer of the bytes of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// The PLC: what it changes is taken.
+    /// The PLC; the NC takes its changes.
     Plc,
     /// The NCK.
     Nck,
     /// The HMI.
     Hmi,
-    /// The machine: inputs.
+    /// The machine (inputs).
     Machine,
 }
 
-/// Their codes in the file.
+/// The codes of the writers in the file.
 const SOURCES: [(Source, u64); 4] = [(Source::Plc, 1), (Source::Nck, 2), (Source::Hmi, 3), (Source::Machine, 4)];
 
-/// Bytes of one area or data block that have one writer.
+/// Adjacent bytes of one area or data block with one writer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Section {
     /// The area or data block.
     pub area: Area,
     /// Its first byte in this section.
     pub first: u32,
-    /// How many bytes.
+    /// The number of bytes.
     pub length: u32,
-    /// Where they begin in the image.
+    /// The position of the first byte in the image.
     pub offset: u32,
-    /// Who writes them.
+    /// The writer of the bytes.
     pub writer: Source,
-    /// What the axis, channel or own block is called; empty where nothing is.
+    /// The name of the axis, the channel or the data block of the program; empty if it has none.
     pub name: String,
 }
 
-/// Bytes that lie together in the memory by writer.
+/// Bytes that are adjacent in the memory by writer.
 #[derive(Clone, Debug)]
 struct Piece {
     part: Part,
@@ -52,12 +52,12 @@ struct Piece {
 pub(super) struct Layout {
     pub(super) sections: Vec<Section>,
     pieces: Vec<Piece>,
-    /// Bytes of the image.
+    /// The number of bytes of the image.
     pub(super) length: usize,
 }
 
 impl Layout {
-    /// The layout of a machine's memory.
+    /// The layout for the memory of a machine.
     pub(super) fn of(memory: &Memory, names: &Names) -> Result<Self, Problem> {
         let mut layout = Self { sections: Vec::new(), pieces: Vec::new(), length: 0 };
         let own = |db| memory.blocks.get(db).map_or(0, |bytes| bytes.len());
@@ -77,7 +77,7 @@ impl Layout {
         Ok(layout)
     }
 
-    /// Appends bytes `first` to before `end`; what follows the last section in its block follows it in the image.
+    /// Appends bytes `first` to before `end`. Bytes that follow the last section in its block also follow it in the image.
     fn append(
         &mut self,
         memory: &Memory,
@@ -130,7 +130,7 @@ impl Layout {
         }
     }
 
-    /// Writes the bits that differ between two images into the memory, where they are the PLC's.
+    /// Writes the bits that differ between two images into the memory, but only bits that the PLC owns.
     pub(super) fn scatter(&self, before: &[u8], after: &[u8], memory: &mut impl Parts) {
         if before == after {
             return;
@@ -147,19 +147,19 @@ impl Layout {
         }
     }
 
-    /// The table of sections as it stands in the file.
+    /// The table of sections in the format of the file.
     pub(super) fn table(&self) -> Vec<u8> {
         self.sections.iter().flat_map(entry).collect()
     }
 }
 
-/// What the axis, channel or own block behind a data block is called.
+/// The name of the axis, the channel or the data block of the program with this data block number.
 fn name(memory: &Memory, names: &Names, db: u16) -> String {
     let Some((block, number)) = names.profile.block_of(db) else {
         let own = memory.blocks.iter().find(|block| block.number == db);
         return own.and_then(|block| block.name.as_deref()).unwrap_or_default().to_owned();
     };
-    // A fixed name says no more than the number of the data block.
+    // A fixed name adds nothing to the number of the data block.
     match names.interface().fixed_name(block, number) {
         Some(_) => String::new(),
         None => names.owner(block, number).unwrap_or_default().to_owned(),
@@ -191,13 +191,13 @@ fn entry(entry: &Section) -> [u8; section::BYTES] {
     ] {
         bytes[offset..offset + 8].copy_from_slice(&u64::to_le_bytes(value));
     }
-    // The last byte stays 0; a name is cut between characters.
+    // The last byte stays 0; a long name is cut between characters.
     let name = &entry.name[..entry.name.floor_char_boundary(section::BYTES - section::NAME - 1)];
     bytes[section::NAME..section::NAME + name.len()].copy_from_slice(name.as_bytes());
     bytes
 }
 
-/// A section as it stands in the file; `None` where it is no entry of this version or goes beyond the image.
+/// Reads a section from the file; `None` if it is not an entry of this version or exceeds the image.
 pub(super) fn parse(bytes: &[u8], image_bytes: usize) -> Option<Section> {
     let number = |offset| field(bytes, offset);
     let text = |range: std::ops::Range<usize>| {

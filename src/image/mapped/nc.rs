@@ -1,4 +1,4 @@
-//! The NC's side of the file: it publishes steps and takes answers.
+//! The NC side of the file: it publishes steps and takes answers.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
@@ -12,23 +12,23 @@ use crate::image::{Memory, Names, Parts};
 use crate::source::{Place, Problem};
 use crate::units::Time;
 
-/// How the NC takes answers.
+/// The rules under which the NC takes answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rules {
-    /// Each step waits for its answer.
+    /// Whether each step waits for its answer.
     pub lock_step: bool,
-    /// How long the PLC may be silent, for its own information.
+    /// The maximum time without an answer of the PLC, for the information of the PLC.
     pub time_out: Time,
 }
 
-/// What the NC does, as the file says it.
+/// The state of the NC in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
-    /// It has ended.
+    /// The NC has ended.
     Ended,
-    /// It runs, and the PLC is in RUN.
+    /// The NC runs, and the PLC is in RUN.
     Run,
-    /// It runs, and the PLC is in STOP: answers are not taken.
+    /// The NC runs, and the PLC is in STOP: answers are not taken.
     Stop,
 }
 
@@ -37,44 +37,44 @@ pub enum State {
 pub struct Step {
     /// The cycle of the NC.
     pub cycle: u64,
-    /// Its time.
+    /// The time of this cycle.
     pub time: Time,
     /// The time since the last scan.
     pub since_last: Time,
 }
 
-/// What came of a look for an answer.
+/// The result of looking for an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Look {
-    /// Nothing new.
+    /// There is no new answer.
     Nothing,
-    /// A new answer, to this step; [`MappedImage::take`] takes it.
+    /// A new answer, to the step with this number; [`MappedImage::take`] takes it.
     Answer(u64),
-    /// Something new that keeps not to the rules.
+    /// A new answer that violates the protocol.
     Refused(Refusal),
 }
 
-/// Why an answer is not taken.
+/// Why an answer is rejected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {
-    /// The number of its slot.
-    #[error("its slot has another number than its newest answer, or is being written")]
+    /// The number of its slot is wrong.
+    #[error("the number of its slot differs from the newest answer, or the slot is being written")]
     Number,
-    /// Its checksum.
-    #[error("its checksum is neither 0 nor the CRC-32 of what stands before it")]
+    /// The checksum is wrong.
+    #[error("its checksum is neither 0 nor the CRC-32 of the bytes before it")]
     Checksum,
-    /// A step that the PLC was not to answer.
-    #[error("it answers a step from before its start, or one that there was not yet")]
+    /// The PLC must not answer this step.
+    #[error("it answers a step from before its start, or a step that does not exist yet")]
     Step,
 }
 
-/// The interface as a file in memory, from the NC's side.
+/// The interface as a memory-mapped file, NC side.
 #[derive(Debug)]
 pub struct MappedImage {
     pub(super) words: Words,
     layout: Layout,
     pub(super) geometry: Geometry,
-    /// Keeps others from serving the same file.
+    /// Prevents another NC from serving the same file.
     _lock: File,
     step: Vec<u8>,
     pub(super) answer: Vec<u8>,
@@ -84,7 +84,7 @@ pub struct MappedImage {
     plc_starts_before: u64,
 }
 
-/// Where the slots are.
+/// The positions of the slots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Geometry {
     pub(super) image_bytes: usize,
@@ -106,12 +106,12 @@ impl Geometry {
         Self { image_bytes, nc_slots, nc_slot_bytes, plc_slots, plc_slot_bytes, slots: SLOTS, file_bytes }
     }
 
-    /// Where the slot of a step is.
+    /// The position of the slot of a step.
     pub(super) fn nc_slot(&self, number: u64) -> usize {
         self.nc_slots + self.index(number) * self.nc_slot_bytes + step::NUMBER
     }
 
-    /// Where the slot of an answer is.
+    /// The position of the slot of an answer.
     pub(super) fn plc_slot(&self, number: u64) -> usize {
         self.plc_slots + self.index(number) * self.plc_slot_bytes + answer::NUMBER
     }
@@ -122,22 +122,22 @@ impl Geometry {
 }
 
 impl MappedImage {
-    /// Creates the file, or goes on with one that an NC left behind. The memory is shown, with the PLC in STOP until
-    /// [`state`](Self::state) says otherwise.
+    /// Creates the file, or reuses a file that an earlier NC has left. The memory is published, with the PLC in STOP until
+    /// [`state`](Self::state) changes it.
     ///
     /// # Errors
-    /// The file cannot be opened, is something else than such an image, is in use by another NC, or finds no room.
+    /// The file cannot be opened, is not an image, is in use by another NC, or does not fit on the disk.
     pub fn create(path: &Path, memory: &Memory, names: &Names, rules: Rules) -> Result<Self, Problem> {
         let layout = Layout::of(memory, names)?;
         let geometry = Geometry::new(layout.sections.len(), layout.length);
         let (file, is_new) = open(path, geometry.file_bytes)?;
-        let unmade = |error| at(path, format!("cannot be made {} bytes long: {error}", geometry.file_bytes), ROOM);
+        let unmade = |error| at(path, format!("cannot be extended to {} bytes: {error}", geometry.file_bytes), ROOM);
         prepare(&file, geometry.file_bytes, is_new).map_err(unmade)?;
         let words = Words::map(&file, geometry.file_bytes).map_err(unmade)?;
-        // From here on, those who have it mapped know that it is not valid.
+        // From here on, processes that have mapped the file find it invalid.
         words.store(header::STATE, 0);
         words.store(header::GENERATION, next(words.load(header::GENERATION)));
-        // What is stored now is seen by nobody who has not seen that.
+        // The stores below become visible only after the state above.
         fence(Ordering::Release);
         let table = layout.table();
         words.write(header::END, &table);
@@ -161,9 +161,9 @@ impl MappedImage {
             words.store(offset, value);
         }
         let (newest, seen) = (words.load(header::NEWEST_STEP), words.load(header::NEWEST_ANSWER));
-        // Whoever opens the file from now on waits until it is valid, and counts then.
+        // A PLC that opens the file from now on waits until the file is valid, and only then counts its start.
         let plc_starts_before = words.load(header::PLC_STARTS);
-        // Nobody has counted so far: it was written by a stranger, and numbers would come to their end.
+        // Numbers at their maximum cannot be reached by counting: another program wrote them.
         let newest = if newest > u64::MAX / 2 { 0 } else { newest };
         let mut image = Self {
             step: vec![0; geometry.nc_slot_bytes],
@@ -183,19 +183,19 @@ impl MappedImage {
         Ok(image)
     }
 
-    /// Which bytes are where.
+    /// The layout of the image.
     #[must_use]
     pub fn sections(&self) -> &[Section] {
         &self.layout.sections
     }
 
-    /// How often a process had opened the file before it was created for this machine.
+    /// The number of PLC starts in the file before it was created for this machine.
     #[must_use]
     pub fn plc_starts_before(&self) -> u64 {
         self.plc_starts_before
     }
 
-    /// Says what the NC does.
+    /// Publishes the state of the NC.
     pub fn state(&self, state: State) {
         let state = match state {
             State::Ended => 0,
@@ -205,12 +205,12 @@ impl MappedImage {
         self.words.store(header::STATE, state);
     }
 
-    /// Says how long a cycle of the NC is.
+    /// Publishes the cycle time of the NC.
     pub fn cycle_time(&self, cycle: Time) {
         self.words.store(header::NC_CYCLE_TIME, nanos(cycle));
     }
 
-    /// The PLC starts with the next step, which has the number that this gives.
+    /// Starts the PLC with the next step, and returns the number of that step.
     pub fn start(&mut self) -> u64 {
         self.starts += 1;
         next(self.newest)
@@ -222,7 +222,7 @@ impl MappedImage {
         self.starts > 0
     }
 
-    /// Publishes a step, and says whether the NC waits for its answer; gives its number.
+    /// Publishes a step, and whether the NC waits for its answer. Returns the number of the step.
     pub fn publish(&mut self, memory: &impl Parts, step: Step, waits: bool) -> u64 {
         let number = next(self.newest);
         for (offset, value) in [
@@ -242,18 +242,18 @@ impl MappedImage {
         number
     }
 
-    /// The NC does not wait any more.
+    /// Ends the waiting for an answer.
     pub fn give_up(&self) {
         self.words.store(header::REQUEST, 0);
     }
 
-    /// Whether the PLC acknowledges this step; its answer can be looked for.
+    /// Whether the PLC has acknowledged this step; call [`look`](Self::look) for its answer.
     #[must_use]
     pub fn is_acknowledged(&self, number: u64) -> bool {
         self.words.load(header::ACKNOWLEDGE) == number
     }
 
-    /// Looks for an answer to a step from this number on.
+    /// Looks for an answer to the step with this number or a later one.
     pub fn look(&mut self, least: u64) -> Look {
         let number = self.words.load(header::NEWEST_ANSWER);
         if number == self.seen || number == 0 {
@@ -277,13 +277,13 @@ impl MappedImage {
         self.layout.scatter(before, after, memory);
     }
 
-    /// How often a PLC has started with this file; it counts by itself.
+    /// The number of PLC starts with this file; the PLC counts them.
     #[must_use]
     pub fn plc_starts(&self) -> u64 {
         self.words.load(header::PLC_STARTS)
     }
 
-    /// How often the PLC has asked for power off and on.
+    /// The number of power off/on requests of the PLC.
     #[must_use]
     pub fn power_requests(&self) -> u64 {
         self.words.load(header::POWER)
@@ -297,19 +297,19 @@ impl Drop for MappedImage {
     }
 }
 
-const ROOM: &str = "make room, or choose another file: on Linux /dev/shm is memory";
+const ROOM: &str = "free disk space, or choose another file; on Linux /dev/shm is in memory";
 
 fn at(path: &Path, what: impl Into<String>, cure: &str) -> Problem {
     Place::file(&path.display().to_string()).problem(what, cure)
 }
 
-/// Opens the file alone, and refuses what is not ours before anything is written. Says whether it is a new one: empty, or nothing but
-/// zeros and no longer than it becomes, which is what an end in the middle of making it leaves.
+/// Opens the file exclusively, and rejects a file of another kind before anything is written. The flag is `true` for a new file: an empty
+/// one, or one of zeros that is not longer than needed, which an interrupted creation leaves behind.
 fn open(path: &Path, length: usize) -> Result<(File, bool), Problem> {
     if let Ok(found) = std::fs::metadata(path)
         && !found.is_file()
     {
-        return Err(at(path, "expected a file for the image, found something else", "choose another name"));
+        return Err(at(path, "expected a regular file for the image, found something else", "choose another name"));
     }
     let unusable = |error: &std::io::Error| {
         at(path, format!("cannot be used for the image: {error}"), "check the path and the permissions")
@@ -317,11 +317,9 @@ fn open(path: &Path, length: usize) -> Result<(File, bool), Problem> {
     let options = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
     let mut file = options.map_err(|error| unusable(&error))?;
     file.try_lock().map_err(|error| match error {
-        TryLockError::WouldBlock => at(
-            path,
-            "expected an image that no other machine serves, found one in use",
-            "end the other `opennck serve`, or choose another file",
-        ),
+        TryLockError::WouldBlock => {
+            at(path, "the image is in use by another machine", "stop the other `opennck serve`, or choose another file")
+        }
         TryLockError::Error(error) => unusable(&error),
     })?;
     let mut found = Vec::new();
@@ -340,13 +338,13 @@ fn open(path: &Path, length: usize) -> Result<(File, bool), Problem> {
     let what = if found.starts_with(&MAGIC) {
         format!("expected an image of version {VERSION}, found version {version}")
     } else {
-        "expected a new file or an image of the interface, found something else in it".to_owned()
+        "expected a new file or an image of the interface, found other contents".to_owned()
     };
-    Err(at(path, what, "choose another file; this one was left as it is"))
+    Err(at(path, what, "choose another file; this one is unchanged"))
 }
 
-/// Makes the file long enough, with room on the disk: a page that finds none would end the process later. It never becomes
-/// shorter, for somebody may still have it mapped. A new one is an image from one moment to the next.
+/// Extends the file and allocates its disk space; a page without disk space would end the process later. The file never becomes shorter,
+/// because another process may have it mapped. A new file becomes a valid image in one write.
 fn prepare(mut file: &File, length: usize, is_new: bool) -> std::io::Result<()> {
     let end = file.seek(SeekFrom::End(0))?;
     let missing = (length as u64).saturating_sub(end);
@@ -355,13 +353,13 @@ fn prepare(mut file: &File, length: usize, is_new: bool) -> std::io::Result<()> 
         written = file.rewind().and_then(|()| file.write_all(&[MAGIC, VERSION.to_le_bytes()].concat()));
     }
     if written.is_err() {
-        // Left as it was found: a new one empty.
+        // Restore the old length; a new file is empty again.
         let _ = file.set_len(end);
     }
     written
 }
 
-/// Nanoseconds as the file has them; they are never negative.
+/// Nanoseconds in the format of the file; they are never negative.
 fn nanos(time: Time) -> u64 {
     u64::try_from(time.nanos()).unwrap_or(0)
 }

@@ -1,4 +1,4 @@
-//! The PLC's side of the file, for a soft PLC in Rust and for tests; one in another language does the same by the tables.
+//! The PLC side of the file, for a soft PLC in Rust and for tests. A PLC in another language does the same according to the tables.
 
 use std::fs::OpenOptions;
 use std::path::Path;
@@ -12,10 +12,10 @@ use crate::image::Area;
 use crate::source::{Place, Problem};
 use crate::units::Time;
 
-/// How often the header is read again, when an NC has begun anew meanwhile.
+/// The maximum number of attempts to read the header while an NC restarts.
 const TRIES: usize = 100;
 
-/// The interface as a file in memory, from the PLC's side.
+/// The interface as a memory-mapped file, PLC side.
 #[derive(Debug)]
 pub struct PlcImage {
     words: Words,
@@ -25,15 +25,15 @@ pub struct PlcImage {
     step: Vec<u8>,
     answer: Vec<u8>,
     newest: u64,
-    /// The last answer; a step without it is not for the next scan.
+    /// The last answer. A step that does not include it is not used for the next scan.
     pub(super) answered: Option<u64>,
 }
 
 impl PlcImage {
-    /// Maps the file that an NC serves, and counts as a start of the PLC.
+    /// Maps the file that an NC serves, and counts a start of the PLC.
     ///
     /// # Errors
-    /// There is no such file, it cannot be opened, it is not such an image, or no NC serves it.
+    /// The file does not exist, cannot be opened or is not an image, or no NC serves it.
     pub fn open(path: &Path) -> Result<Self, Problem> {
         let at = |what: String, cure: &str| Place::file(&path.display().to_string()).problem(what, cure);
         let unusable = |error: std::io::Error| at(format!("cannot be opened: {error}"), "start the NC first");
@@ -49,7 +49,7 @@ impl PlcImage {
                 return Err(foreign());
             }
             let words = Words::map(&file, length).map_err(unusable)?;
-            // An NC that begins with this file says so in these two before it writes anything else.
+            // An NC that starts with this file changes these two fields before it writes anything else.
             let generation = words.load(header::GENERATION);
             let state = state(&words);
             let read = read(&words, length);
@@ -58,9 +58,9 @@ impl PlcImage {
                 continue;
             }
             let is_left = state == State::Ended || self::state(&words) == State::Ended;
-            // One that is being made has no tables yet.
+            // An image that is being created has no tables yet.
             if is_left && is_image(&words) {
-                let what = "expected an image that an NC serves, found one that it left, or is about to make";
+                let what = "no NC serves this image: the NC has ended or has not finished creating it";
                 return Err(at(what.into(), "start the NC first"));
             }
             let (geometry, sections) = read.ok_or_else(foreign)?;
@@ -79,19 +79,19 @@ impl PlcImage {
         Err(foreign())
     }
 
-    /// What the NC does. An NC that has started anew counts as ended: open the file again.
+    /// The state of the NC. After a restart of the NC it is `Ended`: open the file again.
     #[must_use]
     pub fn state(&self) -> State {
         if self.words.load(header::GENERATION) == self.generation { state(&self.words) } else { State::Ended }
     }
 
-    /// Which bytes are where.
+    /// The layout of the image.
     #[must_use]
     pub fn sections(&self) -> &[Section] {
         &self.sections
     }
 
-    /// Where a byte is in the image.
+    /// The position of a byte in the image.
     #[must_use]
     pub fn offset(&self, area: Area, byte: u32) -> Option<usize> {
         let has = |section: &&Section| {
@@ -101,7 +101,7 @@ impl PlcImage {
         usize::try_from(section.offset + (byte - section.first)).ok()
     }
 
-    /// Copies the newest step, if it is newer than the last and has the last answer in it; gives its number.
+    /// Copies the newest step if it is newer than the last one and includes the last answer. Returns its number.
     pub fn next_step(&mut self) -> Option<u64> {
         let number = self.words.load(header::NEWEST_STEP);
         if number == self.newest || number == 0 {
@@ -120,34 +120,34 @@ impl PlcImage {
         Some(number)
     }
 
-    /// What stands at the head of the step.
+    /// The data at the head of the step.
     #[must_use]
     pub fn step(&self) -> Step {
         let time = |offset| Time::from_nanos(i64::try_from(field(&self.step, offset)).unwrap_or(i64::MAX));
         Step { cycle: field(&self.step, step::CYCLE), time: time(step::TIME), since_last: time(step::SINCE_LAST) }
     }
 
-    /// How often the NC has started the PLC: another number than at the last scan means OB100.
+    /// The number of PLC starts by the NC; run OB100 if it differs from the last scan.
     #[must_use]
     pub fn starts(&self) -> u64 {
         field(&self.step, step::STARTS)
     }
 
-    /// The image: as the step had it, with what was changed since.
+    /// The image of the step, with the changes since it was copied.
     #[must_use]
     pub fn image(&self) -> &[u8] {
         let start = answer::BEFORE + self.geometry.image_bytes;
         &self.answer[start..start + self.geometry.image_bytes]
     }
 
-    /// The image, to be changed.
+    /// The image, mutable.
     pub fn image_mut(&mut self) -> &mut [u8] {
         let start = answer::BEFORE + self.geometry.image_bytes;
         &mut self.answer[start..start + self.geometry.image_bytes]
     }
 
-    /// Answers the step: the bits that were changed since it was copied. Where its NC has ended it writes nothing: the slots may be
-    /// another's.
+    /// Answers the step: publishes the bits that were changed since it was copied. If the NC has ended, this writes nothing, because the
+    /// slots may belong to another NC.
     pub fn answer(&mut self) {
         if self.state() == State::Ended {
             return;
@@ -160,7 +160,7 @@ impl PlcImage {
         self.answered = Some(number);
     }
 
-    /// Asks for power off and on of the control.
+    /// Requests power off and on of the control.
     pub fn power_off_and_on(&self) {
         self.words.store(header::POWER, next(self.words.load(header::POWER)));
     }
@@ -180,7 +180,7 @@ fn is_image(words: &Words) -> bool {
     magic == MAGIC && words.load(header::VERSION) == VERSION
 }
 
-/// What the NC said once; `None` where it is no image of this version, or one that goes beyond the file.
+/// The constant part of the header; `None` if the file is not an image of this version, or if the image exceeds the file.
 fn read(words: &Words, length: usize) -> Option<(Geometry, Vec<Section>)> {
     let number = |offset| usize::try_from(words.load(offset)).unwrap_or(usize::MAX);
     let geometry = Geometry {
@@ -206,7 +206,7 @@ fn read(words: &Words, length: usize) -> Option<(Geometry, Vec<Section>)> {
 }
 
 impl Geometry {
-    /// Whether everything lies inside the file, in whole words.
+    /// Whether all slots and tables are inside the file, at whole words.
     fn is_possible(&self, length: usize) -> bool {
         let end = |first: usize, bytes: usize| bytes.checked_mul(self.slots).and_then(|bytes| bytes.checked_add(first));
         let words = [self.image_bytes, self.nc_slots, self.nc_slot_bytes, self.plc_slots, self.plc_slot_bytes];

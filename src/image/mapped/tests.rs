@@ -1,4 +1,4 @@
-//! The file from both sides.
+//! Tests of the file from both sides.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use crate::units::{AxisNumber, Time};
 
 const RULES: Rules = Rules { lock_step: false, time_out: Time::from_millis(100) };
 
-/// A file of its own for one test.
+/// A file for one test.
 struct File(PathBuf);
 
 impl File {
@@ -42,7 +42,7 @@ fn create(file: &File, memory: &Memory) -> MappedImage {
     MappedImage::create(&file.0, memory, &names(), RULES).unwrap()
 }
 
-/// Both sides, and an answer to the step that is published.
+/// Both sides, and an answer to the published step.
 fn both(file: &File, memory: &Memory) -> (MappedImage, PlcImage) {
     let nc = create(file, memory);
     let plc = PlcImage::open(&file.0).unwrap();
@@ -54,17 +54,17 @@ fn at(plc: &PlcImage, db: u16, byte: u32) -> usize {
 }
 
 #[test]
-fn every_field_stands_in_the_documents_where_it_is() {
+fn every_field_is_documented_at_its_position() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     for document in ["src/image/mapped/mod.rs", "README.md"] {
         let text = fs::read_to_string(root.join(document)).unwrap();
         let mut rows = text.lines().map(|line| line.trim_start_matches("//! "));
         for table in [header::FIELDS, section::FIELDS, step::FIELDS, answer::FIELDS] {
-            assert!(rows.any(|row| row.starts_with("| byte | bytes |")), "{document} has a table for each");
+            assert!(rows.any(|row| row.starts_with("| byte | bytes |")), "{document} must have one table for each");
             for (offset, bytes, field) in table {
                 let bytes = if *bytes == 0 { "`IMAGE_BYTES`".to_owned() } else { bytes.to_string() };
                 let wanted = format!("| {offset} | {bytes} | `{field}` | ");
-                assert!(rows.any(|row| row.starts_with(&wanted)), "{document} has no row `{wanted}` in its place");
+                assert!(rows.any(|row| row.starts_with(&wanted)), "{document} has no row `{wanted}` at its position");
             }
         }
     }
@@ -76,14 +76,14 @@ fn sections_have_one_writer_and_step_7_addresses() {
     let (_nc, plc) = both(&file, &Memory::new());
     let of = |db| plc.sections().iter().filter(move |s| s.area == Area::DataBlock(db)).collect::<Vec<&Section>>();
     let spans: Vec<_> = of(31).iter().map(|s| (s.first, s.length, s.writer, s.name.as_str())).collect();
-    // DB31.DBB0 to 59 are the PLC's, 60 to 102 the NCK's, the rest is plain memory.
+    // In DB31, bytes 0 to 59 belong to the PLC, 60 to 102 to the NCK; the rest is plain memory.
     assert_eq!(spans, [(0, 60, Source::Plc, "X"), (60, 43, Source::Nck, "X"), (103, 45, Source::Plc, "X")]);
     let hmi: Vec<_> = of(10).iter().filter(|s| s.writer == Source::Hmi).map(|s| (s.first, s.length)).collect();
     assert_eq!(hmi, [(97, 7)]);
     for db in (10..=11).chain(21..=61).chain(SINUMERIK.tables().standard_blocks.iter().copied()) {
         let first = of(db)[0];
         assert_eq!((first.first, first.offset % 8), (0, 0), "DB{db}");
-        assert!(of(db).iter().all(|s| s.offset == first.offset + s.first), "DB{db} lies in one piece");
+        assert!(of(db).iter().all(|s| s.offset == first.offset + s.first), "DB{db} is contiguous");
     }
     assert_eq!(plc.offset(Area::DataBlock(31), 148), None);
     assert_eq!(plc.offset(Area::DataBlock(30), 415).map(|end| end + 1), plc.offset(Area::DataBlock(31), 0));
@@ -101,7 +101,7 @@ fn the_828d_has_its_own_blocks_with_their_gaps() {
     let axis = [(0, 12), (1000, 4), (2000, 4), (4000, 4), (5000, 8)];
     assert_eq!(spans(3800), axis.map(|(first, length)| (first, length, Source::Plc)));
     let mut nck = axis.map(|(first, length)| (first, length, Source::Nck)).to_vec();
-    // DB31.DBB103, the last one, is not in the NCK's run: plain memory.
+    // DB31.DBB103, the last byte, is outside the run of the NCK: plain memory.
     nck[4].1 = 7;
     nck.push((5007, 1, Source::Plc));
     assert_eq!(spans(3900), nck);
@@ -109,7 +109,7 @@ fn the_828d_has_its_own_blocks_with_their_gaps() {
 }
 
 #[test]
-fn a_step_arrives_whole_and_its_answer_is_taken_where_the_plc_changed_something() {
+fn a_step_arrives_complete_and_only_bits_that_the_plc_changed_are_taken() {
     let file = File::new("both");
     let mut memory = Memory::new();
     let (mut nc, mut plc) = both(&file, &memory);
@@ -122,10 +122,10 @@ fn a_step_arrives_whole_and_its_answer_is_taken_where_the_plc_changed_something(
     let (ready, start, flag) = (at(&plc, 31, 101), at(&plc, 31, 29), plc.offset(Area::Flags, 10).unwrap());
     assert_eq!((plc.image()[ready], plc.image()[start], plc.image()[flag]), (0b1_0000, 0, 0b0001));
     plc.image_mut()[start] |= 0b1_0000; // DB31.DBX29.4
-    plc.image_mut()[ready] = 0; // not the PLC's
+    plc.image_mut()[ready] = 0; // a bit that the PLC does not own
     plc.image_mut()[flag] |= 0b0010;
     plc.answer();
-    memory.flags.set_byte(10, 0b0100); // an HMI was there meanwhile: M10.0 off, M10.2 on
+    memory.flags.set_byte(10, 0b0100); // in the meantime an HMI has set M10.0 = 0 and M10.2 = 1
     assert_eq!(nc.look(number), Look::Answer(number));
     nc.take(&mut memory);
     assert!(memory.to_nck().axes[x].start_gantry_synchronization());
@@ -145,7 +145,7 @@ fn a_plc_that_counts_in_its_flags_counts_every_answer_once() {
         plc.next_step().unwrap();
         plc.image_mut()[flag] += 1;
         plc.answer();
-        // The next step is published before the answer is seen: it still has the old count, and is not for the next scan.
+        // The next step is published before the answer is taken: it still has the old count and is not used for the next scan.
         nc.publish(&memory, step(2 * u64::from(count) + 1), false);
         assert_eq!(plc.next_step(), None);
         assert!(matches!(nc.look(0), Look::Answer(_)));
@@ -165,7 +165,7 @@ fn an_answer_from_before_the_start_is_not_taken() {
     assert_eq!(nc.look(least), Look::Refused(Refusal::Step));
     assert_eq!(nc.publish(&memory, step(1), true), least);
     assert!(!nc.is_acknowledged(least));
-    // The refused answer was seen, so the PLC goes on.
+    // The rejected answer was seen, so the PLC continues.
     assert_eq!((plc.next_step(), plc.starts()), (Some(least), 1));
     plc.answer();
     assert!(nc.is_acknowledged(least));
@@ -179,7 +179,7 @@ fn length_of_an_image() -> u64 {
 }
 
 #[test]
-fn zeros_of_a_start_that_was_broken_off_are_a_new_file() {
+fn zeros_of_an_interrupted_creation_are_a_new_file() {
     let file = File::new("zeros");
     let length = length_of_an_image();
     for left in [0, 1, 8, 16, 64, 4096, length - 1, length] {
@@ -191,20 +191,20 @@ fn zeros_of_a_start_that_was_broken_off_are_a_new_file() {
         plc.answer();
         assert_eq!((nc.look(1), fs::metadata(&file.0).unwrap().len()), (Look::Answer(1), length), "{left}");
     }
-    // Broken off when it was an image already, but without tables: none to the PLC, and an old one to the next NC.
+    // Creation interrupted when the file is already an image, but without tables: invalid for the PLC, reusable for the next NC.
     fs::write(&file.0, [&MAGIC[..], &1_u64.to_le_bytes(), &[0; 8000]].concat()).unwrap();
     let problem = PlcImage::open(&file.0).unwrap_err();
-    assert!(problem.what.contains("about to make"), "{problem}");
+    assert!(problem.what.contains("has not finished creating it"), "{problem}");
     assert_eq!(both(&file, &Memory::new()).1.next_step(), Some(1));
 }
 
 #[test]
-fn what_was_there_and_is_no_image_stays_as_it_was() {
+fn a_file_that_is_not_an_image_stays_unchanged() {
     let file = File::new("foreign");
     let other = [&MAGIC[..], &2_u64.to_le_bytes()].concat();
     let length = usize::try_from(length_of_an_image()).unwrap();
     let (zeros, end) = (vec![0; length + 1], [vec![0; length - 1], vec![1]].concat());
-    let contents = [(&b"a letter"[..], "something else"), (&zeros, "something else"), (&end, "something else")];
+    let contents = [(&b"a letter"[..], "other contents"), (&zeros, "other contents"), (&end, "other contents")];
     for (content, said) in contents.into_iter().chain([(&other[..], "version 2")]) {
         fs::write(&file.0, content).unwrap();
         let problem = MappedImage::create(&file.0, &Memory::new(), &names(), RULES).unwrap_err();
@@ -213,19 +213,19 @@ fn what_was_there_and_is_no_image_stays_as_it_was() {
         assert!(fs::read(&file.0).unwrap() == content, "{said}");
     }
     let folder = MappedImage::create(&std::env::temp_dir(), &Memory::new(), &names(), RULES).unwrap_err();
-    assert!(folder.what.contains("expected a file"), "{folder}");
+    assert!(folder.what.contains("expected a regular file"), "{folder}");
     let nowhere = std::env::temp_dir().join("no/such/folder/nck.image");
     let nowhere = MappedImage::create(&nowhere, &Memory::new(), &names(), RULES).unwrap_err();
     assert!(nowhere.what.contains("cannot be used"), "{nowhere}");
 }
 
 #[test]
-fn one_file_is_served_by_one_nc_at_a_time_and_numbers_go_on() {
+fn one_nc_at_a_time_serves_a_file_and_numbers_continue() {
     let file = File::new("again");
     let memory = Memory::new();
     let mut first = create(&file, &memory);
     let problem = MappedImage::create(&file.0, &memory, &names(), RULES).unwrap_err();
-    assert!(problem.what.contains("one in use"), "{problem}");
+    assert!(problem.what.contains("in use by another machine"), "{problem}");
     let number = first.publish(&memory, step(1), false);
     let mut plc = PlcImage::open(&file.0).unwrap();
     plc.next_step().unwrap();
@@ -235,19 +235,19 @@ fn one_file_is_served_by_one_nc_at_a_time_and_numbers_go_on() {
     assert_eq!(plc.state(), State::Run);
     drop(first);
     assert_eq!(plc.state(), State::Ended);
-    // Longer than needed, as one with more own blocks: it stays so, for somebody may have all of it mapped.
+    // Longer than needed, as if it had more data blocks. The length is kept, because another process may have all of it mapped.
     let length = fs::metadata(&file.0).unwrap().len() + 4096;
     fs::File::options().write(true).open(&file.0).unwrap().set_len(length).unwrap();
     let mut second = create(&file, &memory);
     assert_eq!(fs::metadata(&file.0).unwrap().len(), length);
-    assert_eq!(plc.state(), State::Ended, "it must read the header again");
-    assert_eq!(second.look(0), Look::Nothing, "an answer to the first NC is none to the second");
+    assert_eq!(plc.state(), State::Ended, "the PLC must read the header again");
+    assert_eq!(second.look(0), Look::Nothing, "an answer to the first NC is not an answer to the second");
     assert!(second.publish(&memory, step(1), false) > number);
     assert_eq!(PlcImage::open(&file.0).unwrap().state(), State::Stop);
 }
 
 #[test]
-fn a_broken_header_or_slot_is_refused_and_never_read_beyond() {
+fn an_invalid_header_or_slot_is_rejected_without_reading_beyond_the_file() {
     let file = File::new("broken");
     let memory = Memory::new();
     let (mut nc, mut plc) = both(&file, &memory);
@@ -304,7 +304,7 @@ fn a_stale_plc_writes_nothing_and_an_image_without_an_nc_is_not_opened() {
     plc.next_step().unwrap();
     drop(first);
     let problem = PlcImage::open(&file.0).unwrap_err();
-    assert!(problem.what.contains("an image that an NC serves"), "{problem}");
+    assert!(problem.what.contains("no NC serves this image"), "{problem}");
     let second = create(&file, &memory);
     let before = fs::read(&file.0).unwrap();
     plc.answer();
@@ -313,7 +313,7 @@ fn a_stale_plc_writes_nothing_and_an_image_without_an_nc_is_not_opened() {
 }
 
 #[test]
-fn numbers_of_a_file_may_be_at_their_end() {
+fn numbers_of_a_file_may_be_at_their_maximum() {
     let file = File::new("end");
     let memory = Memory::new();
     let nc = create(&file, &memory);
@@ -331,7 +331,7 @@ fn numbers_of_a_file_may_be_at_their_end() {
 }
 
 #[test]
-fn whatever_somebody_writes_into_the_file_the_nc_goes_on() {
+fn the_nc_survives_random_contents_of_the_file() {
     let file = File::new("scribbled");
     let mut memory = Memory::new();
     let mut nc = create(&file, &memory);
@@ -350,7 +350,7 @@ fn whatever_somebody_writes_into_the_file_the_nc_goes_on() {
             let place = usize::try_from(random()).unwrap_or(0) % (bytes / 8) * 8;
             nc.words.store(place, random());
         }
-        // The words that the NC looks at, and now and then an answer that is garbage but for its numbers.
+        // Writes random values to the words that the NC reads, and sometimes an answer with valid numbers and random contents.
         for word in [header::PLC_STARTS, header::NEWEST_ANSWER, header::ACKNOWLEDGE, header::POWER, header::STATE] {
             nc.words.store(word, [0, 1, u64::MAX, random()][usize::try_from(cycle % 4).unwrap()]);
         }
@@ -369,13 +369,13 @@ fn whatever_somebody_writes_into_the_file_the_nc_goes_on() {
             nc.take(&mut memory);
             taken += 1;
         }
-        assert!(memory.from_nck == from_nck, "the PLC writes nothing of the NCK's");
+        assert!(memory.from_nck == from_nck, "the PLC must not write signals of the NCK");
         let _ = (nc.plc_starts(), nc.power_requests(), nc.is_acknowledged(answer));
         nc.publish(&memory, step(cycle), false);
         let _ = PlcImage::open(&file.0);
     }
-    assert!(taken > 10, "some garbage keeps to the rules: {taken}");
+    assert!(taken > 10, "some random answers must be valid: {taken}");
     drop(nc);
-    // An NC starts with what it finds, or says that it is something else.
+    // An NC starts with any contents, or reports that the file is not an image.
     let _ = MappedImage::create(&file.0, &memory, &names(), RULES);
 }

@@ -1,8 +1,8 @@
-//! The file in memory: words of 64 bits that this process and others load and store. It is the one place of this crate with
-//! `unsafe`, called by both sides of the image.
+//! The file in memory: words of 64 bits that this process and other processes load and store. This is the only place of this crate with
+//! `unsafe`; both sides of the image call it.
 //!
-//! Everything that goes through it is an atomic load or store of one aligned word, so no byte is ever borrowed while somebody else
-//! writes it. What whole pieces of the file mean, and when they are whole, is the business of the callers.
+//! Every access is an atomic load or store of one aligned word, so no byte is borrowed while another process writes it. The callers define
+//! the meaning of larger pieces and decide when they are complete.
 
 use std::fs::File;
 use std::io;
@@ -20,48 +20,48 @@ pub(super) struct Words {
 }
 
 impl Words {
-    /// Maps the first `length` bytes of a file, which must have them.
+    /// Maps the first `length` bytes of a file, which must be at least that long.
     pub(super) fn map(file: &File, length: usize) -> io::Result<Self> {
         assert_eq!(length % WORD, 0, "whole words are mapped");
         let map = MmapOptions::new().len(length).map_raw(file)?;
         Ok(Self { map })
     }
 
-    #[expect(unsafe_code, reason = "memory that is shared with other processes is a pointer")]
+    #[expect(unsafe_code, reason = "memory that is shared with other processes is accessed through a pointer")]
     fn words(&self) -> &[AtomicU64] {
-        // SAFETY: the mapping begins at a page, so words are aligned; it has `len` bytes and lives as long as `self.map`, from
-        // which the slice borrows; any 64 bits are a valid word. Nobody has a reference to these bytes but as atomics: this is
-        // the only place that reads the pointer. Other processes may write at any time, which is what atomics allow. The pages
-        // exist as long as nobody makes the file shorter; both sides never do, and a stranger who does ends this process by a
-        // signal, not by undefined behaviour.
+        // SAFETY: the mapping begins at a page boundary, so words are aligned. It has `len` bytes and lives as long as `self.map`, from
+        // which the slice borrows. Any 64 bits are a valid word. All references to these bytes are atomics, because this is the only place
+        // that reads the pointer. Other processes may write at any time, which atomics allow. The pages exist as long as no process
+        // truncates the file. Neither side truncates it; if another process does, this process ends by a signal and not by undefined
+        // behaviour.
         unsafe { std::slice::from_raw_parts(self.map.as_mut_ptr().cast::<AtomicU64>(), self.map.len() / WORD) }
     }
 
-    /// The number at a place, and with it all that its writer wrote before.
+    /// Loads the number at a position, and makes visible everything that its writer wrote before.
     pub(super) fn load(&self, offset: usize) -> u64 {
         u64::from_le(self.words()[offset / WORD].load(Ordering::Acquire))
     }
 
-    /// Stores a number after all that this process wrote before.
+    /// Stores a number after everything that this process wrote before.
     pub(super) fn store(&self, offset: usize, value: u64) {
         self.words()[offset / WORD].store(value.to_le(), Ordering::Release);
     }
 
-    /// Copies whole words out.
+    /// Copies whole words out of the file.
     pub(super) fn read(&self, offset: usize, into: &mut [u8]) {
         for (word, bytes) in self.words()[offset / WORD..].iter().zip(into.chunks_exact_mut(WORD)) {
             bytes.copy_from_slice(&word.load(Ordering::Relaxed).to_ne_bytes());
         }
     }
 
-    /// Copies whole words in.
+    /// Copies whole words into the file.
     pub(super) fn write(&self, offset: usize, bytes: &[u8]) {
         for (word, bytes) in self.words()[offset / WORD..].iter().zip(bytes.as_chunks::<WORD>().0) {
             word.store(u64::from_ne_bytes(*bytes), Ordering::Relaxed);
         }
     }
 
-    /// Writes a slot that begins with its number and ends with its checksum: nobody who keeps the rules takes it half.
+    /// Writes a slot that begins with its number and ends with its checksum, so that a reader that follows the protocol never takes a part.
     pub(super) fn write_slot(&self, offset: usize, number: u64, slot: &mut [u8]) {
         slot[..WORD].copy_from_slice(&number.to_le_bytes());
         let end = slot.len() - WORD;
@@ -73,7 +73,7 @@ impl Words {
         self.store(offset, number);
     }
 
-    /// Copies a slot, if it is the whole one of this number.
+    /// Copies a slot if it is complete and has this number.
     pub(super) fn read_slot(&self, offset: usize, number: u64, slot: &mut [u8]) -> Result<(), Torn> {
         if self.load(offset) != number {
             return Err(Torn::Number);
@@ -92,18 +92,18 @@ impl Words {
 /// Why a slot is not taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Torn {
-    /// It has another number, or is being written.
+    /// The slot has another number, or is being written.
     Number,
-    /// Its checksum is another one.
+    /// The checksum is wrong.
     Checksum,
 }
 
-/// The number after one, whatever the file says; 0 is none.
+/// The next number, for any value in the file; it is never 0, which means "none".
 pub(super) fn next(number: u64) -> u64 {
     number.wrapping_add(1).max(1)
 }
 
-/// The number at a place of a copy; 0 beyond its end.
+/// The number at a position of a copy; 0 beyond its end.
 pub(super) fn field(bytes: &[u8], offset: usize) -> u64 {
     bytes.get(offset..).and_then(|rest| rest.first_chunk()).map_or(0, |bytes| u64::from_le_bytes(*bytes))
 }

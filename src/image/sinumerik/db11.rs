@@ -1,26 +1,26 @@
-//! DB11: the mode groups. The second group lies 20 bytes above the first. The PLC writes bytes 0 to 2, the HMI 4 and
-//! 5, the NCK 6 to 8.
+//! DB11: the mode groups. The second group begins 20 bytes after the first. The PLC writes bytes 0 to 2, the HMI bytes 4 and 5, the NCK
+//! bytes 6 to 8.
 //!
-//! G1 calls DBX5.2 "active machine function REF"; by the list manual it is the HMI's strobe and 7.2 is the active
-//! function. Here 5.2 lies among the HMI's bytes; the control mirrors 7.2 to it until an HMI writes there (E-01).
+//! G1 calls DBX5.2 "active machine function REF". According to the list manual, 5.2 is the strobe of the HMI and 7.2 is the active
+//! function. In this project, 5.2 is in the bytes of the HMI; the control mirrors 7.2 to it until an HMI writes it (E-01).
 
 use crate::image::table::signals;
 
 signals! {
-    /// DB11 bytes 0 to 2 (second group 20 to 22): what the PLC tells the mode group.
+    /// DB11 bytes 0 to 2 (second group 20 to 22): signals from the PLC to the mode group.
     pub struct ModeGroupToNck, mode_group_to_nck: ModeGroup, Plc, 0 to 2;
 
-    /// Mode AUTOMATIC: 1 requests it; JOG wins over MDI, MDI over AUTOMATIC.
+    /// Mode AUTOMATIC: 1 requests it; JOG has priority over MDI, MDI over AUTOMATIC.
     bool, mode_automatic, set_mode_automatic: 0, 0;
     /// Mode MDI: 1 requests it.
     bool, mode_mdi, set_mode_mdi: 0, 1;
     /// Mode JOG: 1 requests it.
     bool, mode_jog, set_mode_jog: 0, 2;
-    /// Mode change inhibit: 1 = the mode stays as it is.
+    /// Mode change inhibit: 1 = the mode cannot be changed.
     bool, mode_change_inhibit, set_mode_change_inhibit: 0, 4;
     /// Mode group stop: 1 stops the axes of all channels of the group.
     bool, mode_group_stop, set_mode_group_stop: 0, 5;
-    /// Mode group stop axes plus spindles: 1 stops the spindles as well.
+    /// Mode group stop axes plus spindles: 1 also stops the spindles.
     bool, mode_group_stop_axes_plus_spindles, set_mode_group_stop_axes_plus_spindles: 0, 6;
     /// Mode group reset: 1 resets all channels of the group and cancels alarms that RESET clears.
     bool, mode_group_reset, set_mode_group_reset: 0, 7;
@@ -32,9 +32,9 @@ signals! {
     bool, machine_function_ref, set_machine_function_ref: 1, 2;
     /// Single block type B: 1 = stop after each block that moves an axis.
     bool, single_block_type_b, set_single_block_type_b: 1, 6;
-    /// Single block type A: 1 = all channels stop when one of them has ended a single block.
+    /// Single block type A: 1 = all channels stop when one of them has completed a single block.
     bool, single_block_type_a, set_single_block_type_a: 1, 7;
-    /// Machine function INC1: 1 requests it; counts only with DB10.DBX57.0 = 1, as the next six.
+    /// Machine function INC1: 1 requests it; effective only with DB10.DBX57.0 = 1, like the next six signals.
     bool, machine_function_increment_1, set_machine_function_increment_1: 2, 0;
     /// Machine function INC10: 1 requests it.
     bool, machine_function_increment_10, set_machine_function_increment_10: 2, 1;
@@ -51,8 +51,7 @@ signals! {
 }
 
 signals! {
-    /// DB11 bytes 4 and 5 (second group 24 and 25): what the operator selects on the HMI; programs copy it to bytes 0
-    /// and 1.
+    /// DB11 bytes 4 and 5 (second group 24 and 25): selections of the operator on the HMI; PLC programs copy them to bytes 0 and 1.
     pub struct ModeGroupHmi, mode_group_hmi: ModeGroup, Hmi, 4 to 5;
 
     /// AUTOMATIC selected on the HMI: 1 = strobe.
@@ -70,7 +69,7 @@ signals! {
 }
 
 signals! {
-    /// DB11 bytes 6 to 8 (second group 26 to 28): what the mode group tells the PLC.
+    /// DB11 bytes 6 to 8 (second group 26 to 28): signals from the mode group to the PLC.
     pub struct ModeGroupFromNck, mode_group_from_nck: ModeGroup, Nck, 6 to 8;
 
     /// Active mode AUTOMATIC: 1 = active.

@@ -1,24 +1,24 @@
-//! DB21 to DB30: a channel each. The PLC writes bytes 0 to 21, the HMI 24 and 25, the NCK 32 to 53.
+//! DB21 to DB30: one channel each. The PLC writes bytes 0 to 21, the HMI bytes 24 and 25, the NCK bytes 32 to 53.
 
 use crate::image::table::signals;
 
 signals! {
-    /// DB21 bytes 0 to 21: what the PLC tells the channel.
+    /// DB21 bytes 0 to 21: signals from the PLC to the channel.
     pub struct ChannelToNck, channel_to_nck: Channel, Plc, 0 to 21;
 
     /// Activate DRF: 1 = handwheel offsets in AUTOMATIC.
     bool, activate_drf, set_activate_drf: 0, 3;
     /// Activate single block: 1 = stop after each block.
     bool, activate_single_block, set_activate_single_block: 0, 4;
-    /// Activate M01: 1 = the programmed optional stop acts.
+    /// Activate M01: 1 = the programmed optional stop is effective.
     bool, activate_m01, set_activate_m01: 0, 5;
     /// Activate dry run feedrate: 1 = the dry run feedrate replaces the programmed one.
     bool, activate_dry_run_feedrate, set_activate_dry_run_feedrate: 0, 6;
     /// Activate referencing: a rising edge starts the channel-specific reference point approach.
     bool, activate_referencing, set_activate_referencing: 1, 0;
-    /// PLC action completed: 1 = the program may go on.
+    /// PLC action completed: 1 = the program may continue.
     bool, plc_action_completed, set_plc_action_completed: 1, 6;
-    /// Activate program test: 1 = setpoints are not put out.
+    /// Activate program test: 1 = setpoints are not output.
     bool, activate_program_test, set_activate_program_test: 1, 7;
     /// Skip block level 0: 1 = blocks with / are skipped.
     bool, skip_block_level_0, set_skip_block_level_0: 2, 0;
@@ -40,17 +40,17 @@ signals! {
     u8, feed_override, set_feed_override: 4, 7 to 0;
     /// Rapid traverse override: position of the switch in Gray code (MD12040 = 1) or per cent in binary.
     u8, rapid_traverse_override, set_rapid_traverse_override: 5, 7 to 0;
-    /// Feed disable: 1 stops all axes of the channel, in JOG as well.
+    /// Feed disable: 1 stops all axes of the channel, also in JOG.
     bool, feed_disable, set_feed_disable: 6, 0;
     /// Read-in disable: 1 = the next block is not read in.
     bool, read_in_disable, set_read_in_disable: 6, 1;
-    /// Delete distance-to-go: 1 = of the path axes.
+    /// Delete distance-to-go: 1 = delete it for the path axes.
     bool, delete_distance_to_go, set_delete_distance_to_go: 6, 2;
-    /// Program level abort: 1 = the running subprogram is left.
+    /// Program level abort: 1 = the running subprogram is aborted.
     bool, program_level_abort, set_program_level_abort: 6, 4;
-    /// Rapid traverse override active: 0 = it counts as 100 %.
+    /// Rapid traverse override active: 0 = the override is 100 %.
     bool, rapid_traverse_override_active, set_rapid_traverse_override_active: 6, 6;
-    /// Feed override active: 0 = it counts as 100 %.
+    /// Feed override active: 0 = the override is 100 %.
     bool, feed_override_active, set_feed_override_active: 6, 7;
     /// NC start disable: 1 = no program can be started.
     bool, nc_start_disable, set_nc_start_disable: 7, 0;
@@ -58,9 +58,9 @@ signals! {
     bool, nc_start, set_nc_start: 7, 1;
     /// NC stop at block limit: 1 = stop at the end of the block.
     bool, nc_stop_at_block_limit, set_nc_stop_at_block_limit: 7, 2;
-    /// NC stop: 1 = stop now.
+    /// NC stop: 1 = stop immediately.
     bool, nc_stop, set_nc_stop: 7, 3;
-    /// NC stop axes plus spindles: 1 = stop the spindles as well.
+    /// NC stop axes plus spindles: 1 = also stop the spindles.
     bool, nc_stop_axes_plus_spindles, set_nc_stop_axes_plus_spindles: 7, 4;
     /// Reset: 1 resets the channel and cancels alarms that RESET clears.
     bool, channel_reset, set_channel_reset: 7, 7;
@@ -74,7 +74,7 @@ signals! {
     bool, geometry_axis_1_feed_stop, set_geometry_axis_1_feed_stop: 12, 3;
     /// Geometry axis 1: traversing key lock: 1 = its traversing keys are ignored.
     bool, geometry_axis_1_traversing_key_lock, set_geometry_axis_1_traversing_key_lock: 12, 4;
-    /// Geometry axis 1: rapid traverse override: 1 = with a traversing key, rapid traverse.
+    /// Geometry axis 1: rapid traverse override: 1 = a traversing key moves the axis at rapid traverse.
     bool, geometry_axis_1_rapid_traverse_override, set_geometry_axis_1_rapid_traverse_override: 12, 5;
     /// Geometry axis 1: traversing key minus: 1 = pressed.
     bool, geometry_axis_1_traversing_key_minus, set_geometry_axis_1_traversing_key_minus: 12, 6;
@@ -104,7 +104,7 @@ signals! {
     bool, geometry_axis_2_feed_stop, set_geometry_axis_2_feed_stop: 16, 3;
     /// Geometry axis 2: traversing key lock: 1 = its traversing keys are ignored.
     bool, geometry_axis_2_traversing_key_lock, set_geometry_axis_2_traversing_key_lock: 16, 4;
-    /// Geometry axis 2: rapid traverse override: 1 = with a traversing key, rapid traverse.
+    /// Geometry axis 2: rapid traverse override: 1 = a traversing key moves the axis at rapid traverse.
     bool, geometry_axis_2_rapid_traverse_override, set_geometry_axis_2_rapid_traverse_override: 16, 5;
     /// Geometry axis 2: traversing key minus: 1 = pressed.
     bool, geometry_axis_2_traversing_key_minus, set_geometry_axis_2_traversing_key_minus: 16, 6;
@@ -134,7 +134,7 @@ signals! {
     bool, geometry_axis_3_feed_stop, set_geometry_axis_3_feed_stop: 20, 3;
     /// Geometry axis 3: traversing key lock: 1 = its traversing keys are ignored.
     bool, geometry_axis_3_traversing_key_lock, set_geometry_axis_3_traversing_key_lock: 20, 4;
-    /// Geometry axis 3: rapid traverse override: 1 = with a traversing key, rapid traverse.
+    /// Geometry axis 3: rapid traverse override: 1 = a traversing key moves the axis at rapid traverse.
     bool, geometry_axis_3_rapid_traverse_override, set_geometry_axis_3_rapid_traverse_override: 20, 5;
     /// Geometry axis 3: traversing key minus: 1 = pressed.
     bool, geometry_axis_3_traversing_key_minus, set_geometry_axis_3_traversing_key_minus: 20, 6;
@@ -157,7 +157,7 @@ signals! {
 }
 
 signals! {
-    /// DB21 bytes 24 and 25: what the operator selects on the HMI; programs copy it to bytes 0 and 6.
+    /// DB21 bytes 24 and 25: selections of the operator on the HMI; PLC programs copy them to bytes 0 and 6.
     pub struct ChannelHmi, channel_hmi: Channel, Hmi, 24 to 25;
 
     /// DRF selected on the HMI: 1 = yes.
@@ -171,7 +171,7 @@ signals! {
 }
 
 signals! {
-    /// DB21 bytes 32 to 53: what the channel tells the PLC.
+    /// DB21 bytes 32 to 53: signals from the channel to the PLC.
     pub struct ChannelFromNck, channel_from_nck: Channel, Nck, 32 to 53;
 
     /// Action block active: 1 = yes.
@@ -230,13 +230,13 @@ signals! {
     bool, geometry_axis_1_handwheel_2_active, set_geometry_axis_1_handwheel_2_active: 40, 1;
     /// Geometry axis 1: handwheel 3 active: 1 = yes.
     bool, geometry_axis_1_handwheel_3_active, set_geometry_axis_1_handwheel_3_active: 40, 2;
-    /// Geometry axis 1: traverse request minus: 1 = motion is wanted.
+    /// Geometry axis 1: traverse request minus: 1 = motion is requested.
     bool, geometry_axis_1_traverse_request_minus, set_geometry_axis_1_traverse_request_minus: 40, 4;
-    /// Geometry axis 1: traverse request plus: 1 = motion is wanted.
+    /// Geometry axis 1: traverse request plus: 1 = motion is requested.
     bool, geometry_axis_1_traverse_request_plus, set_geometry_axis_1_traverse_request_plus: 40, 5;
-    /// Geometry axis 1: traverse command minus: 1 = the axis is to move.
+    /// Geometry axis 1: traverse command minus: 1 = the axis must move.
     bool, geometry_axis_1_traverse_command_minus, set_geometry_axis_1_traverse_command_minus: 40, 6;
-    /// Geometry axis 1: traverse command plus: 1 = the axis is to move.
+    /// Geometry axis 1: traverse command plus: 1 = the axis must move.
     bool, geometry_axis_1_traverse_command_plus, set_geometry_axis_1_traverse_command_plus: 40, 7;
     /// Geometry axis 1: active machine function INC1: 1 = active.
     bool, geometry_axis_1_active_machine_function_increment_1, set_geometry_axis_1_active_machine_function_increment_1: 41, 0;
@@ -258,13 +258,13 @@ signals! {
     bool, geometry_axis_2_handwheel_2_active, set_geometry_axis_2_handwheel_2_active: 46, 1;
     /// Geometry axis 2: handwheel 3 active: 1 = yes.
     bool, geometry_axis_2_handwheel_3_active, set_geometry_axis_2_handwheel_3_active: 46, 2;
-    /// Geometry axis 2: traverse request minus: 1 = motion is wanted.
+    /// Geometry axis 2: traverse request minus: 1 = motion is requested.
     bool, geometry_axis_2_traverse_request_minus, set_geometry_axis_2_traverse_request_minus: 46, 4;
-    /// Geometry axis 2: traverse request plus: 1 = motion is wanted.
+    /// Geometry axis 2: traverse request plus: 1 = motion is requested.
     bool, geometry_axis_2_traverse_request_plus, set_geometry_axis_2_traverse_request_plus: 46, 5;
-    /// Geometry axis 2: traverse command minus: 1 = the axis is to move.
+    /// Geometry axis 2: traverse command minus: 1 = the axis must move.
     bool, geometry_axis_2_traverse_command_minus, set_geometry_axis_2_traverse_command_minus: 46, 6;
-    /// Geometry axis 2: traverse command plus: 1 = the axis is to move.
+    /// Geometry axis 2: traverse command plus: 1 = the axis must move.
     bool, geometry_axis_2_traverse_command_plus, set_geometry_axis_2_traverse_command_plus: 46, 7;
     /// Geometry axis 2: active machine function INC1: 1 = active.
     bool, geometry_axis_2_active_machine_function_increment_1, set_geometry_axis_2_active_machine_function_increment_1: 47, 0;
@@ -286,13 +286,13 @@ signals! {
     bool, geometry_axis_3_handwheel_2_active, set_geometry_axis_3_handwheel_2_active: 52, 1;
     /// Geometry axis 3: handwheel 3 active: 1 = yes.
     bool, geometry_axis_3_handwheel_3_active, set_geometry_axis_3_handwheel_3_active: 52, 2;
-    /// Geometry axis 3: traverse request minus: 1 = motion is wanted.
+    /// Geometry axis 3: traverse request minus: 1 = motion is requested.
     bool, geometry_axis_3_traverse_request_minus, set_geometry_axis_3_traverse_request_minus: 52, 4;
-    /// Geometry axis 3: traverse request plus: 1 = motion is wanted.
+    /// Geometry axis 3: traverse request plus: 1 = motion is requested.
     bool, geometry_axis_3_traverse_request_plus, set_geometry_axis_3_traverse_request_plus: 52, 5;
-    /// Geometry axis 3: traverse command minus: 1 = the axis is to move.
+    /// Geometry axis 3: traverse command minus: 1 = the axis must move.
     bool, geometry_axis_3_traverse_command_minus, set_geometry_axis_3_traverse_command_minus: 52, 6;
-    /// Geometry axis 3: traverse command plus: 1 = the axis is to move.
+    /// Geometry axis 3: traverse command plus: 1 = the axis must move.
     bool, geometry_axis_3_traverse_command_plus, set_geometry_axis_3_traverse_command_plus: 52, 7;
     /// Geometry axis 3: active machine function INC1: 1 = active.
     bool, geometry_axis_3_active_machine_function_increment_1, set_geometry_axis_3_active_machine_function_increment_1: 53, 0;

@@ -1,13 +1,12 @@
-//! DB31 to DB61: a machine axis or spindle each. The PLC writes bytes 0 to 29, the NCK 60 to 102.
+//! DB31 to DB61: one machine axis or spindle each. The PLC writes bytes 0 to 29, the NCK bytes 60 to 102.
 //!
-//! Where G1 contradicts the list manual, the list manual holds: feed stop is 4.3 and 4.4 the traversing key disable
-//! (E-02), the measuring systems are 1.5 and 1.6 (E-03), 12.2 and 12.3 the second *software* limit switches (E-04),
-//! minus comes before plus (E-05).
+//! Where G1 contradicts the list manual, the list manual applies: 4.3 is feed stop and 4.4 is traversing key disable (E-02), the measuring
+//! systems are 1.5 and 1.6 (E-03), 12.2 and 12.3 are the second *software* limit switches (E-04), minus precedes plus (E-05).
 
 use crate::image::table::signals;
 
 signals! {
-    /// DB31 bytes 0 to 29: what the PLC tells the axis.
+    /// DB31 bytes 0 to 29: signals from the PLC to the axis.
     pub struct AxisToNck, axis_to_nck: Axis, Plc, 0 to 29;
 
     /// Feed override: position of the switch in Gray code (MD12000 = 1) or per cent in binary; position 1 = 0 %.
@@ -16,31 +15,31 @@ signals! {
     bool, drive_test_travel_enable, set_drive_test_travel_enable: 1, 0;
     /// Acknowledge fixed stop reached: 1 = acknowledged.
     bool, acknowledge_fixed_stop_reached, set_acknowledge_fixed_stop_reached: 1, 1;
-    /// Sensor for fixed stop: 1 = it has switched.
+    /// Sensor for fixed stop: 1 = the sensor has switched.
     bool, fixed_stop_sensor, set_fixed_stop_sensor: 1, 2;
-    /// Axis/spindle disable: 1 = setpoints are not put out; the loop stays closed.
+    /// Axis/spindle disable: 1 = setpoints are not output; the loop stays closed.
     bool, axis_spindle_disable, set_axis_spindle_disable: 1, 3;
-    /// Follow-up mode: with controller enable off, 1 = the setpoint follows the actual value, 0 = it is held.
+    /// Follow-up mode: while controller enable is off, 1 = the setpoint follows the actual value, 0 = the setpoint is held.
     bool, follow_up_mode, set_follow_up_mode: 1, 4;
     /// Position measuring system 1: 1 = selected; without 1 and 2 the axis is parked.
     bool, position_measuring_system_1, set_position_measuring_system_1: 1, 5;
     /// Position measuring system 2: 1 = selected; with both, only 1 is used.
     bool, position_measuring_system_2, set_position_measuring_system_2: 1, 6;
-    /// Override active: 0 = the axial override counts as 100 %.
+    /// Override active: 0 = the axial override is 100 %.
     bool, override_active, set_override_active: 1, 7;
     /// Controller enable (servo enable): 0 = the axis brakes and the position control loop is opened.
     bool, controller_enable, set_controller_enable: 2, 1;
-    /// Delete distance-to-go, spindle reset: a rising edge acts.
+    /// Delete distance-to-go, spindle reset: effective at a rising edge.
     bool, delete_distance_to_go_spindle_reset, set_delete_distance_to_go_spindle_reset: 2, 2;
     /// Clamping in progress: 1 = clamping monitoring (MD36050) instead of zero-speed monitoring.
     bool, clamping_in_progress, set_clamping_in_progress: 2, 3;
-    /// Reference point value 1: 1 selects MD34100 index 0; none set means value 1.
+    /// Reference point value 1: 1 selects MD34100 index 0; if none is set, value 1 applies.
     bool, reference_point_value_1, set_reference_point_value_1: 2, 4;
-    /// Reference point value 2: 1 selects MD34100 index 1; none set means value 1.
+    /// Reference point value 2: 1 selects MD34100 index 1; if none is set, value 1 applies.
     bool, reference_point_value_2, set_reference_point_value_2: 2, 5;
-    /// Reference point value 3: 1 selects MD34100 index 2; none set means value 1.
+    /// Reference point value 3: 1 selects MD34100 index 2; if none is set, value 1 applies.
     bool, reference_point_value_3, set_reference_point_value_3: 2, 6;
-    /// Reference point value 4: 1 selects MD34100 index 3; none set means value 1.
+    /// Reference point value 4: 1 selects MD34100 index 3; if none is set, value 1 applies.
     bool, reference_point_value_4, set_reference_point_value_4: 2, 7;
     /// Accept external work offset: 1 = accept.
     bool, accept_external_work_offset, set_accept_external_work_offset: 3, 0;
@@ -56,17 +55,17 @@ signals! {
     bool, activate_fixed_feedrate_4, set_activate_fixed_feedrate_4: 3, 5;
     /// Velocity/spindle speed limiting: 1 = limited.
     bool, velocity_spindle_speed_limiting, set_velocity_spindle_speed_limiting: 3, 6;
-    /// Activate handwheel 1: 1 = it moves this axis.
+    /// Activate handwheel 1: 1 = the handwheel moves this axis.
     bool, activate_handwheel_1, set_activate_handwheel_1: 4, 0;
-    /// Activate handwheel 2: 1 = it moves this axis.
+    /// Activate handwheel 2: 1 = the handwheel moves this axis.
     bool, activate_handwheel_2, set_activate_handwheel_2: 4, 1;
-    /// Activate handwheel 3: 1 = it moves this axis.
+    /// Activate handwheel 3: 1 = the handwheel moves this axis.
     bool, activate_handwheel_3, set_activate_handwheel_3: 4, 2;
     /// Feed stop, spindle stop: 1 = stop.
     bool, feed_stop, set_feed_stop: 4, 3;
     /// Traversing key disable: 1 = the traversing keys are ignored.
     bool, traversing_key_disable, set_traversing_key_disable: 4, 4;
-    /// Rapid traverse override: with a traversing key, 1 = MD32010 instead of MD32020.
+    /// Rapid traverse override: 1 = a traversing key moves the axis at MD32010 instead of MD32020.
     bool, rapid_traverse_override, set_rapid_traverse_override: 4, 5;
     /// Traversing key minus: 1 = pressed; both pressed: no motion.
     bool, traversing_key_minus, set_traversing_key_minus: 4, 6;
@@ -88,9 +87,9 @@ signals! {
     bool, machine_function_continuous, set_machine_function_continuous: 5, 6;
     /// Invert handwheel direction of rotation: 1 = inverted.
     bool, invert_handwheel_direction_of_rotation, set_invert_handwheel_direction_of_rotation: 7, 0;
-    /// Axis/spindle replacement: number of the channel that is to get the axis, binary.
+    /// Axis/spindle replacement: number of the channel that receives the axis, binary.
     u8, replacement_channel_number, set_replacement_channel_number: 8, 3 to 0;
-    /// Axis/spindle replacement: activation signal when the type changes; a rising edge acts.
+    /// Axis/spindle replacement: activation signal when the type changes; effective at a rising edge.
     bool, replacement_activation_signal, set_replacement_activation_signal: 8, 4;
     /// Axis/spindle replacement: 1 requests the axis for the PLC.
     bool, request_plc_axis, set_request_plc_axis: 8, 7;
@@ -102,11 +101,11 @@ signals! {
     bool, hardware_limit_switch_minus, set_hardware_limit_switch_minus: 12, 0;
     /// Hardware limit switch plus: 1 = the axis is on it.
     bool, hardware_limit_switch_plus, set_hardware_limit_switch_plus: 12, 1;
-    /// Second software limit switch minus: 1 = MD36120 holds instead of MD36100.
+    /// Second software limit switch minus: 1 = MD36120 applies instead of MD36100.
     bool, second_software_limit_switch_minus, set_second_software_limit_switch_minus: 12, 2;
-    /// Second software limit switch plus: 1 = MD36130 holds instead of MD36110.
+    /// Second software limit switch plus: 1 = MD36130 applies instead of MD36110.
     bool, second_software_limit_switch_plus, set_second_software_limit_switch_plus: 12, 3;
-    /// Modulo rotary axis: 1 = its traversing range limits act.
+    /// Modulo rotary axis: 1 = its traversing range limits are effective.
     bool, modulo_limits_enable, set_modulo_limits_enable: 12, 4;
     /// Deceleration of reference point approach: 1 = the axis is on the reference cam.
     bool, deceleration_reference_point_approach, set_deceleration_reference_point_approach: 12, 7;
@@ -116,9 +115,9 @@ signals! {
     bool, jog_approach_position, set_jog_approach_position: 13, 3;
     /// Suppress program test: 1 = suppressed for this axis.
     bool, suppress_program_test, set_suppress_program_test: 14, 0;
-    /// Activate program test: 1 = for this axis.
+    /// Activate program test: 1 = active for this axis.
     bool, activate_program_test, set_activate_program_test: 14, 1;
-    /// Ramp-function generator fast stop: 1 = speed setpoint 0 at the ramp of the drive.
+    /// Ramp-function generator fast stop: 1 = speed setpoint 0 along the ramp of the drive.
     bool, ramp_function_generator_fast_stop, set_ramp_function_generator_fast_stop: 20, 1;
     /// Motor and drive data set selection, binary.
     u8, drive_data_set_selection, set_drive_data_set_selection: 21, 4 to 0;
@@ -134,11 +133,11 @@ signals! {
     bool, request_drive_control, set_request_drive_control: 24, 5;
     /// Activate master-slave coupling: 1 = on.
     bool, activate_master_slave, set_activate_master_slave: 24, 7;
-    /// External oscillation reversal: 1 = reverse now.
+    /// External oscillation reversal: 1 = reverse immediately.
     bool, external_oscillation_reversal, set_external_oscillation_reversal: 28, 0;
-    /// PLC-controlled axis: reset, a rising edge acts.
+    /// PLC-controlled axis: reset, effective at a rising edge.
     bool, plc_controlled_axis_reset, set_plc_controlled_axis_reset: 28, 1;
-    /// PLC-controlled axis: resume, a rising edge acts.
+    /// PLC-controlled axis: resume, effective at a rising edge.
     bool, plc_controlled_axis_resume, set_plc_controlled_axis_resume: 28, 2;
     /// Set reversal point: 1 = set.
     bool, set_oscillation_reversal_point, set_set_oscillation_reversal_point: 28, 3;
@@ -150,14 +149,15 @@ signals! {
     bool, stop_along_braking_ramp, set_stop_along_braking_ramp: 28, 6;
     /// PLC controls axis: 1 = requested.
     bool, plc_controls_axis, set_plc_controls_axis: 28, 7;
-    /// Start gantry synchronization: 1 starts the synchronization run; acts on the leading axis.
+    /// Start gantry synchronization: 1 starts the synchronization run; effective on the leading axis.
     bool, start_gantry_synchronization, set_start_gantry_synchronization: 29, 4;
-    /// No automatic synchronization of the gantry grouping: 1 = the synchronization run does not start by itself; acts on the leading axis.
+    /// No automatic synchronization of the gantry grouping: 1 = the synchronization run does not start automatically; effective on the
+    /// leading axis.
     bool, no_automatic_synchronization, set_no_automatic_synchronization: 29, 5;
 }
 
 signals! {
-    /// DB31 bytes 60 to 102: what the axis tells the PLC.
+    /// DB31 bytes 60 to 102: signals from the axis to the PLC.
     pub struct AxisFromNck, axis_from_nck: Axis, Nck, 60 to 102;
 
     /// Spindle, no axis: 1 = spindle, 0 = axis.
@@ -176,7 +176,7 @@ signals! {
     bool, position_reached_exact_stop_coarse, set_position_reached_exact_stop_coarse: 60, 6;
     /// Position reached with exact stop fine: 1 = inside MD36010.
     bool, position_reached_exact_stop_fine, set_position_reached_exact_stop_fine: 60, 7;
-    /// Drive test travel request: 1 = the drive wants to move by itself.
+    /// Drive test travel request: 1 = the drive requests autonomous motion.
     bool, drive_test_travel_request, set_drive_test_travel_request: 61, 0;
     /// Axis-specific alarm: 1 = at least one alarm of this axis is pending.
     bool, axis_specific_alarm, set_axis_specific_alarm: 61, 1;
@@ -206,25 +206,25 @@ signals! {
     bool, fixed_stop_reached, set_fixed_stop_reached: 62, 5;
     /// Axis container rotation active: 1 = yes.
     bool, axis_container_rotation_active, set_axis_container_rotation_active: 62, 7;
-    /// Reset executed: 1 = the reset of the PLC-controlled axis is done.
+    /// Reset executed: 1 = the reset of the PLC-controlled axis is complete.
     bool, reset_executed, set_reset_executed: 63, 0;
     /// PLC-controlled axis: 1 = the PLC controls the axis.
     bool, plc_controlled_axis, set_plc_controlled_axis: 63, 1;
     /// Axis stop active: 1 = yes.
     bool, axis_stop_active, set_axis_stop_active: 63, 2;
-    /// Handwheel 1 active: 1 = it moves this axis.
+    /// Handwheel 1 active: 1 = the handwheel moves this axis.
     bool, handwheel_1_active, set_handwheel_1_active: 64, 0;
-    /// Handwheel 2 active: 1 = it moves this axis.
+    /// Handwheel 2 active: 1 = the handwheel moves this axis.
     bool, handwheel_2_active, set_handwheel_2_active: 64, 1;
-    /// Handwheel 3 active: 1 = it moves this axis.
+    /// Handwheel 3 active: 1 = the handwheel moves this axis.
     bool, handwheel_3_active, set_handwheel_3_active: 64, 2;
-    /// Traverse request minus: 1 = motion is wanted, even if it is blocked.
+    /// Traverse request minus: 1 = motion is requested, even if it is blocked.
     bool, traverse_request_minus, set_traverse_request_minus: 64, 4;
-    /// Traverse request plus: 1 = motion is wanted, even if it is blocked.
+    /// Traverse request plus: 1 = motion is requested, even if it is blocked.
     bool, traverse_request_plus, set_traverse_request_plus: 64, 5;
-    /// Traverse command minus: 1 = the axis is to move.
+    /// Traverse command minus: 1 = the axis must move.
     bool, traverse_command_minus, set_traverse_command_minus: 64, 6;
-    /// Traverse command plus: 1 = the axis is to move.
+    /// Traverse command plus: 1 = the axis must move.
     bool, traverse_command_plus, set_traverse_command_plus: 64, 7;
     /// Active machine function INC1: 1 = active.
     bool, active_machine_function_increment_1, set_active_machine_function_increment_1: 65, 0;
@@ -244,11 +244,11 @@ signals! {
     bool, machine_frame_coupling_collision_protection_active, set_machine_frame_coupling_collision_protection_active: 66, 0;
     /// Invert handwheel direction of rotation active: 1 = yes.
     bool, invert_handwheel_direction_of_rotation_active, set_invert_handwheel_direction_of_rotation_active: 67, 0;
-    /// Axis/spindle replacement: its state.
+    /// Axis/spindle replacement: status.
     u8, axis_replacement_status, set_axis_replacement_status: 68, 7 to 0;
     /// Active controller parameter set, binary.
     u8, active_controller_parameter_set, set_active_controller_parameter_set: 69, 2 to 0;
-    /// REPOS offset: 1 = there is one.
+    /// REPOS offset: 1 = an offset exists.
     bool, repos_offset, set_repos_offset: 70, 0;
     /// REPOS offset valid: 1 = yes.
     bool, repos_offset_valid, set_repos_offset_valid: 70, 1;
@@ -282,7 +282,7 @@ signals! {
     bool, rotary_axis_in_position, set_rotary_axis_in_position: 76, 7;
     /// Setpoint gear stage, binary.
     u8, setpoint_gear_stage, set_setpoint_gear_stage: 82, 2 to 0;
-    /// Change gear stage: 1 = a new one is wanted.
+    /// Change gear stage: 1 = a new gear stage is requested.
     bool, change_gear_stage, set_change_gear_stage: 82, 3;
     /// Speed limit exceeded: 1 = yes.
     bool, speed_limit_exceeded, set_speed_limit_exceeded: 83, 0;
@@ -338,13 +338,13 @@ signals! {
     bool, dc_link_undervoltage, set_dc_link_undervoltage: 95, 1;
     /// Extended stop and retract: 1 = triggered, or generator mode active.
     bool, extended_stop_and_retract_response, set_extended_stop_and_retract_response: 95, 2;
-    /// Extended stop and retract: 1 = speed of the generator too low.
+    /// Extended stop and retract: 1 = the speed of the generator is too low.
     bool, generator_minimum_speed_fallen_below, set_generator_minimum_speed_fallen_below: 95, 3;
     /// Warning of alarm class C pending in the drive: 1 = yes.
     bool, alarm_class_c_pending, set_alarm_class_c_pending: 95, 7;
-    /// Fine synchronous operation: 1 = yes; of couplings other than gantry.
+    /// Fine synchronous operation: 1 = yes; for couplings other than gantry.
     bool, fine_synchronous_operation, set_fine_synchronous_operation: 98, 0;
-    /// Coarse synchronous operation: 1 = yes; of couplings other than gantry.
+    /// Coarse synchronous operation: 1 = yes; for couplings other than gantry.
     bool, coarse_synchronous_operation, set_coarse_synchronous_operation: 98, 1;
     /// Actual value coupling: 1 = yes.
     bool, actual_value_coupling, set_actual_value_coupling: 98, 2;
@@ -362,7 +362,7 @@ signals! {
     bool, axis_accelerates, set_axis_accelerates: 99, 3;
     /// Oscillation reversal active: 1 = yes.
     bool, oscillation_reversal_active, set_oscillation_reversal_active: 100, 2;
-    /// Oscillation cannot start: 1 = it cannot.
+    /// Oscillation cannot start: 1 = yes.
     bool, oscillation_cannot_start, set_oscillation_cannot_start: 100, 3;
     /// Error during oscillation: 1 = yes.
     bool, oscillation_error, set_oscillation_error: 100, 4;
@@ -376,7 +376,7 @@ signals! {
     bool, gantry_trip_limit_exceeded, set_gantry_trip_limit_exceeded: 101, 2;
     /// Gantry warning limit exceeded: 1 = yes; reported on the synchronized axis.
     bool, gantry_warning_limit_exceeded, set_gantry_warning_limit_exceeded: 101, 3;
-    /// Gantry synchronization ready to start: 1 = it can be started; reported on the leading axis.
+    /// Gantry synchronization ready to start: 1 = the synchronization run can be started; reported on the leading axis.
     bool, gantry_synchronization_ready_to_start, set_gantry_synchronization_ready_to_start: 101, 4;
     /// Gantry grouping is synchronized: 1 = yes; reported on the leading axis.
     bool, gantry_grouping_is_synchronized, set_gantry_grouping_is_synchronized: 101, 5;

@@ -1,4 +1,4 @@
-//! The interface of the SINUMERIK, made of its tables, and its memory as structures.
+//! The interface of the SINUMERIK, built from its tables, and its memory as structures.
 
 use zerocopy::IntoBytes;
 
@@ -29,7 +29,7 @@ pub static SINUMERIK: Interface = Interface::new(Tables {
     from_nck: size_of::<FromNck>(),
     hmi: size_of::<Hmi>(),
     numberings: &profiles::NUMBERINGS,
-    // Those of the basic program (O-24).
+    // The data blocks of the basic program (O-24).
     standard_blocks: &[2, 4, 5, 7, 18, 19, 20, 71, 72, 73],
     overrides: &[
         (axis_to_nck::feed_override, Override::Axis),
@@ -66,7 +66,7 @@ impl Profile {
     pub const SINUMERIK_828D: Self = Self::new(&SINUMERIK, 1);
 }
 
-/// What is meant where nobody says it.
+/// The default profile.
 impl Default for Profile {
     fn default() -> Self {
         Self::SINUMERIK_840D_SL
@@ -74,7 +74,7 @@ impl Default for Profile {
 }
 
 impl FromNck {
-    /// Sets every signal to 0 and leaves plain memory alone: the control publishes anew what somebody else overwrote.
+    /// Sets every signal to 0 and keeps plain memory unchanged. The control then publishes all signals again.
     pub fn clear_signals(&mut self) {
         SINUMERIK.clear_signals(self.as_mut_bytes());
     }
@@ -88,49 +88,49 @@ impl Default for Memory {
 }
 
 impl Memory {
-    /// The memory of a SINUMERIK, everything 0.
+    /// The memory of a SINUMERIK, all bytes 0.
     #[must_use]
     pub fn new() -> Self {
         Self::of(&SINUMERIK)
     }
 
-    /// What the PLC writes to the NCK of a SINUMERIK.
+    /// The signals that the PLC writes to the NCK of a SINUMERIK.
     ///
     /// # Panics
-    /// It is the memory of another control; so do the next five.
+    /// The memory belongs to another control. This also applies to the next five methods.
     #[must_use]
     #[inline]
     pub fn to_nck(&self) -> &ToNck {
         ToNck::of(&self.to_nck)
     }
 
-    /// What the PLC writes to the NCK of a SINUMERIK, to be written.
+    /// The signals that the PLC writes to the NCK of a SINUMERIK, mutable.
     #[inline]
     pub fn to_nck_mut(&mut self) -> &mut ToNck {
         ToNck::of_mut(&mut self.to_nck)
     }
 
-    /// What the NCK of a SINUMERIK writes.
+    /// The signals that the NCK of a SINUMERIK writes.
     #[must_use]
     #[inline]
     pub fn from_nck(&self) -> &FromNck {
         FromNck::of(&self.from_nck)
     }
 
-    /// What the NCK of a SINUMERIK writes, to be written.
+    /// The signals that the NCK of a SINUMERIK writes, mutable.
     #[inline]
     pub fn from_nck_mut(&mut self) -> &mut FromNck {
         FromNck::of_mut(&mut self.from_nck)
     }
 
-    /// What the HMI of a SINUMERIK writes.
+    /// The signals that the HMI of a SINUMERIK writes.
     #[must_use]
     #[inline]
     pub fn hmi(&self) -> &Hmi {
         Hmi::of(&self.hmi)
     }
 
-    /// What the HMI of a SINUMERIK writes, to be written.
+    /// The signals that the HMI of a SINUMERIK writes, mutable.
     #[inline]
     pub fn hmi_mut(&mut self) -> &mut Hmi {
         Hmi::of_mut(&mut self.hmi)

@@ -1,7 +1,7 @@
-//! The seven machine functions of JOG and the three handwheels, read and written as one group of bits: INC1 is bit 0, INCvar
-//! bit 5, continuous bit 6; handwheel 1 is bit 0.
+//! The seven machine functions of JOG and the three handwheels as one group of bits: INC1 is bit 0, INCvar bit 5, continuous bit 6;
+//! handwheel 1 is bit 0.
 //!
-//! The tables name each bit; the control looks at them once per axis and cycle, where seven reads would be felt.
+//! The tables name each bit. The control reads the group once per axis and cycle, because seven single reads would cost too much time.
 
 use bitfield::{BitRange, BitRangeMut};
 
@@ -20,7 +20,7 @@ impl AxisToNck {
         self.bit_range(at(Self::FIRST, 5, 6), at(Self::FIRST, 5, 0))
     }
 
-    /// Handwheels that are to be active, DBX4.0 to 4.2.
+    /// Handwheels to activate, DBX4.0 to 4.2.
     #[must_use]
     #[inline]
     pub fn activated_handwheels(&self) -> u8 {
@@ -61,7 +61,7 @@ impl ModeGroupFromNck {
 mod tests {
     use super::*;
 
-    /// Groups and single bits of the tables are the same bits.
+    /// Checks that a group and the single bits of the tables are the same bits.
     #[test]
     fn a_group_reads_and_writes_the_bits_of_its_table() {
         let mut axis = AxisToNck::default();

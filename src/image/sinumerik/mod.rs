@@ -1,4 +1,4 @@
-//! The interface of the SINUMERIK 840D sl and 828D: its tables of signals, and how they lie in the parts by writer.
+//! The interface of the SINUMERIK 840D sl and 828D: its tables of signals, and their positions in the parts by writer.
 
 mod db10;
 mod db11;

@@ -1,4 +1,4 @@
-//! The interface by writer: three pieces of contiguous bytes, without padding.
+//! The interface by writer: three contiguous pieces of bytes, without padding.
 
 use zerocopy::{FromBytes, FromZeros, Immutable, IntoBytes, KnownLayout, Unaligned};
 
@@ -18,8 +18,7 @@ pub(super) const PLAIN_CHANNEL: usize = 2 + 6 + 362;
 /// Plain bytes of DB31: 30 to 59, 103 to 147.
 pub(super) const PLAIN_AXIS: usize = 30 + 45;
 
-/// What the PLC writes to the NCK. The plain bytes of the interface blocks, which the catalogue does not name, lie
-/// behind it.
+/// The signals that the PLC writes to the NCK. The plain bytes of the interface blocks, which have no entry in the catalogue, follow them.
 #[derive(Clone, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]
 pub struct ToNck {
@@ -35,7 +34,7 @@ pub struct ToNck {
     pub plain: Plain,
 }
 
-/// What the NCK writes.
+/// The signals that the NCK writes.
 #[derive(Clone, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]
 pub struct FromNck {
@@ -49,7 +48,7 @@ pub struct FromNck {
     pub axes: PerAxis<AxisFromNck>,
 }
 
-/// What the HMI writes: strobes and selections.
+/// The signals that the HMI writes: strobes and selections.
 #[derive(Clone, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]
 pub struct Hmi {
@@ -61,7 +60,7 @@ pub struct Hmi {
     pub channels: PerChannel<ChannelHmi>,
 }
 
-/// The bytes of the interface blocks outside the runs of the catalogue: plain memory, reached by address.
+/// The bytes of the interface blocks outside the runs of the catalogue: plain memory, accessed by address.
 #[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]
 pub struct Plain {
@@ -175,24 +174,24 @@ impl PartialEq for Hmi {
     }
 }
 
-/// Views of the bytes of a part.
+/// Defines views on the bytes of a part.
 macro_rules! views {
     ($($part:ident),+) => {$(
         impl $part {
-            /// These bytes as the structure.
+            /// The bytes as the structure.
             ///
             /// # Panics
-            /// They are those of another control.
+            /// The bytes belong to another control.
             #[must_use]
             #[inline]
             pub fn of(bytes: &[u8]) -> &Self {
                 Self::ref_from_bytes(bytes).expect(FOREIGN)
             }
 
-            /// These bytes as the structure, to be written.
+            /// The bytes as the mutable structure.
             ///
             /// # Panics
-            /// They are those of another control.
+            /// The bytes belong to another control.
             #[inline]
             pub fn of_mut(bytes: &mut [u8]) -> &mut Self {
                 Self::mut_from_bytes(bytes).expect(FOREIGN)
@@ -202,4 +201,4 @@ macro_rules! views {
 }
 views!(ToNck, FromNck, Hmi);
 
-const FOREIGN: &str = "the memory of a SINUMERIK has the parts of its interface";
+const FOREIGN: &str = "the memory must belong to a SINUMERIK";

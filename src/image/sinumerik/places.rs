@@ -1,4 +1,4 @@
-//! Data blocks as tables of ranges over the memory by writer: which byte of DB31 is which byte of whom.
+//! The data blocks as tables of ranges over the memory by writer: the position and writer of each byte of DB31, for example.
 
 use std::mem::offset_of;
 
@@ -11,7 +11,7 @@ use crate::image::{Block, BlockTable, ByteRange, Part};
 
 pub(super) static BLOCKS: [BlockTable; 4] = [
     BlockTable { block: Block::Nck, count: 1, names: &["nck"], called: "the NCK", apart: None, ranges: &NCK },
-    // The second mode group lies 20 bytes above the first.
+    // The block of the second mode group begins 20 bytes after that of the first.
     BlockTable {
         block: Block::ModeGroup,
         count: 2,
@@ -80,7 +80,7 @@ static AXIS: [ByteRange; 4] = [
 ];
 
 const _: () = {
-    // The bytes of the runs, as the manual counts them.
+    // The bytes of the runs, numbered as in the manual.
     assert!(NckToNck::FIRST == 56 && size_of::<NckToNck>() == 2);
     assert!(NckFromNck::FIRST == 68 && size_of::<NckFromNck>() == 42);
     assert!(NckHmi::FIRST == 97 && size_of::<NckHmi>() == 7);
@@ -92,7 +92,7 @@ const _: () = {
     assert!(ChannelFromNck::FIRST == 32 && size_of::<ChannelFromNck>() == 22);
     assert!(AxisToNck::FIRST == 0 && size_of::<AxisToNck>() == 30);
     assert!(AxisFromNck::FIRST == 60 && size_of::<AxisFromNck>() == 43);
-    // The parts, without padding and in this order. They have room for each axis number; no block shows the last.
+    // The parts, without padding and in this order. They have space for each axis number; no block shows the last one.
     assert!(offset_of!(ToNck, mode_groups) == 2 && offset_of!(ToNck, channels) == 8);
     assert!(offset_of!(ToNck, axes) == 228 && offset_of!(ToNck, plain) == 1188);
     assert!(size_of::<ToNck>() == 1188 + PLAIN_NCK + PLAIN_MODE_GROUPS + 10 * PLAIN_CHANNEL + 32 * PLAIN_AXIS);

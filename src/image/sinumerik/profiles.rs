@@ -1,5 +1,5 @@
-//! The data block numbers of the SINUMERIK: those of the 840D sl, and those of the 828D, which shows the same memory as
-//! windows of bytes. The 828D has one mode group, one channel and eight axes, axis *n* with index *n* − 1.
+//! The data block numbers of the SINUMERIK: those of the 840D sl, and those of the 828D, which shows the same memory through windows of
+//! bytes. The 828D has one mode group, one channel and eight axes; axis *n* has index *n* − 1.
 
 use crate::image::{Block, Numbering, Window};
 

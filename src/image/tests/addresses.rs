@@ -1,4 +1,4 @@
-//! The STEP 7 notation.
+//! Tests of the STEP 7 notation.
 
 use proptest::prelude::*;
 
@@ -69,7 +69,7 @@ fn the_notation_of_step_7_is_read() {
 }
 
 #[test]
-fn what_is_no_address_is_refused_and_the_message_shows_one_that_is() {
+fn an_invalid_address_is_rejected_with_an_example() {
     for text in [
         "",
         "DB",

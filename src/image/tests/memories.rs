@@ -1,4 +1,4 @@
-//! Reading, writing, cloning and storing the memory.
+//! Tests of reading, writing, cloning and storing the memory.
 
 use crate::image::{Address, Area, Bytes, DataBlock, Memory, Part, SINUMERIK};
 use crate::units::AxisNumber;
@@ -22,7 +22,7 @@ fn write(memory: &mut Memory, text: &str, raw: u64) {
 }
 
 #[test]
-fn a_word_is_big_endian_and_its_suffix_says_what_it_means() {
+fn a_word_is_big_endian_and_its_suffix_selects_the_format() {
     let mut memory = Memory::new();
     write(&mut memory, "MW10", 0xFF9C);
     assert_eq!((memory.flags[10], memory.flags[11]), (0xFF, 0x9C));
@@ -111,7 +111,7 @@ fn bytes_beyond_the_end_are_refused_and_nothing_is_written() {
 }
 
 #[test]
-fn a_stored_memory_comes_back_the_same() {
+fn a_stored_memory_is_restored_unchanged() {
     let mut memory = full_of(0x5A);
     memory.inputs[3] = 7;
     memory.blocks.put(DataBlock { number: 1000, name: Some("recipes".into()), bytes: Bytes::zeroed(9) });
@@ -126,12 +126,12 @@ fn a_stored_memory_comes_back_the_same() {
 }
 
 #[test]
-fn a_clone_goes_its_own_way() {
+fn a_clone_is_independent() {
     let first = Memory::new();
     let mut second = first.clone();
-    assert_eq!(first.flags.as_ptr(), second.flags.as_ptr(), "shared until somebody writes");
+    assert_eq!(first.flags.as_ptr(), second.flags.as_ptr(), "shared until the first write");
     second.flags.set_bit(10, 3, false);
-    assert_eq!(first.flags.as_ptr(), second.flags.as_ptr(), "writing what is there changes nothing");
+    assert_eq!(first.flags.as_ptr(), second.flags.as_ptr(), "writing the same value changes nothing");
     second.flags.set_bit(10, 3, true);
     second.blocks.get_mut(4).unwrap().set_word(0, 0x1234);
     assert!(!first.flags.bit(10, 3) && second.flags.bit(10, 3));
@@ -140,7 +140,7 @@ fn a_clone_goes_its_own_way() {
 }
 
 #[test]
-fn areas_end_quietly_inside_a_program() {
+fn accesses_beyond_an_area_are_ignored_in_a_program() {
     let mut bytes = Bytes::zeroed(4);
     bytes.set_double(2, 0x0102_0304);
     bytes.set_bit(99, 1, true);

@@ -1,4 +1,4 @@
-//! Tests of the interface. They write the manual's own bytes and bits, not the constants of the tables.
+//! Tests of the interface. They use the bytes and bits of the manual, not the constants of the tables.
 
 mod addresses;
 mod memories;
@@ -20,7 +20,7 @@ fn signals() -> impl Iterator<Item = &'static Signal> {
     SINUMERIK.signals()
 }
 
-/// Where a signal of a block lies that there is.
+/// The location of a signal in a block that exists.
 fn location(signal: &Signal, number: u8) -> Location {
     SINUMERIK.location(signal, number).unwrap()
 }
@@ -41,7 +41,7 @@ fn names_828d() -> Names {
     Names { profile: D828, ..names() }
 }
 
-/// Every axis and channel named, A1 to A31 and K1 to K10.
+/// Names for all axes and channels: A1 to A31 and K1 to K10.
 fn all_names() -> Names {
     let mut names = Names::default();
     for (number, name) in names.axes.iter_mut().take(31) {
@@ -53,7 +53,7 @@ fn all_names() -> Names {
     names
 }
 
-/// A memory whose interface is full of this byte.
+/// A memory whose interface bytes all have this value.
 fn full_of(byte: u8) -> Memory {
     let mut memory = Memory::new();
     for part in PARTS {

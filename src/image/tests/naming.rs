@@ -1,4 +1,4 @@
-//! Symbols and the names of a machine.
+//! Tests of symbols and of the names of a machine.
 
 use crate::image::{Memory, Names, Part};
 use crate::units::{AxisNumber, ChannelNumber};
@@ -10,7 +10,7 @@ fn refused(text: &str) -> String {
 }
 
 #[test]
-fn symbol_and_address_are_the_same_place() {
+fn symbol_and_address_are_the_same_location() {
     let (memory, names) = (Memory::new(), names());
     for (symbol, address) in [
         ("X.traversing_key_plus", "DB31.DBX4.7"),
@@ -31,7 +31,7 @@ fn symbol_and_address_are_the_same_place() {
 }
 
 #[test]
-fn a_byte_of_many_signals_has_no_symbol_but_a_writer() {
+fn a_byte_with_many_signals_has_a_writer_but_no_symbol() {
     let (memory, names) = (Memory::new(), names());
     let byte = names.resolve(&memory, "DB31.DBB101").unwrap();
     assert_eq!(names.symbol(byte), None);
@@ -41,7 +41,7 @@ fn a_byte_of_many_signals_has_no_symbol_but_a_writer() {
 }
 
 #[test]
-fn a_misspelt_symbol_names_its_neighbour() {
+fn a_misspelt_symbol_gets_a_suggestion() {
     for (text, near) in [
         ("X.controler_enable", "`controller_enable`"),
         ("XG.controller_enable", "`X`"),
@@ -57,7 +57,7 @@ fn a_misspelt_symbol_names_its_neighbour() {
 }
 
 #[test]
-fn case_counts_and_other_kinds_of_block_do_not() {
+fn names_are_case_sensitive_and_other_kinds_of_block_are_not_searched() {
     assert!(refused("x.controller_enable").contains("found `x`"));
     assert!(refused("Z.controller_enable").contains("found `Z`"));
     assert!(refused("X.channel_reset").contains("a signal of `X` (axis 1)"));
@@ -66,7 +66,7 @@ fn case_counts_and_other_kinds_of_block_do_not() {
 }
 
 #[test]
-fn an_axis_may_be_called_like_a_flag() {
+fn an_axis_can_have_the_name_of_a_flag() {
     let mut names = names();
     names.axes[AxisNumber::FIRST] = Some("M10".to_owned());
     assert_eq!(names.check(), Ok(()));
@@ -76,7 +76,7 @@ fn an_axis_may_be_called_like_a_flag() {
 }
 
 #[test]
-fn clashing_and_impossible_names_are_refused() {
+fn duplicate_and_invalid_names_are_rejected() {
     let with = |axis: &str, channel: &str| {
         let mut names = Names::default();
         names.axes[AxisNumber::FIRST] = Some("X".to_owned());

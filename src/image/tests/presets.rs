@@ -1,4 +1,4 @@
-//! PLC images.
+//! Tests of PLC images.
 
 use crate::image::{Memory, OverrideCoding, Preset, override_code};
 
@@ -76,7 +76,7 @@ fn the_profile_decides_which_numbers_are_interface_blocks() {
 }
 
 #[test]
-fn every_mistake_is_named_with_file_and_line() {
+fn every_mistake_is_reported_with_file_and_line() {
     for (text, line, what) in [
         ("\n[[db]]\nnumber = 31\nsize = 4", 3, "DB31, an interface block"),
         ("[[db]]\nnumber = 10\nsize = 4", 2, "DB10, an interface block"),

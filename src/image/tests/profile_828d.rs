@@ -1,4 +1,4 @@
-//! The 828D shows the same memory under its own numbers.
+//! Tests of the 828D, which shows the same memory under its own numbers.
 
 use crate::image::{Block, Memory};
 
@@ -53,7 +53,7 @@ const EQUIVALENT: &[(&str, &str)] = &[
 
 /// P828-03
 #[test]
-fn both_addresses_are_one_place_and_each_profile_prints_its_own() {
+fn both_addresses_are_one_location_and_each_profile_prints_its_own() {
     let memory = Memory::new();
     for (sl, d828) in EQUIVALENT {
         let location = names().resolve(&memory, sl).unwrap();
@@ -118,7 +118,7 @@ fn every_signal_has_an_address_that_leads_back_or_keeps_its_840d_sl_address() {
 }
 
 #[test]
-fn what_the_828d_does_not_have_is_refused() {
+fn blocks_that_the_828d_does_not_have_are_rejected() {
     let refused = |text: &str| names_828d().resolve(&Memory::new(), text).unwrap_err().to_string();
     assert!(refused("DB31.DBX101.5").contains("840D sl"));
     assert!(refused("DB3808.DBB0").contains("DB3800 to DB3807"));

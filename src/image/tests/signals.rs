@@ -1,4 +1,4 @@
-//! Every signal at its byte and bit.
+//! Tests of every signal at its byte and bit.
 
 use std::collections::BTreeSet;
 use std::fmt::Debug;
@@ -14,12 +14,12 @@ use crate::image::{
 
 use super::{PARTS, all_names, data_block, full_of, location, names, signals};
 
-/// The bits of a run as one long number per bit, so that a stray write shows.
+/// The bits of a run, so that a stray write is visible.
 fn bits(bytes: &[u8]) -> Vec<bool> {
     bytes.iter().flat_map(|byte| (0..8).map(move |bit| byte >> bit & 1 == 1)).collect()
 }
 
-/// Where the bit of weight 2^`index` of a signal lies in its run.
+/// The position in its run of the bit with weight 2^`index` of a signal.
 fn position(signal: &Signal, first: u16, index: u8) -> usize {
     let bytes = u16::from(signal.kind.width().div_ceil(8));
     let byte = signal.byte - first + (bytes - 1) - u16::from(index / 8);
@@ -89,7 +89,7 @@ fn no_signal_overlaps_another_in_any_block() {
 }
 
 #[test]
-fn names_are_unique_in_their_block_and_every_signal_says_what_it_means() {
+fn names_are_unique_in_their_block_and_every_signal_is_documented() {
     for block in [Block::Nck, Block::ModeGroup, Block::Channel, Block::Axis] {
         let mut seen = BTreeSet::new();
         for signal in signals().filter(|signal| signal.block == block) {
@@ -263,7 +263,7 @@ const MANUAL: &[(&str, u16, usize, u8, Writer)] = &[
 
 /// SIG-11
 #[test]
-fn signals_lie_where_the_manuals_print_them_and_are_written_by_whom_they_say() {
+fn signals_have_the_position_and_the_writer_of_the_manuals() {
     let names = names();
     for &(symbol, db, byte, bit, writer) in MANUAL {
         let mut memory = Memory::new();
@@ -284,7 +284,7 @@ fn signals_lie_where_the_manuals_print_them_and_are_written_by_whom_they_say() {
 
 /// SIG-11
 #[test]
-fn numbers_lie_where_the_manuals_print_them_big_endian() {
+fn numbers_have_the_position_of_the_manuals_and_are_big_endian() {
     let mut axis = AxisFromNck::read_from_bytes(&[0xA5; 43]).unwrap();
     axis.set_positioning_axis_f_function(1.5);
     axis.set_spindle_m_function(0x1234);
@@ -303,7 +303,7 @@ fn numbers_lie_where_the_manuals_print_them_big_endian() {
 }
 
 #[test]
-fn a_program_writes_its_own_side_from_what_it_reads_on_the_other() {
+fn a_program_writes_its_own_side_from_the_signals_of_the_other_side() {
     let mut memory = Memory::new();
     let x = crate::units::AxisNumber::FIRST;
     memory.from_nck_mut().axes[x].set_gantry_synchronization_ready_to_start(true);
@@ -313,7 +313,7 @@ fn a_program_writes_its_own_side_from_what_it_reads_on_the_other() {
     assert_eq!(data_block(&memory, 31, 148)[29], 0b0001_0000);
 }
 
-/// A constant is the row of the table, and can be used where a constant is needed.
+/// A constant is the row of the table, and can be used in constants.
 #[test]
 fn a_row_is_a_constant_by_the_name_of_its_getter() {
     const ENABLE: Signal = axis_to_nck::controller_enable;
