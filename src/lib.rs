@@ -1,10 +1,10 @@
 //! OpenNCK: an open simulator of the NC/PLC interface of SINUMERIK-style controls.
 //!
-//! A PLC program of a machine tool talks to the control through data blocks of signals. OpenNCK is the other side of these
-//! data blocks: the control's answer to what the PLC writes, the axes behind it, and a record of every bit that changed with
-//! the reason why. It runs in virtual time, as fast as the computer allows, and the same input gives the same bytes.
+//! A machine tool has a numerical control (its kernel is the NCK) and a PLC program. They exchange signals through data blocks. OpenNCK is
+//! the control side of these data blocks: it answers the signals that the PLC program writes, simulates the axes, and records every signal
+//! that changes with the reason of the change. It runs in virtual time, as fast as the computer allows. The same input gives the same bytes.
 //!
-//! A whole run: a PLC program as a closure, a reference point approach of a gantry, and the trace of it.
+//! A complete run: a PLC program as a closure, a reference point approach of a gantry, and its trace.
 //!
 //! ```
 //! use opennck::plc::program;
@@ -29,12 +29,12 @@
 //! # Ok::<(), opennck::scenario::Failure>(())
 //! ```
 //!
-//! # How data flow
+//! # Data flow
 //!
 //! ```text
 //!  machine data ──> sinumerik ──┐             ┌── closures of a user
 //!  (.tea .arc)          │       ├──> image <──┤
-//!                    motion     └──> variables└── plc: ready programs
+//!                    motion     └──> variables└── plc: built-in programs
 //!                       │                │
 //!  plant.toml ──────> plant ───────── machine ──> trace ──> scenario ──> golden
 //!                              (step, save, fork)               └─────── cli
@@ -42,89 +42,90 @@
 //!                                      live (real time, inbox, copies) ──> s7 ──> clients
 //! ```
 //!
-//! The control and the PLC program never see each other: they meet in the bytes of [`image`], as in the real thing. What the
-//! control shows besides bits (positions, alarms, causes) is in [`variables`]. [`plant`] is the iron: it moves slides and presses
-//! cams, and knows nothing of bits called "referenced". [`machine`] puts them in order, [`trace`] looks on.
+//! The control and the PLC program have no direct connection: they exchange the bytes of [`image`], as on a real machine. [`variables`]
+//! contains the output of the control in addition to signals: positions, alarms and causes. [`plant`] is the simulated mechanics: it moves
+//! slides and presses cams, and does not know signals such as "referenced". [`machine`] runs all of them in a fixed order, and [`trace`]
+//! records the result.
 //!
-//! # Rooms, and who may import whom
+//! # Modules and their imports
 //!
-//! Each room is a folder, and `tests/layers.rs` holds this table against every import. Files import each other in no circle, also
-//! within a room; the same test finds circles, and lists the few that remain.
+//! Each module is a folder. `tests/layers.rs` checks every import against this table. The imports between files have no cycles, also inside
+//! a module; the same test finds cycles.
 //!
-//! | room | what it is | it may import |
+//! | module | content | allowed imports |
 //! |---|---|---|
 //! | [`units`] | time in whole nanoseconds, positions in whole nanometres, numbers of axes and channels | nothing |
-//! | [`source`] | files with lines, TOML as a tree, and problems that say where, what and what to do | nothing |
-//! | [`image`] | THE INTERFACE: bytes by writer, signals, symbols, addresses, presets, for any control; the tables of the SINUMERIK | `source`, `units` |
-//! | [`variables`] | what the control shows besides bits: values, alarms, events with causes | `image`, `units` |
+//! | [`source`] | files with line numbers, TOML as a tree, and error messages with place, cause and remedy | nothing |
+//! | [`image`] | the interface: bytes by writer, signals, symbols, addresses, presets, for any control; the tables of the SINUMERIK | `source`, `units` |
+//! | [`variables`] | the output of the control in addition to signals: values, alarms, events with causes | `image`, `units` |
 //! | [`motion`] | the axis: setpoints, position control, drive, encoder, and the engine that couples axes | `units` |
 //! | [`control`] | the boundary of a control: the trait that the machine steps, its commands, data, texts and charts | `image`, `motion`, `source`, `units`, `variables` |
-//! | [`sinumerik`] | THE CONTROL of the gantry manual, with its machine data and alarms | `control`, `image`, `motion`, `source`, `units`, `variables` |
-//! | [`controls`] | which controls there are: the only place that names them | `control`, `image`, `sinumerik`, `source` |
-//! | [`plc`] | THE PROGRAM: closures over the PLC's side, small blocks, ready programs | `image`, `source`, `units` |
-//! | [`plant`] | THE IRON: slides, bridges, cams, switches, faults | `motion`, `source`, `units` |
-//! | [`trace`] | THE RECORD: what changed when and why, as text and JSON lines | `image`, `source`, `units`, `variables` |
-//! | [`expression`] | EXPRESSIONS over signals, values and alarms: read once, looked at in every cycle | `image`, `source`, `units`, `variables` |
-//! | [`machine`] | ONE STEP, and open, queue, power, save, restore, fork | `control`, `controls`, `expression`, `image`, `motion`, `plant`, `plc`, `source`, `trace`, `units`, `variables` |
-//! | [`scenario`] | files that act, and the session that tests in Rust use | `control`, `controls`, `expression`, `image`, `machine`, `plc`, `source`, `trace`, `units`, `variables` |
-//! | [`golden`] | scenarios below a folder, each against its golden trace | `control`, `controls`, `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units` |
+//! | [`sinumerik`] | the control of the gantry manual, with its machine data and alarms | `control`, `image`, `motion`, `source`, `units`, `variables` |
+//! | [`controls`] | the list of controls: the only module that names them | `control`, `image`, `sinumerik`, `source` |
+//! | [`plc`] | the PLC program: closures over the PLC side, function blocks, built-in programs | `image`, `source`, `units` |
+//! | [`plant`] | the simulated mechanics: slides, bridges, cams, switches, faults | `motion`, `source`, `units` |
+//! | [`trace`] | the record: every change with its time and cause, as text and JSON lines | `image`, `source`, `units`, `variables` |
+//! | [`expression`] | expressions over signals, values and alarms: parsed once, evaluated in every cycle | `image`, `source`, `units`, `variables` |
+//! | [`machine`] | one step of the complete machine, and open, queue, power, save, restore, fork | `control`, `controls`, `expression`, `image`, `motion`, `plant`, `plc`, `source`, `trace`, `units`, `variables` |
+//! | [`scenario`] | scenario files, and the session for tests in Rust | `control`, `controls`, `expression`, `image`, `machine`, `plc`, `source`, `trace`, `units`, `variables` |
+//! | [`golden`] | runs the scenarios below a folder and compares each with its golden trace | `control`, `controls`, `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units` |
 //! | [`live`] | a machine in real time: the stepping thread, the inbox, the copy of the last step, the recording, a PLC in another process (feature `live`, part of `s7` and `mapped`) | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
 //! | [`s7`] | S7 communication: wire formats, sessions without a socket, a server on TCP and for [`live`] (feature `s7`) | `control`, `image`, `live`, `machine`, `source`, `units`, `variables` |
-//! | [`cli`] | the program's arguments and wiring (feature `cli`) | all |
+//! | [`cli`] | the command line: its arguments, and the construction of all other parts (feature `cli`) | all |
 //!
 //! # The order of a step
 //!
-//! One step is one interpolation cycle. [`Machine::step`](machine::Machine::step) lists its stages, and their order is the
-//! specification of who sees whom when:
+//! One step is one interpolation cycle. [`Machine::step`](machine::Machine::step) lists its stages. Their order defines which stage sees
+//! the results of which other stage:
 //!
-//! 1. Commands from outside that were queued: writes, forces, machine data, handwheels, faults, power, the cancel key.
-//! 2. The plant senses: wired switches become inputs of the PLC.
-//! 3. PLC scan, when its time has come. It reads what the control published at the end of the cycle before.
+//! 1. Queued commands from outside: writes, forces, machine data, handwheels, faults, power, the cancel key.
+//! 2. Sensors of the plant: wired switches set inputs of the PLC.
+//! 3. The PLC scan, if it is due. It reads the signals that the control published at the end of the previous cycle.
 //! 4. Cams and limit switches that are not wired, then forces.
-//! 5. The control decides: run-up, mode groups, emergency stop, RESET, handwheels, measuring systems, parameter sets, enabling,
+//! 5. Decisions of the control: run-up, mode groups, emergency stop, RESET, handwheels, measuring systems, parameter sets, enabling,
 //!    referencing and gantry or JOG, setpoints and coupling.
-//! 6. Position control, drives and mechanics, MD10070 / MD10060 times; encoders tell.
+//! 6. Position control, drives and mechanics, MD10070 / MD10060 times per cycle; then the encoders.
 //! 7. Monitoring and alarms.
 //! 8. Publication of signals and variables.
-//! 9. The record of what changed in this cycle.
+//! 9. The record of all changes in this cycle.
 //!
-//! # What always holds
+//! # Guarantees
 //!
-//! * Same input, same bytes: on every run, build and machine. No clock, no thread, no order of a hash in a step; positions are
-//!   integers, and model arithmetic is `+ − × ÷ sqrt` and comparisons.
-//! * Nobody sees half a step of anybody else, and nothing acts on an outside event: it waits for the edge.
-//! * A program writes only the PLC's side, the control only the NCK's: the borrow checker sees to it.
-//! * Saved in mid-run and restored, or forked, a machine goes on byte for byte as if nothing had happened.
-//! * Every edge of the control's bits has a cause: the rule that allowed it and the inputs that were tested.
-//! * Every wait has a way out: done, aborted, too long. Inside the machine there are no errors, only alarms; at the doors an
-//!   error says what was expected, what came and where.
+//! * The same input gives the same bytes: in every run, build and machine. A step uses no clock, no thread and no hash order. Positions are
+//!   integers, and the arithmetic of the model is `+ − × ÷ sqrt` and comparisons.
+//! * No part sees an incomplete step of another part, and no external event has an effect inside a step: it waits for the next step.
+//! * A PLC program writes only the PLC side, the control writes only the NCK side; the borrow checker enforces this.
+//! * A machine that is saved during a run and restored, or forked, continues byte for byte like the original.
+//! * Every edge of a signal of the control has a cause: the rule that allowed it and the inputs that were tested.
+//! * Every wait ends: completed, aborted or timed out. Inside the machine there are no errors, only alarms. At the boundaries, an error
+//!   names what was expected, what was found, and the place.
 //!
-//! # What is deliberately absent
+//! # Deliberate limits
 //!
-//! No real-time claim and no connection to hardware: it is no safety device. No NC programs; no path motion beyond what
-//! referencing and JOG need. No unsafe code but one block that maps a file. No hidden state: what a machine remembers is in
-//! [`Machine::save`](machine::Machine::save), and what files said is shared between forks and never changes.
+//! OpenNCK is not a safety device: it does not claim real time and has no connection to hardware. It runs no NC programs, and no path
+//! motion beyond the needs of referencing and JOG. It has no unsafe code except one block that maps a file. It has no hidden state: the
+//! complete state of a machine is in [`Machine::save`](machine::Machine::save); data from files are shared between forks and never change.
 //!
 //! # Where to add something
 //!
-//! | I want to add | I do | and see |
+//! | to add | change | result |
 //! |---|---|---|
-//! | a signal | a row in `db10.rs`, `db11.rs`, `db21.rs` or `db31.rs` of `image/sinumerik/`, in address order | accessor, constant, docs, symbol, trace column; overlaps stop the build |
-//! | an interface of another control | a static [`image::Interface`] with its tables, as `tests/machine/own_interface.rs` does | symbols, addresses, presets, mapped image; gaps and foreign bytes stop the build |
-//! | its value and its cause | a row in `sinumerik/publish/` | golden traces that show it |
+//! | a signal | a row in `db10.rs`, `db11.rs`, `db21.rs` or `db31.rs` of `image/sinumerik/`, in address order | accessor, constant, docs, symbol, trace column; the build rejects overlaps |
+//! | an interface of another control | a static [`image::Interface`] with its tables, as in `tests/machine/own_interface.rs` | symbols, addresses, presets, mapped image; the build rejects gaps and bytes of another writer |
+//! | the value of a signal and its cause | a row in `sinumerik/publish/` | golden traces that show it |
 //! | a machine datum | a row in `sinumerik/machine_data/`, a field in `sinumerik/parameters/axis.rs` | its number and name are read, checked and written |
-//! | an alarm | a row in `sinumerik/alarms/mod.rs`, a `raise` where it happens | `alarm(N)` in scenarios, its text in traces |
-//! | a rule | a row in `sinumerik/rules.rs`, a `note` where it is decided | the cause behind an edge |
-//! | a reaction of a coupling | a value of a type in `motion/coupling/policy.rs`, what it does beside it | properties in `motion/coupling/tests.rs` |
-//! | another gantry control | a `Policy` and its `Follower`s; rules and alarms for the events of `compare` | as `sinumerik/gantry/` |
-//! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `sinumerik/referencing/state.rs` or `gantry/state.rs` | golden traces that move |
-//! | a fault | an arm of [`FaultKind`](machine::FaultKind), what it does in `plant/moving.rs`, its name in `scenario/faults.rs` | `fault = {…}` in scenarios |
-//! | a PLC program | a file in `plc/programs/`, a line in `plc/registry.rs`; or a closure of your own | `plc = "name"` in scenarios |
+//! | an alarm | a row in `sinumerik/alarms/mod.rs`, a `raise` at the place of its condition | `alarm(N)` in scenarios, its text in traces |
+//! | a rule | a row in `sinumerik/rules.rs`, a `note` at the place of the decision | the cause of an edge |
+//! | a reaction of a coupling | a value of a type in `motion/coupling/policy.rs`, and its effect | properties in `motion/coupling/tests.rs` |
+//! | another gantry control | a `Policy` and its `Follower`s; rules and alarms for the events of `compare` | a module like `sinumerik/gantry/` |
+//! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `sinumerik/referencing/state.rs` or `gantry/state.rs` | golden traces that change |
+//! | a fault | an arm of [`FaultKind`](machine::FaultKind), its effect in `plant/moving.rs`, its name in `scenario/faults.rs` | `fault = {…}` in scenarios |
+//! | a PLC program | a file in `plc/programs/` and a line in `plc/registry.rs`, or your own closure | `plc = "name"` in scenarios |
 //! | a machine | a folder below `machine_data/` | `machine = "path"` in scenarios |
-//! | a scenario | a `.toml` below `golden/<area>/`, then read and accept its trace | the `.snap` beside it |
-//! | a server for other clients | a folder in `src` that holds a [`live::Handle`] and no more of `live`; `tests/serve/another_server.rs` has a small one | reads of one step, orders that act whole and are recorded |
-//! | an NC variable that clients read | a row in `s7/nck/catalogue.rs` | its value by area, module, column and line |
-//! | a room | a folder in `src`, a row here and one in `tests/layers.rs` | the test that compares both |
+//! | a scenario | a `.toml` file below `golden/<area>/`; then review and accept its trace | the `.snap` file beside it |
+//! | a server for other clients | a folder in `src` that uses [`live::Handle`] and no other item of `live`; `tests/serve/another_server.rs` has a small example | consistent reads of one step, orders that are executed as a whole and recorded |
+//! | an NC variable for clients | a row in `s7/nck/catalogue.rs` | its value by area, module, column and line |
+//! | a module | a folder in `src`, a row here and one in `tests/layers.rs` | the test that compares both |
 
 #[cfg(feature = "cli")]
 pub mod cli;
