@@ -1,14 +1,14 @@
-//! The rules of the house as tests: who may import whom, and what a file may not hold. Each finding says where it is and
-//! what to do instead. The table of rooms is also in the docs of `lib.rs`; change both in one commit.
+//! The style rules of the project as tests: the imports that each module may use, and texts that a file must not contain. Each finding
+//! names the place and the remedy. The table of modules is also in the docs of `lib.rs`; change both in one commit.
 
-#[path = "layers/circles.rs"]
-mod circles;
+#[path = "layers/cycles.rs"]
+mod cycles;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Each room of `src`, and the rooms that it may import besides itself. `*` is all of them.
-const ROOMS: &[(&str, &[&str])] = &[
+/// Each module of `src`, and the modules that it may import besides itself. `*` means all modules.
+const MODULES: &[(&str, &[&str])] = &[
     ("units", &[]),
     ("source", &[]),
     ("image", &["source", "units"]),
@@ -47,77 +47,80 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("cli", &["*"]),
 ];
 
-/// Where clocks, threads, sockets and random numbers may be.
+/// Files that may use clocks, threads, sockets and random numbers.
 const OUTSIDE: &[&str] = &["src/cli/", "src/live/", "src/s7/live/", "src/s7/server/", "src/s7/client/"];
 
-/// A text, why it is refused, and what stands in its place. (`\x21` and the like keep this file from finding itself.)
+/// A text and its remedy. (Escapes such as `\x21` keep this file from finding itself.)
 const REFUSED_IN_RUST: &[(&str, &str)] = &[
-    ("\x74odo!", "do it, or leave it out and say so in the head of the file"),
-    ("\x75nimplemented!", "do it, or leave it out and say so in the head of the file"),
-    ("#[\x69gnore]", "give a reason, `#[ignore = \"…\"]`, or make it a scenario whose `.snap` shows what is"),
+    ("\x74odo!", "implement it, or omit it and state this in the head of the file"),
+    ("\x75nimplemented!", "implement it, or omit it and state this in the head of the file"),
+    (
+        "#[\x69gnore]",
+        "write a reason, `#[ignore = \"…\"]`, or write a scenario whose `.snap` shows the current behaviour",
+    ),
 ];
 
-/// Refused in `src`, where imports go by rooms.
-const REFUSED_IN_ROOMS: &[(&str, &str)] = &[
-    ("crate::\x7b", "one `use crate::room::…` for each room"),
-    ("super::\x73uper", "`crate::room::…`, so that the table of rooms sees it"),
+/// Texts that are rejected in `src`, so that each import names its module.
+const REFUSED_IN_MODULES: &[(&str, &str)] = &[
+    ("crate::\x7b", "write one `use crate::module::…` for each module"),
+    ("super::\x73uper", "write `crate::module::…`, so that the table of modules is checked"),
 ];
 
-/// Refused in the control except in [`INPUTS`]: a signal is named by its constant, so that a moved address does not compile.
+/// Texts that are rejected in the control except in [`INPUTS`]. A signal is named by its constant, so that a moved address does not compile.
 const REFUSED_IN_CONTROL: &[(&str, &str)] = &[
-    ("Signal\x42it", "the constant of the signal with `axis_signal` and its kin of `sinumerik/inputs.rs`"),
-    ("match (byte, \x62it)", "the constant of the signal, in a row of `sinumerik/publish/`"),
+    ("Signal\x42it", "use the constant of the signal with `axis_signal` or a similar function of `sinumerik/inputs.rs`"),
+    ("match (byte, \x62it)", "use the constant of the signal, in a row of `sinumerik/publish/`"),
 ];
 
-/// The one file of the control that makes a place of a block out of a signal.
+/// The only file of the control that converts a signal to a position in a block.
 const INPUTS: &str = "src/sinumerik/inputs.rs";
 
-/// Refused in `src` except in [`OUTSIDE`].
+/// Texts that are rejected in `src` except in [`OUTSIDE`].
 const REFUSED_INSIDE: &[(&str, &str)] = &[
-    ("std::time", "`opennck::units::Time`; a step does not ask a clock"),
-    ("Instant", "`opennck::units::Time`; a step does not ask a clock"),
-    ("SystemTime", "`opennck::units::Time`; a step does not ask a clock"),
-    ("std::thread", "one thread inside a step; threads belong to `live`, the servers and `cli`"),
-    ("std::net", "sockets belong to `s7/server`"),
-    ("rand", "the same input gives the same bytes; take numbers from the input"),
-    ("fastrand", "the same input gives the same bytes; take numbers from the input"),
+    ("std::time", "use `opennck::units::Time`; a step must not read a clock"),
+    ("Instant", "use `opennck::units::Time`; a step must not read a clock"),
+    ("SystemTime", "use `opennck::units::Time`; a step must not read a clock"),
+    ("std::thread", "a step runs on one thread; move threads to `live`, the servers or `cli`"),
+    ("std::net", "move sockets to `s7/server`"),
+    ("rand", "the same input must give the same bytes; take numbers from the input"),
+    ("fastrand", "the same input must give the same bytes; take numbers from the input"),
 ];
 
-/// Files with fields that are left out of saved machines, and why they may.
+/// Files with fields that are not saved with a machine, and the reason.
 const NOT_SAVED: &[(&str, &str)] = &[
-    ("src/plant/moving.rs", "which switches are pressed follows from the slides, and is found anew after restoring"),
-    ("src/control/log.rs", "which transitions were taken is what a suite has exercised, and decides nothing"),
+    ("src/plant/moving.rs", "the pressed switches follow from the slides and are recomputed after restoring"),
+    ("src/control/log.rs", "the transitions taken are statistics of a test suite and have no effect"),
 ];
 
-/// Where a control may be named: in itself and in the module that chooses.
+/// Files that may name a control: its own module, and the module that selects a control.
 const KNOWS_CONTROLS: &[&str] = &["src/sinumerik/", "src/controls/", "src/lib.rs"];
 
-/// Refused in `src` except in [`KNOWS_CONTROLS`].
+/// Texts that are rejected in `src` except in [`KNOWS_CONTROLS`].
 const REFUSED_OUTSIDE_CONTROLS: &[(&str, &str)] =
-    &[("crate::sinumerik", "`dyn Control` and its `Texts`; only `controls` chooses a control")];
+    &[("crate::sinumerik", "use `dyn Control` and its `Texts`; only `controls` selects a control")];
 
-/// Refused in every file: what holds on one computer only.
+/// Texts that are rejected in every file, because they are valid on one computer only.
 const REFUSED_ANYWHERE: &[(&str, &str)] = &[
-    ("/\x77ork/", "a path relative to the file or to the project"),
-    ("/\x74mp/", "a path relative to the project, or std::env::temp_dir()"),
-    ("/\x72oot/", "a path relative to the file or to the project"),
-    ("/\x68ome/", "a path relative to the file or to the project"),
-    ("replace-\x77ith", "a mirror of the registry belongs into the cargo configuration of the computer"),
-    ("index-\x75rl", "a mirror of the registry belongs into the cargo configuration of the computer"),
-    ("sparse\x2b", "a mirror of the registry belongs into the cargo configuration of the computer"),
+    ("/\x77ork/", "write a path relative to the file or to the project"),
+    ("/\x74mp/", "write a path relative to the project, or use std::env::temp_dir()"),
+    ("/\x72oot/", "write a path relative to the file or to the project"),
+    ("/\x68ome/", "write a path relative to the file or to the project"),
+    ("replace-\x77ith", "configure a mirror of the registry in the cargo configuration of the computer"),
+    ("index-\x75rl", "configure a mirror of the registry in the cargo configuration of the computer"),
+    ("sparse\x2b", "configure a mirror of the registry in the cargo configuration of the computer"),
 ];
 
-/// The one file with code that the compiler does not check.
+/// The only file with code that the compiler does not check.
 const UNSAFE: &str = "src/image/mapped/words.rs";
 
-/// The one source of packages in `Cargo.lock`.
+/// The only source of packages in `Cargo.lock`.
 const REGISTRY: &str = "source = \"registry+https://github.com/rust-lang/crates.io-index\"";
 
-/// Lines of a file without its tests.
+/// The maximum number of lines of a file without its tests.
 const LONGEST: usize = 500;
 
 #[test]
-fn rooms_import_only_what_their_table_allows() {
+fn modules_import_only_what_their_table_allows() {
     report(rust("src").iter().flat_map(|file| imports(&file.path, &file.text)).collect());
 }
 
@@ -142,27 +145,27 @@ fn the_table_has_every_room_and_no_other() {
         .filter(|path| path.is_dir())
         .filter_map(|path| Some(path.file_name()?.to_str()?.to_owned()))
         .collect();
-    let mut table: Vec<_> = ROOMS.iter().map(|(room, _)| (*room).to_owned()).collect();
-    rooms.sort();
+    let mut table: Vec<_> = MODULES.iter().map(|(module, _)| (*module).to_owned()).collect();
+    modules.sort();
     table.sort();
-    assert_eq!(rooms, table, "a new room needs a row in tests/layers.rs and in the docs of lib.rs");
+    assert_eq!(modules, table, "a new module needs a row in tests/layers.rs and in the docs of lib.rs");
     let docs = fs::read_to_string(root().join("src/lib.rs")).unwrap();
-    report(ROOMS.iter().flat_map(|(room, may)| documented(&docs, room, may)).collect());
+    report(MODULES.iter().flat_map(|(module, may)| documented(&docs, module, may)).collect());
 }
 
 #[test]
-fn every_file_begins_with_what_it_is() {
+fn every_file_begins_with_its_purpose() {
     report(rust("").iter().flat_map(|file| head(&file.path, &file.text)).collect());
 }
 
 #[test]
-fn nothing_is_left_open() {
+fn no_file_contains_unfinished_code() {
     report(rust("").iter().flat_map(|file| refused(&file.path, &file.text, REFUSED_IN_RUST)).collect());
 }
 
 #[test]
-fn imports_go_by_rooms() {
-    report(rust("src").iter().flat_map(|file| refused(&file.path, &file.text, REFUSED_IN_ROOMS)).collect());
+fn each_import_names_its_module() {
+    report(rust("src").iter().flat_map(|file| refused(&file.path, &file.text, REFUSED_IN_MODULES)).collect());
 }
 
 #[test]
@@ -180,16 +183,19 @@ fn nothing_inside_asks_a_clock_a_socket_or_chance() {
 }
 
 #[test]
-fn one_file_is_unsafe_and_says_why_it_is_sound() {
+fn one_file_is_unsafe_and_justifies_it() {
     report(rust("").iter().flat_map(|file| unchecked(&file.path, &file.text)).collect());
     let text = fs::read_to_string(root().join(UNSAFE)).unwrap();
-    assert_eq!(text.matches("\x75nsafe {").count(), 1, "{UNSAFE}: one block is enough");
+    assert_eq!(text.matches("\x75nsafe {").count(), 1, "{UNSAFE}: keep exactly one block");
     let manifest = fs::read_to_string(root().join("Cargo.toml")).unwrap();
-    assert!(manifest.contains("\x75nsafe_code = \"deny\""), "Cargo.toml: elsewhere the compiler refuses it");
+    assert!(
+        manifest.contains("\x75nsafe_code = \"deny\""),
+        "Cargo.toml: the compiler must reject it in all other files"
+    );
 }
 
 #[test]
-fn nothing_holds_on_one_computer_only() {
+fn no_file_depends_on_one_computer() {
     let files = files("");
     let mut findings: Vec<_> =
         files.iter().flat_map(|file| refused(&file.path, &file.text, REFUSED_ANYWHERE)).collect();
@@ -214,43 +220,43 @@ fn no_snapshot_waits_for_review() {
     report(pending(&paths));
 }
 
-// The checks: a path and a text, or paths; and the findings.
+// The checks: each takes a path and a text, or a list of paths, and returns its findings.
 
 fn imports(path: &str, text: &str) -> Vec<String> {
-    let Some((room, _)) = path.strip_prefix("src/").and_then(|path| path.split_once('/')) else {
+    let Some((module, _)) = path.strip_prefix("src/").and_then(|path| path.split_once('/')) else {
         return Vec::new();
     };
-    let Some((_, may)) = ROOMS.iter().find(|(name, _)| *name == room) else {
-        return vec![format!("{path}:1: {room} is no room: give it a row in tests/layers.rs")];
+    let Some((_, may)) = MODULES.iter().find(|(name, _)| *name == module) else {
+        return vec![format!("{path}:1: {module} is not in the table of modules: add a row in tests/layers.rs")];
     };
     let mut findings = Vec::new();
     for (line, found) in lines(text) {
         for rest in found.split("crate::").skip(1) {
             let other: String = rest.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect();
-            let known = ROOMS.iter().any(|(name, _)| *name == other);
-            if known && other != room && !may.contains(&other.as_str()) && !may.contains(&"*") {
+            let known = MODULES.iter().any(|(name, _)| *name == other);
+            if known && other != module && !may.contains(&other.as_str()) && !may.contains(&"*") {
                 let may = if may.is_empty() { "nothing".to_owned() } else { may.join(", ") };
-                findings.push(format!("{path}:{line}: {room} may not import {other}: it may import {may}"));
+                findings.push(format!("{path}:{line}: {module} must not import {other}; allowed imports: {may}"));
             }
         }
     }
     findings
 }
 
-fn documented(docs: &str, room: &str, may: &[&str]) -> Option<String> {
+fn documented(docs: &str, module: &str, may: &[&str]) -> Option<String> {
     let may = match may {
         [] => "nothing".to_owned(),
         ["*"] => "all".to_owned(),
-        may => may.iter().map(|room| format!("`{room}`")).collect::<Vec<_>>().join(", "),
+        may => may.iter().map(|module| format!("`{module}`")).collect::<Vec<_>>().join(", "),
     };
-    let row = docs.lines().find(|line| line.starts_with(&format!("//! | [`{room}`]")));
+    let row = docs.lines().find(|line| line.starts_with(&format!("//! | [`{module}`]")));
     let right = row.is_some_and(|row| row.trim_end().ends_with(&format!("| {may} |")));
-    (!right).then(|| format!("src/lib.rs:1: the row of `{room}` in its table of rooms must end with `| {may} |`"))
+    (!right).then(|| format!("src/lib.rs:1: the row of `{module}` in its table of modules must end with `| {may} |`"))
 }
 
 fn head(path: &str, text: &str) -> Option<String> {
     (!text.starts_with("//! "))
-        .then(|| format!("{path}:1: begin with `//! ` and what this file is, who calls it, what it reads and writes"))
+        .then(|| format!("{path}:1: begin the file with `//! ` and its purpose, its callers, its inputs and outputs"))
 }
 
 fn refused(path: &str, text: &str, table: &[(&str, &str)]) -> Vec<String> {
@@ -258,14 +264,14 @@ fn refused(path: &str, text: &str, table: &[(&str, &str)]) -> Vec<String> {
     for (line, found) in lines(text) {
         for (needle, instead) in table {
             if is_word_in(needle, found) {
-                findings.push(format!("{path}:{line}: `{needle}` is refused; instead: {instead}"));
+                findings.push(format!("{path}:{line}: `{needle}` is not allowed: {instead}"));
             }
         }
     }
     findings
 }
 
-/// `\x75nsafe`, and what lets it pass, in another file than [`UNSAFE`], or a block without its reason before it.
+/// Finds `\x75nsafe`, or an attribute that allows it, in a file other than [`UNSAFE`], or a block without a reason before it.
 fn unchecked(path: &str, text: &str) -> Vec<String> {
     let mut findings = Vec::new();
     let mut is_explained = false;
@@ -277,9 +283,10 @@ fn unchecked(path: &str, text: &str) -> Vec<String> {
         }
         if is_word_in("\x75nsafe", found) || is_word_in("\x75nsafe_code", found) {
             if path != UNSAFE {
-                findings.push(format!("{path}:{line}: only {UNSAFE} may do what the compiler does not check"));
+                findings
+                    .push(format!("{path}:{line}: only {UNSAFE} may contain code that the compiler does not check"));
             } else if is_word_in("\x75nsafe", found) && !is_explained {
-                findings.push(format!("{path}:{line}: say in `// SAFETY: ` before it why it is sound"));
+                findings.push(format!("{path}:{line}: state before it in `// SAFETY: ` why it is sound"));
             }
         }
         is_explained = false;
@@ -287,7 +294,7 @@ fn unchecked(path: &str, text: &str) -> Vec<String> {
     findings
 }
 
-/// Whether a text occurs and no name goes on before or after it.
+/// Whether a text occurs that is not part of a longer name.
 fn is_word_in(needle: &str, line: &str) -> bool {
     let is_name = |c: char| c.is_alphanumeric() || c == '_';
     line.match_indices(needle).any(|(start, _)| {
@@ -300,7 +307,7 @@ fn is_word_in(needle: &str, line: &str) -> bool {
 fn sources(lock: &str) -> Vec<String> {
     lines(lock)
         .filter(|(_, found)| found.starts_with("source = ") && *found != REGISTRY)
-        .map(|(line, _)| format!("Cargo.lock:{line}: packages come from crates.io: {REGISTRY}"))
+        .map(|(line, _)| format!("Cargo.lock:{line}: use packages from crates.io only: {REGISTRY}"))
         .collect()
 }
 
@@ -310,8 +317,9 @@ fn length(path: &str, text: &str) -> Option<String> {
     }
     let without_tests = text.find("#[cfg(test)]\nmod tests {").map_or(text, |start| &text[..start]);
     let length = without_tests.lines().count();
-    (length > LONGEST)
-        .then(|| format!("{path}:{LONGEST}: {length} lines without tests, at most {LONGEST}: split it by what it does"))
+    (length > LONGEST).then(|| {
+        format!("{path}:{LONGEST}: {length} lines without tests, maximum {LONGEST}: split the file by purpose")
+    })
 }
 
 fn unpaired(paths: &[String]) -> Vec<String> {
@@ -321,13 +329,13 @@ fn unpaired(paths: &[String]) -> Vec<String> {
             && !paths.contains(&format!("{name}.snap"))
         {
             findings.push(format!(
-                "{path}:1: has no golden file: read `opennck run {path}`, then `opennck test --accept {path}`"
+                "{path}:1: has no golden file: review `opennck run {path}`, then run `opennck test --accept {path}`"
             ));
         }
         if let Some(name) = path.strip_suffix(".snap") {
             let name = name.strip_suffix(".828d").unwrap_or(name);
             if !paths.contains(&format!("{name}.toml")) {
-                findings.push(format!("{path}:1: has no scenario {name}.toml: remove it, or bring the scenario back"));
+                findings.push(format!("{path}:1: has no scenario {name}.toml: remove it, or restore the scenario"));
             }
         }
     }
@@ -336,7 +344,7 @@ fn unpaired(paths: &[String]) -> Vec<String> {
 
 fn pending(paths: &[String]) -> Vec<String> {
     let waiting = |path: &&String| path.ends_with(".snap.new") || path.ends_with(".pending-snap");
-    let finding = |path: &String| format!("{path}:1: waits for review: `cargo insta review`, or remove it");
+    let finding = |path: &String| format!("{path}:1: needs a review: run `cargo insta review`, or remove it");
     paths.iter().filter(waiting).map(finding).collect()
 }
 
@@ -364,7 +372,7 @@ fn rust(below: &str) -> Vec<Text> {
     files
 }
 
-/// Every file below a folder, in order; not what git and cargo keep there.
+/// Every file below a folder, in order, except the folders of git and cargo.
 fn walk(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for path in entries(folder) {
@@ -381,7 +389,7 @@ fn walk(folder: &Path) -> Vec<PathBuf> {
 
 fn entries(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let mut paths: Vec<_> = entries.map(|entry| entry.expect("it was just listed").path()).collect();
+    let mut paths: Vec<_> = entries.map(|entry| entry.expect("the entry was just listed").path()).collect();
     paths.sort();
     paths
 }
@@ -402,7 +410,7 @@ fn report(findings: Vec<String>) {
     assert!(findings.is_empty(), "{} findings:\n{}", findings.len(), findings.join("\n"));
 }
 
-// The checks find what they are for.
+// Tests of the checks.
 
 #[test]
 fn a_wrong_import_is_found_with_file_and_line() {
@@ -410,7 +418,7 @@ fn a_wrong_import_is_found_with_file_and_line() {
     let findings = imports("src/plc/x.rs", text);
     assert_eq!(
         findings,
-        ["src/plc/x.rs:3: plc may not import sinumerik: it may import image, source, units".to_owned()]
+        ["src/plc/x.rs:3: plc must not import sinumerik; allowed imports: image, source, units".to_owned()]
     );
     assert!(imports("src/cli/x.rs", text).is_empty());
     assert!(imports("src/lib.rs", text).is_empty());
@@ -419,8 +427,8 @@ fn a_wrong_import_is_found_with_file_and_line() {
 }
 
 #[test]
-fn a_table_in_the_docs_that_says_something_else_is_found() {
-    let docs = "//! | [`plc`] | THE PROGRAM | `image`, `units` |\n//! | [`units`] | units | nothing |";
+fn a_different_table_in_the_docs_is_found() {
+    let docs = "//! | [`plc`] | the program | `image`, `units` |\n//! | [`units`] | units | nothing |";
     assert_eq!(documented(docs, "plc", &["image", "units"]), None);
     assert_eq!(documented(docs, "units", &[]), None);
     assert!(documented(docs, "plc", &["image"]).is_some());
@@ -434,11 +442,11 @@ fn a_file_without_a_head_is_found() {
 }
 
 #[test]
-fn refused_words_are_found_and_longer_names_are_not() {
+fn rejected_words_are_found_and_longer_names_are_not() {
     let refused = |text: &str| refused("src/x.rs", text, REFUSED_INSIDE);
     assert_eq!(
         refused("let now = Instant::now();"),
-        ["src/x.rs:1: `Instant` is refused; instead: `opennck::units::Time`; a step does not ask a clock".to_owned()]
+        ["src/x.rs:1: `Instant` is not allowed: use `opennck::units::Time`; a step must not read a clock".to_owned()]
     );
     assert!(refused("fn operands(brand: Instantaneous) {}").is_empty());
     let open = super_refused("fn f() {\n    \x74odo!()\n}");
@@ -452,12 +460,12 @@ fn super_refused(text: &str) -> Vec<String> {
 }
 
 #[test]
-fn an_unchecked_block_is_found_elsewhere_and_without_its_reason() {
+fn an_unchecked_block_is_found_in_other_files_and_without_its_reason() {
     let block = "fn f() {\n    \x75nsafe { g() }\n}";
     let found = |path, text| unchecked(path, text).len();
     assert_eq!(
         unchecked("src/x.rs", block),
-        [format!("src/x.rs:2: only {UNSAFE} may do what the compiler does not check")]
+        [format!("src/x.rs:2: only {UNSAFE} may contain code that the compiler does not check")]
     );
     assert_eq!(found("src/x.rs", "#[allow(\x75nsafe_code)]"), 1);
     assert_eq!(found("src/x.rs", "//! No \x75nsafe code."), 0);
@@ -480,11 +488,11 @@ fn a_long_file_is_found_and_its_tests_do_not_count() {
     assert!(length("src/x.rs", &code).is_none());
     assert!(length("src/x.rs", &format!("{code}#[cfg(test)]\nmod tests {{\n}}\n")).is_none());
     assert!(length("src/x.rs", &format!("{code}fn g() {{}}\n")).is_some());
-    assert!(length("src/room/tests.rs", &format!("{code}fn g() {{}}\n")).is_none());
+    assert!(length("src/module/tests.rs", &format!("{code}fn g() {{}}\n")).is_none());
 }
 
 #[test]
-fn what_lacks_its_other_half_is_found() {
+fn an_unpaired_file_is_found() {
     let paths = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
     assert_eq!(unpaired(&paths(&["golden/a/b.toml", "golden/a/b.snap", "golden/a/b.828d.snap"])).len(), 0);
     assert_eq!(unpaired(&paths(&["golden/a/b.toml"])).len(), 1);

@@ -1,63 +1,63 @@
-//! No circle of imports between the files of `src`: a reader can take them one after the other, each after those that it
-//! needs.
+//! Checks that the imports between the files of `src` have no cycle. A reader can then read the files in an order in which each file
+//! follows the files that it needs.
 //!
-//! An import is a `use` or a path that reaches an item of another file. A name counts for the file that defines it, also
-//! where a `mod.rs` passes it on: `super::Row` is an import of the sibling with `Row` in it, not of the parent. Declaring or
-//! re-exporting a child is no import, unless the parent itself uses the name. A call of a method is none. Tests do not count.
+//! An import is a `use` or a path that reaches an item of another file. A name belongs to the file that defines it, even if a `mod.rs`
+//! re-exports it: `super::Row` is an import of the sibling that contains `Row`, not of the parent. Declaring or re-exporting a child is not
+//! an import unless the parent itself uses the name. A method call is not an import. Tests are ignored.
 //!
-//! The text is read without a compiler: tokens without comments and strings, names by their `use`. That finds all that
-//! this project writes; a `use` with `*` is not followed.
+//! The check reads the text without a compiler: tokens without comments and strings, names by their `use`. This covers all code of this
+//! project. It does not follow a `use` with `*`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::{report, rust};
 
-/// Circles that stand: files, or folders with all that is below them, and the reason.
-const CIRCLES: &[(&[&str], &str)] = &[];
+/// Accepted cycles: files, or folders with all files below them, and the reason.
+const CYCLES: &[(&[&str], &str)] = &[];
 
 #[test]
-fn files_import_each_other_in_no_circle() {
+fn imports_have_no_cycle() {
     let files: Vec<_> = rust("src").into_iter().map(|file| (file.path, file.text)).collect();
-    let known: Vec<_> = CIRCLES.iter().map(|(files, _)| *files).collect();
+    let known: Vec<_> = CYCLES.iter().map(|(files, _)| *files).collect();
     report(findings(&files, &known));
 }
 
-/// Circles that the list does not hold, and entries of the list without a circle.
+/// Cycles that are not in the list, and entries of the list without a cycle.
 fn findings(files: &[(String, String)], known: &[&[&str]]) -> Vec<String> {
     let edges = Sources::new(files).edges();
-    let circles = circles(&edges);
-    let holds = |entry: &[&str], circle: &BTreeSet<&str>| {
-        circle.iter().all(|file| entry.iter().any(|part| file == part || part.ends_with('/') && file.starts_with(part)))
+    let cycles = cycles(&edges);
+    let holds = |entry: &[&str], cycle: &BTreeSet<&str>| {
+        cycle.iter().all(|file| entry.iter().any(|part| file == part || part.ends_with('/') && file.starts_with(part)))
     };
     let mut findings = Vec::new();
-    for circle in &circles {
-        if known.iter().any(|entry| holds(entry, circle)) {
+    for cycle in &cycles {
+        if known.iter().any(|entry| holds(entry, cycle)) {
             continue;
         }
         let mut finding = format!(
-            "a circle of {} files: move what several of them need into a file that imports none of them",
-            circle.len()
+            "an import cycle of {} files: move the shared items into a file that imports none of them",
+            cycle.len()
         );
         for ((from, to), (line, name)) in &edges {
-            if circle.contains(from) && circle.contains(to) {
+            if cycle.contains(from) && cycle.contains(to) {
                 finding += &format!("\n    {from}:{line}: imports `{name}` of {to}");
             }
         }
         findings.push(finding);
     }
     for entry in known {
-        if !circles.iter().any(|circle| holds(entry, circle)) {
-            findings.push(format!("{}: has no circle any more: take it out of the list", entry.join(", ")));
+        if !cycles.iter().any(|cycle| holds(entry, cycle)) {
+            findings.push(format!("{}: has no cycle: remove it from the list", entry.join(", ")));
         }
     }
     findings
 }
 
-/// From file and to file; with the first line of it, and the name that it imports.
+/// Importing file and imported file, with the line of the first import and the imported name.
 type Edges<'a> = BTreeMap<(&'a str, &'a str), (usize, String)>;
 
-/// Files that reach each other, two or more.
-fn circles<'a>(edges: &Edges<'a>) -> Vec<BTreeSet<&'a str>> {
+/// Groups of two or more files that reach each other.
+fn cycles<'a>(edges: &Edges<'a>) -> Vec<BTreeSet<&'a str>> {
     let mut reached: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for &(from, _) in edges.keys() {
         let mut open = vec![from];
@@ -67,25 +67,25 @@ fn circles<'a>(edges: &Edges<'a>) -> Vec<BTreeSet<&'a str>> {
             open.extend(next.map(|edge| edge.1).filter(|&file| seen.insert(file)));
         }
     }
-    let mut circles = BTreeSet::new();
+    let mut cycles = BTreeSet::new();
     for (file, below) in reached.iter().filter(|(file, below)| below.contains(*file)) {
-        circles.insert(
+        cycles.insert(
             below.iter().filter(|other| reached.get(*other).is_some_and(|back| back.contains(file))).copied().collect(),
         );
     }
-    circles.into_iter().collect()
+    cycles.into_iter().collect()
 }
 
-/// A path as it is written, and where.
+/// A path in the source text.
 #[derive(Debug)]
 struct Written {
     line: usize,
-    /// In how many modules inside of its file.
+    /// The number of modules inside its file that contain it.
     depth: usize,
     path: Vec<String>,
-    /// What a `use` makes known under which name; `None` for a path in the code.
+    /// The name that a `use` defines; `None` for a path in the code.
     name: Option<String>,
-    /// Whether a `use` passes the name on.
+    /// Whether a `use` re-exports the name.
     is_public: bool,
 }
 
@@ -93,11 +93,11 @@ struct Source<'a> {
     path: &'a str,
     module: Vec<String>,
     written: Vec<Written>,
-    /// Names that stand alone in the code, outside of every `use`.
+    /// Single names in the code, outside every `use`.
     names: BTreeSet<String>,
 }
 
-/// What a path reaches: a file, and whether it is the whole module.
+/// The file that a path reaches, and whether the path is the whole module.
 type Reached = (usize, bool);
 
 struct Sources<'a> {
@@ -142,7 +142,7 @@ impl<'a> Sources<'a> {
         self.start(&source.module, &written.path[ups.min(written.depth)..], 0)
     }
 
-    /// The first part of a path is read from where it stands, each other one in the module before it.
+    /// Resolves a path: the first part in the current module, each following part in the module before it.
     fn start(&self, module: &[String], path: &[String], turn: usize) -> Option<Reached> {
         let (first, rest) = path.split_first()?;
         match first.as_str() {
@@ -204,7 +204,7 @@ fn read<'a>(path: &'a str, text: &str) -> Source<'a> {
                     written.is_public = before == "pub" || before == ")";
                 }
             }
-            // Behind `pub(in` stands a place, not an import.
+            // After `pub(in`, the path is a visibility and not an import.
             "crate" if before == "in" => {}
             first if is_name(first) && !["::", ".", "mod"].contains(&before) => {
                 let mut path = vec![first.to_owned()];
@@ -226,7 +226,7 @@ fn read<'a>(path: &'a str, text: &str) -> Source<'a> {
     source
 }
 
-/// Reads one tree of a `use`, and returns the place of the token that ends it.
+/// Reads one tree of a `use`, and returns the index of the token that ends it.
 fn tree(tokens: &[(usize, String)], start: usize, before: &[String], written: &mut Vec<Written>) -> usize {
     let mut path = before.to_vec();
     let mut name = None;
@@ -265,7 +265,7 @@ fn is_name(token: &str) -> bool {
     token.starts_with(|first: char| first.is_alphabetic() || first == '_')
 }
 
-/// Names, `::` and single signs, each with its line; without comments, strings, letters, lifetimes and the `$` of a macro.
+/// Names, `::` and single characters, each with its line; without comments, strings, characters, lifetimes and the `$` of a macro.
 fn tokens(text: &str) -> Vec<(usize, String)> {
     let letters: Vec<char> = text.chars().collect();
     let peek = |at: usize| letters.get(at).copied().unwrap_or('\n');
@@ -321,7 +321,7 @@ fn tokens(text: &str) -> Vec<(usize, String)> {
     tokens
 }
 
-/// Without each item behind `#[cfg(test)]`.
+/// The tokens without the items after `#[cfg(test)]`.
 fn without_tests(tokens: &[(usize, String)]) -> Vec<(usize, String)> {
     let mark = ["#", "[", "cfg", "(", "test", ")", "]"];
     let is_mark = |at: usize| tokens[at..].iter().map(|token| token.1.as_str()).take(mark.len()).eq(mark);
@@ -351,7 +351,7 @@ fn without_tests(tokens: &[(usize, String)]) -> Vec<(usize, String)> {
     kept
 }
 
-// The check finds what it is for.
+// Tests of the check.
 
 fn found(files: &[(&str, &str)], known: &[&[&str]]) -> Vec<String> {
     let files: Vec<_> = files.iter().map(|(path, text)| ((*path).to_owned(), (*text).to_owned())).collect();
@@ -359,20 +359,20 @@ fn found(files: &[(&str, &str)], known: &[&[&str]]) -> Vec<String> {
 }
 
 #[test]
-fn two_siblings_that_import_each_other_through_their_parent_are_a_circle() {
+fn two_siblings_that_import_each_other_through_their_parent_are_a_cycle() {
     let parent = ("src/a/mod.rs", "mod b;\nmod c;\npub use b::B;\npub use c::{C, other as renamed};");
     let b = ("src/a/b.rs", "//! B.\nuse super::renamed;\npub struct B;");
     let c = ("src/a/c.rs", "pub fn other() -> crate::a::B {}\npub struct C;");
     assert_eq!(
         found(&[parent, b, c], &[]),
-        ["a circle of 2 files: move what several of them need into a file that imports none of them\n    \
+        ["an import cycle of 2 files: move the shared items into a file that imports none of them\n    \
           src/a/b.rs:2: imports `super::renamed` of src/a/c.rs\n    \
           src/a/c.rs:1: imports `crate::a::B` of src/a/b.rs"]
     );
 }
 
 #[test]
-fn a_parent_imports_a_child_where_it_uses_the_name_and_not_where_it_passes_it_on() {
+fn a_parent_imports_a_child_if_it_uses_the_name_and_not_if_it_re_exports_it() {
     let b = ("src/a/b.rs", "use super::Whole;\npub struct B;");
     let finds = |parent| found(&[("src/a/mod.rs", parent), b], &[]).len();
     assert_eq!(finds("mod b;\npub use b::B;\npub struct Whole;"), 0);
@@ -383,18 +383,18 @@ fn a_parent_imports_a_child_where_it_uses_the_name_and_not_where_it_passes_it_on
 }
 
 #[test]
-fn circles_of_three_files_and_paths_behind_a_module_are_found() {
+fn cycles_of_three_files_and_paths_through_a_module_are_found() {
     let a = ("src/a.rs", "use crate::{b, c as d};\npub fn f() { b::g() }");
     let b = ("src/b.rs", "pub fn g() { let x = '\"'; crate::c::h::<u8>() }");
     let c = ("src/c.rs", "pub fn h<'a, T>() { let _ = r#\"\"\"#; super::a::f() }");
     let findings = found(&[a, b, c], &[]);
     assert_eq!(findings.len(), 1);
-    assert!(findings[0].starts_with("a circle of 3 files"), "{findings:?}");
+    assert!(findings[0].starts_with("an import cycle of 3 files"), "{findings:?}");
     assert!(found(&[a, b], &[]).is_empty());
 }
 
 #[test]
-fn tests_comments_texts_and_modules_inside_of_a_file_make_no_circle() {
+fn tests_comments_strings_and_inner_modules_make_no_cycle() {
     let a = ("src/a.rs", "use crate::b::B;\npub struct A;");
     let finds = |text| found(&[a, ("src/b.rs", text)], &[]).len();
     assert_eq!(finds("pub struct B(crate::a::A);"), 1);
@@ -406,12 +406,12 @@ fn tests_comments_texts_and_modules_inside_of_a_file_make_no_circle() {
 }
 
 #[test]
-fn the_list_holds_a_circle_and_an_entry_without_one_is_found() {
+fn the_list_accepts_a_cycle_and_an_entry_without_a_cycle_is_found() {
     let files = [("src/a/b.rs", "use super::c::C;\npub struct B;"), ("src/a/c.rs", "use super::b::B;\npub struct C;")];
     let parent = ("src/a/mod.rs", "mod b;\nmod c;");
     let files = [files[0], files[1], parent];
     assert!(found(&files, &[&["src/a/"]]).is_empty());
     assert!(found(&files, &[&["src/a/b.rs", "src/a/c.rs"]]).is_empty());
     assert_eq!(found(&files, &[&["src/a/b.rs"]]).len(), 2);
-    assert_eq!(found(&[parent], &[&["src/a/"]]), ["src/a/: has no circle any more: take it out of the list"]);
+    assert_eq!(found(&[parent], &[&["src/a/"]]), ["src/a/: has no cycle: remove it from the list"]);
 }
