@@ -1,5 +1,5 @@
-//! What a step costs: a machine of 31 axes with one gantry jogging to and fro, beside the same arithmetic written by hand;
-//! and the worked example, from opening to its last row. `benches/README.md` says how to run it and what it gave.
+//! Measures the time of a step: a machine of 31 axes with one jogging gantry, compared with the same arithmetic written by hand, and the
+//! worked example from opening to its last row. `benches/README.md` describes how to run it and its results.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use opennck::plc::{ClosureProgram, Programs, program};
 use opennck::scenario::{Prepared, Scenario};
 use opennck::units::{AxisNumber, Time};
 
-/// Steps of one sample: two seconds of the machine, one to and one fro.
+/// The number of steps of one sample: two seconds of the machine, one movement in each direction.
 const STEPS: u64 = 1_000;
 const CYCLE: f64 = 0.002;
 
@@ -20,7 +20,7 @@ fn main() {
     divan::main();
 }
 
-/// The machine, its PLC program, the record, and somebody who drains it.
+/// The machine with its PLC program and record; the record is drained.
 #[divan::bench]
 fn step(bencher: Bencher<'_, '_>) {
     let mut machine = jogging_machine();
@@ -35,7 +35,7 @@ fn step(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// The same, and every axis is computed in every cycle, as `loop_by_hand` does: what a step costs where all are awake.
+/// The same, but every axis is computed in every cycle, as in `loop_by_hand`: the time of a step while all axes are active.
 #[divan::bench]
 fn step_that_never_rests(bencher: Bencher<'_, '_>) {
     let mut machine = jogging_machine();
@@ -49,7 +49,7 @@ fn step_that_never_rests(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// The same, and nobody drains the record: it is full from the start, and rows are only counted.
+/// The same, but the record is not drained: it is full from the start, and rows are only counted.
 #[divan::bench]
 fn step_with_a_full_record(bencher: Bencher<'_, '_>) {
     let mut machine = jogging_machine();
@@ -64,7 +64,7 @@ fn step_with_a_full_record(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// The peer: setpoint, coupling, position control, drive and encoder of 31 axes, and no interface around them.
+/// For comparison: setpoint, coupling, position control, drive and encoder of 31 axes without an interface.
 #[divan::bench]
 fn arithmetic_by_hand(bencher: Bencher<'_, '_>) {
     let mut axes = [ByHand::default(); 31];
@@ -91,8 +91,8 @@ fn arithmetic_by_hand(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// The other peer: the same arithmetic with an interface around it, as somebody would write it for this one machine. A program that
-/// writes bits, all 31 axes moved and monitored, their signals and values, and what of the interface changed, in every cycle.
+/// For comparison: the same arithmetic with an interface, written for this one machine only. In every cycle, a program writes bits, all 31
+/// axes are moved and monitored, and their signals, values and changes of the interface are published.
 #[divan::bench]
 fn loop_by_hand(bencher: Bencher<'_, '_>) {
     let mut machine = MachineByHand::new();
@@ -107,7 +107,7 @@ fn loop_by_hand(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// A fork of the machine in mid-run.
+/// A fork of the machine during a run.
 #[divan::bench]
 fn fork(bencher: Bencher<'_, '_>) {
     let machine = jogging_machine();
@@ -119,26 +119,26 @@ fn fork(bencher: Bencher<'_, '_>) {
 fn worked_example(bencher: Bencher<'_, '_>) {
     let programs = Programs::ready();
     bencher.bench_local(|| {
-        let scenario = opennck::cli::example::scenario().expect("the program holds a good one");
+        let scenario = opennck::cli::example::scenario().expect("the built-in scenario is valid");
         let profile = scenario.profiles.first().copied().unwrap_or_default();
-        let prepared = scenario.prepare(profile, &programs).expect("the program holds a good one");
+        let prepared = scenario.prepare(profile, &programs).expect("the built-in scenario is valid");
         prepared.run().text().len()
     });
 }
 
-/// A scenario of one step that lets time pass on the machine of `step`, with ten conditions that must hold in every cycle.
+/// A scenario with one step that lets time pass on the machine of `step`, with ten conditions that must hold in every cycle.
 #[divan::bench]
 fn scenario_with_ten_conditions(bencher: Bencher<'_, '_>) {
     run_scenario(bencher, &TEN_CONDITIONS);
 }
 
-/// The peer: the same scenario without conditions.
+/// For comparison: the same scenario without conditions.
 #[divan::bench]
 fn scenario_without_conditions(bencher: Bencher<'_, '_>) {
     run_scenario(bencher, &[]);
 }
 
-/// Signals, values, alarms and time, and edges of them. AX1, AX2 and AX3 are called X1, Y1 and Z1.
+/// Signals, values, alarms and time, and edges of them. AX1, AX2 and AX3 have the names X1, Y1 and Z1.
 const TEN_CONDITIONS: [&str; 10] = [
     "alarms() > 0",
     "alarm(10653, Y1) || alarm(10652)",
@@ -156,18 +156,18 @@ fn run_scenario(bencher: Bencher<'_, '_>, never: &[&str]) {
     let machine = directory_of_31_axes();
     let text =
         format!("machine = {machine:?}\nplc = \"jogging\"\nnever = {never:?}\n[[step]]\nrun = \"{STEPS}cycles\"\n");
-    let scenario = Scenario::parse(&text, Path::new("bench.toml")).expect("the scenario is a good one");
+    let scenario = Scenario::parse(&text, Path::new("bench.toml")).expect("the scenario is valid");
     let programs = Programs::ready().with("jogging", |_| Ok(jogging_program().boxed()));
-    let prepare = || scenario.prepare(Profile::default(), &programs).expect("the scenario is a good one");
+    let prepare = || scenario.prepare(Profile::default(), &programs).expect("the scenario is valid");
     if let Some(failure) = prepare().run().failure {
         panic!("{failure}");
     }
     bencher.counter(ItemsCount::new(STEPS)).with_inputs(prepare).bench_local_values(Prepared::run);
 }
 
-/// 31 axes, of which AX1 leads AX2, with a program that enables all and jogs the gantry to and fro each second.
+/// 31 axes; AX1 leads AX2. A program enables all axes and jogs the gantry forth and back every second.
 fn jogging_machine() -> Machine {
-    let mut machine = Machine::open(directory_of_31_axes()).expect("the archive is a good one");
+    let mut machine = Machine::open(directory_of_31_axes()).expect("the archive is valid");
     machine.load_program(jogging_program().boxed());
     for _ in 0..STEPS {
         machine.step();
@@ -182,7 +182,7 @@ fn jogging_machine() -> Machine {
 
 fn directory_of_31_axes() -> PathBuf {
     let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("thirty_one_axes");
-    fs::create_dir_all(&directory).expect("the target directory is ours");
+    fs::create_dir_all(&directory).expect("the target directory is writable");
     let mut archive = String::from("CHANDATA(1)\nN10050 $MN_SYSCLOCK_CYCLE_TIME=0.002\n");
     for axis in 1..=31 {
         archive += &format!("N30130 $MA_CTRLOUT_TYPE[AX{axis}]=1\nN30200 $MA_NUM_ENCS[AX{axis}]=1\n");
@@ -190,7 +190,7 @@ fn directory_of_31_axes() -> PathBuf {
     }
     archive += "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1\nN37100 $MA_GANTRY_AXIS_TYPE[AX2]=11\n";
     archive += "N37120 $MA_GANTRY_POS_TOL_ERROR[AX2]=1\nN37130 $MA_GANTRY_POS_TOL_REF[AX2]=1\nM17\n";
-    fs::write(directory.join("thirty_one_axes.tea"), archive).expect("the target directory is ours");
+    fs::write(directory.join("thirty_one_axes.tea"), archive).expect("the target directory is writable");
     directory
 }
 
@@ -209,7 +209,7 @@ fn jogging_program() -> ClosureProgram<()> {
     })
 }
 
-/// One axis as somebody would write it who needs nothing but the movement; nanometres and seconds.
+/// One axis, written by hand for the movement only; nanometres and seconds.
 #[derive(Clone, Copy, Default)]
 struct ByHand {
     setpoint: i64,
@@ -227,7 +227,7 @@ impl ByHand {
         advance(&mut self.setpoint, &mut self.setpoint_carry, self.velocity * CYCLE);
     }
 
-    /// Position control, drive, slide and encoder; gives how many zero marks went by.
+    /// Position control, drive, slide and encoder. Returns the number of zero marks that were passed.
     fn control(&mut self) -> u32 {
         let (count, spacing) = (divan::black_box(1_000_i64), divan::black_box(10_000_000_i64));
         let actual = (self.slide + count / 2).div_euclid(count) * count;
@@ -243,7 +243,7 @@ impl ByHand {
     }
 }
 
-/// A byte of the interface, as it was and as it is.
+/// A byte of the interface, before and after.
 struct RowByHand {
     cycle: u64,
     offset: usize,
@@ -255,9 +255,9 @@ struct RowByHand {
 const BLOCK: usize = 148;
 const BLOCKS: usize = 31 * BLOCK + 10 * 416 + 272 + 64;
 
-/// What the service display shows of an axis.
+/// The values of an axis in the service display.
 #[derive(Clone, Copy, Default)]
-#[expect(dead_code, reason = "they are shown; nobody looks")]
+#[expect(dead_code, reason = "the values are published but not read")]
 struct ValuesByHand {
     position: i64,
     setpoint: i64,
@@ -302,7 +302,7 @@ impl MachineByHand {
         self.record();
     }
 
-    /// Enables all, jogs the first to and fro.
+    /// Enables all axes and jogs the first axis forth and back.
     fn plc(&mut self) {
         for axis in self.interface[..31 * BLOCK].chunks_exact_mut(BLOCK) {
             axis[1] |= 1 << 5;
@@ -313,7 +313,7 @@ impl MachineByHand {
         self.interface[4] = if plus { 1 << 7 } else { 1 << 6 };
     }
 
-    /// Enables, keys and setpoints; the second follows the first.
+    /// Enables, keys and setpoints; the second axis follows the first one.
     fn decide(&mut self) {
         let before = self.axes[0].setpoint;
         for (axis, bits) in self.axes.iter_mut().zip(self.interface.chunks_exact(BLOCK)) {
@@ -363,7 +363,7 @@ impl MachineByHand {
         });
     }
 
-    /// What changed.
+    /// Records the changes.
     fn record(&mut self) {
         if self.interface == self.before {
             return;
@@ -389,7 +389,7 @@ fn advance(position: &mut i64, carry: &mut f64, movement: f64) {
     let exact = movement + *carry;
     let whole = exact.round();
     *carry = exact - whole;
-    #[expect(clippy::cast_possible_truncation, reason = "a cycle's movement fits by far")]
+    #[expect(clippy::cast_possible_truncation, reason = "the movement in one cycle is small")]
     let whole = whole as i64;
     *position += whole;
 }
