@@ -1,8 +1,8 @@
-//! Every scenario of `golden/` holds, and its trace is the golden one; as `opennck test` does it, for `cargo test`.
+//! Runs every scenario of `golden/` and compares its trace with the golden trace, like `opennck test`, for `cargo test`.
 
 use opennck::plc::Programs;
 
 #[test]
-fn every_scenario_holds_and_its_trace_is_the_golden_one() {
+fn every_scenario_passes_and_has_its_golden_trace() {
     opennck::golden::check(concat!(env!("CARGO_MANIFEST_DIR"), "/golden"), &Programs::ready());
 }

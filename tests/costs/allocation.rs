@@ -1,7 +1,7 @@
-//! A step allocates nothing, so that its time does not depend on anybody's heap.
+//! Tests that a step does not allocate, so that its time does not depend on the heap.
 //!
-//! What may allocate: a step in which RESET, "set machine data active" or power on makes changed machine data act, the
-//! first write to memory that a clone shares, and the queueing of a command.
+//! Allocations are allowed in three cases: in a step in which RESET, "set machine data active" or power on activates changed machine data,
+//! at the first write to memory that a clone shares, and when a command is queued.
 
 use opennck::machine::{Command, DatumValue, Machine};
 use opennck::plc::program;
@@ -11,7 +11,7 @@ fn write(machine: &mut Machine, signal: &str, value: u64) {
     machine.queue(Command::Write { location, value }).expect("a write");
 }
 
-/// The worked example with a PLC program that writes its memory, in REF, with everything enabled.
+/// The worked example in REF with all enables, and with a PLC program that writes its memory.
 fn ready() -> Machine {
     let mut machine = Machine::open("g1_example").expect("it is built in");
     let plc = program("enable_and_count", 0_u16, |scans, io| {
@@ -35,12 +35,12 @@ fn ready() -> Machine {
     machine
 }
 
-/// Steps until a bit is 1, with the record drained in between, and expects that no step allocates.
+/// Runs steps until a bit is 1, drains the record between them, and checks that no step allocates.
 fn step_until(machine: &mut Machine, signal: &str) {
     let location = machine.names().resolve(machine.memory(), signal).expect("a signal");
     let mut rows = 0;
     while machine.memory().read(location) == 0 {
-        assert!(machine.cycle() < 10_000, "{signal} never came");
+        assert!(machine.cycle() < 10_000, "{signal} did not become 1");
         let allocated = allocation_counter::measure(|| machine.step());
         assert_eq!(allocated.count_total, 0, "cycle {}", machine.cycle());
         rows += machine.recorder().rows().len();
@@ -50,7 +50,7 @@ fn step_until(machine: &mut Machine, signal: &str) {
 }
 
 #[test]
-fn what_allocates_is_counted() {
+fn allocations_are_counted() {
     let machine = ready();
     assert!(allocation_counter::measure(|| drop(machine.save())).count_total > 0);
 }
@@ -60,7 +60,7 @@ fn no_step_of_referencing_and_synchronising_allocates() {
     reference_and_synchronise(&mut ready());
 }
 
-/// Jerk filters, feed-forward with dead time and matching, on an axis that a NEWCONF gives them.
+/// Jerk filters, feed-forward with dead time and matching, on axes that NEWCONF has activated them for.
 #[test]
 fn no_step_with_filters_and_delays_allocates() {
     let mut machine = ready();

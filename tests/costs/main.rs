@@ -1,6 +1,6 @@
-//! Tests of what things cost: heap allocations of a step, memory of a client.
+//! Tests of costs: heap allocations of a step, memory of a client.
 //!
-//! A binary of its own because its allocator counts, and because it measures its own process.
+//! These tests are a separate binary because its allocator counts, and because the tests measure their own process.
 
 mod allocation;
 #[cfg(all(feature = "cli", feature = "s7"))]

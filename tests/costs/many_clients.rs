@@ -1,5 +1,5 @@
-//! Many clients at once, and clients that ask much at once: what one costs, in which order it is answered, and that it holds up
-//! nobody. How fast that goes is measured by `benches/s7`.
+//! Tests of many clients, and of clients with many requests: the memory of a client, the order of answers, and that one client does not
+//! delay others. `benches/s7` measures the speed.
 #![cfg(all(feature = "cli", feature = "s7"))]
 
 use std::io::{Read, Write};
@@ -13,7 +13,7 @@ use opennck::s7::server::Limits;
 
 use crate::clients::{CONNECT, bare, packet, setup};
 
-/// Clients that are held.
+/// The number of connected clients.
 const MANY: usize = 1000;
 
 /// Reads one byte: MB0.
@@ -23,7 +23,7 @@ fn read(reference: u16) -> Vec<u8> {
     [&head[..], &[4, 1, 0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 0]].concat()
 }
 
-/// Writes it.
+/// Writes one byte: MB0.
 fn write(reference: u16, value: u8) -> Vec<u8> {
     let [high, low] = reference.to_be_bytes();
     let head = [3, 0, 0, 36, 2, 0xF0, 0x80, 0x32, 1, 0, 0, high, low, 0, 14, 0, 5];
@@ -38,7 +38,7 @@ fn served(speed: &str) -> (Live, Window, SocketAddr) {
     (live, window, address)
 }
 
-/// Connected, with a PDU of 240 bytes.
+/// A connected client with a PDU of 240 bytes.
 fn client(address: SocketAddr) -> TcpStream {
     let mut stream = bare(address);
     stream.set_nodelay(true).expect("it is a socket");
@@ -49,20 +49,20 @@ fn client(address: SocketAddr) -> TcpStream {
     stream
 }
 
-/// Bytes that this process has in memory, where the system tells.
+/// The number of bytes that this process has in memory, if the system reports it.
 fn memory() -> Option<usize> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
     Some(1024 * line.split_whitespace().next()?.parse::<usize>().ok()?)
 }
 
-/// Each has asked for something; the clients of this test themselves are handles and nothing else.
+/// Each client has sent a request. On the side of this test, clients are only socket handles.
 #[test]
-fn a_thousand_clients_are_held_for_less_than_8_kib_each() {
+fn a_thousand_clients_need_less_than_8_kib_each() {
     let handles = 2 * MANY as u64 + 100;
     let given = rlimit::increase_nofile_limit(handles).unwrap_or(0);
     if given < handles {
-        println!("not tested: the system gives {given} handles, and {handles} are needed");
+        println!("not tested: {handles} handles are needed, the system allows {given}");
         return;
     }
     let (_live, window, address) = served("1");
@@ -84,9 +84,9 @@ fn a_thousand_clients_are_held_for_less_than_8_kib_each() {
     assert_eq!(packet(&mut first)[21], 0xFF);
 }
 
-/// A write and a read of the same byte, again and again, in one piece of TCP: each read finds what stands before it.
+/// Repeated writes and reads of the same byte sent together: each read returns the value of the write before it.
 #[test]
-fn what_came_together_is_answered_in_order_and_finds_what_was_written() {
+fn requests_sent_together_are_answered_in_order_and_reads_see_earlier_writes() {
     let (_live, _window, address) = served("10");
     let mut stream = client(address);
     let requests = (0..100_u8).flat_map(|value| {
@@ -102,9 +102,9 @@ fn what_came_together_is_answered_in_order_and_finds_what_was_written() {
     }
 }
 
-/// A cycle lasts 200 ms here, so that it matters: eight writes need one, not eight.
+/// Here, a cycle lasts 200 ms, so that the effect is visible: eight writes need one cycle, not eight.
 #[test]
-fn writes_that_came_together_are_taken_up_together() {
+fn writes_sent_together_are_executed_together() {
     let (live, _window, address) = served("0.01");
     let mut stream = client(address);
     let before = live.with(|machine| machine.cycle());
@@ -118,9 +118,9 @@ fn writes_that_came_together_are_taken_up_together() {
     assert!(after - before < 8, "{} cycles", after - before);
 }
 
-/// Somebody asks a thousand times at once, and takes the answers, for as long as others work.
+/// One client sends a thousand requests at once and reads the answers, while other clients work.
 #[test]
-fn who_floods_holds_up_nobody() {
+fn a_client_that_floods_does_not_delay_others() {
     let (_live, window, address) = served("1");
     let (mut flood, is_over) = (client(address), AtomicBool::new(false));
     let mut taken = flood.try_clone().unwrap();

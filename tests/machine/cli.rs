@@ -1,4 +1,4 @@
-//! The program as its users call it: commands, exit codes, what goes to which output.
+//! Tests of the program as users call it: commands, exit codes, and the use of standard output and standard error.
 #![cfg(feature = "cli")]
 
 use std::fs;
@@ -6,11 +6,11 @@ use std::io::Read;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
-/// A directory of its own for a test.
+/// A directory for one test.
 fn directory(name: &str) -> PathBuf {
     let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&directory);
-    fs::create_dir_all(&directory).expect("the target directory is ours");
+    fs::create_dir_all(&directory).expect("the target directory is writable");
     directory
 }
 
@@ -34,7 +34,7 @@ const GOOD: &str = "title = \"A flag\"\nmachine = \"g1_example\"\nwatch = [\"M0.
     [[step]]\nnote = \"now\"\nset = { \"M0.0\" = 1 }\n[[step]]\nrun = \"10ms\"\n";
 
 #[test]
-fn without_arguments_the_worked_example_runs_and_says_what_to_try_next() {
+fn without_arguments_the_worked_example_runs_and_suggests_next_steps() {
     let output = opennck(&[], &directory("example"));
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     assert!(out(&output).contains("X.traversing_key_plus"));
@@ -76,7 +76,7 @@ fn run_writes_the_trace_as_waveform_and_as_diagram() {
 }
 
 #[test]
-fn diff_tells_the_first_difference_in_words() {
+fn diff_reports_the_first_difference_in_words() {
     let directory = directory("diff");
     let write = |name: &str, text: &str| fs::write(directory.join(name), text).unwrap();
     let key =
@@ -108,7 +108,7 @@ fn diff_tells_the_first_difference_in_words() {
 }
 
 #[test]
-fn why_follows_an_edge_back_to_what_was_written() {
+fn why_follows_an_edge_back_to_the_written_signal() {
     let directory = directory("why");
     let scenario = include_str!("../../golden/worked_example/gantry_references_and_synchronises.toml");
     fs::write(directory.join("s.toml"), scenario.replace("../../machine_data/", "")).unwrap();
@@ -145,7 +145,7 @@ fn why_follows_an_edge_back_to_what_was_written() {
 }
 
 #[test]
-fn a_failed_expectation_ends_with_1_and_says_what_was_instead() {
+fn a_failed_expectation_ends_with_1_and_reports_the_value() {
     let directory = directory("failed");
     fs::write(directory.join("bad.toml"), format!("{GOOD}[[step]]\nexpect = \"M0.1\"\n")).unwrap();
     let output = opennck(&["run", "bad.toml"], &directory);
@@ -155,7 +155,7 @@ fn a_failed_expectation_ends_with_1_and_says_what_was_instead() {
 }
 
 #[test]
-fn one_unusable_file_and_nothing_runs() {
+fn with_one_invalid_file_nothing_runs() {
     let directory = directory("unusable");
     fs::write(directory.join("good.toml"), GOOD).unwrap();
     fs::write(directory.join("bad.toml"), GOOD.replace("M0.0", "X.nonsense")).unwrap();
@@ -194,7 +194,7 @@ fn test_compares_accepts_and_reports() {
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     assert_eq!(out(&output), "1 scenarios: 1 held\n");
     assert!(fs::read_to_string(directory.join("r.xml")).unwrap().contains("tests=\"1\" failures=\"0\" errors=\"0\""));
-    // The usable ones run beside an unusable one, and the highest code is that of the program.
+    // Valid scenarios run in addition to an invalid one, and the exit code of the program is the highest code.
     fs::write(directory.join("golden/area/bad.toml"), "title = 1").unwrap();
     let output = opennck(&["test"], &directory);
     assert_eq!(output.status.code(), Some(2));
@@ -269,7 +269,7 @@ fn every_command_has_help_and_a_mistyped_one_ends_with_2() {
 }
 
 #[test]
-fn a_reader_who_goes_away_is_no_panic() {
+fn a_closed_output_pipe_causes_no_panic() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_opennck"))
         .args(["signals", "--format", "json"])
         .stdout(Stdio::piped())
@@ -283,7 +283,7 @@ fn a_reader_who_goes_away_is_no_panic() {
 }
 
 #[test]
-fn test_marks_the_transitions_that_the_scenarios_took_and_lists_the_others() {
+fn test_marks_the_transitions_that_scenarios_take_and_lists_the_others() {
     let directory = directory("flowchart");
     let referencing = "title = \"X and XF\"\nmachine = \"g1_example\"\nplc = \"enable_all\"\nwatch = [\"DB31.DBX101.4\"]\n\
         [[step]]\nset = { \"DB11.DBX1.2\" = 1 }\n[[step]]\npulse = \"X.traversing_key_plus\"\n\
@@ -294,7 +294,7 @@ fn test_marks_the_transitions_that_the_scenarios_took_and_lists_the_others() {
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     let chart = fs::read_to_string(directory.join("chart.mmd")).unwrap();
     assert!(chart.starts_with("flowchart TD\n"), "{chart}");
-    // Eight rows of the approach, by the way of MD34050 = 0 with a cam, and three of the grouping.
+    // Eight rows of the approach (the path with MD34050 = 0 and a cam), and three rows of the grouping.
     for text in [out(&output), chart.clone()] {
         assert!(text.contains("11 of 43 transitions taken\n"), "{text}");
         assert!(text.contains("never taken: WaitingForStart -> Synchronising (REF-14: start)\n"), "{text}");
@@ -311,7 +311,7 @@ fn test_marks_the_transitions_that_the_scenarios_took_and_lists_the_others() {
 }
 
 #[test]
-fn completions_are_there_for_each_shell() {
+fn each_shell_has_completions() {
     let directory = directory("completions");
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let output = opennck(&["completions", shell], &directory);
@@ -325,7 +325,7 @@ fn completions_are_there_for_each_shell() {
     assert_eq!(opennck(&["completions", "cmd"], &directory).status.code(), Some(2));
 }
 
-/// Where there is no bash there is nothing to try.
+/// Skipped on a system without bash.
 #[test]
 fn bash_sources_its_completions_and_completes_a_command() {
     let directory = directory("bash");

@@ -1,4 +1,4 @@
-//! Same input, same bytes: in one process, in two processes, after save and restore, and in a fork.
+//! Tests that the same input gives the same bytes: in one process, in two processes, after save and restore, and in a fork.
 
 use std::path::{Path, PathBuf};
 use std::process::Command as Process;
@@ -11,10 +11,10 @@ use opennck::units::{Position, Time};
 
 const SCENARIO: &str = "golden/worked_example/gantry_references_and_synchronises.toml";
 
-/// How many cycles the timeline below has; the grouping is synchronised in it, and lost again.
+/// The number of cycles of the timeline below. The grouping becomes synchronised and loses synchronism again.
 const CYCLES: u64 = 5_000;
 
-/// A program with state of its own: pulses come 100 ms after the rest, and MW20 counts scans.
+/// A program with its own state: pulse enable follows the other enables after 100 ms, and MW20 counts scans.
 fn plc() -> Box<dyn PlcProgram> {
     program("delayed", (OnDelay::default(), 0_u16), |(delay, scans), io| {
         *scans = scans.wrapping_add(1);
@@ -46,7 +46,7 @@ fn fault(machine: &mut Machine, axis: &str, kind: FaultKind) {
     machine.queue(Command::Fault(Fault { axis, kind })).expect("a fault");
 }
 
-/// What happens to a machine before its next step, by its cycle: referencing, faults, machine data, a start, a force.
+/// The events before the next step of a machine, by cycle: referencing, faults, machine data, a start, a force.
 fn act(machine: &mut Machine) {
     let slip = FaultKind::EncoderSlip { by: Position::from_user(0.01) };
     match machine.cycle() {
@@ -72,17 +72,17 @@ fn act(machine: &mut Machine) {
     }
 }
 
-/// One step of a machine, with its record of that step left in it.
+/// One step of a machine. The record of the step stays in the machine.
 fn step(machine: &mut Machine) {
     machine.drain();
     act(machine);
     machine.step();
 }
 
-/// The first cycle in which two machines differ ends the test, and says what differs.
+/// Fails in the first cycle in which two machines differ, and reports the difference.
 fn assert_same(expected: &Machine, found: &Machine, what: &str) {
     let cycle = expected.cycle();
-    assert_eq!(cycle, found.cycle(), "{what}: another cycle");
+    assert_eq!(cycle, found.cycle(), "{what}: the cycles differ");
     assert!(expected.memory() == found.memory(), "{what}: memory differs first in cycle {cycle}");
     assert_eq!(expected.variables(), found.variables(), "{what}: variables differ first in cycle {cycle}");
     let (rows, events) = (expected.recorder().rows(), expected.recorder().new_events());
@@ -97,7 +97,7 @@ fn run_to(machine: &mut Machine, cycle: u64) {
 }
 
 #[test]
-fn the_timeline_of_these_tests_does_reference_synchronise_and_lose_it() {
+fn the_timeline_of_these_tests_references_synchronises_and_loses_synchronism() {
     let mut machine = machine();
     let x = machine.axis("X").expect("an axis");
     run_to(&mut machine, 4_390);
@@ -117,13 +117,13 @@ fn one_scenario_gives_the_same_bytes_twice_in_one_process() {
     assert!(first[2].contains("10654"));
     for (first, second) in first.iter().zip(&second) {
         let line = first.lines().zip(second.lines()).find(|(first, second)| first != second);
-        assert!(first == second, "the first line that differs: {line:?}");
+        assert!(first == second, "first different line: {line:?}");
     }
 }
 
-/// All scenarios of the suite.
+/// All scenarios of the test suite.
 fn scenarios() -> Vec<PathBuf> {
-    let areas = std::fs::read_dir("golden").expect("the suite is there");
+    let areas = std::fs::read_dir("golden").expect("the test suite must exist");
     let files = areas.flat_map(|area| std::fs::read_dir(area.expect("an area").path()).expect("an area"));
     let mut files: Vec<_> = files.map(|file| file.expect("a file").path()).collect();
     files.retain(|file| file.extension().is_some_and(|extension| extension == "toml"));
@@ -132,7 +132,7 @@ fn scenarios() -> Vec<PathBuf> {
 }
 
 #[test]
-fn who_rests_makes_no_difference_to_any_trace() {
+fn resting_axes_change_no_trace() {
     let files = scenarios();
     assert!(files.len() > 100);
     for file in files {
@@ -141,18 +141,18 @@ fn who_rests_makes_no_difference_to_any_trace() {
         let (resting, never) = (prepare().run(), prepare().never_rest().run());
         let (resting, never) = (resting.json_lines(), never.json_lines());
         let line = resting.lines().zip(never.lines()).find(|(resting, never)| resting != never);
-        assert!(resting == never, "{}: the first line that differs: {line:?}", file.display());
+        assert!(resting == never, "{}: first different line: {line:?}", file.display());
     }
 }
 
 #[test]
-fn who_rests_makes_no_difference_to_what_is_saved() {
+fn resting_axes_change_no_saved_state() {
     compare_resting(machine(), machine());
 }
 
-/// Jerk filters, feed-forward with dead time, and matching have a memory of their own.
+/// Jerk filters, feed-forward with dead time, and matching have an internal state.
 #[test]
-fn who_rests_makes_no_difference_to_filters_and_delays() {
+fn resting_axes_change_no_filters_or_delays() {
     let filtered = || {
         let mut machine = machine();
         for axis in ["X", "Y", "XF"] {
@@ -174,9 +174,9 @@ fn compare_resting(mut resting: Machine, mut never: Machine) {
     for cycle in 1..=CYCLES {
         step(&mut resting);
         step(&mut never);
-        assert_same(&never, &resting, "computed in every cycle, and only when awake");
+        assert_same(&never, &resting, "all axes computed in every cycle, and only active axes computed");
         if cycle % 100 == 0 {
-            assert!(resting.save() == never.save(), "what is saved differs in cycle {cycle}");
+            assert!(resting.save() == never.save(), "the saved states differ in cycle {cycle}");
         }
     }
 }
@@ -200,16 +200,16 @@ fn one_scenario_gives_the_same_bytes_in_two_processes() {
 }
 
 #[test]
-fn a_saved_machine_goes_on_elsewhere_byte_for_byte() {
-    // Run-up, searching the cam, on the way to the zero mark, section 2, waiting, synchronising, synchronised, braking.
+fn a_saved_machine_continues_in_another_machine_byte_for_byte() {
+    // During run-up, search for the cam, travel to the zero mark, section 2, waiting, synchronising, synchronised, braking.
     for saved_at in [0, 13, 400, 1_700, 2_300, 3_900, 4_050, 4_399, 4_420, 4_601] {
         let mut origin = machine();
         run_to(&mut origin, saved_at);
-        // Writes that wait for the next step are saved, too.
+        // Writes that wait for the next step must be saved, too.
         write(&mut origin, "MB100", 0xA5);
         let saved = origin.save();
         let mut restored = machine();
-        // Whatever the other machine has been through before makes no difference.
+        // The earlier history of the other machine must have no effect.
         run_to(&mut restored, 700);
         restored.restore(&saved).expect("it was saved on the same machine");
         assert_eq!(origin.cycle(), restored.cycle());
@@ -227,9 +227,9 @@ fn a_saved_machine_goes_on_elsewhere_byte_for_byte() {
     }
 }
 
-/// What a cycle is compared with is the one before it, not the one that was computed last.
+/// A cycle is compared with the previous cycle, not with the last computed cycle.
 #[test]
-fn a_machine_that_goes_back_goes_on_byte_for_byte() {
+fn a_machine_that_is_set_back_continues_byte_for_byte() {
     let opens = |machine: &mut Machine| {
         let value = match machine.cycle() {
             120 => 1.0,
@@ -238,7 +238,7 @@ fn a_machine_that_goes_back_goes_on_byte_for_byte() {
         };
         let value = DatumValue::Real(value);
         machine.queue(Command::MachineDatum { target: "37140[XF]".to_owned(), value }).expect("a datum");
-        machine.queue(Command::NewConf).expect("it acts now");
+        machine.queue(Command::NewConf).expect("it is effective now");
     };
     for (back_at, ahead) in (115..140).flat_map(|cycle| [(cycle, 1), (cycle, 2), (cycle, 7)]) {
         let (mut back, mut never) = (machine(), machine());
@@ -257,7 +257,7 @@ fn a_machine_that_goes_back_goes_on_byte_for_byte() {
             step(&mut never);
             let what = format!("from {ahead} cycles ahead back to {back_at}");
             assert_same(&never, &back, &what);
-            assert!(never.save() == back.save(), "{what}: what is saved differs in cycle {}", never.cycle());
+            assert!(never.save() == back.save(), "{what}: the saved states differ in cycle {}", never.cycle());
         }
     }
 }
@@ -290,14 +290,14 @@ fn every_fault_is_saved_and_forked() {
 }
 
 #[test]
-fn a_fork_goes_on_like_its_origin_and_does_not_disturb_it() {
+fn a_fork_continues_like_its_origin_and_does_not_affect_it() {
     let mut untouched = machine();
     let mut origin = machine();
     run_to(&mut untouched, 1_000);
     run_to(&mut origin, 1_000);
     let mut fork = origin.fork().expect("a closure over its state");
     let mut other = origin.fork().expect("a closure over its state");
-    // The other fork goes its own way.
+    // The other fork gets different input.
     fault(&mut other, "X", FaultKind::Block);
     write(&mut other, "MB100", 1);
     let location = other.names().resolve(other.memory(), "XF.feed_stop").expect("a signal");
@@ -309,23 +309,23 @@ fn a_fork_goes_on_like_its_origin_and_does_not_disturb_it() {
         assert_same(&untouched, &origin, "the origin of a fork");
         assert_same(&untouched, &fork, "the fork");
     }
-    assert!(untouched.memory() != other.memory(), "the other fork should have gone its own way");
+    assert!(untouched.memory() != other.memory(), "the other fork must differ");
 }
 
 #[test]
-fn a_machine_refuses_what_was_saved_with_another_program_and_stays_as_it_is() {
+fn a_machine_rejects_the_state_of_another_program_and_stays_unchanged() {
     let mut origin = machine();
     run_to(&mut origin, 50);
     let saved = origin.save();
     let mut other = Machine::open("g1_example").expect("it is built in");
     let before = other.save();
-    let problem = other.restore(&saved).expect_err("it has no program");
+    let problem = other.restore(&saved).expect_err("the machine has no program");
     assert!(problem.to_string().contains("delayed"), "{problem}");
-    assert!(other.save() == before, "a refused machine changed");
+    assert!(other.save() == before, "a rejected state must not change the machine");
 }
 
 #[test]
-fn a_machine_refuses_damaged_bytes_and_stays_as_it_is() {
+fn a_machine_rejects_damaged_bytes_and_stays_unchanged() {
     let mut machine = machine();
     run_to(&mut machine, 50);
     let saved = machine.save();
@@ -337,5 +337,5 @@ fn a_machine_refuses_damaged_bytes_and_stays_as_it_is() {
         damaged[place] ^= 0x04;
         assert!(machine.restore(&damaged).is_err(), "byte {place}");
     }
-    assert!(machine.save() == saved, "a refused machine changed");
+    assert!(machine.save() == saved, "a rejected state must not change the machine");
 }

@@ -1,11 +1,11 @@
-//! Following errors of position control against arithmetic, over servo gains, velocities and weights.
+//! Tests of the following error of position control against formulas, for several servo gains, velocities and weights.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use opennck::machine::{Command, DatumValue, Machine};
 use opennck::plc::enable_all;
 use opennck::scenario::Session;
 
-/// The following error of Y in mm, at a steady velocity in mm/min, with these machine data.
+/// The following error of Y in mm at a steady velocity in mm/min, with the given machine data.
 fn following_error(data: &[(&str, f64)], velocity: f64) -> f64 {
     let mut machine = Machine::open("g1_example").unwrap();
     for &(target, value) in data.iter().chain(&[("32020[Y]", velocity)]) {
@@ -21,18 +21,18 @@ fn following_error(data: &[(&str, f64)], velocity: f64) -> f64 {
     session.value("Y.following_error").unwrap()
 }
 
-/// One count of the encoder, 0.0001 mm.
+/// The tolerance is one increment of the encoder, 0.0001 mm.
 fn assert_close(found: f64, expected: f64, what: &str) {
-    assert!((found - expected).abs() <= 0.000_15, "{what}: {found} instead of {expected}");
+    assert!((found - expected).abs() <= 0.000_15, "{what}: expected {expected}, found {found}");
 }
 
-/// DYN-05: v/Kv; at 1 (m/min)/mm, 1 mm at 1 m/min; whatever the cycles are.
+/// DYN-05: v/Kv. At 1 (m/min)/mm, it is 1 mm at 1 m/min, for all cycle times.
 #[test]
-fn without_feed_forward_it_is_velocity_over_gain() {
+fn without_feed_forward_the_following_error_is_velocity_over_gain() {
     for gain in [0.5, 1.0, 2.5, 5.0] {
         for velocity in [300.0, 2_000.0, 7_500.0] {
             let expected = velocity / 1_000.0 / gain;
-            // The weight and the balancing time do nothing while MD32620 = 0.
+            // The weight and the balancing time have no effect while MD32620 = 0.
             let data = [("32200[0,Y]", gain), ("32610[0,Y]", 0.5), ("32810[0,Y]", 0.02)];
             for (system_cycle, ratio) in [(0.002, 1.0), (0.004, 3.0)] {
                 let cycles = [("10050", system_cycle), ("10070", ratio)];
@@ -43,9 +43,9 @@ fn without_feed_forward_it_is_velocity_over_gain() {
     }
 }
 
-/// DYN-05: v · MD32810 + (1 − MD32610) · v/Kv with PT1 (1) and dead time (3); MD32800 in place of MD32810 in modes 2 and 4.
+/// DYN-05: v · MD32810 + (1 − MD32610) · v/Kv with PT1 (1) and dead time (3); MD32800 instead of MD32810 in modes 2 and 4.
 #[test]
-fn with_feed_forward_it_is_the_balancing_time_and_what_the_weight_leaves() {
+fn with_feed_forward_it_is_the_part_of_the_balancing_time_and_the_rest_of_the_weight() {
     for (mode, balancing) in [(1.0, 0.003), (2.0, 0.001), (3.0, 0.003), (4.0, 0.001)] {
         for (gain, velocity, weight) in [(1.0, 2_000.0, 1.0), (2.0, 2_000.0, 0.5), (1.0, 7_500.0, 0.0)] {
             let per_second = velocity / 60.0;
@@ -63,7 +63,7 @@ fn with_feed_forward_it_is_the_balancing_time_and_what_the_weight_leaves() {
     }
 }
 
-/// MD32910 delays the setpoint by v · MD32910, with feed-forward and without, while MD32900 = 1.
+/// While MD32900 = 1, MD32910 delays the setpoint by v · MD32910, with and without feed-forward.
 #[test]
 fn matching_adds_its_time() {
     let with = |enable: f64, mode: f64| {

@@ -1,7 +1,7 @@
-//! Files for other programs, read by other programs: what they find must be what the trace says.
+//! Tests that other programs read our files: they must find the same data as the trace.
 //!
-//! Python's `vcdvcd` and `pyvcd` read the waveform, Python's XML parser the diagram. Where python3 or a package is not there, the
-//! test says so on standard error, past the capture of the test runner, and checks the rest.
+//! `vcdvcd` and `pyvcd` for Python read the waveform, the XML parser of Python reads the diagram. If python3 or a package is missing, the
+//! test reports this on standard error, past the capture of the test runner, and checks the rest.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -21,11 +21,11 @@ fn worked_example() -> Finished {
 
 fn written(name: &str, text: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    fs::write(&path, text).expect("the target directory is ours");
+    fs::write(&path, text).expect("the target directory is writable");
     path
 }
 
-/// `X.traversing_key_plus 40 1`: signal, milliseconds, value, from the JSON lines.
+/// Edges such as `X.traversing_key_plus 40 1` (signal, milliseconds, value) from the JSON lines.
 fn edges_of_the_trace(finished: &Finished) -> BTreeSet<String> {
     let mut edges = BTreeSet::new();
     for line in finished.json_lines().lines() {
@@ -38,11 +38,11 @@ fn edges_of_the_trace(finished: &Finished) -> BTreeSet<String> {
     edges
 }
 
-/// What a Python program prints; nothing, and a word on standard error, where Python or a package of it is not there.
+/// The output of a Python program; `None` and a message on standard error if Python or a package is missing.
 fn python(needs: &str, program: &str, file: &Path) -> Option<String> {
     let is_there = Command::new("python3").args(["-c", &format!("import {needs}")]).output();
     if !is_there.is_ok_and(|output| output.status.success()) {
-        let word = format!("\nNOT CHECKED: python3 with the module `{needs}` is not there\n");
+        let word = format!("\nNOT CHECKED: python3 with the module `{needs}` is missing\n");
         std::io::stderr().write_all(word.as_bytes()).expect("standard error");
         return None;
     }
@@ -84,7 +84,7 @@ print(sum(1 for _ in tokenize(open(sys.argv[1], 'rb'))))
 }
 
 #[test]
-fn the_diagram_is_well_formed_and_tells_every_row() {
+fn the_diagram_is_well_formed_and_contains_every_row() {
     let finished = worked_example();
     let file = written("diagram.svg", &finished.svg());
     let program = "
@@ -118,7 +118,7 @@ fn the_parser_of_the_crate_finds_scopes_start_values_and_the_end() {
         vcd::Command::Timestamp(time) => Some(*time),
         _ => None,
     });
-    assert_eq!(last, Some(8568), "the file lasts as long as the scenario");
+    assert_eq!(last, Some(8568), "the file ends with the scenario");
 }
 
 #[test]

@@ -1,6 +1,6 @@
-//! Tests of what runs in virtual time: the machine and its files, the command line, what the README shows.
+//! Tests in virtual time: the machine and its files, the command line, the examples of the README.
 //!
-//! One binary for many files, because each binary links the library once more.
+//! All files form one binary, because each test binary links the library again.
 
 mod causes;
 mod cli;

@@ -1,5 +1,5 @@
-//! An interface of another control, as one outside this crate would bring it: two kinds of block, names of its own, no block
-//! of the SINUMERIK, and 32 axes. Names, addresses, presets, PLC programs, the mapped image and S7 work on it.
+//! An interface of another control, as defined outside this crate: two kinds of block, its own names, no block of the SINUMERIK, and 32
+//! axes. Names, addresses, presets, PLC programs, the mapped image and S7 must work with it.
 #![cfg(all(feature = "mapped", feature = "s7"))]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -18,17 +18,17 @@ use opennck::signals;
 use opennck::units::{AxisNumber, AxisSet, Time};
 
 signals! {
-    /// Bytes 0 and 1: what the PLC tells the platform.
+    /// Bytes 0 and 1: signals from the PLC to the platform.
     pub struct PlatformToNck, platform_to_nck: Nck, Plc, 0 to 1;
 
-    /// Release: 1 = drives may have power.
+    /// Release: 1 = drives can have power.
     bool, release, set_release: 0, 0;
-    /// Recipe: its number.
+    /// Number of the recipe.
     u8, recipe, set_recipe: 1, 7 to 0;
 }
 
 signals! {
-    /// Bytes 2 to 5: what the platform tells the PLC.
+    /// Bytes 2 to 5: signals from the platform to the PLC.
     pub struct PlatformFromNck, platform_from_nck: Nck, Nck, 2 to 5;
 
     numbers {
@@ -38,7 +38,7 @@ signals! {
 }
 
 signals! {
-    /// Byte 4: what the PLC tells a drive.
+    /// Byte 4: signals from the PLC to a drive.
     pub struct DriveToNck, drive_to_nck: Axis, Plc, 4 to 4;
 
     /// Power: 1 = on.
@@ -46,11 +46,11 @@ signals! {
 }
 
 signals! {
-    /// Bytes 0 to 3: what a drive tells the PLC.
+    /// Bytes 0 to 3: signals from a drive to the PLC.
     pub struct DriveFromNck, drive_from_nck: Axis, Nck, 0 to 3;
 
     numbers {
-        /// Load in per cent.
+        /// Load in percent.
         f32, load, set_load: 0;
     }
 }
@@ -130,12 +130,12 @@ impl Layout for Own {
     }
 }
 
-/// Without a byte that is an override, nothing is read as one.
+/// No byte of this interface is an override.
 fn coding() -> OverrideCoding {
     OverrideCoding { interface: &OWN, ..OverrideCoding::default() }
 }
 
-/// Axes A1 to the last.
+/// Names for all axes, from A1 on.
 fn names() -> Names {
     let profile = Profile::named(&OWN, "own").unwrap();
     let mut names = Names { profile, ..Names::default() };
@@ -170,7 +170,7 @@ fn every_signal_is_found_by_its_symbol_and_by_its_address() {
 }
 
 #[test]
-fn nothing_of_the_sinumerik_is_there() {
+fn no_block_of_the_sinumerik_exists() {
     let (memory, names) = (Memory::of(&OWN), names());
     let refused = |text: &str| names.resolve(&memory, text).unwrap_err().to_string();
     assert!(
@@ -187,7 +187,7 @@ fn nothing_of_the_sinumerik_is_there() {
 }
 
 #[test]
-fn a_preset_and_its_own_structures_see_the_same_bytes() {
+fn a_preset_and_the_structures_use_the_same_bytes() {
     let text = "[interface]\n\"platform.recipe\" = 7\n\"A2.power\" = 1\n\"DB500.DBB6\" = 9\n";
     let preset = Preset::parse(text, "own.toml").unwrap();
     let mut memory = Memory::from_preset(&preset, &names(), coding()).unwrap();
@@ -200,13 +200,13 @@ fn a_preset_and_its_own_structures_see_the_same_bytes() {
         let refused = Preset::parse(&format!("[interface]\n{refused}\n"), "own.toml").unwrap();
         assert!(
             Memory::from_preset(&refused, &names(), coding()).is_err(),
-            "the NCK writes it, and no override is there"
+            "the NCK writes it, or it is not an override"
         );
     }
 }
 
 #[test]
-fn the_plc_changes_are_told_by_axis() {
+fn the_plc_changes_are_reported_by_axis() {
     let last = AxisNumber::new(32).unwrap();
     let memory = Memory::of(&OWN);
     let mut now = memory.clone();
@@ -219,7 +219,7 @@ fn the_plc_changes_are_told_by_axis() {
     assert!(OWN.plc_changes(&memory.to_nck, &now.to_nck).1);
 }
 
-/// What a program sees in a scan.
+/// The memory as a program sees it in a scan.
 fn io<'a>(memory: &'a mut Memory, names: &'a Names) -> PlcIo<'a, AsBytes> {
     PlcIo {
         to_nck: &mut memory.to_nck,
@@ -239,7 +239,7 @@ fn io<'a>(memory: &'a mut Memory, names: &'a Names) -> PlcIo<'a, AsBytes> {
 }
 
 #[test]
-fn a_closure_works_on_its_own_structures_and_one_for_another_control_stops_the_plc() {
+fn a_closure_uses_its_own_structures_and_a_closure_for_another_control_stops_the_plc() {
     let (mut memory, names) = (Memory::of(&OWN), names());
     FromNck::mut_from_bytes(&mut memory.from_nck).unwrap().drives[31].set_load(60.5);
     let mut unload = program_for::<_, Own>("unload", (), |(), io| {
@@ -262,7 +262,7 @@ fn a_closure_works_on_its_own_structures_and_one_for_another_control_stops_the_p
 }
 
 #[test]
-fn the_mapped_image_has_its_data_blocks_and_takes_what_the_plc_writes() {
+fn the_mapped_image_has_its_data_blocks_and_takes_the_writes_of_the_plc() {
     let (mut memory, names) = (Memory::of(&OWN), names());
     let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("own_interface");
     let _ = std::fs::remove_file(&file);
@@ -283,7 +283,7 @@ fn the_mapped_image_has_its_data_blocks_and_takes_what_the_plc_writes() {
     assert!(matches!(nc.look(0), Look::Answer(_)));
     nc.take(&mut memory);
     assert!(ToNck::ref_from_bytes(&memory.to_nck).unwrap().drives[31].power());
-    assert!(memory.from_nck.iter().all(|byte| *byte == 0), "the PLC writes nothing of the NCK's");
+    assert!(memory.from_nck.iter().all(|byte| *byte == 0), "the PLC must not write signals of the NCK");
     drop(nc);
     std::fs::remove_file(&file).unwrap();
 }
@@ -297,7 +297,7 @@ fn s7_lists_its_data_blocks() {
 }
 
 #[test]
-fn the_control_clears_its_signals_and_leaves_the_rest() {
+fn the_control_clears_only_its_own_signals() {
     let mut memory = Memory::of(&OWN);
     memory.from_nck.fill(0xFF);
     OWN.clear_signals(&mut memory.from_nck);

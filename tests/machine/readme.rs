@@ -1,4 +1,4 @@
-//! What the README shows is what is: its test crate word for word, its scenario, its trace.
+//! Tests that the README is up to date: its test crate word for word, its scenario, its trace.
 #![cfg(feature = "cli")]
 
 use std::fs;
@@ -9,10 +9,10 @@ use opennck::plc::{MACHINE_CONTROL_PANEL_LAYOUT, Programs};
 use opennck::scenario::Scenario;
 
 fn read(path: &str) -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).expect("it is in the project")
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).expect("the file must exist")
 }
 
-/// What stands between the fences of the blocks in this language.
+/// The contents of the code blocks in this language.
 fn blocks(text: &str, language: &str) -> Vec<String> {
     let fence = format!("```{language}\n");
     let inside = |rest: &str| rest.split("```").next().unwrap_or_default().to_owned();
@@ -28,7 +28,7 @@ fn the_crate_in_the_readme_is_the_example_word_for_word() {
 }
 
 #[test]
-fn the_scenario_in_the_readme_holds() {
+fn the_scenario_in_the_readme_passes() {
     let blocks = blocks(&read("README.md"), "toml");
     let scenario = blocks.iter().find(|block| block.starts_with("title")).unwrap();
     let scenario = Scenario::parse(scenario, Path::new("README.toml")).unwrap();
@@ -46,14 +46,14 @@ fn every_row_in_the_readme_is_in_the_worked_example() {
 }
 
 #[test]
-fn the_test_command_of_the_readme_is_that_of_the_ci() {
+fn the_test_command_of_the_readme_is_the_one_of_the_ci() {
     let test =
         blocks(&read("README.md"), "sh")[0].lines().find(|line| line.starts_with("cargo test")).unwrap().to_owned();
     assert!(read(".ci/run").lines().any(|line| line == format!("step {test} --locked")), "{test}");
 }
 
 #[test]
-fn the_flowcharts_in_the_readme_are_those_that_the_program_prints() {
+fn the_flowcharts_in_the_readme_are_the_ones_that_the_program_prints() {
     let print = |chart| {
         let output = Command::new(env!("CARGO_BIN_EXE_opennck")).args(["flowchart", chart]).output().unwrap();
         String::from_utf8(output.stdout).unwrap()
@@ -62,12 +62,12 @@ fn the_flowcharts_in_the_readme_are_those_that_the_program_prints() {
 }
 
 #[test]
-fn the_layout_of_the_panel_in_the_readme_is_that_of_the_program() {
+fn the_layout_of_the_panel_in_the_readme_is_the_one_of_the_program() {
     assert_eq!(blocks(&read("README.md"), "text")[1], MACHINE_CONTROL_PANEL_LAYOUT);
 }
 
 #[test]
-fn the_readme_names_every_ready_program() {
+fn the_readme_names_every_built_in_program() {
     let readme = read("README.md");
     for name in Programs::ready().names() {
         assert!(readme.contains(&format!("`{name}`")), "{name}");

@@ -1,4 +1,4 @@
-//! Referencing a gantry from many places: what the iron is, is what the control finds.
+//! Tests of referencing a gantry from many positions: the control must find the real positions of the simulated mechanics.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::path::Path;
@@ -8,14 +8,14 @@ use opennck::plc::enable_all;
 use opennck::scenario::{Failure, Session};
 use opennck::source::Table;
 
-/// Where the slides stand and where their zero marks are, in mm; spacing 10, cams from 205 to the end.
-struct Iron {
+/// Start positions of the slides and positions of their zero marks in mm. The spacing is 10 mm, the cams reach from 205 to the end.
+struct Mechanics {
     start: [f64; 2],
     mark: [f64; 2],
 }
 
-impl Iron {
-    /// The last zero mark before the cam.
+impl Mechanics {
+    /// The position of the last zero mark before the cam.
     fn reference(&self, axis: usize) -> f64 {
         self.mark[axis] + ((205.0 - self.mark[axis]) / 10.0).floor() * 10.0
     }
@@ -35,7 +35,7 @@ impl Iron {
     }
 }
 
-/// Sections 1 and 2, to the wait for a start.
+/// Sections 1 and 2, until the control waits for the start.
 fn reference(session: &mut Session) -> Result<(), Failure> {
     session.set("DB11.DBX0.2", true)?;
     session.set("DB11.DBX1.2", true)?;
@@ -44,7 +44,7 @@ fn reference(session: &mut Session) -> Result<(), Failure> {
     session.run("500ms")
 }
 
-/// After an interruption: nothing moves any more; the key, where a reference is missing, and 29.4 end the job.
+/// After an interruption, no axis moves. The direction key (if a reference is missing) and 29.4 complete the job.
 fn recover(session: &mut Session, after: &str) -> Result<(), Failure> {
     session.expect("!DB31.DBX64.6 && !DB31.DBX64.7 && !DB33.DBX64.6 && !DB33.DBX64.7 && alarms() == alarm(10654)")?;
     if session.value("DB31.DBX101.4")? == 0.0 {
@@ -62,19 +62,19 @@ fn recover(session: &mut Session, after: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// REF-02, REF-04, REF-06, REF-09, REF-10, REF-31: whatever the misalignment of scales and slides, on, before or at the
-/// edge of the cam, positions after section 2 are those of the iron, and section 3 makes them equal.
+/// REF-02, REF-04, REF-06, REF-09, REF-10, REF-31: for every misalignment of scales and slides, with a start on, before or at the edge of
+/// the cam, the positions after section 2 are the real ones, and section 3 makes them equal.
 #[test]
-fn positions_after_referencing_are_those_of_the_iron() -> Result<(), Failure> {
+fn positions_after_referencing_are_the_real_positions() -> Result<(), Failure> {
     let starts = [[120.0, 120.0], [230.0, 230.0], [205.0, 205.0], [204.9, 204.9], [150.0, 147.5], [260.0, 265.25]];
     let marks = [[0.3, 1.241], [0.3, 0.3], [1.241, 0.3], [9.5, 5.5], [4.5, 5.5], [0.0, 9.0], [3.33, -7.77]];
     for start in starts {
         for mark in marks {
-            let iron = Iron { start, mark };
+            let mechanics = Mechanics { start, mark };
             let skew = start[1] - start[0];
-            // X was taken along by XF, from its reference point to where XF has its own.
-            let apart = iron.reference(1) - skew - iron.reference(0);
-            let mut session = iron.session();
+            // XF has moved X from the reference point of X to the position where XF has its reference point.
+            let apart = mechanics.reference(1) - skew - mechanics.reference(0);
+            let mut session = mechanics.session();
             reference(&mut session)?;
             let context = format!("slides {start:?}, zero marks {mark:?}");
             let near = |session: &Session, what: &str, expected: f64| {
@@ -88,19 +88,19 @@ fn positions_after_referencing_are_those_of_the_iron() -> Result<(), Failure> {
             session.wait("DB31.DBX101.5", "5s")?;
             session.run("500ms")?;
             near(&session, "X.position", 0.0);
-            near(&session, "X.slide", iron.reference(0));
-            near(&session, "XF.slide", iron.reference(1));
+            near(&session, "X.slide", mechanics.reference(0));
+            near(&session, "XF.slide", mechanics.reference(1));
         }
     }
     Ok(())
 }
 
-/// REF-12, REF-13: RESET at any moment leaves a grouping that can be started again, and ends at the same place.
+/// REF-12, REF-13: after RESET at any moment, the grouping can be started again, and it ends at the same position.
 #[test]
 fn a_reset_at_any_moment_can_be_recovered_from() -> Result<(), Failure> {
-    let iron = Iron { start: [120.0, 120.0], mark: [0.3, 1.241] };
+    let mechanics = Mechanics { start: [120.0, 120.0], mark: [0.3, 1.241] };
     for tenths in 0..90 {
-        let mut session = iron.session();
+        let mut session = mechanics.session();
         session.set("DB11.DBX0.2", true)?;
         session.set("DB11.DBX1.2", true)?;
         session.pulse("X.traversing_key_plus")?;
@@ -112,14 +112,14 @@ fn a_reset_at_any_moment_can_be_recovered_from() -> Result<(), Failure> {
     Ok(())
 }
 
-/// REF-12, REF-13: so does an enable that goes at any moment on any axis, or REF that is left.
+/// REF-12, REF-13: the same holds if an enable is lost at any moment on any axis, or if REF is deselected.
 #[test]
 fn a_disturbance_at_any_moment_can_be_recovered_from() -> Result<(), Failure> {
-    let iron = Iron { start: [120.0, 120.0], mark: [0.3, 1.241] };
+    let mechanics = Mechanics { start: [120.0, 120.0], mark: [0.3, 1.241] };
     let lost = ["X.controller_enable", "XF.controller_enable", "X.pulse_enable", "XF.pulse_enable", "DB11.DBX1.2"];
     for signal in lost {
         for step in 0..26 {
-            let mut session = iron.session();
+            let mut session = mechanics.session();
             session.set("DB11.DBX0.2", true)?;
             session.set("DB11.DBX1.2", true)?;
             session.pulse("X.traversing_key_plus")?;

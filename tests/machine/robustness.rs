@@ -1,8 +1,9 @@
-//! What always holds, whatever a PLC program writes, an operator changes and the iron does: long random sequences of writes of the
-//! PLC's half, plausible operation, machine data, faults and power on, on several machines, with every step checked.
+//! Tests of rules that hold for all inputs of PLC program, operator and mechanics: long random sequences of PLC writes, plausible
+//! operation, machine data, faults and power on, on several machines. Every step is checked.
 //!
-//! Sequences come from a seed, so that CI runs the same ones each time; `OPENNCK_SEED=7 OPENNCK_CASES=5000 cargo test --test
-//! machine robustness` goes elsewhere and on. A sequence that breaks a rule is shrunk to the acts that matter and printed with its seed.
+//! Sequences come from a seed, so that the CI runs the same sequences each time. Run other and more sequences with
+//! `OPENNCK_SEED=7 OPENNCK_CASES=5000 cargo test --test machine robustness`. A sequence that violates a rule is reduced to the acts that
+//! matter, and printed with its seed.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "machine data of these machines are small")]
 
@@ -23,46 +24,46 @@ fn nck(machine: &Machine) -> &Nck {
     machine.control().downcast().expect("these machines are SINUMERIKs")
 }
 
-/// Cases of each of the two tests, which run beside each other: about 1.6 million steps each.
+/// The number of cases of each of the two tests, which run in parallel: about 1.6 million steps each.
 const CASES: u32 = 400;
 
-/// Cycles in which a sequence waits for an approach before it goes on.
+/// The number of cycles in which a sequence waits for an approach before it continues.
 const APPROACH: u16 = 4_000;
 
 /// Rounding of a setpoint to whole increments, in each of two cycles.
 const ROUNDING: i64 = 4;
 
-/// One thing that happens, and how long nothing else does. Numbers of axes, signals and values count round.
+/// One event, and the time until the next event. Numbers of axes, signals and values wrap around.
 #[derive(Clone, Debug)]
 enum Act {
     Run(u16),
-    /// Any signal of the PLC's half.
+    /// A write to any signal of the PLC side.
     Write(u16, u64),
     EnableAll,
     Enable(u8, u8, bool),
     /// AUTO, MDA, JOG, REF.
     Mode(u8),
-    /// A direction key: pressed, some cycles, released.
+    /// A direction key is pressed for some cycles and released.
     Key(u8, bool, u16),
-    /// An enable is missing for some cycles, and a direction key is pressed before or while it is.
+    /// An enable is missing for some cycles; a direction key is pressed before or during this time.
     EnableLost(u8, u8, [u16; 3]),
-    /// A direction key that stays as it is.
+    /// A direction key keeps its state.
     Hold(u8, bool, bool),
-    /// Enables, REF, the key, and as long as the approach takes, or less.
+    /// Enables, REF and the direction key, for the time of an approach or less.
     Reference(u8, u16),
-    /// All signals 0 but the enables, all faults cleared, emergency stop acknowledged.
+    /// Resets all signals except the enables, clears all faults, acknowledges the emergency stop.
     Tidy,
-    /// 2.1 goes to 0 with 1.4 = 1, and back.
+    /// 2.1 is reset while 1.4 = 1, and set again.
     FollowUp(u8, u16),
-    /// MD37140, made active.
+    /// MD37140, activated.
     Open(u8, bool),
     Reset,
-    /// 29.4 goes to 1 and back.
+    /// 29.4 is set and reset.
     Start(u8, u16),
     Lock(u8, bool),
     EmergencyStop(bool),
     Acknowledge,
-    /// A machine datum; then nothing, "set machine data active", RESET or power on.
+    /// A machine datum, followed by nothing, "set machine data active", RESET or power on.
     Datum(u8, u8, u8, u8),
     NewConf,
     PowerOn,
@@ -71,12 +72,12 @@ enum Act {
     Fault(u8, u8, i8),
     ClearFault(u8, u8),
     Handwheel(u8, i8, u16),
-    /// What is saved is restored so many cycles later.
+    /// The state is saved and restored after this number of cycles.
     GoBack(u8),
 }
 
 fn act() -> impl Strategy<Value = Act> {
-    // Mostly the same few axes, so that what happens to one meets what happened to it before.
+    // Few axes are used most of the time, so that events on one axis interact.
     let axis = || prop_oneof![3 => 0_u8..4, 1 => any::<u8>()];
     prop_oneof![
         8 => (1_u16..400).prop_map(Act::Run),
@@ -112,16 +113,16 @@ fn act() -> impl Strategy<Value = Act> {
     ]
 }
 
-/// How many kinds of faults there are.
+/// The number of kinds of faults.
 const FAULTS: u8 = 13;
 
-/// The last of them.
+/// The last kind of fault.
 const DRIFT: u8 = 12;
 
 const MACHINES: [&str; 6] =
     ["g1_example", "two_synchronous_axes", "eight_groupings", "rotary_gantry", "minus_direction", "three_channels"];
 
-/// Axial machine data with values that a machine could have, for `Act::Datum`.
+/// Axial machine data with realistic values, for `Act::Datum`.
 const DATA: &[(&str, &[f64])] = &[
     ("37110", &[0.0, 0.05, 0.2, 1.0]),
     ("37120", &[0.1, 0.5, 1.0, 5.0]),
@@ -157,32 +158,32 @@ const DATA: &[(&str, &[f64])] = &[
     ("36400", &[0.01, 1.0]),
 ];
 
-/// A gantry grouping as MD37100 defines it.
+/// A gantry grouping as defined by MD37100.
 struct Grouping {
     number: u8,
     leader: AxisNumber,
     followers: Vec<AxisNumber>,
-    /// MD37120 of each follower.
+    /// MD37120 of each synchronous axis.
     trip_limits: Vec<Target>,
 }
 
-/// A machine, what it was in the last cycle, and where its signals lie.
+/// A machine, its state in the previous cycle, and the locations of its signals.
 struct Bench {
     machine: Machine,
-    /// The same machine, which computes every axis in every cycle, and never goes back.
+    /// The same machine, which computes every axis in every cycle and is never set back.
     twin: Option<Machine>,
     axes: Vec<AxisNumber>,
     groupings: Vec<Grouping>,
     signals: Vec<Location>,
     channels: Vec<u8>,
-    /// Of both mode groups.
+    /// The mode signals of both mode groups.
     mode_bits: [[Location; 4]; 2],
     /// Per axis number: setpoint, its last step, velocity, follow-up, measuring systems.
     before: Vec<Before>,
-    /// Power was switched on in this cycle: what was before does not count.
+    /// Power was switched on in this cycle, so earlier states are ignored.
     fresh: bool,
     pushed: bool,
-    /// Slides have moved by themselves since they were last tidied.
+    /// Slides have drifted since they were last tidied.
     drifts: bool,
     steps: u64,
     hash: u64,
@@ -248,7 +249,7 @@ impl Bench {
         if let Some(twin) = &mut bench.twin {
             twin.never_rest();
         }
-        // Searches that end soon: the same phases in fewer cycles.
+        // Fast searches: the same phases in fewer cycles.
         for axis in bench.axes.clone() {
             let creep = axial(&bench.machine, 34040, axis);
             bench.datum(&format!("34040[AX{}]", axis.number()), creep * 4.0);
@@ -259,7 +260,7 @@ impl Bench {
     }
 
     fn queue(&mut self, command: Command) {
-        // A value that does not fit is refused, and nothing happens.
+        // A value that does not fit is rejected and has no effect.
         if let Some(twin) = &mut self.twin {
             let _ = twin.queue(command.clone());
         }
@@ -283,7 +284,7 @@ impl Bench {
         self.axes[usize::from(index) % self.axes.len()]
     }
 
-    /// Three of four times a leading axis, because that is where the keys of a grouping are.
+    /// In three of four cases a leading axis, because it has the direction keys of its grouping.
     fn mostly_leading(&self, index: u8) -> AxisNumber {
         match usize::from(index) {
             index if !index.is_multiple_of(4) => self.groupings[index / 4 % self.groupings.len()].leader,
@@ -327,7 +328,7 @@ impl Bench {
         (0..cycles).try_for_each(|_| self.step())
     }
 
-    /// Until no approach and no synchronising motion runs.
+    /// Runs until no approach and no synchronising motion is active.
     fn run_out(&mut self, cycles: u64) -> Result<bool, TestCaseError> {
         for _ in 0..cycles {
             self.step()?;
@@ -532,7 +533,7 @@ impl Bench {
                 && resting.recorder().rows() == never.recorder().rows()
                 && resting.recorder().new_events() == never.recorder().new_events();
             twin.drain();
-            ensure(same, self, || "who rests makes a difference".to_owned())?;
+            ensure(same, self, || "the machine with resting axes differs".to_owned())?;
         }
         self.machine.drain();
         self.steps += 1;
@@ -544,7 +545,7 @@ impl Bench {
         self.check_synchronism()
     }
 
-    /// Never two directions, and no growing speed without the enables of all axes of a unit.
+    /// Checks that no axis has both directions, and that no speed increases without the enables of all axes of a unit.
     fn check_axes(&mut self) -> Result<(), TestCaseError> {
         let memory = self.machine.memory();
         let enabled = |axis: AxisNumber| {
@@ -583,7 +584,7 @@ impl Bench {
                 let grew = now.step.abs() - before.step.abs();
                 ensure(grew <= ROUNDING, self, || {
                     format!(
-                        "axis {} is accelerated without its enables: {} after {} a cycle",
+                        "axis {} accelerates without its enables: {} after {} per cycle",
                         axis.number(),
                         now.step,
                         before.step
@@ -594,7 +595,7 @@ impl Bench {
             if !self.fresh && !self.pushed && !self.drifts && unpowered {
                 ensure(now.velocity.abs() <= before.velocity.abs() + 1e-6, self, || {
                     format!(
-                        "axis {} gains speed without power: {} after {}",
+                        "axis {} accelerates without power: {} after {}",
                         axis.number(),
                         now.velocity,
                         before.velocity
@@ -607,7 +608,7 @@ impl Bench {
         Ok(())
     }
 
-    /// A grouping that is synchronised has no difference beyond its trip limit without 101.2 and alarm 10653.
+    /// Checks that a synchronised grouping has no difference above its trip limit without 101.2 and alarm 10653.
     fn check_synchronism(&self) -> Result<(), TestCaseError> {
         let (memory, variables) = (self.machine.memory(), self.machine.variables());
         for grouping in &self.groupings {
@@ -620,15 +621,15 @@ impl Bench {
                 let told = memory.from_nck().axes[axis].gantry_trip_limit_exceeded()
                     && variables.alarms.find(AlarmNumber(10653), Some(Place::Axis(axis))).is_some();
                 ensure(apart <= limit + 1e-9 || told, self, || {
-                    format!("axis {} is {apart} apart, MD37120 = {limit}, and nothing says so", axis.number())
+                    format!("axis {} differs by {apart}, MD37120 = {limit}, without signal and alarm", axis.number())
                 })?;
             }
         }
         Ok(())
     }
 
-    /// How many cycles all phases of an approach, once more for 20006, and of a synchronising motion can last together, from the
-    /// machine data alone.
+    /// The maximum number of cycles of all phases of an approach (twice, because of 20006) and of a synchronising motion, computed from the
+    /// machine data only.
     fn longest(&self) -> u64 {
         let mut seconds = 0.0;
         for &axis in &self.axes {
@@ -640,22 +641,23 @@ impl Bench {
             let velocity = |number| (datum(number) * per_second).min(maximum);
             let (cam, creep, last) = (velocity(34020), velocity(34040), velocity(34070));
             let brake = maximum / (datum(32300) * per_second_2);
-            // Position control closes in by a factor of e in 60 ms at MD32200 = 1; thirty times that is far below an increment.
+            // At MD32200 = 1, position control reduces the deviation by a factor of e in 60 ms. After thirty times that, it is below an
+            // increment.
             let jerk = datum(32410) + datum(32300) / datum(32430) + datum(32910);
             let settle = 30.0 * 0.06 / datum(32200).max(0.1) + jerk;
             let search = 2.0 * datum(34030) / cam + datum(34030) / creep + 6.0 * (brake + settle);
             let mark = (datum(34092) + datum(34060)) / creep;
             let way = datum(34080).abs() + datum(34090).abs() + maximum * brake;
             let point = way / last + 2.0 * brake + datum(36020);
-            // Section 3: the reference points lie within MD37130, or nothing starts; the way is that and a braking distance.
+            // Section 3: it starts only if the reference points are within MD37130; the distance is MD37130 plus a braking distance.
             let section_3 = (datum(37130) + maximum * brake) / creep + 2.0 * brake + datum(36020) + settle;
             seconds += 2.0 * search + mark + point + section_3;
         }
         (seconds / self.machine.cycle_time().seconds()) as u64
     }
 
-    /// Nobody writes any more, with all enables, keys as they are or released: every wait ends. Not ended by itself is what is
-    /// held from outside: feed stop, 0 %, and a slide that is held by force where MD36400 tolerates it.
+    /// Checks that every wait ends with all enables and without further writes, with keys unchanged or released. Exceptions are states that
+    /// are held from outside: feed stop, 0 % override, and a slide that is blocked where MD36400 tolerates it.
     fn ends(&mut self, released: bool) -> Result<(), TestCaseError> {
         for axis in self.axes.clone() {
             for (bit, value) in [("1.5", true), ("2.1", true), ("21.7", true), ("4.3", false), ("1.7", false)] {
@@ -699,7 +701,7 @@ fn ensure(holds: bool, bench: &Bench, why: impl FnOnce() -> String) -> Result<()
     Err(TestCaseError::fail(format!("in cycle {}: {}", bench.machine.cycle(), why())))
 }
 
-/// The hash of all that was shown, the steps, and which transitions were taken.
+/// Returns the hash of all outputs, the number of steps, and the transitions that were taken.
 fn run(machine: &str, acts: &[Act], released: bool, with_twin: bool) -> Result<(u64, u64, Taken), TestCaseError> {
     let mut bench = Bench::open(machine, with_twin);
     bench.step()?;
@@ -709,7 +711,7 @@ fn run(machine: &str, acts: &[Act], released: bool, with_twin: bool) -> Result<(
     Ok((bench.hash, bench.steps, bench.machine.control().taken()))
 }
 
-/// A number from the environment.
+/// Reads a number from the environment.
 fn number<T: std::str::FromStr>(name: &str, default: T) -> T {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
 }
@@ -729,11 +731,11 @@ fn always(half: u64) {
         let mut sum = taken.get();
         sum.add(rows);
         taken.set(sum);
-        // The same sequence again, for one in eight; computed in every cycle, for one in four.
+        // One sequence in eight runs twice; one in four also runs with every axis computed in every cycle.
         if hash.is_multiple_of(8) {
             let again = run(MACHINES[machine], &acts, released, false)?;
             if again.0 != hash {
-                return Err(TestCaseError::fail("the same sequence gave other bytes"));
+                return Err(TestCaseError::fail("the same sequence gave different bytes"));
             }
         }
         Ok(())
@@ -742,7 +744,7 @@ fn always(half: u64) {
     if let Err(error) = result {
         panic!("OPENNCK_SEED={seed}, half {half}, machines {MACHINES:?}: {error}");
     }
-    // Rules that hold where nothing happens say nothing: the sequences take three of four rows of both tables at least.
+    // A rule is tested only if something happens: the sequences must take at least three of four rows of both tables.
     let (taken, count) = (taken.get(), APPROACH_TRANSITIONS.len() + GROUPING_TRANSITIONS.len());
     let approach = (0..APPROACH_TRANSITIONS.len()).filter(|&row| taken.0[0].has(row)).count();
     let grouping = (0..GROUPING_TRANSITIONS.len()).filter(|&row| taken.0[1].has(row)).count();
@@ -753,11 +755,11 @@ fn always(half: u64) {
 }
 
 #[test]
-fn whatever_is_written_the_control_keeps_its_rules() {
+fn the_control_follows_its_rules_for_all_inputs() {
     always(0);
 }
 
 #[test]
-fn whatever_is_written_the_control_keeps_its_rules_in_other_sequences() {
+fn the_control_follows_its_rules_for_all_inputs_in_other_sequences() {
     always(1);
 }

@@ -1,4 +1,4 @@
-//! A machine as an operator panel sees it: S7 requests in, a step, S7 answers out. No socket is needed for that.
+//! Tests of a machine as an operator panel sees it: S7 requests in, a step, S7 answers out. The tests need no socket.
 #![cfg(feature = "s7")]
 
 use opennck::machine::{Command as Queued, Machine};
@@ -7,14 +7,14 @@ use opennck::s7::{Answers, Bridge, Command, Directory, Session, Settings};
 use opennck::units::Position;
 
 /// A machine with one client.
-struct Window {
+struct Panel {
     machine: Machine,
     directory: Directory,
     session: Session,
 }
 
-impl Window {
-    /// The worked example with everything enabled, and a client that has called the NCK and negotiated 480 bytes.
+impl Panel {
+    /// Opens the worked example with all enables, and a client that is connected to the NCK with a PDU of 480 bytes.
     fn open() -> Self {
         let mut machine = Machine::open("g1_example").expect("it is built in");
         let plc = program("everything_on", (), |(), io| {
@@ -27,11 +27,11 @@ impl Window {
         });
         machine.load_program(plc.boxed());
         let directory = Directory::of(machine.memory(), machine.names().profile);
-        let mut window = Self { machine, directory, session: Session::new(Settings::default()) };
-        window.steps(500);
-        window.send(&[3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 4, 0, 0xC2, 2, 13, 4]);
-        window.job(&[0xF0, 0, 0, 1, 0, 1, 1, 0xE0], &[]);
-        window
+        let mut panel = Self { machine, directory, session: Session::new(Settings::default()) };
+        panel.steps(500);
+        panel.send(&[3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 4, 0, 0xC2, 2, 13, 4]);
+        panel.job(&[0xF0, 0, 0, 1, 0, 1, 1, 0xE0], &[]);
+        panel
     }
 
     fn steps(&mut self, count: usize) {
@@ -41,20 +41,20 @@ impl Window {
         self.machine.drain();
     }
 
-    /// What a server does: a bridge over the state after a step, and what clients ask for into the queue of the next one.
+    /// Does the work of a server: a bridge over the state after a step; requests of clients become commands for the next step.
     fn send(&mut self, bytes: &[u8]) -> Vec<u8> {
         let Self { machine, directory, session } = self;
         let mut answers = Answers::default();
         let mut bridge = Bridge::new(machine.memory(), machine.variables(), machine.names(), directory);
         let _ = session.receive(bytes, &mut bridge, &mut answers);
         for command in bridge.into_commands() {
-            let Command::Write { location, value } = command else { panic!("only writes are asked for: {command:?}") };
-            machine.queue(Queued::Write { location, value }).expect("a write is always taken");
+            let Command::Write { location, value } = command else { panic!("only writes are expected: {command:?}") };
+            machine.queue(Queued::Write { location, value }).expect("a write is always accepted");
         }
         answers.bytes().to_vec()
     }
 
-    /// The answer to a job behind its header of 12 bytes.
+    /// The answer to a job, after its header of 12 bytes.
     fn job(&mut self, parameter: &[u8], data: &[u8]) -> Vec<u8> {
         let length = |bytes: usize| u16::try_from(bytes).expect("short").to_be_bytes();
         let [total, p, d] = [17 + parameter.len() + data.len(), parameter.len(), data.len()].map(length);
@@ -92,31 +92,31 @@ fn item(db: u8, byte: u16, bit: u8) -> [u8; 12] {
 
 #[test]
 fn a_key_that_is_pressed_over_s7_moves_the_axis_and_its_position_is_read_back() {
-    let mut window = Window::open();
-    assert!(window.bit(11, 6, 2), "JOG is active");
-    let before = window.position(1);
-    window.set(31, 4, 7, true); // traversing key plus
-    assert_eq!(window.position(1).to_bits(), before.to_bits(), "nothing acts before the edge of a step");
-    assert!(!window.bit(31, 4, 7));
-    window.steps(200);
-    let x = window.machine.axis("X").expect("the example has an axis X");
-    assert!(window.bit(31, 4, 7));
-    assert!(window.bit(31, 64, 7), "travel command plus");
-    let shown = window.position(1);
-    assert_eq!(Position::from_user(shown), window.machine.variables().axes[x].position);
+    let mut panel = Panel::open();
+    assert!(panel.bit(11, 6, 2), "JOG is active");
+    let before = panel.position(1);
+    panel.set(31, 4, 7, true); // traversing key plus
+    assert_eq!(panel.position(1).to_bits(), before.to_bits(), "a write has no effect before the next step");
+    assert!(!panel.bit(31, 4, 7));
+    panel.steps(200);
+    let x = panel.machine.axis("X").expect("the example has an axis X");
+    assert!(panel.bit(31, 4, 7));
+    assert!(panel.bit(31, 64, 7), "travel command plus");
+    let shown = panel.position(1);
+    assert_eq!(Position::from_user(shown), panel.machine.variables().axes[x].position);
     assert!(shown > before + 0.1, "{before} to {shown}");
 }
 
-/// SIG-11 A bit of the NCK that somebody else overwrites has its value again at the next publication.
+/// SIG-11: a bit of the NCK that a client overwrites has its value again after the next publication.
 #[test]
-fn a_bit_of_the_nck_that_a_client_overwrites_comes_back() {
-    let mut window = Window::open();
-    assert!(window.bit(31, 101, 6), "X is a leading axis");
-    window.set(31, 101, 6, false);
-    window.steps(1);
-    assert!(window.bit(31, 101, 6));
-    assert!(!window.bit(31, 101, 5), "and the grouping is not synchronized");
-    window.set(31, 101, 5, true);
-    window.steps(1);
-    assert!(!window.bit(31, 101, 5));
+fn a_bit_of_the_nck_that_a_client_overwrites_is_restored() {
+    let mut panel = Panel::open();
+    assert!(panel.bit(31, 101, 6), "X is a leading axis");
+    panel.set(31, 101, 6, false);
+    panel.steps(1);
+    assert!(panel.bit(31, 101, 6));
+    assert!(!panel.bit(31, 101, 5), "the grouping is not synchronized");
+    panel.set(31, 101, 5, true);
+    panel.steps(1);
+    assert!(!panel.bit(31, 101, 5));
 }
