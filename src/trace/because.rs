@@ -1,10 +1,10 @@
-//! Causes in words: the rule that allowed a transition, and the inputs that it tested, with their values.
+//! Causes as text: the rule that allowed a transition, and the inputs that it tested, with their values.
 
 use super::printable::signal_at;
 use crate::units::Position;
 use crate::variables::{AlarmNumber, AxisValue, Describe, Event, Input, Quantity, axis_name, place_name, six_decimals};
 
-/// The rule, what it says where the inputs do not say it, and the inputs: `REF-11: MD37110[XF] = 0`,
+/// The rule, its text if the inputs do not express it, and the inputs: `REF-11: MD37110[XF] = 0`,
 /// `REF-31: reference cam reached, X.deceleration_reference_point_approach = 1`.
 pub(super) fn because(event: &Event, describe: &dyn Describe) -> String {
     let rule = describe.rule(event.rule);
@@ -38,14 +38,14 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
     }
 }
 
-/// What a length is called, and what it is in the units that people read.
+/// The name of a length, and its value in user units.
 pub(super) fn input_name(quantity: Quantity, length: Position) -> (&'static str, f64) {
     match quantity {
         Quantity::SynchronismDifference => (AxisValue::SynchronismDifference.name(), length.user()),
         Quantity::Position => (AxisValue::Position.name(), length.user()),
         Quantity::Deviation => ("deviation", length.user()),
         Quantity::Distance => ("distance", length.user()),
-        // Events carry user units per second, everything that people read has them per minute.
+        // Events contain user units per second; all texts show user units per minute.
         Quantity::Velocity => (AxisValue::Velocity.name(), length.user() * 60.0),
     }
 }

@@ -1,4 +1,4 @@
-//! Events as a trace tells them: numbered through, each with what it tested and what led to it.
+//! The events in a trace: consecutively numbered, each with the inputs that it tested and the event that led to it.
 
 use std::collections::BTreeSet;
 
@@ -13,30 +13,30 @@ use crate::variables::{AlarmNumber, Describe, Event, Input, Place, place_name, s
 /// An event: a transition of the control, with its rule, its inputs and the event that led to it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cause {
-    /// Its number in the trace, from one.
+    /// The number in the trace, from one.
     pub(super) number: u32,
     pub(super) time: Time,
-    /// Whose it is: `X`, `CHAN1`.
+    /// The place: `X`, `CHAN1`.
     pub(super) place: String,
-    /// Where the rule is written: `REF-11`.
+    /// The ID of the rule: `REF-11`.
     pub(super) rule: String,
-    /// Rule and inputs, as everywhere in a trace.
+    /// Rule and inputs, in the same form as in all texts of a trace.
     pub(super) because: String,
     pub(super) inputs: Vec<CauseInput>,
     /// The event that led to it; zero for none.
     pub(super) parent: u32,
 }
 
-/// Something that was tested, and what it was.
+/// An input that was tested, with its value.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum CauseInput {
     /// A signal by address, and by symbol if it has one.
     Signal { address: String, symbol: Option<String>, value: bool },
-    /// A machine datum, as scenarios name it: `37110[XF]`.
+    /// A machine datum, in the notation of scenarios: `37110[XF]`.
     Datum(String, f64),
-    /// A value beside signals, with six decimals.
+    /// A value that is not a signal, with six decimals.
     Value(String, String),
-    /// An alarm: its number, or its own name.
+    /// An alarm: its number, or its name if it has only a name.
     Alarm(String),
 }
 
@@ -66,7 +66,7 @@ impl CauseInput {
 }
 
 impl Trace {
-    /// The event of this number in words.
+    /// The text of the event with this number.
     pub(super) fn cause(&self, number: u32, describe: &dyn Describe) -> Option<Cause> {
         let event: &Event = self.event_numbered(number)?;
         let names: &Names = describe.names();
@@ -81,7 +81,7 @@ impl Trace {
         })
     }
 
-    /// The events behind these lines, and what led to them, in order.
+    /// The events that caused these lines, and the events that led to them, in order.
     pub(super) fn causes_of(&self, lines: &[Line], describe: &dyn Describe) -> Vec<Cause> {
         let mut wanted = BTreeSet::new();
         for line in lines {

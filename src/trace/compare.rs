@@ -1,7 +1,7 @@
-//! The first difference of two traces in the words of a colleague: which signal, when, what was expected, what came,
-//! and what happened last before it.
+//! The first difference between two traces, in words: the signal, the time, the expected and the found change, and the last changes before
+//! it.
 //!
-//! It reads what the program writes: the table for people (also a golden file's) and JSON lines.
+//! This module reads the output of the program: the text table (also of golden files) and JSON lines.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -12,71 +12,71 @@ use super::printable::is_bit;
 use crate::source::Problem;
 use crate::units::Time;
 
-/// How many changes before the difference are shown.
+/// The number of changes that are shown before the difference.
 const BEFORE: usize = 4;
 
-/// One row of a trace, as far as it can be read from its text.
+/// One row of a trace, as read from its text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Entry {
-    /// Line in the text, from one.
+    /// The line in the text, from one.
     pub(super) line: usize,
-    /// None for the lines above the rows.
+    /// `None` for the lines above the rows.
     time: Option<Time>,
     /// The signal, value or alarm; the text of a note.
     what: String,
-    /// Its address, or the place of an alarm.
+    /// The address, or the place of an alarm.
     address: String,
     /// `0 -> 1`, `raised`.
     change: String,
-    /// What it becomes, where only that is told.
+    /// The new value, if the text contains only that.
     new: String,
     by: String,
     /// The text and the parameters of an alarm.
     rest: String,
-    /// The cause in words; it may differ between traces that are the same.
+    /// The text of the cause; equal traces can differ in it.
     because: String,
 }
 
-/// A trace that was read back.
+/// A trace that was read from its text.
 #[derive(Clone, Debug, Default)]
 pub struct Reading {
     pub(super) entries: Vec<Entry>,
     is_json: bool,
 }
 
-/// How two traces compare.
+/// The result of comparing two traces.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Comparison {
-    /// Every row is the same, and so is every cause.
+    /// All rows and all causes are equal.
     Same,
-    /// Every row is the same; the first cause that is told otherwise, in words.
+    /// All rows are equal; the first different cause, in words.
     OtherCauses(String),
     /// The first difference, in words.
     Different(String),
 }
 
 impl Reading {
-    /// Reads a trace: JSON lines, or the table that `opennck run` prints and golden files hold (without the header of the latter).
+    /// Reads a trace: JSON lines, or the table that `opennck run` prints and that golden files contain (without the header of the latter).
     ///
     /// # Errors
-    /// It is neither; the problem comes with its line, or with 0 for the whole text.
+    /// The text has neither form; the problem comes with its line, or with 0 for the whole text.
     pub fn read(text: &str) -> Result<Self, (usize, Problem)> {
         if text.trim_start().starts_with('{') {
             return json(text);
         }
         table(text).ok_or_else(|| {
-            let cure = "JSON lines come from `opennck run --trace`, golden files from `opennck test --accept`";
+            let cure = "write JSON lines with `opennck run --trace`, golden files with `opennck test --accept`";
             (0, Problem::new("expected a trace as JSON lines or as a table, found neither", cure))
         })
     }
 
-    /// Whether it was read from JSON lines.
+    /// Whether the trace was read from JSON lines.
     #[must_use]
     pub fn is_json(&self) -> bool {
         self.is_json
     }
 
-    /// Compares this trace, which was expected, with one that was found. Events count as causes.
+    /// Compares this trace (expected) with another trace (found). Events are treated as causes.
     #[must_use]
     pub fn compare(&self, found: &Self) -> Comparison {
         let mut other_causes = None;
@@ -96,7 +96,7 @@ impl Reading {
 }
 
 impl Entry {
-    /// Whether it tells the same change by the same writer at the same time.
+    /// Whether both rows have the same change by the same writer at the same time.
     fn is_same(&self, other: &Self) -> bool {
         self.time == other.time && self.by == other.by && self.rest == other.rest && self.is_same_change(other)
     }
@@ -118,7 +118,7 @@ impl Entry {
         }
     }
 
-    /// The row as a sentence names it.
+    /// The name of the row in a sentence.
     fn called(&self) -> String {
         if self.is_note() {
             format!("the note `{}`", &self.what[2..])
@@ -137,7 +137,7 @@ impl Entry {
     }
 }
 
-/// The difference at this row, with what was last the same in both.
+/// The difference at this row, with the last rows that are equal in both traces.
 pub(super) fn in_words(expected: &Reading, found: &Reading, index: usize) -> String {
     let (one, other) = (expected.entries.get(index), found.entries.get(index));
     let line = |entry: Option<&Entry>, all: &Reading| {
@@ -180,47 +180,47 @@ fn sentences(expected: &Reading, found: &Reading, index: usize) -> Vec<String> {
                 return vec![same_change(one, other)];
             }
             if one.what == other.what && one.address == other.address && one.time == other.time {
-                return vec![format!("{} was expected to go {}, it goes {}", one.name(), one.change, other.change)];
+                return vec![format!("{}: expected {}, found {}", one.name(), one.change, other.change)];
             }
             missing(one, found, index).into_iter().chain(unexpected(other, expected, index)).collect()
         }
-        (Some(one), None) => vec![format!("the other ends before {}", one.called())],
-        (None, Some(other)) => vec![format!("{} comes after the expected end", other.called())],
+        (Some(one), None) => vec![format!("the other trace ends before {}", one.called())],
+        (None, Some(other)) => vec![format!("{} is after the expected end", other.called())],
         (None, None) => Vec::new(),
     }
 }
 
-/// The rows tell the same change; time, writer or text are others.
+/// Both rows have the same change; time, writer or text differ.
 fn same_change(one: &Entry, other: &Entry) -> String {
     match (one.time, other.time) {
         (Some(expected), Some(found)) if expected != found => {
-            format!("{} comes {} ({found} s instead of {expected} s)", one.called(), apart(expected, found))
+            format!("{} is {} ({found} s instead of {expected} s)", one.called(), apart(expected, found))
         }
         _ if one.by != other.by => {
-            format!("{} was expected by {}, it is by {}", one.called(), one.by, other.by)
+            format!("{}: expected writer {}, found {}", one.called(), one.by, other.by)
         }
-        _ => format!("{} has another text", one.called()),
+        _ => format!("{} has a different text", one.called()),
     }
 }
 
-/// What became of a row that was expected here.
+/// Describes a row that was expected here.
 fn missing(one: &Entry, found: &Reading, index: usize) -> Option<String> {
     let time = one.time?;
     let later = found.entries[index..].iter().find(|entry| entry.is_same_change(one));
     Some(match later.and_then(|entry| entry.time) {
-        Some(later) if later == time => format!("{} comes in another order within the same cycle", one.called()),
-        Some(later) => format!("{} comes {} ({later} s instead of {time} s)", one.called(), apart(time, later)),
-        None => format!("{} does not come any more", one.called()),
+        Some(later) if later == time => format!("{} is in a different order within the same cycle", one.called()),
+        Some(later) => format!("{} is {} ({later} s instead of {time} s)", one.called(), apart(time, later)),
+        None => format!("{} is missing", one.called()),
     })
 }
 
-/// Where a row comes from that was not expected here; nothing where it only moved up because another is late.
+/// Describes a row that was not expected here; `None` if it only moved up because another row is late.
 fn unexpected(other: &Entry, expected: &Reading, index: usize) -> Option<String> {
     let time = other.time?;
     let later = expected.entries[index..].iter().find(|entry| entry.is_same_change(other));
     match later.and_then(|entry| entry.time) {
         Some(later) if later == time => None,
-        Some(later) => Some(format!("{} comes {} ({time} s instead of {later} s)", other.called(), apart(later, time))),
+        Some(later) => Some(format!("{} is {} ({time} s instead of {later} s)", other.called(), apart(later, time))),
         None => Some(format!("{} is new", other.called())),
     }
 }
@@ -235,13 +235,13 @@ fn causes_in_words(one: &Entry, other: &Entry) -> String {
     let time = one.time.unwrap_or(Time::ZERO);
     let (expected, found) = (shown(&one.because), shown(&other.because));
     format!(
-        "another cause in line {}, at {time} s: {}\n  expected  {expected}\n  found     {found}",
+        "different cause in line {}, at {time} s: {}\n  expected  {expected}\n  found     {found}",
         one.line,
         one.called()
     )
 }
 
-/// The table for people: the first row that begins with `time` says where its columns are.
+/// Reads the text table; the first row that begins with `time` defines the columns.
 fn table(text: &str) -> Option<Reading> {
     let mut lines = text.lines().enumerate();
     let mut entries = Vec::new();
@@ -277,7 +277,7 @@ fn table(text: &str) -> Option<Reading> {
             entry.address = cell(address, Some(change));
             entry.change = cell(change, Some(by));
             let tail = cell(by, None);
-            // `power on` is a writer, too; two blanks end it.
+            // `power on` is a writer, too; two spaces end it.
             let (by, rest) = tail.split_once("  ").unwrap_or((&tail, ""));
             by.clone_into(&mut entry.by);
             let rest = rest.trim();
@@ -294,7 +294,7 @@ fn table(text: &str) -> Option<Reading> {
     Some(Reading { entries, is_json: false })
 }
 
-/// Where `what`, `address`, `change` and `by` begin, in characters.
+/// The positions of `what`, `address`, `change` and `by`, in characters.
 fn columns(line: &str) -> Option<[usize; 4]> {
     let mut words = line.split_whitespace();
     let is_head = ["time", "what", "address", "change", "by"].iter().all(|word| words.next() == Some(word));
@@ -307,14 +307,14 @@ fn json(text: &str) -> Result<Reading, (usize, Problem)> {
     let mut last: BTreeMap<String, String> = BTreeMap::new();
     for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
         let wrong = |found: String| {
-            let cure = "write the trace anew with `opennck run SCENARIO --trace F.jsonl`";
+            let cure = "write the trace again with `opennck run SCENARIO --trace F.jsonl`";
             (index + 1, Problem::new(format!("expected one line of a trace, found {found}"), cure))
         };
-        let value: Value = serde_json::from_str(line).map_err(|error| wrong(format!("no JSON: {error}")))?;
+        let value: Value = serde_json::from_str(line).map_err(|error| wrong(format!("invalid JSON: {error}")))?;
         let time = value.get("t").and_then(Value::as_f64).ok_or_else(|| wrong("a line without the time `t`".into()))?;
         let mut entry = entry(index + 1, Time::from_seconds(time), &value);
         if let Some(entry) = entry.as_mut().filter(|entry| !entry.new.is_empty()) {
-            // JSON lines say what a signal becomes; what it was stands in its line before.
+            // JSON lines contain only the new value; the old value is in an earlier line.
             let old = last.insert(entry.what.clone(), entry.new.clone());
             let address = if entry.address.is_empty() { &entry.what } else { &entry.address };
             let opposite = || is_bit(address).then(|| if entry.new == "1" { "0" } else { "1" }.to_owned());
@@ -326,7 +326,7 @@ fn json(text: &str) -> Result<Reading, (usize, Problem)> {
     Ok(Reading { entries, is_json: true })
 }
 
-/// A line that tells a change; events are only behind changes.
+/// The entry of a line with a change; `None` for an event, which only explains changes.
 fn entry(line: usize, time: Time, value: &Value) -> Option<Entry> {
     let text = |key: &str| match value.get(key) {
         Some(Value::String(text)) => text.clone(),

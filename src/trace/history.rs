@@ -1,4 +1,4 @@
-//! The trace of a run while it grows: rows of the recorder, events, notes and watched values.
+//! The trace of a running machine: rows of the recorder, events, notes and watched values.
 
 use super::value::millionths;
 use super::{Recorder, Row, Watch};
@@ -6,7 +6,7 @@ use crate::image::Memory;
 use crate::units::{AxisNumber, Time};
 use crate::variables::{AxisValue, Event, EventId, Variables};
 
-/// A record that grows while a machine runs.
+/// A trace that grows while a machine runs.
 #[derive(Clone, Debug)]
 pub struct Trace {
     /// The memory before the first row.
@@ -19,16 +19,16 @@ pub struct Trace {
     pub(super) watched: Vec<WatchedValue>,
     pub(super) values: Vec<ValueRow>,
     pub(super) lost: u64,
-    /// The last cycle that was noted.
+    /// The last recorded cycle.
     pub(super) last_cycle: u64,
 }
 
-/// A value that is noted in every cycle in which it changes.
+/// A value that is recorded in every cycle in which it changes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WatchedValue {
     pub(super) axis: AxisNumber,
     pub(super) value: AxisValue,
-    /// In millionths, as it is shown.
+    /// The last value in millionths, as displayed.
     pub(super) last: Option<i64>,
 }
 
@@ -41,7 +41,7 @@ pub(super) struct ValueRow {
 }
 
 impl Trace {
-    /// An empty trace that begins with this memory after cycle `cycle`, which counts as time zero.
+    /// An empty trace. It begins with this memory after cycle `cycle`, which is time zero.
     #[must_use]
     pub fn begin(memory: &Memory, cycle_time: Time, cycle: u64) -> Self {
         Self {
@@ -58,21 +58,21 @@ impl Trace {
         }
     }
 
-    /// Notes these values from now on, in every cycle in which they change.
+    /// Records these values from now on, in every cycle in which they change.
     pub fn watch_values(&mut self, watch: &Watch, cycle: u64, variables: &Variables) {
         self.watched = watch.values().map(|(axis, value)| WatchedValue { axis, value, last: None }).collect();
         self.values.clear();
         self.note_values(cycle, variables);
     }
 
-    /// Takes over what the recorder holds.
+    /// Takes over the contents of the recorder.
     pub fn extend(&mut self, recorder: &Recorder) {
         self.rows.extend_from_slice(recorder.rows());
         self.events.extend_from_slice(recorder.new_events());
         self.lost = recorder.lost();
     }
 
-    /// Notes the watched values after a cycle.
+    /// Records the watched values after a cycle.
     pub fn note_values(&mut self, cycle: u64, variables: &Variables) {
         self.last_cycle = self.last_cycle.max(cycle);
         for (index, watched) in self.watched.iter_mut().enumerate() {
@@ -84,18 +84,18 @@ impl Trace {
         }
     }
 
-    /// Notes a text that belongs to a cycle.
+    /// Adds a note that belongs to a cycle.
     pub fn note(&mut self, cycle: u64, text: impl Into<String>) {
         self.notes.push((cycle, text.into()));
     }
 
-    /// The rows as the machine wrote them.
+    /// The rows that the machine has written.
     #[must_use]
     pub fn rows(&self) -> &[Row] {
         &self.rows
     }
 
-    /// The event of this number that was there at the end of a cycle; numbers may begin anew at a power on.
+    /// The event that had this number at the end of a cycle; numbers can restart at power on.
     #[must_use]
     pub fn event(&self, id: EventId, cycle: u64) -> Option<&Event> {
         self.events.get(self.event_index(id, cycle)?)
@@ -109,17 +109,17 @@ impl Trace {
         self.events[..so_far].iter().rposition(|event| event.id == id)
     }
 
-    /// The number of an event in this trace, in which numbers never begin anew: from one; zero for none.
+    /// The number of an event in this trace, where numbers never restart: from one; zero for none.
     pub(super) fn event_number(&self, id: EventId, cycle: u64) -> u32 {
         self.event_index(id, cycle).map_or(0, |index| u32::try_from(index + 1).unwrap_or(0))
     }
 
-    /// The event of this number in this trace.
+    /// The event with this number in this trace.
     pub(super) fn event_numbered(&self, number: u32) -> Option<&Event> {
         self.events.get((number as usize).checked_sub(1)?)
     }
 
-    /// How many rows the recorder lost because nobody drained it.
+    /// The number of rows that the recorder lost because it was not drained.
     #[must_use]
     pub fn lost(&self) -> u64 {
         self.lost

@@ -1,11 +1,11 @@
-//! A trace as JSON lines. What the lines are and which keys they have stands in the docs of [`super`].
+//! A trace as JSON lines. The docs of [`super`] define the lines and their keys.
 
 use super::causes::{Cause, CauseInput};
 use super::printable::Shown;
 use super::record::by_in_words;
 use super::{By, Line, LineKind};
 
-/// All lines; events stand before the bits of the NCK that they explain.
+/// All lines; an event precedes the bits of the NCK that it explains.
 pub(super) fn lines(lines: &[Line], causes: &[Cause]) -> String {
     let mut text = String::new();
     let mut causes = causes.iter().peekable();
@@ -22,7 +22,7 @@ pub(super) fn lines(lines: &[Line], causes: &[Cause]) -> String {
     text
 }
 
-/// Within one time notes and writes come first, then events, then what the control made of them.
+/// Within one time, notes and writes come first, then events, then the changes that the control derived from them.
 fn follows_events(kind: &LineKind) -> bool {
     match kind {
         LineKind::Note(_) => false,
@@ -118,7 +118,7 @@ fn object(fields: &[(&str, String)]) -> String {
     format!("{{{}}}\n", fields.join(","))
 }
 
-/// JSON has no infinity; a REAL that holds one is null.
+/// JSON has no infinity; an infinite REAL becomes null.
 fn number(value: Shown) -> String {
     match value {
         Shown::Number(number) if !number.is_finite() => "null".to_owned(),

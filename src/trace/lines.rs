@@ -1,6 +1,6 @@
-//! From rows to lines: bytes become signals, numbers become names, in the order that a trace promises.
+//! Converts rows to lines: bytes become signals, numbers become names, in the documented order.
 //!
-//! Within one time: notes, writes by address, bits of the NCK by address, alarms by number, values.
+//! Order within one time: notes, writes by address, bits of the NCK by address, alarms by number, values.
 
 use std::collections::BTreeMap;
 
@@ -16,54 +16,54 @@ use crate::variables::{AlarmNumber, Describe, EventId, Parameter, Place, RaisedA
 /// One line of a trace.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Since the start of the trace, a whole number of cycles.
+    /// Time since the start of the trace, a whole number of cycles.
     pub time: Time,
-    /// What it says.
+    /// The content.
     pub kind: LineKind,
 }
 
-/// What a line says.
+/// The content of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LineKind {
-    /// A note of the scenario, or a notice of the simulator.
+    /// A note of the scenario, or a message of the simulator.
     Note(String),
     /// A signal changed.
     Signal(SignalLine),
-    /// An alarm came or went.
+    /// An alarm was raised or cleared.
     Alarm(AlarmLine),
-    /// A watched value changed: its name, what it was, what it is, with six decimals.
+    /// A watched value changed: its name, the old and the new value, with six decimals.
     Value(String, Option<String>, String),
 }
 
 /// A signal changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalLine {
-    /// Its name, if the catalogue has one.
+    /// The symbol, if the signal has one.
     pub symbol: Option<String>,
-    /// Its address.
+    /// The address.
     pub address: String,
-    /// Before.
+    /// The old value.
     pub old: Shown,
-    /// After.
+    /// The new value.
     pub new: Shown,
-    /// Who changed it.
+    /// The writer.
     pub by: By,
-    /// Why, where that is known.
+    /// The cause, if it is known.
     pub because: Option<String>,
-    /// The event behind it, as the trace counts events: from one; zero where none is known.
+    /// The number of the event that caused it, as counted in the trace, from one; zero if it is unknown.
     pub event: u32,
-    /// Where it lies.
+    /// The location.
     pub location: Location,
 }
 
-/// An alarm came or went.
+/// An alarm was raised or cleared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AlarmLine {
-    /// Its number, or its own name.
+    /// Its number, or its name if it has only a name.
     pub name: String,
     /// Whether it has a number.
     pub numbered: bool,
-    /// Came or went.
+    /// Whether it was raised.
     pub raised: bool,
     /// The axis or channel.
     pub place: String,
@@ -71,13 +71,13 @@ pub struct AlarmLine {
     pub parameters: Vec<Result<i64, String>>,
     /// Its text.
     pub text: String,
-    /// Why, where that is known.
+    /// The cause, if it is known.
     pub because: Option<String>,
-    /// The event behind it, as the trace counts events: from one; zero where none is known.
+    /// The number of the event that caused it, as counted in the trace, from one; zero if it is unknown.
     pub event: u32,
 }
 
-/// A signal that changed in the cycle that is being read.
+/// A signal that changes in the current cycle.
 struct Draft {
     printable: Printable,
     old: Shown,
@@ -92,7 +92,7 @@ impl Trace {
         let names = describe.names();
         let mut places = Places::new(names, watch);
         let mut memory = self.start.clone();
-        // Ordered by cycle and by kind; lines of equal rank stay in the order in which they came.
+        // Ordered by cycle and by kind; lines of equal rank keep their order.
         let mut ranked: Vec<(u64, u8, Line)> = Vec::new();
         let mut push = |cycle, rank, kind| {
             let time = self.time(cycle);
@@ -182,7 +182,7 @@ impl Trace {
     }
 }
 
-/// Notes which printable things a row changes; a number across several bytes is noted once.
+/// Records the printable items that a row changes; a number of several bytes is recorded once.
 fn draft(row: &Row, before: &Memory, places: &mut Places<'_>, drafts: &mut BTreeMap<(bool, Order, u8), Draft>) {
     let Change::Byte { part, offset, old, new, by, causes } = row.change else {
         return;

@@ -1,27 +1,27 @@
-//! THE RECORD: what changed when, by whom and why; as text, waveform and timing diagram for people, as JSON lines for programs.
+//! The record of all changes with time, writer and cause: as text, waveform and timing diagram for readers, as JSON lines for programs.
 //!
-//! The machine writes plain rows ([`Recorder`]); a [`Trace`] keeps them together with notes, watched values and
-//! the events that caused them. Only when somebody prints it do numbers become names. The same trace prints
-//! the same bytes on every machine: nothing in it depends on a clock or on the order of a hash.
+//! The machine writes plain rows ([`Recorder`]). A [`Trace`] collects them together with notes, watched values and the events that caused
+//! them. Numbers are converted to names only when the trace is printed. The same trace prints the same bytes on every computer, because
+//! it depends neither on a clock nor on a hash order.
 //!
 //! # JSON lines
 //!
-//! One object a line, in order of time `t` (seconds); within one time notes, writes by address, events, bits of the NCK by
-//! address, alarms by number, values. Readers skip keys and kinds of lines that they do not know.
+//! One object per line, in order of time `t` (seconds). Order within one time: notes, writes by address, events, bits of the NCK by
+//! address, alarms by number, values. Readers must ignore keys and kinds of lines that they do not know.
 //!
-//! | line | keys behind `t` |
+//! | line | keys after `t` |
 //! |---|---|
-//! | a signal changed | `signal` (address), `symbol` where there is one, `value`, `by`, `because` (words), `event` |
-//! | an alarm came or went | `alarm`, `state`, `where`, `parameters`, `text`, `because`, `event` |
+//! | a signal changed | `signal` (address), `symbol` if it has one, `value`, `by`, `because` (text), `event` |
+//! | an alarm was raised or cleared | `alarm`, `state`, `where`, `parameters`, `text`, `because`, `event` |
 //! | a note | `note` |
 //! | a watched value changed | `symbol`, `value` |
 //! | an event of the control | `event`, `where`, `rule`, `because`, `inputs`, `parent` |
 //!
-//! `event` is a number that is given once in a trace; a change names the event behind it, an event names as `parent` the one that
-//! led to it. Only events behind changes that the trace shows are in it. `inputs` is what the event tested: objects
-//! with `signal`, `symbol` and `value`, with `machine_data` (`37110[XF]`) and `value`, with `symbol` and `value` for a length or a
-//! velocity, or with `alarm`. So the chain of causes can be followed without the machine ([`Story`], `opennck why`), as far as
-//! the trace watches the signals in it. [`Reading`] compares two traces (`opennck diff`).
+//! `event` is a unique number in a trace. A change names the event that caused it, an event names the event that led to it as `parent`. A
+//! trace contains only events that caused changes in it. `inputs` lists what the event tested: objects with `signal`, `symbol` and `value`,
+//! with `machine_data` (`37110[XF]`) and `value`, with `symbol` and `value` for a length or a velocity, or with `alarm`. So the chain of
+//! causes can be followed without the machine ([`Story`], `opennck why`), as far as the trace watches its signals. [`Reading`] compares two
+//! traces (`opennck diff`).
 //!
 //! ```text
 //! {"t":7.596,"signal":"DB31.DBX29.4","symbol":"X.start_gantry_synchronization","value":1,"by":"outside"}
@@ -63,13 +63,13 @@ pub use why::Story;
 use crate::variables::Describe;
 
 impl Trace {
-    /// The trace for people: one row a change, aligned columns, with causes or without.
+    /// The trace as text: one row per change, aligned columns, with or without causes.
     #[must_use]
     pub fn text(&self, describe: &dyn Describe, watch: &Watch, causes: bool) -> String {
         text::rows(&self.lines(describe, watch), causes)
     }
 
-    /// The trace for programs: JSON lines in order of time.
+    /// The trace as JSON lines in order of time, for programs.
     #[must_use]
     pub fn json_lines(&self, describe: &dyn Describe, watch: &Watch) -> String {
         let lines = self.lines(describe, watch);
@@ -78,21 +78,21 @@ impl Trace {
 
     /// The trace as a waveform (Value Change Dump, IEEE 1364) for viewers such as GTKWave.
     ///
-    /// Each owner of signals (`nck`, `mode_group_1`, a channel, an axis) is a scope; what has no owner is in `memory`. Bits are
-    /// wires, numbers vectors, REALs and watched values reals. An alarm is a wire, `alarm_10654` in the scope of its
-    /// axis or channel; `note` in scope `scenario` is a string. The time unit is the largest decimal one that the cycle is a whole
-    /// number of; at time 0 stands what the memory held before the first cycle. What is in it follows `watch`: every signal that
-    /// changed and that it shows, signals that it names one by one even if they did not, and its values.
+    /// Each owner of signals (`nck`, `mode_group_1`, a channel, an axis) is a scope; signals without an owner are in `memory`. Bits are
+    /// wires, numbers are vectors, REALs and watched values are reals. An alarm is a wire, `alarm_10654`, in the scope of its axis or
+    /// channel; `note` in scope `scenario` is a string. The time unit is the largest decimal unit of which the cycle is a multiple. Time 0
+    /// shows the memory before the first cycle. `watch` selects the contents: every selected signal that changed, signals that it names
+    /// individually even if they did not change, and its values.
     #[must_use]
     pub fn vcd(&self, describe: &dyn Describe, watch: &Watch) -> String {
         vcd::text(&self.waves(describe, watch))
     }
 
-    /// The trace as a timing diagram (SVG 1.1 with a style for light and one for dark), showing what `watch` shows.
+    /// The trace as a timing diagram (SVG 1.1 with a light and a dark style) of the signals and values that `watch` selects.
     ///
-    /// Bits are waves and values curves with their extremes; alarms are bars with their number; notes are numbered flags with a
-    /// legend below. Stretches in which nothing that is shown changes are shortened at a visible break, which says how long
-    /// they are. Whoever points at an edge reads its time, its writer and its cause.
+    /// Bits are waves, values are curves with their extremes, alarms are bars with their number, notes are numbered flags with a legend
+    /// below. Long intervals without a visible change are shortened at a visible break, which shows their length. A tooltip at each edge
+    /// shows its time, its writer and its cause.
     #[must_use]
     pub fn svg(&self, describe: &dyn Describe, watch: &Watch, head: &Head) -> String {
         svg::document(&self.waves(describe, watch), head)

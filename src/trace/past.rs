@@ -1,29 +1,29 @@
-//! The state one cycle earlier: what a machine showed before its last step, kept up to date from the rows of the record.
+//! The state one cycle earlier: the output of a machine before its last step, updated from the rows of the record.
 //!
-//! An expression with `rose` or `fell` compares two cycles. A caller that evaluates one calls [`Past::begin_step`] before each
-//! step and [`Past::end_step`] after it. The memory is copied once at the start; afterwards only the bytes that changed are.
+//! An expression with `rose` or `fell` compares two cycles. A caller that evaluates it calls [`Past::begin_step`] before each step and
+//! [`Past::end_step`] after it. The memory is copied once at the start; later only the changed bytes are copied.
 
 use super::{Change, Recorder};
 use crate::image::{Memory, Part};
 use crate::variables::Variables;
 
-/// What a machine showed before its last step.
+/// The output of a machine before its last step.
 #[derive(Clone, Debug)]
 pub struct Past {
     memory: Memory,
     variables: Variables,
-    /// The bytes that the last step changed, with their new values; `memory` has the old ones.
+    /// The bytes that the last step changed, with their new values; `memory` contains the old values.
     changed: Vec<(Part, u32, u8)>,
-    /// The cycle at the end of which `changed` is true.
+    /// The cycle at whose end `changed` is valid.
     cycle: u64,
-    /// How many rows the recorder had lost then.
+    /// The number of rows that the recorder had lost at that time.
     lost: u64,
-    /// Whether `changed` is all that differs.
+    /// Whether `changed` contains all differences.
     is_complete: bool,
 }
 
 impl Past {
-    /// Begins with the memory and the variables after a cycle, before which nothing was different.
+    /// Starts with the memory and the variables after a cycle; the state before it counts as equal.
     #[must_use]
     pub fn new(memory: &Memory, variables: &Variables, cycle: u64) -> Self {
         Self {
@@ -48,8 +48,8 @@ impl Past {
         &self.variables
     }
 
-    /// Before a step: takes over what the machine shows after this cycle. Allocates nothing unless rows of the record were lost, a
-    /// cycle passed without [`Past::end_step`], or a PLC program made a data block, of whose bytes there are no rows.
+    /// Takes over the output of the machine after this cycle; call it before a step. It allocates only if rows of the record were lost, if
+    /// a cycle passed without [`Past::end_step`], or if a PLC program created a data block, whose bytes have no rows.
     pub fn begin_step(&mut self, memory: &Memory, variables: &Variables, cycle: u64) {
         let has_same_blocks = self.memory.blocks.iter().count() == memory.blocks.iter().count();
         if self.is_complete && self.cycle == cycle && has_same_blocks {
@@ -69,7 +69,7 @@ impl Past {
         }
     }
 
-    /// After the step that makes this cycle, before its record is drained: notes which bytes it changed.
+    /// Records the bytes that the step of this cycle changed; call it after the step and before its record is drained.
     pub fn end_step(&mut self, recorder: &Recorder, cycle: u64) {
         self.changed.clear();
         for row in recorder.rows().iter().rev().take_while(|row| row.cycle == cycle) {
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn the_memory_follows_one_cycle_behind_by_rows_alone() {
+    fn the_memory_follows_one_cycle_later_from_rows_only() {
         let (mut memory, variables, mut recorder) = (Memory::new(), Variables::default(), Recorder::default());
         let mut past = Past::new(&memory, &variables, 7);
         for (cycle, new) in [(8, 1), (9, 3), (10, 3)] {
@@ -103,7 +103,7 @@ mod tests {
             let old = memory.flags.byte(20);
             memory.flags.set_byte(20, new);
             if new != old {
-                recorder.push(flag(cycle, 20, old, new)); // never drained: rows of earlier cycles do not count
+                recorder.push(flag(cycle, 20, old, new)); // never drained: rows of earlier cycles are ignored
             }
             past.end_step(&recorder, cycle);
             assert_eq!(past.memory().flags.byte(20), old, "cycle {cycle}");
@@ -113,12 +113,12 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_rows_is_copied_as_a_whole() {
+    fn changes_without_rows_cause_a_full_copy() {
         let (mut memory, variables, recorder) = (Memory::new(), Variables::default(), Recorder::default());
         let mut past = Past::new(&memory, &variables, 0);
         past.begin_step(&memory, &variables, 0);
         memory.flags.set_byte(20, 1);
-        past.begin_step(&memory, &variables, 1); // `end_step` was forgotten
+        past.begin_step(&memory, &variables, 1); // `end_step` was not called
         assert_eq!(past.memory(), &memory);
         let number = 1_000;
         memory.blocks.put(crate::image::DataBlock { number, name: None, bytes: vec![1; 4].into() });
@@ -129,7 +129,7 @@ mod tests {
         for _ in 0..=Recorder::ROWS {
             full.push(flag(3, 20, 1, 2));
         }
-        memory.flags.set_byte(21, 1); // the row of which was lost
+        memory.flags.set_byte(21, 1); // the row of this change was lost
         past.end_step(&full, 3);
         past.begin_step(&memory, &variables, 3);
         assert_eq!(past.memory(), &memory);

@@ -1,4 +1,4 @@
-//! What can be printed of a byte: the catalogue's signals in it, its bits, itself.
+//! The printable items of a byte: its signals in the catalogue, its bits, the byte itself.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use super::Watch;
 use super::printable::{Printable, mask_in_byte, printable};
 use crate::image::{Format, Location, Names, Part, Signal};
 
-/// What can be printed of each byte, found once for each byte that changes.
+/// The printable items of each byte, searched once for each byte that changes.
 pub(super) struct Places<'a> {
     names: &'a Names,
     watch: &'a Watch,
@@ -18,13 +18,13 @@ impl<'a> Places<'a> {
         Self { names, watch, known: BTreeMap::new() }
     }
 
-    /// What has rows of its own in this byte.
+    /// The items of this byte that have their own rows.
     pub(super) fn at(&mut self, part: Part, offset: u32) -> &[Printable] {
         let (names, watch) = (self.names, self.watch);
         self.known.entry((part, offset)).or_insert_with(|| found(names, watch, part, offset))
     }
 
-    /// How a message calls these bits of a byte.
+    /// The name of these bits of a byte in a message.
     pub(super) fn call(&self, part: Part, offset: u32, bits: u8) -> String {
         let mut called = Vec::new();
         let everything = Watch::default();

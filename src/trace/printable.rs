@@ -1,22 +1,22 @@
-//! One thing that a trace can print, with its address, its symbol and its value.
+//! One printable item of a trace, with its address, its symbol and its value.
 
 use crate::image::{Format, Interface, Location, Memory, Names, Signal};
 use crate::variables::SignalBit;
 
-/// Something that has one row of its own when it changes.
+/// An item that has its own row when it changes.
 #[derive(Clone, Debug)]
 pub(super) struct Printable {
     pub(super) location: Location,
     pub(super) symbol: Option<String>,
     pub(super) address: String,
-    /// Orders rows within a cycle.
+    /// The order of rows within a cycle.
     pub(super) order: Order,
 }
 
 /// Order of addresses: inputs, outputs, flags, timers, counters, data blocks; then number, byte, bit.
 pub(super) type Order = (u8, u32, u32, u32);
 
-/// The bits of the byte at `offset` that belong to this place.
+/// The bits of the byte at `offset` that belong to this location.
 pub(super) fn mask_in_byte(location: Location, offset: u32) -> u8 {
     if !(location.offset..location.offset + location.bytes()).contains(&offset) {
         return 0;
@@ -46,7 +46,7 @@ pub(super) fn order(address: &str) -> Order {
     }
 }
 
-/// Whether an address is that of one bit: `DB31.DBX4.7`, `M0.3`.
+/// Whether an address is a single bit: `DB31.DBX4.7`, `M0.3`.
 pub(super) fn is_bit(address: &str) -> bool {
     address.rsplit_once('.').is_some_and(|(_, bit)| bit.len() == 1 && bit.as_bytes()[0].is_ascii_digit())
 }
@@ -57,7 +57,7 @@ pub(super) fn signal_at(bit: SignalBit, interface: &'static Interface) -> Option
     interface.signals().find(|signal| signal.block == block && signal.byte == bit.byte && signal.bit == bit.bit)
 }
 
-/// The value at a place in a memory.
+/// The value at a location in a memory.
 pub(super) fn shown(memory: &Memory, location: Location) -> Shown {
     if location.width == 1 {
         return Shown::Bit(memory.read(location) != 0);
@@ -68,7 +68,7 @@ pub(super) fn shown(memory: &Memory, location: Location) -> Shown {
     }
 }
 
-/// A value as a row shows it.
+/// A value in a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shown {
     /// A bit.
@@ -84,8 +84,8 @@ impl std::fmt::Display for Shown {
         match self {
             Self::Bit(bit) => write!(f, "{}", u8::from(*bit)),
             Self::Unsigned(number) => write!(f, "{number}"),
-            // A REAL has 32 bits, so its shortest text is that of its 32 bits.
-            #[expect(clippy::cast_possible_truncation, reason = "it came from 32 bits")]
+            // A REAL has 32 bits, so the shortest text of its 32 bits is used.
+            #[expect(clippy::cast_possible_truncation, reason = "the value has 32 bits")]
             Self::Number(number) if number.fract() != 0.0 => write!(f, "{}", *number as f32),
             Self::Number(number) => write!(f, "{number}"),
         }

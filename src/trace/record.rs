@@ -1,12 +1,12 @@
-//! The record as the machine writes it, one row for each byte or alarm that changed in a cycle.
+//! The record that the machine writes: one row for each byte or alarm that changed in a cycle.
 //!
-//! A row is plain numbers: no text, no allocation. The machine fills a chunk of fixed size; whoever runs the
-//! machine drains it between two steps.
+//! A row consists of numbers only: no text, no allocation. The machine fills a chunk of fixed size; the owner of the machine drains it
+//! between two steps.
 
 use crate::image::Part;
 use crate::variables::{Event, EventId, RaisedAlarm};
 
-/// Who changed a bit.
+/// The writer of a bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum By {
     /// The control.
@@ -17,51 +17,51 @@ pub enum By {
     Outside,
     /// A force.
     Force,
-    /// The simulator's own cams, switches and inputs.
+    /// The simulated cams, switches and inputs.
     Plant,
     /// Power on: presets.
     PowerOn,
 }
 
-/// What changed.
+/// The kind of a change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
-    /// A byte of the memory; who changed each bit, and the event behind it (only the control has events).
+    /// A byte of the memory changed; writer of each bit, and the event that caused it (only the control has events).
     Byte {
-        /// Which memory.
+        /// The part of the memory.
         part: Part,
-        /// Which byte of it.
+        /// The byte in the part.
         offset: u32,
-        /// Before.
+        /// The old value.
         old: u8,
-        /// After.
+        /// The new value.
         new: u8,
-        /// Who, bit by bit.
+        /// The writer of each bit.
         by: [By; 8],
-        /// Why, bit by bit.
+        /// The event that caused the change of each bit.
         causes: [EventId; 8],
     },
-    /// An alarm came or went.
+    /// An alarm was raised or cleared.
     Alarm {
-        /// Which.
+        /// The alarm.
         alarm: RaisedAlarm,
-        /// Came or went.
+        /// Whether it was raised.
         raised: bool,
-        /// Why.
+        /// The event that caused it.
         cause: EventId,
     },
     /// A write from outside that the PLC program overwrote in the same cycle.
     Overwritten {
-        /// Which memory.
+        /// The part of the memory.
         part: Part,
-        /// Which byte of it.
+        /// The byte in the part.
         offset: u32,
-        /// Which bits.
+        /// The overwritten bits.
         bits: u8,
     },
 }
 
-/// Who, in one word.
+/// The writer, as one term.
 pub(super) fn by_in_words(by: By) -> &'static str {
     match by {
         By::Nck => "nck",
@@ -73,16 +73,16 @@ pub(super) fn by_in_words(by: By) -> &'static str {
     }
 }
 
-/// One change, and the cycle whose end shows it.
+/// One change, and the cycle at whose end it is visible.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// Number of the cycle, from one.
+    /// The number of the cycle, from one.
     pub cycle: u64,
-    /// What changed.
+    /// The change.
     pub change: Change,
 }
 
-/// A chunk of the record, filled by the machine and drained by its owner between two steps.
+/// A chunk of the record. The machine fills it, its owner drains it between two steps.
 #[derive(Debug)]
 pub struct Recorder {
     rows: Vec<Row>,
@@ -97,20 +97,20 @@ impl Default for Recorder {
 }
 
 impl Recorder {
-    /// How many rows are kept between two drains: some times those of what clients may write at the edge of one step.
+    /// The number of rows that are kept between two drains: several times the number that clients can write at the edge of one step.
     pub const ROWS: usize = 16_384;
-    /// Room for rows before it has to grow; one step without such clients writes far fewer.
+    /// The initial capacity for rows; one step without such clients writes far fewer rows.
     const ROOM: usize = 2048;
-    /// How many events fit between two drains.
+    /// The number of events that are kept between two drains.
     pub const EVENTS: usize = 1024;
 
-    /// One that has no room yet, for a machine that does not go on.
+    /// A recorder without capacity, for a machine that does not continue.
     #[must_use]
     pub const fn without_room() -> Self {
         Self { rows: Vec::new(), events: Vec::new(), lost: 0 }
     }
 
-    /// Notes a change; counts it as lost where nobody drains.
+    /// Records a change; counts it as lost if the record is full.
     pub fn push(&mut self, row: Row) {
         if self.rows.len() < Self::ROWS {
             self.rows.push(row);
@@ -119,13 +119,13 @@ impl Recorder {
         }
     }
 
-    /// Notes the events of this cycle.
+    /// Records the events of this cycle.
     pub fn events<'a>(&mut self, events: impl Iterator<Item = &'a Event>) {
         let room = Self::EVENTS - self.events.len();
         self.events.extend(events.take(room));
     }
 
-    /// What happened since the last drain.
+    /// The rows since the last drain.
     #[must_use]
     pub fn rows(&self) -> &[Row] {
         &self.rows
@@ -137,13 +137,13 @@ impl Recorder {
         &self.events
     }
 
-    /// How many rows did not fit.
+    /// The number of lost rows.
     #[must_use]
     pub fn lost(&self) -> u64 {
         self.lost
     }
 
-    /// Forgets what has been read.
+    /// Removes the rows that were read.
     pub fn clear(&mut self) {
         self.rows.clear();
         self.events.clear();

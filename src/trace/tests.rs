@@ -1,4 +1,4 @@
-//! A trace of a few rows, in all its forms, by literal expectation.
+//! Tests of a trace with a few rows in all its forms, against literal text.
 
 use super::*;
 use crate::image::{Location, Memory, Names};
@@ -48,7 +48,7 @@ impl Describe for Control {
     }
 }
 
-/// What one byte was and is.
+/// A changed byte: old and new value.
 fn byte(location: Location, cycle: u64, old: u8, new: u8, by: By, cause: EventId) -> Row {
     let (part, offset) = (location.part, location.offset);
     Row { cycle, change: Change::Byte { part, offset, old, new, by: [by; 8], causes: [cause; 8] } }
@@ -77,7 +77,7 @@ fn recorded(control: &Control) -> Trace {
         place: Place::Axis(AxisNumber::FIRST),
         parameters: [Parameter::Channel(ChannelNumber::FIRST), Parameter::Number(1), Parameter::None, Parameter::None],
     };
-    // Out of order on purpose: a trace has its own order within a cycle.
+    // Out of order on purpose: a trace sorts its rows within a cycle.
     recorder.push(Row { cycle: 11, change: Change::Alarm { alarm, raised: true, cause: EventId(1) } });
     let ready = control.location("X.gantry_synchronization_ready_to_start");
     recorder.push(byte(ready, 11, 0, 1 << ready.bit, By::Nck, EventId(1)));
@@ -140,7 +140,7 @@ fn the_json_lines_have_the_promised_keys_in_the_promised_order() {
 }
 
 #[test]
-fn a_watch_chooses_signals_plain_memory_and_values() {
+fn a_watch_selects_signals_plain_memory_and_values() {
     let control = Control::new();
     let trace = recorded(&control);
     let rows = |entries: &[&str]| {
@@ -163,11 +163,11 @@ fn a_watch_chooses_signals_plain_memory_and_values() {
 }
 
 #[test]
-fn a_watch_that_names_nothing_is_refused() {
+fn a_watch_without_a_match_is_rejected() {
     let control = Control::new();
     for (entry, cure) in [
         ("Z.*", "did you mean `X`?"),
-        ("X.gantri*x", "patterns are"),
+        ("X.gantri*x", "write a pattern"),
         ("Z.position", "did you mean `X`?"),
         ("X.traversing_key_pls", "traversing_key_plus"),
         ("DB99.DBX0.0", "PLC image"),
@@ -205,7 +205,7 @@ fn causes_name_signals_machine_data_and_lengths() {
 }
 
 #[test]
-fn the_first_difference_is_told_in_words() {
+fn the_first_difference_is_reported_in_words() {
     assert_eq!(difference("a\nb\n", "a\nb"), None);
     assert_eq!(
         difference("a\nb\n", "a\nc\nd\n").as_deref(),
@@ -291,11 +291,11 @@ fn a_diagram_shows_names_extremes_alarms_and_notes() {
     }
     assert!(!svg.contains("NaN") && svg.ends_with("</svg>\n"));
     let empty = Trace::begin(&Memory::new(), Time::from_millis(2), 0);
-    assert!(empty.svg(&control, &Watch::default(), &head).ends_with("</svg>\n"), "even nothing can be drawn");
+    assert!(empty.svg(&control, &Watch::default(), &head).ends_with("</svg>\n"), "an empty trace can be drawn");
 }
 
 #[test]
-fn why_leads_from_an_edge_to_its_event_and_says_what_is_not_there() {
+fn why_leads_from_an_edge_to_its_event_and_reports_missing_edges() {
     let control = Control::new();
     let trace = recorded(&control);
     let ready = control.location("X.gantry_synchronization_ready_to_start");
@@ -310,7 +310,7 @@ fn why_leads_from_an_edge_to_its_event_and_says_what_is_not_there() {
 }
 
 #[test]
-fn other_causes_are_no_difference_and_a_missing_row_is_one() {
+fn a_missing_row_is_a_difference_and_a_different_cause_is_not() {
     let control = Control::new();
     let json = recorded(&control).json_lines(&control, &Watch::default());
     let reading = |text: &str| Reading::read(text).unwrap();
@@ -319,19 +319,19 @@ fn other_causes_are_no_difference_and_a_missing_row_is_one() {
         panic!("only the causes differ");
     };
     assert!(
-        words.starts_with("another cause in line 6, at 0.002 s: X.gantry_synchronization_ready_to_start"),
+        words.starts_with("different cause in line 6, at 0.002 s: X.gantry_synchronization_ready_to_start"),
         "{words}"
     );
     let less: String = json.lines().filter(|line| !line.contains("Q4.1")).map(|line| format!("{line}\n")).collect();
     let Comparison::Different(words) = reading(&json).compare(&reading(&less)) else {
         panic!("a row is missing");
     };
-    assert!(words.contains("Q4.1 0 -> 1 does not come any more"), "{words}");
+    assert!(words.contains("Q4.1 0 -> 1 is missing"), "{words}");
     let Comparison::Different(words) = reading(&less).compare(&reading(&json)) else {
         panic!("a row is new");
     };
     assert!(words.contains("Q4.1 0 -> 1 is new"), "{words}");
     let table = recorded(&control).text(&control, &Watch::default(), true);
     let wider: String = table.lines().map(|row| format!("  {row}\n")).collect();
-    assert_eq!(reading(&table).compare(&reading(&wider)), Comparison::Same, "the width of a column tells nothing");
+    assert_eq!(reading(&table).compare(&reading(&wider)), Comparison::Same, "the width of a column has no meaning");
 }

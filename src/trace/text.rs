@@ -1,4 +1,4 @@
-//! The trace for people: a head, then one row a change, in aligned columns; and the first difference of two traces, in words.
+//! The trace as text: a head, then one row per change in aligned columns; and the first difference of two traces, in words.
 
 use super::compare::{self, Reading};
 use super::record::by_in_words;
@@ -8,13 +8,13 @@ use crate::units::Time;
 /// The lines above the rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Head {
-    /// The scenario's title.
+    /// The title of the scenario.
     pub title: String,
-    /// The machine, as the scenario names it.
+    /// The machine, as named in the scenario.
     pub machine: String,
-    /// The profile, where it is not the default one.
+    /// The profile, if it is not the default.
     pub profile: Option<String>,
-    /// One cycle.
+    /// The cycle time.
     pub cycle_time: Time,
 }
 
@@ -45,7 +45,7 @@ impl Columns {
     }
 }
 
-/// All rows, with the names of the columns above them.
+/// All rows, with the column names above them.
 pub(super) fn rows(lines: &[Line], causes: bool) -> String {
     let head = Columns {
         time: "time".to_owned(),
@@ -67,7 +67,7 @@ pub(super) fn rows(lines: &[Line], causes: bool) -> String {
             Err(note) => widths[0] = widths[0].max(note.time.to_string().len()),
         }
     }
-    // Rounded up, so that one longer name in a changed trace seldom moves every row.
+    // Rounded up, so that one longer name in a changed trace rarely moves every row.
     for width in &mut widths[..4] {
         *width = width.next_multiple_of(4);
     }
@@ -89,7 +89,7 @@ pub(super) fn rows(lines: &[Line], causes: bool) -> String {
                 row.rest
             ),
             Err(Line { time, kind: LineKind::Note(note) }) => {
-                // A note of several lines stays one row.
+                // A note of several lines is printed in one row.
                 format!("{:>1$}  # {2}", time.to_string(), widths[0], note.lines().collect::<Vec<_>>().join(" / "))
             }
             Err(_) => continue,
@@ -100,7 +100,7 @@ pub(super) fn rows(lines: &[Line], causes: bool) -> String {
     text
 }
 
-/// The columns of a line; a note has none.
+/// The columns of a line; the line itself for a note, which has no columns.
 fn columns(line: &Line, causes: bool) -> Result<Columns, &Line> {
     let time = line.time.to_string();
     let row = match &line.kind {
@@ -144,13 +144,13 @@ fn columns(line: &Line, causes: bool) -> Result<Columns, &Line> {
     Ok(row)
 }
 
-/// The first difference of two texts, in words; nothing if they are equal. Tables of traces are told row by row.
+/// The first difference of two texts, in words; `None` if they are equal. Tables of traces are compared row by row.
 #[must_use]
 pub fn difference(expected: &str, found: &str) -> Option<String> {
     first_difference(expected, found, |one, other| one == other)
 }
 
-/// The first difference of two traces in the order of their rows; times may differ by `tolerance`, or by anything without one.
+/// The first difference of two traces in the order of their rows. Times may differ by `tolerance`, or by any amount without it.
 #[must_use]
 pub fn difference_in_sequence(expected: &str, found: &str, tolerance: Option<Time>) -> Option<String> {
     first_difference(expected, found, |one, other| match (timed(one), timed(other)) {
@@ -175,7 +175,7 @@ fn first_difference(expected: &str, found: &str, same: impl Fn(&str, &str) -> bo
     }
 }
 
-/// The difference as that of two traces, if both are tables and a row begins there in both, or one has ended.
+/// The difference as rows of traces, if both texts are tables and each has a row at this line or has ended.
 fn told(expected: &str, found: &str, line: usize) -> Option<String> {
     let (expected, found) = (Reading::read(expected).ok()?, Reading::read(found).ok()?);
     let row = |all: &Reading| all.entries.iter().position(|entry| entry.line >= line).unwrap_or(all.entries.len());
@@ -184,7 +184,7 @@ fn told(expected: &str, found: &str, line: usize) -> Option<String> {
     (index == row(&found) && differs && !expected.is_json()).then(|| compare::in_words(&expected, &found, index))
 }
 
-/// A row as its time and the words after it.
+/// A row, split into its time and the words after it.
 fn timed(row: &str) -> Option<(Time, std::str::SplitWhitespace<'_>)> {
     let mut words = row.split_whitespace();
     let time = words.next()?.parse().ok()?;

@@ -1,6 +1,6 @@
-//! The trace as a waveform file (Value Change Dump) for GTKWave and its kind.
+//! The trace as a waveform file (Value Change Dump) for GTKWave and similar viewers.
 //!
-//! No date and no version stand in it: the same trace is the same bytes on every day.
+//! The file contains no date and no version, so that the same trace always gives the same bytes.
 
 use std::io;
 
@@ -9,12 +9,12 @@ use ::vcd::{IdCode, ReferenceIndex, ScopeType, SimulationCommand, TimescaleUnit,
 use super::Shown;
 use super::waves::{Level, Wave, WaveKind, Waves};
 
-/// The whole file.
+/// The complete file.
 pub(super) fn text(waves: &Waves) -> String {
     let mut bytes = Vec::new();
-    // A vector takes every byte, and everything that is written is text.
+    // A vector accepts every byte, and the output is text.
     let written = write(waves, &mut bytes);
-    debug_assert!(written.is_ok(), "a vector takes every byte");
+    debug_assert!(written.is_ok(), "a vector accepts every byte");
     String::from_utf8(bytes).unwrap_or_default()
 }
 
@@ -53,7 +53,7 @@ fn write(waves: &Waves, bytes: &mut Vec<u8>) -> io::Result<()> {
     for (row, wave) in waves.rows.iter().enumerate() {
         changes.extend(wave.changes.iter().enumerate().map(|(index, step)| (step.cycle, row, index)));
     }
-    // Notes come behind everything else of their time.
+    // Notes follow all other changes of their time.
     changes.extend(waves.notes.iter().enumerate().map(|(index, (cycle, _))| (*cycle, usize::MAX, index)));
     changes.sort_unstable();
     let ticks = |cycle: u64| waves.time(cycle).nanos().unsigned_abs() / unit_nanos;
@@ -79,7 +79,7 @@ fn write(waves: &Waves, bytes: &mut Vec<u8>) -> io::Result<()> {
     writer.flush()
 }
 
-/// The largest decimal unit that the cycle is a whole number of, in nanoseconds and as VCD writes it.
+/// The largest decimal unit of which the cycle is a multiple, in nanoseconds and in the notation of VCD.
 fn timescale(cycle_nanos: u64) -> (u64, u32, TimescaleUnit) {
     let units = [(1_000_000_000, TimescaleUnit::S), (1_000_000, TimescaleUnit::MS), (1_000, TimescaleUnit::US)];
     for (nanos, unit) in units {
@@ -120,12 +120,12 @@ fn change(writer: &mut Writer<&mut Vec<u8>>, code: IdCode, kind: WaveKind, level
     }
 }
 
-/// A name without what has a meaning in the file or in its viewers: `DB31.DBX4.7` is `DB31_DBX4_7`.
+/// A name without characters that have a meaning in the file or in its viewers: `DB31.DBX4.7` is `DB31_DBX4_7`.
 fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' }).collect()
 }
 
-/// A text without white space and signs beyond ASCII, since a string value ends at the first.
+/// A text without white space and non-ASCII characters, because a string value ends at the first of them.
 fn one_word(text: &str) -> String {
     text.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' }).collect()
 }

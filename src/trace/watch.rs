@@ -1,4 +1,4 @@
-//! What a trace shows: patterns over symbols and addresses, and the names of values.
+//! The selection of a trace: patterns over symbols and addresses, and the names of values.
 
 use super::printable::Printable;
 use crate::image::{Location, Memory, Names, Part, Signal};
@@ -6,27 +6,28 @@ use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::AxisNumber;
 use crate::variables::AxisValue;
 
-/// What a trace shows; by default every signal of the catalogue and every input and output that changed, and no values.
+/// The signals and values that a trace shows. The default is every signal of the catalogue and every input and output that changed, without
+/// values.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Watch {
-    /// Nothing means the default.
+    /// `None` selects the default.
     chosen: Option<Chosen>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Chosen {
-    /// With `*`, over symbols and addresses.
+    /// Patterns with `*`, over symbols and addresses.
     patterns: Vec<String>,
-    /// Places named one by one.
+    /// Locations that are named individually.
     locations: Vec<Location>,
     values: Vec<(AxisNumber, AxisValue)>,
 }
 
 impl Watch {
-    /// Reads names, addresses and patterns, as `X.*`, `DB33.DBX101.*`, `M10.3`, `X.position`.
+    /// Reads names, addresses and patterns, such as `X.*`, `DB33.DBX101.*`, `M10.3`, `X.position`.
     ///
     /// # Errors
-    /// One of them, given with its index, names nothing.
+    /// One of the entries, given by its index, matches nothing.
     pub fn parse(entries: &[&str], names: &Names, memory: &Memory) -> Result<Self, (usize, Problem)> {
         let mut chosen = Chosen::default();
         for (index, entry) in entries.iter().enumerate() {
@@ -37,7 +38,7 @@ impl Watch {
         Ok(Self { chosen: Some(chosen) })
     }
 
-    /// The values that it names.
+    /// The selected values.
     pub fn values(&self) -> impl Iterator<Item = (AxisNumber, AxisValue)> {
         self.chosen.iter().flat_map(|chosen| chosen.values.iter().copied())
     }
@@ -93,9 +94,9 @@ impl Chosen {
             if !matching {
                 let head = entry.split('.').next().unwrap_or(entry);
                 let known = || names.owners().map(|(owner, ..)| owner);
-                let fallback = "patterns are like `X.*` or `DB31.DBX101.*`";
+                let fallback = "write a pattern such as `X.*` or `DB31.DBX101.*`";
                 return Err(Problem::new(
-                    format!("expected a pattern that fits a signal, found `{entry}`"),
+                    format!("expected a pattern that matches a signal, found `{entry}`"),
                     match known().any(|owner| owner == head) {
                         true => fallback.to_owned(),
                         false => did_you_mean(head, known(), fallback),
@@ -116,7 +117,7 @@ impl Chosen {
     }
 }
 
-/// The problem of an unknown name, with the nearest value of an axis in its cure if one is near.
+/// The problem of an unknown name, with the nearest value of an axis as the remedy if one is near.
 fn nearest_value(problem: Problem, entry: &str, names: &Names) -> Problem {
     let near = entry.rsplit_once('.').filter(|(head, _)| axes(names).any(|(_, name)| name == *head));
     match near.and_then(|(head, tail)| Some((head, nearest(tail, AxisValue::ALL.map(AxisValue::name))?))) {
@@ -133,14 +134,14 @@ fn names_of_axes(names: &Names) -> impl Iterator<Item = &str> {
     axes(names).map(|(_, name)| name)
 }
 
-/// Whether a pattern is about addresses: `DB33.…`, `M10.*`, `IB*`, `*`.
+/// Whether a pattern refers to addresses: `DB33.…`, `M10.*`, `IB*`, `*`.
 fn looks_like_addresses(pattern: &str) -> bool {
     let area = pattern.strip_prefix("DB").or_else(|| pattern.strip_prefix(['I', 'Q', 'M', 'T', 'C']));
     let area = area.map(|rest| rest.strip_prefix(['B', 'W', 'D']).unwrap_or(rest));
     pattern == "*" || area.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '*'))
 }
 
-/// Whether a text fits a pattern in which `*` stands for anything.
+/// Whether a text matches a pattern, in which `*` stands for any text.
 fn matches(pattern: &str, text: &str) -> bool {
     let mut parts = pattern.split('*');
     let first = parts.next().unwrap_or_default();
@@ -149,7 +150,7 @@ fn matches(pattern: &str, text: &str) -> bool {
     };
     let mut last = None;
     for part in parts {
-        // All but the last part take their first place; the last one must be the end.
+        // Each part takes its first match, except the last part, which must be at the end.
         if let Some(middle) = last.replace(part) {
             match rest.find(middle) {
                 Some(at) => rest = &rest[at + middle.len()..],
@@ -182,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn patterns_of_addresses_are_told_from_those_of_symbols() {
+    fn patterns_of_addresses_and_of_symbols_are_distinguished() {
         for pattern in ["DB33.*", "M10.*", "IB*", "QW1*", "*"] {
             assert!(looks_like_addresses(pattern), "{pattern}");
         }

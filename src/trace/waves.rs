@@ -1,6 +1,6 @@
-//! The trace turned by ninety degrees: one row a signal, with its value at the start and its changes.
+//! The trace by signal: one row per signal, with its value at the start and its changes.
 //!
-//! Waveform files and timing diagrams are made from this.
+//! Waveform files and timing diagrams are made from these rows.
 
 use std::collections::BTreeMap;
 
@@ -16,41 +16,41 @@ use crate::variables::{AxisValue, Describe, Place, place_name};
 #[derive(Clone, Debug)]
 pub(super) struct Waves {
     pub(super) cycle_time: Time,
-    /// How many cycles there were.
+    /// The number of cycles.
     pub(super) cycles: u64,
     pub(super) rows: Vec<Wave>,
-    /// Notes, with the cycle to which each belongs.
+    /// The notes, with their cycles.
     pub(super) notes: Vec<(u64, String)>,
 }
 
 /// One row.
 #[derive(Clone, Debug)]
 pub(super) struct Wave {
-    /// Whose it is; `memory` for what belongs to nobody.
+    /// The owner; `memory` for an item without an owner.
     pub(super) owner: String,
-    /// What it is called among its owner's.
+    /// The name below the owner.
     pub(super) name: String,
-    /// Its address; of an alarm, its text; of a value, its unit.
+    /// The address; for an alarm, its text; for a value, its unit.
     pub(super) beside: String,
     pub(super) kind: WaveKind,
     pub(super) start: Level,
     pub(super) changes: Vec<Step>,
 }
 
-/// What a row is.
+/// The kind of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum WaveKind {
     Bit,
-    /// A number without sign, of so many bits.
+    /// A number without sign, with this number of bits.
     Number(u8),
     /// A number with sign, or a REAL.
     Real,
-    /// A value beside signals.
+    /// A value that is not a signal.
     Value,
     Alarm,
 }
 
-/// What a row shows at one time.
+/// The content of a row at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Level {
     Signal(Shown),
@@ -59,7 +59,7 @@ pub(super) enum Level {
 }
 
 impl Level {
-    /// Whether a bit is 1 or an alarm pending.
+    /// Whether a bit is 1 or an alarm is pending.
     pub(super) fn is_high(self) -> bool {
         self == Self::Signal(Shown::Bit(true))
     }
@@ -68,10 +68,10 @@ impl Level {
 /// A change.
 #[derive(Clone, Debug)]
 pub(super) struct Step {
-    /// Cycles since the start of the trace.
+    /// The cycle since the start of the trace.
     pub(super) cycle: u64,
     pub(super) level: Level,
-    /// Who; values are nobody's.
+    /// The writer; values have none.
     pub(super) by: Option<By>,
     pub(super) because: Option<String>,
 }
@@ -81,7 +81,7 @@ type Key = (usize, u8, super::printable::Order, String);
 
 const MEMORY: &str = "memory";
 
-/// The rows that are being made, and where each owner comes.
+/// The rows under construction, and the order of the owners.
 struct Rows {
     owners: Vec<String>,
     rows: BTreeMap<Key, Wave>,
@@ -92,7 +92,7 @@ impl Rows {
         self.owners.iter().position(|known| known == owner).unwrap_or(usize::MAX)
     }
 
-    /// The row of a signal, with this value at the start if it is new.
+    /// The row of a signal; a new row has this value at the start.
     fn signal(&mut self, symbol: Option<&str>, address: &str, location: Location, start: Shown) -> &mut Wave {
         let (owner, name) = symbol.and_then(|symbol| symbol.split_once('.')).unwrap_or((MEMORY, address));
         let kind = match start {
@@ -112,7 +112,7 @@ impl Rows {
 }
 
 impl Trace {
-    /// One row for each signal, value and alarm that the watch shows.
+    /// One row for each selected signal, value and alarm.
     pub(super) fn waves(&self, describe: &dyn Describe, watch: &Watch) -> Waves {
         let names = describe.names();
         let owners = names.owners().map(|(name, ..)| name.to_owned()).collect();

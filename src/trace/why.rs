@@ -1,6 +1,6 @@
-//! Why a signal has its value: from an edge through the events of the control back to what was written from outside it.
+//! Why a signal has its value: from an edge through the events of the control back to the signals that were written from outside it.
 //!
-//! The same questions are put to a trace in memory and to one that was written as JSON lines, so both become a [`Story`].
+//! The same code works on a trace in memory and on a trace from JSON lines; both become a [`Story`].
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -16,7 +16,7 @@ use crate::source::{Problem, did_you_mean};
 use crate::units::Time;
 use crate::variables::Describe;
 
-/// The changes of a trace and the events behind them.
+/// The changes of a trace and the events that caused them.
 #[derive(Clone, Debug, Default)]
 pub struct Story {
     edges: Vec<Edge>,
@@ -27,32 +27,32 @@ pub struct Story {
 #[derive(Clone, Debug, PartialEq)]
 struct Edge {
     time: Time,
-    /// The symbol, or the address where there is none; `alarm(10654)`.
+    /// The symbol, or the address if there is no symbol; `alarm(10654)` for an alarm.
     name: String,
-    /// The address; the place of an alarm.
+    /// The address, or the place of an alarm.
     address: String,
-    /// What it is since then, as `1`, `raised`.
+    /// The new value, such as `1` or `raised`.
     new: String,
     /// `0 -> 1`, `raised`.
     change: String,
     by: String,
-    /// In words.
+    /// The cause as text.
     because: Option<String>,
-    /// Number of the event; zero for none.
+    /// The number of the event; zero for none.
     event: u32,
 }
 
 impl Trace {
-    /// The chain of causes behind the last edge of a place at a time or before it: each event of the control with its rule and inputs,
-    /// each input followed to its own last edge, back to what PLC, plant or a scenario wrote.
+    /// The chain of causes of the last edge of a location at or before a time: each event of the control with its rule and inputs, and each
+    /// input back to its own last edge, until a write of PLC, plant or scenario.
     ///
     /// # Errors
-    /// The place has no edge up to then.
+    /// The location has no edge up to this time.
     pub fn why(&self, location: Location, time: Time, describe: &dyn Describe) -> Result<String, Problem> {
         self.story(describe).why(&describe.names().address(location).to_string(), time)
     }
 
-    /// Everything that changed, with the events behind it.
+    /// All changes, with the events that caused them.
     #[must_use]
     pub fn story(&self, describe: &dyn Describe) -> Story {
         let lines = self.lines(describe, &Watch::default());
@@ -97,18 +97,18 @@ impl Edge {
 }
 
 impl Story {
-    /// Reads JSON lines, as `opennck run --trace` writes them; lines of other kinds are passed over.
+    /// Reads JSON lines from `opennck run --trace`; lines of other kinds are ignored.
     ///
     /// # Errors
-    /// A line is no JSON object, or has no time.
+    /// A line is not a JSON object, or has no time.
     pub fn read(text: &str) -> Result<Self, (usize, Problem)> {
         let mut story = Self::default();
         for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
             let wrong = |found: String| {
-                let cure = "write the trace anew with `opennck run SCENARIO --trace F.jsonl`";
+                let cure = "write the trace again with `opennck run SCENARIO --trace F.jsonl`";
                 (index + 1, Problem::new(format!("expected one line of a trace, found {found}"), cure))
             };
-            let value: Value = serde_json::from_str(line).map_err(|error| wrong(format!("no JSON: {error}")))?;
+            let value: Value = serde_json::from_str(line).map_err(|error| wrong(format!("invalid JSON: {error}")))?;
             let time = value.get("t").and_then(Value::as_f64).map(Time::from_seconds);
             let time = time.ok_or_else(|| wrong("a line without the time `t`".to_owned()))?;
             story.take(time, &value);
@@ -159,16 +159,16 @@ impl Story {
         }
     }
 
-    /// The chain of causes behind the last edge of a signal (symbol or address) or an alarm (`alarm(10654)`) at a time or before it.
+    /// The chain of causes of the last edge of a signal (symbol or address) or an alarm (`alarm(10654)`) at or before a time.
     ///
     /// # Errors
-    /// There is none, or nothing in the trace is called so.
+    /// There is no such edge, or the trace does not contain this name.
     pub fn why(&self, what: &str, time: Time) -> Result<String, Problem> {
         let is_meant = |edge: &&Edge| edge.name == what || (edge.address == what && !edge.name.starts_with("alarm("));
         let mut all = self.edges.iter().enumerate().filter(|(_, edge)| is_meant(edge)).peekable();
         let Some((_, first)) = all.peek() else {
             let names = self.edges.iter().flat_map(|edge| [edge.name.as_str(), edge.address.as_str()]);
-            let fallback = "it did not change, or the trace does not watch it; addresses and symbols both do";
+            let fallback = "it did not change, or the trace does not watch it; write a symbol or an address";
             return Err(Problem::new(
                 format!("expected a signal that changes in the trace, found `{what}`"),
                 did_you_mean(what, names, fallback),
@@ -177,7 +177,7 @@ impl Story {
         let first = first.time;
         let Some((index, _)) = all.take_while(|(_, edge)| edge.time <= time).last() else {
             return Err(Problem::new(
-                format!("expected an edge of `{what}` at {time} s or before, found none"),
+                format!("expected an edge of `{what}` at or before {time} s, found none"),
                 format!("its first edge is at {first} s"),
             ));
         };
@@ -187,7 +187,7 @@ impl Story {
     }
 }
 
-/// The chain while it is told; nothing is told twice.
+/// The chain under construction; each edge and each cause is printed once.
 struct Chain<'a> {
     story: &'a Story,
     text: String,
@@ -214,7 +214,7 @@ impl Chain<'_> {
                 let text = format!("because {because}");
                 self.row(edge.time, depth + 1, &text);
             }
-            (0, None) if edge.by == "nck" => self.row(edge.time, depth + 1, "no cause is known"),
+            (0, None) if edge.by == "nck" => self.row(edge.time, depth + 1, "no known cause"),
             (0, None) => {}
             (event, _) => self.cause(event, depth + 1, "because"),
         }
@@ -236,17 +236,17 @@ impl Chain<'_> {
             self.input(input, cause.time, depth + 1);
         }
         if cause.parent != 0 {
-            // What led to an event stands below it, not inside: the way back to the start is one straight line.
+            // The parent of an event is printed below it and not inside it, so that the way back to the start is one straight line.
             self.cause(cause.parent, depth, "after");
         }
     }
 
-    /// Follows a signal or an alarm to its last edge before.
+    /// Follows a signal or an alarm to its previous edge.
     fn input(&mut self, input: &CauseInput, time: Time, depth: usize) {
         let (name, new) = match input {
             CauseInput::Signal { address, value, .. } => (address.clone(), Shown::Bit(*value).to_string()),
             CauseInput::Alarm(name) => (format!("alarm({name})"), "raised".to_owned()),
-            // What was measured, and machine data, stand in the words of the event.
+            // Measured values and machine data are in the text of the event.
             CauseInput::Datum(..) | CauseInput::Value(..) => return,
         };
         let mut before = self.story.edges.iter().enumerate().rev().filter(|(_, edge)| edge.time <= time);
@@ -279,7 +279,7 @@ fn input(input: &Value) -> Option<CauseInput> {
     text("symbol").map(|name| CauseInput::Value(name, plain(value)))
 }
 
-/// A number or a text as it is.
+/// A number or a text, unquoted.
 fn plain(value: Option<&Value>) -> String {
     match value {
         Some(Value::String(text)) => text.clone(),

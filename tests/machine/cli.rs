@@ -88,7 +88,7 @@ fn diff_reports_the_first_difference_in_words() {
     assert_eq!((output.status.code(), out(&output).as_str()), (Some(0), "the traces are the same\n"));
     let output = opennck(&["diff", "a.jsonl", "b.jsonl"], &directory);
     assert_eq!(output.status.code(), Some(1));
-    let words = "X.traversing_key_plus (DB31.DBX4.7) 1 -> 0 comes 0.004 s later (0.012 s instead of 0.008 s)";
+    let words = "X.traversing_key_plus (DB31.DBX4.7) 1 -> 0 is 0.004 s later (0.012 s instead of 0.008 s)";
     assert!(out(&output).contains(words), "{}", out(&output));
     let output = opennck(&["diff", "a.jsonl", "c.jsonl"], &directory);
     assert_eq!(output.status.code(), Some(2));
@@ -103,7 +103,7 @@ fn diff_reports_the_first_difference_in_words() {
     write("u.snap", &fs::read_to_string(directory.join("t.snap")).unwrap().replace("plc", "outside"));
     let output = opennck(&["diff", "t.snap", "u.snap"], &directory);
     assert_eq!(output.status.code(), Some(1));
-    let words = "first difference in line 7, at 0.002 s\n  M0.0 0 -> 1 was expected by plc, it is by outside\n";
+    let words = "first difference in line 7, at 0.002 s\n  M0.0 0 -> 1: expected writer plc, found outside\n";
     assert!(out(&output).starts_with(words), "{}", out(&output));
 }
 

@@ -1,17 +1,17 @@
-//! A drawing while it grows: its lines, texts and rectangles, and how much room a text takes.
+//! A drawing under construction: its lines, texts and rectangles, and the width of texts.
 
 use std::fmt::Write as _;
 
-/// Tenths of a pixel, in which everything here is counted.
+/// Tenths of a pixel, the unit of all coordinates.
 pub(super) type Tenths = i64;
 
 /// Width of the whole drawing.
 pub(super) const WIDTH: Tenths = 13_200;
-/// Room at every side.
+/// The margin at every side.
 pub(super) const MARGIN: Tenths = 240;
-/// Between the names and the waves.
+/// The gap between the names and the waves.
 pub(super) const GAP: Tenths = 140;
-/// Width of a letter of the names (11 px), and of the small texts (10 px).
+/// The width of a character in names (11 px) and in small texts (10 px).
 pub(super) const LETTER: Tenths = 67;
 pub(super) const SMALL_LETTER: Tenths = 61;
 
@@ -25,7 +25,7 @@ pub(super) fn px(tenths: Tenths) -> String {
     }
 }
 
-/// A text as XML takes it; what XML cannot hold at all becomes the sign for it.
+/// A text with XML escapes; characters that XML does not allow become the replacement character.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -42,12 +42,12 @@ pub(super) fn escaped(text: &str) -> String {
     escaped
 }
 
-/// A count of letters as a width.
+/// The width of a text.
 pub(super) fn width_of(text: &str, letter: Tenths) -> Tenths {
     i64::try_from(text.chars().count()).unwrap_or(i64::MAX / 1000) * letter
 }
 
-/// A text in lines of at most so many letters, broken between words.
+/// A text in lines with a maximum number of characters, broken between words.
 pub(super) fn wrapped(text: &str, letters: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -62,12 +62,12 @@ pub(super) fn wrapped(text: &str, letters: usize) -> Vec<String> {
     lines
 }
 
-/// The drawing while it grows.
+/// A drawing under construction.
 pub(super) struct Drawing {
     pub(super) text: String,
-    /// Where the next thing begins.
+    /// The position of the next element.
     pub(super) y: Tenths,
-    /// Left end of the waves.
+    /// The left end of the waves.
     pub(super) left: Tenths,
 }
 

@@ -1,15 +1,15 @@
-//! What is explained beside the rows: notes as numbered flags, alarms with their texts, the colours.
+//! The explanations beside the rows: notes as numbered flags, alarms with their texts, the colours.
 
 use super::drawing::{Drawing, MARGIN, SMALL_LETTER, Tenths, WIDTH, px, width_of, wrapped};
 use super::scale::Scale;
 use crate::trace::By;
 use crate::trace::waves::{WaveKind, Waves};
 
-/// Size of a flag.
+/// The size of a flag.
 const FLAG: Tenths = 150;
-/// Distance of the lines.
+/// The distance between lines.
 const LINE: Tenths = 180;
-/// Letters in a line of the legend.
+/// The number of characters in a line of the legend.
 const LETTERS: usize = 150;
 
 /// The notes with their flags, and the alarms.
@@ -37,7 +37,7 @@ impl Legend {
         if self.notes.is_empty() { 40 } else { FLAG + 180 }
     }
 
-    /// Where each flag stands: above its time, moved aside where another one stands.
+    /// The position of each flag: above its time, moved aside if another flag is there.
     fn flags(&self, scale: &Scale) -> Vec<Tenths> {
         let pitch = FLAG + 20;
         let mut places: Vec<Tenths> = self.notes.iter().map(|(cycle, _)| scale.x(*cycle)).collect();
@@ -117,6 +117,6 @@ fn colours(drawing: &mut Drawing, waves: &Waves) {
         drawing.line(&format!("wave {class}"), (x, drawing.y - 40), (x + 240, drawing.y - 40));
         drawing.text("small", (x + 320, drawing.y), text);
         x += 320 + width_of(text, SMALL_LETTER) + 320;
-        debug_assert!(x < WIDTH, "the colours have room in one line");
+        debug_assert!(x < WIDTH, "the colours must fit into one line");
     }
 }

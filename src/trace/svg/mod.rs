@@ -1,7 +1,7 @@
-//! The trace as a timing diagram, as a manual would print it.
+//! The trace as a timing diagram in the style of a manual.
 //!
-//! Coordinates are whole tenths of a pixel, so that the same trace is the same bytes on every machine. Widths of texts are
-//! estimated from a font in which every letter is as wide as the next.
+//! Coordinates are whole tenths of a pixel, so that the same trace gives the same bytes on every computer. Widths of texts are estimated
+//! for a monospaced font.
 
 mod drawing;
 mod legend;
@@ -15,7 +15,7 @@ use drawing::{Drawing, GAP, LETTER, MARGIN, SMALL_LETTER, WIDTH, escaped, px, wi
 use legend::Legend;
 use scale::Scale;
 
-/// The whole file.
+/// The complete file.
 pub(super) fn document(waves: &Waves, head: &Head) -> String {
     let names = waves.rows.iter().map(|wave| width_of(&rows::name(wave), LETTER)).max().unwrap_or(0);
     let beside = waves.rows.iter().filter(|wave| wave.kind != WaveKind::Alarm);
@@ -28,7 +28,7 @@ pub(super) fn document(waves: &Waves, head: &Head) -> String {
     let top = drawing.y;
     drawing.y += legend.lane_height(&scale);
     let first_row = drawing.y;
-    // Lines through all rows lie below the rows, but their lower end is known only now.
+    // Lines through all rows are drawn below the rows, but their lower end is known only here.
     let bottom = first_row + rows::height(waves);
     scale.draw_grid(&mut drawing, first_row, bottom);
     legend.draw_flags(&mut drawing, &scale, top, bottom);

@@ -9,16 +9,16 @@ use crate::trace::value::decimals;
 use crate::trace::waves::{Level, Step, Wave, WaveKind, Waves};
 use crate::trace::{By, Shown};
 
-/// Height of the row of a signal, and of the wave in it.
+/// The height of the row of a signal, and of the wave in it.
 const ROW: Tenths = 230;
 const WAVE: Tenths = 120;
-/// Height of the row of a curve, and of the curve in it.
+/// The height of the row of a curve, and of the curve in it.
 const CURVE_ROW: Tenths = 680;
 const CURVE: Tenths = 500;
-/// Between the rows of two owners.
+/// The gap between the rows of two owners.
 const OWNER_GAP: Tenths = 70;
 
-/// What a row is called.
+/// The name of a row.
 pub(super) fn name(wave: &Wave) -> String {
     match wave.kind {
         WaveKind::Alarm => format!("{}.{}", wave.owner, wave.name),
@@ -34,7 +34,7 @@ const fn row_height(kind: WaveKind) -> Tenths {
     }
 }
 
-/// Of all rows together.
+/// The height of all rows.
 pub(super) fn height(waves: &Waves) -> Tenths {
     let owners = waves.rows.chunk_by(|one, next| one.owner == next.owner).count();
     let rows: Tenths = waves.rows.iter().map(|wave| row_height(wave.kind)).sum();
@@ -45,7 +45,7 @@ pub(super) fn draw(drawing: &mut Drawing, waves: &Waves, scale: &Scale) {
     for (index, of_owner) in waves.rows.chunk_by(|one, next| one.owner == next.owner).enumerate() {
         let height = of_owner.iter().map(|wave| row_height(wave.kind)).sum::<Tenths>() + OWNER_GAP;
         if index % 2 == 0 {
-            // Behind the names only, so that the grid stays one.
+            // The band is drawn behind the names only, so that the grid stays uniform.
             drawing.rect("band", (MARGIN - 100, drawing.y), (drawing.left - MARGIN + 20, height), "");
         }
         drawing.y += OWNER_GAP / 2;
@@ -73,9 +73,9 @@ fn row(drawing: &mut Drawing, waves: &Waves, wave: &Wave, scale: &Scale) {
     drawing.y += height;
 }
 
-/// The colour of a signal is that of who writes it.
+/// The colour of a signal depends on its writer.
 fn colour(wave: &Wave) -> &'static str {
-    // Presets at power on say nothing of who writes it later.
+    // Presets at power on do not identify the later writer.
     let by = wave.changes.iter().filter_map(|step| step.by).find(|by| *by != By::PowerOn);
     match by {
         Some(By::Nck) => "nck",
@@ -85,7 +85,7 @@ fn colour(wave: &Wave) -> &'static str {
     }
 }
 
-/// What whoever points at a change reads.
+/// The tooltip of a change.
 fn told(waves: &Waves, wave: &Wave, step: &Step) -> String {
     let what = match step.level {
         Level::Signal(value) if wave.kind != WaveKind::Alarm => format!("becomes {value}"),
@@ -105,7 +105,7 @@ fn touches(drawing: &mut Drawing, waves: &Waves, wave: &Wave, scale: &Scale, mid
     }
 }
 
-/// The stretches between changes: from, to, and what it was.
+/// The intervals between changes: from, to, and the value.
 fn stretches(wave: &Wave, scale: &Scale) -> Vec<(Tenths, Tenths, Level)> {
     let mut stretches = Vec::with_capacity(wave.changes.len() + 1);
     let (mut from, mut level) = (scale.left(), wave.start);
@@ -146,7 +146,7 @@ fn alarm(drawing: &mut Drawing, waves: &Waves, wave: &Wave, scale: &Scale, middl
         if !level.is_high() {
             continue;
         }
-        // Even an alarm of one cycle must be seen.
+        // An alarm of one cycle must be visible, too.
         let width = (to - from).max(30);
         drawing.rect("alarm", (from, middle - WAVE / 2 - 10), (width, WAVE + 20), "");
         let (left, right) = scale.clear(from, from + width);
@@ -157,7 +157,7 @@ fn alarm(drawing: &mut Drawing, waves: &Waves, wave: &Wave, scale: &Scale, middl
         } else if is_free {
             drawing.text("alarm-name", (beside, middle + 38), number);
         } else {
-            // Far enough to the left for a part that holds the number even if a break is near.
+            // Far enough to the left for a section that can contain the number, even if a break is near.
             let end = scale.clear(from - 4 * wide, from - 40).1;
             drawing.text("alarm-name right", (end, middle + 38), number);
         }
@@ -199,7 +199,7 @@ fn number(drawing: &mut Drawing, waves: &Waves, wave: &Wave, scale: &Scale, midd
     touches(drawing, waves, wave, scale, middle);
 }
 
-/// What a curve shows, in millionths.
+/// The value of a curve, in millionths.
 #[expect(clippy::cast_possible_truncation, reason = "float to integer casts saturate")]
 fn millionths(level: Level) -> i64 {
     match level {
@@ -239,7 +239,7 @@ fn curve(drawing: &mut Drawing, wave: &Wave, scale: &Scale, middle: Tenths) {
     let mut last = (0, wave.start);
     for step in &wave.changes {
         if step.cycle > last.0 + 1 {
-            // It stayed as it was until the cycle before.
+            // The value was constant until the previous cycle.
             points.push((scale.x(step.cycle - 1), y(millionths(last.1))));
         }
         points.push((scale.x(step.cycle), y(millionths(step.level))));
@@ -257,7 +257,7 @@ fn curve(drawing: &mut Drawing, wave: &Wave, scale: &Scale, middle: Tenths) {
     });
 }
 
-/// Of the points in one column of a pixel: the first, the lowest, the highest, the last.
+/// Of the points in one pixel column: the first, the lowest, the highest, the last.
 fn thinned(points: &[(Tenths, Tenths)]) -> Vec<(Tenths, Tenths)> {
     let mut kept: Vec<(Tenths, Tenths)> = Vec::new();
     for column in points.chunk_by(|one, next| one.0 / 10 == next.0 / 10) {

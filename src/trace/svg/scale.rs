@@ -1,4 +1,4 @@
-//! Time as a place on the drawing: even stretches, and breaks where nothing happens for long.
+//! The time axis: uniform sections, and breaks in long intervals without changes.
 
 use std::fmt::Write as _;
 
@@ -6,25 +6,25 @@ use super::drawing::{Drawing, SMALL_LETTER, Tenths, px, width_of};
 use crate::trace::waves::Waves;
 use crate::units::Time;
 
-/// Width of a stretch that has been shortened.
+/// The width of a shortened interval.
 const BREAK: Tenths = 520;
-/// How many stretches are shortened at most.
+/// The maximum number of shortened intervals.
 const BREAKS: usize = 8;
-/// A stretch is shortened only if it would be this wide at least.
+/// An interval is shortened only if its full width is at least this.
 const WORTH_IT: Tenths = 3 * BREAK;
-/// Once half of the stretches between changes are this wide, nothing more is shortened.
+/// If half of the intervals between changes have at least this width, no further interval is shortened.
 const LEGIBLE: Tenths = 300;
-/// A stretch of fewer cycles is never shortened.
+/// An interval with fewer cycles is never shortened.
 const LONG: u64 = 25;
-/// Half the width of what is torn out at a break.
+/// Half the width of the gap at a break.
 const TEAR: Tenths = 75;
-/// Least distance of two ticks.
+/// The minimum distance of two ticks.
 const TICKS: Tenths = 640;
 
-/// From cycles to places.
+/// Converts cycles to positions.
 pub(super) struct Scale {
     cycle_time: Time,
-    /// In order, without a gap between them.
+    /// In order, without gaps.
     stretches: Vec<Stretch>,
     left: Tenths,
     right: Tenths,
@@ -52,7 +52,7 @@ impl Scale {
         busy.sort_unstable();
         busy.dedup();
         let mut quiet: Vec<(u64, u64)> = busy.windows(2).map(|pair| (pair[0], pair[1])).collect();
-        // The longest first; of equal ones the first.
+        // The longest interval first; of equal intervals, the first.
         quiet.sort_by_key(|(from, to)| (u64::MAX - (to - from), *from));
         let room = right - left;
         let mut broken: Vec<(u64, u64)> = Vec::new();
@@ -60,9 +60,9 @@ impl Scale {
         for &(from, to) in quiet.iter().take(BREAKS) {
             let length = i64::try_from(to - from).unwrap_or(i64::MAX);
             let even = room - BREAK * i64::try_from(broken.len()).unwrap_or(0);
-            // As wide as it would be if the ones before it were shortened and it were not.
+            // The width of this interval if the intervals before it were shortened and this one were not.
             let would_be = i128::from(length) * i128::from(even) / i128::from(rest.max(1));
-            // As they come by length, the middle one of the rest is the median.
+            // The intervals are ordered by length, so the middle one of the rest is the median.
             let middle = quiet.get(usize::midpoint(broken.len(), quiet.len()));
             let median =
                 middle.map_or(0, |(from, to)| i128::from(to - from) * i128::from(even) / i128::from(rest.max(1)));
@@ -81,7 +81,7 @@ impl Scale {
         for (index, (from, to)) in broken.into_iter().chain([(last, last)]).enumerate() {
             if from > at {
                 passed += i64::try_from(from - at).unwrap_or(0);
-                // Always from the left end, so that rounding does not add up.
+                // Always computed from the left end, so that rounding errors do not accumulate.
                 let done = i64::try_from(i128::from(passed) * i128::from(even) / i128::from(rest.max(1))).unwrap_or(0);
                 let end = left + done + BREAK * i64::try_from(index).unwrap_or(0).min(breaks);
                 stretches.push(Stretch { from: at, to: from, left: x, right: end, is_break: false });
@@ -96,7 +96,7 @@ impl Scale {
         Self { cycle_time: waves.cycle_time, stretches, left, right }
     }
 
-    /// Where the end of a cycle is.
+    /// The position of the end of a cycle.
     pub(super) fn x(&self, cycle: u64) -> Tenths {
         let Some(stretch) = self.stretches.iter().find(|stretch| cycle <= stretch.to) else {
             return self.right;
@@ -114,7 +114,7 @@ impl Scale {
         self.right
     }
 
-    /// The widest part of a span that no break tears.
+    /// The widest part of a span without a break.
     pub(super) fn clear(&self, from: Tenths, to: Tenths) -> (Tenths, Tenths) {
         let (mut best, mut start) = ((from, from), from);
         let tears = self.stretches.iter().filter(|stretch| stretch.is_break).map(|stretch| {
@@ -131,7 +131,7 @@ impl Scale {
         best
     }
 
-    /// The ticks: where, and the time.
+    /// The ticks: position and time.
     fn ticks(&self) -> Vec<(Tenths, String)> {
         let even = self.stretches.iter().filter(|stretch| !stretch.is_break);
         let Some(widest) = even.clone().max_by_key(|stretch| stretch.right - stretch.left) else {
@@ -143,7 +143,7 @@ impl Scale {
         let step = round_step(least).max(i128::from(self.cycle_time.nanos()));
         let exactly = |cycle: u64| self.cycle_time.times(cycle).to_string();
         let mut ticks: Vec<(Tenths, String)> = Vec::new();
-        // The ends of every break are told exactly, round times only where they have room.
+        // The ends of every break have exact labels; round times only have labels where they fit.
         for stretch in self.stretches.iter().filter(|stretch| stretch.is_break) {
             for (x, cycle) in [(stretch.left, stretch.from), (stretch.right, stretch.to)] {
                 ticks.push((x, exactly(cycle)));
@@ -182,7 +182,7 @@ impl Scale {
         }
     }
 
-    /// A torn strip across all rows for each break.
+    /// Draws a gap across all rows for each break.
     pub(super) fn draw_breaks(&self, drawing: &mut Drawing, top: Tenths, bottom: Tenths) {
         for stretch in self.stretches.iter().filter(|stretch| stretch.is_break) {
             let middle = i64::midpoint(stretch.left, stretch.right);
@@ -204,7 +204,7 @@ impl Scale {
         }
     }
 
-    /// The axis below the rows, with the length of every break.
+    /// Draws the axis below the rows, with the length of every break.
     pub(super) fn draw_axis(&self, drawing: &mut Drawing) {
         let y = drawing.y + 40;
         for stretch in &self.stretches {
@@ -243,7 +243,7 @@ fn round_step(least: i128) -> i128 {
     }
 }
 
-/// A time with as many decimals as the step needs.
+/// A time with the number of decimals that the step needs.
 fn time_text(nanos: i128, step: i128) -> String {
     let mut decimals = 0;
     let mut unit: i128 = 1_000_000_000;
@@ -255,7 +255,7 @@ fn time_text(nanos: i128, step: i128) -> String {
     if decimals == 0 { whole.to_string() } else { format!("{whole}.{part:0decimals$}") }
 }
 
-/// `1.020` as `1.02`, and never without a digit behind the point.
+/// `1.020` as `1.02`, with at least one digit after the point.
 fn shortened(seconds: &str) -> &str {
     let text = seconds.trim_end_matches('0');
     if text.ends_with('.') { &seconds[..text.len() + 1] } else { text }

@@ -1,6 +1,6 @@
-//! How the drawing looks, on paper and on a dark screen.
+//! The style of the drawing, for light and dark display.
 
-/// Plain classes and no variables of CSS, which some readers of SVG do not know.
+/// Plain classes without CSS variables, which some readers of SVG do not support.
 pub(super) const STYLE: &str = r##"<style>
 text { font-family: "DejaVu Sans Mono", Menlo, Consolas, "Liberation Mono", monospace; font-size: 11px; fill: #1f2733; }
 .title { font-family: "DejaVu Sans", "Segoe UI", Helvetica, Arial, sans-serif; font-size: 16px; font-weight: 600; }

@@ -1,4 +1,4 @@
-//! Parts of the drawing, by literal expectation.
+//! Tests of parts of the drawing against literal text.
 
 use super::*;
 
