@@ -66,9 +66,13 @@ const REFUSED_IN_MODULES: &[(&str, &str)] = &[
     ("super::\x73uper", "write `crate::module::…`, so that the table of modules is checked"),
 ];
 
-/// Texts that are rejected in the control except in [`INPUTS`]. A signal is named by its constant, so that a moved address does not compile.
+/// Texts that are rejected in the control except in [`INPUTS`]. A signal is named by its constant, so that a moved address does not
+/// compile.
 const REFUSED_IN_CONTROL: &[(&str, &str)] = &[
-    ("Signal\x42it", "use the constant of the signal with `axis_signal` or a similar function of `sinumerik/inputs.rs`"),
+    (
+        "Signal\x42it",
+        "use the constant of the signal with `axis_signal` or a similar function of `sinumerik/inputs.rs`",
+    ),
     ("match (byte, \x62it)", "use the constant of the signal, in a row of `sinumerik/publish/`"),
 ];
 
@@ -125,22 +129,22 @@ fn modules_import_only_what_their_table_allows() {
 }
 
 #[test]
-fn one_module_chooses_among_controls_and_no_other_names_one() {
+fn one_module_selects_controls_and_no_other_names_one() {
     let outside =
         rust("src").into_iter().filter(|file| !KNOWS_CONTROLS.iter().any(|known| file.path.starts_with(known)));
     report(outside.flat_map(|file| refused(&file.path, &file.text, REFUSED_OUTSIDE_CONTROLS)).collect());
 }
 
 #[test]
-fn everything_that_is_remembered_is_saved() {
+fn the_complete_state_is_saved() {
     let outside = rust("src").into_iter().filter(|file| !NOT_SAVED.iter().any(|(known, _)| file.path == *known));
-    let table = &[("serde(skip)", "save it, or give the file a row in NOT_SAVED with the reason")];
+    let table = &[("serde(skip)", "save the field, or add a row with the reason to NOT_SAVED")];
     report(outside.flat_map(|file| refused(&file.path, &file.text, table)).collect());
 }
 
 #[test]
-fn the_table_has_every_room_and_no_other() {
-    let mut rooms: Vec<String> = entries(&root().join("src"))
+fn the_table_has_every_module_and_no_other() {
+    let mut modules: Vec<String> = entries(&root().join("src"))
         .iter()
         .filter(|path| path.is_dir())
         .filter_map(|path| Some(path.file_name()?.to_str()?.to_owned()))
