@@ -1,4 +1,4 @@
-//! `opennck alarms`: the alarm catalogue, with the rows that nothing raises yet marked as such.
+//! `opennck alarms`: the alarm catalogue. Alarms that the model does not raise yet are marked "not yet".
 
 use super::list::{Format, List};
 use super::output::Output;

@@ -1,4 +1,4 @@
-//! `opennck completions`: what a shell needs to complete commands, options and their values.
+//! `opennck completions`: prints the script with which a shell completes commands, options and their values.
 
 use clap::Command;
 use clap_complete::{Shell, generate};

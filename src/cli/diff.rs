@@ -1,4 +1,4 @@
-//! `opennck diff`: the first difference of two traces, in words.
+//! `opennck diff`: reports the first difference between two traces.
 
 use std::path::Path;
 
@@ -12,8 +12,8 @@ pub(super) fn diff(expected: &Path, found: &Path, output: &mut Output) -> u8 {
             return Ok((one, other));
         }
         Err(Problem::new(
-            "expected two traces of one form, found JSON lines and a table",
-            "compare two of `opennck run --trace`, or two golden files",
+            "expected two traces in the same format, found JSON lines and a table",
+            "compare two files of `opennck run --trace`, or two golden files",
         ))
     });
     match both.map(|(one, other)| one.compare(&other)) {
@@ -22,7 +22,7 @@ pub(super) fn diff(expected: &Path, found: &Path, output: &mut Output) -> u8 {
             0
         }
         Ok(Comparison::OtherCauses(first)) => {
-            output.line(format!("the traces are the same but for causes\n{first}"));
+            output.line(format!("the traces are the same except for causes\n{first}"));
             0
         }
         Ok(Comparison::Different(difference)) => {
@@ -38,7 +38,7 @@ pub(super) fn diff(expected: &Path, found: &Path, output: &mut Output) -> u8 {
 
 fn read(path: &Path) -> Result<Reading, Problem> {
     let text = read_text(path)?;
-    // The header of a golden file tells nothing about the machine; its lines still count, so that line numbers are right.
+    // The header of a golden file does not describe the machine. Its lines still count so that line numbers are right.
     let text = match text.strip_prefix("---").and_then(|rest| rest.split_once("\n---")) {
         Some((header, body)) => "\n".repeat(header.lines().count()) + body,
         None => text,

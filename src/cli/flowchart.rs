@@ -1,8 +1,8 @@
-//! `opennck flowchart`: the reference point approach and the gantry grouping as a Mermaid flowchart, drawn from the tables by
-//! which the code runs: a row is an edge, labelled with its rule.
+//! `opennck flowchart`: the reference point approach and the gantry grouping as a Mermaid flowchart. The chart is drawn from the tables
+//! that the code runs: each row is an edge, labelled with its rule.
 //!
-//! With what a suite has taken, the edges that it took are thick and the others are dashed; `opennck test --flowchart F`
-//! writes that. The manual's own picture of a grouping (G1, figure 2-2) is missing there; this one is ours.
+//! `opennck test --flowchart F` also marks the edges: those that the suite took are thick, the others are dashed. G1 refers to a picture of
+//! its own (figure 2-2) that is missing in the manual; this chart is drawn independently.
 
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ use crate::control::{Chart, Texts};
 use crate::controls;
 use crate::golden::Exercised;
 
-/// An edge, in words.
+/// An edge as text.
 struct Edge {
     from: String,
     to: String,
@@ -21,7 +21,7 @@ struct Edge {
     taken: Option<bool>,
 }
 
-/// The words by which charts are asked for.
+/// The names of the charts, as possible values of the argument.
 pub(super) fn names() -> Vec<PossibleValue> {
     let charts = controls::texts().flat_map(Texts::charts);
     charts.map(|chart| PossibleValue::new(chart.name).help(chart.title)).collect()
@@ -32,7 +32,7 @@ pub(super) fn flowchart(chart: Option<&str>, output: &mut Output) -> u8 {
     0
 }
 
-/// One chart or all, with what was taken where that is known.
+/// One chart or all of them. The edges are marked where `taken` is known.
 pub(super) fn text(only: Option<&str>, taken: &[Exercised]) -> String {
     let mut text = "flowchart TD\n".to_owned();
     let mut edges = Vec::new();
@@ -77,7 +77,7 @@ fn draw(
     }
 }
 
-/// Makes what was taken thick and what was not dashed. Mermaid counts the edges of the whole text.
+/// Draws taken edges thick and the others dashed. Mermaid numbers the edges of the whole text.
 fn mark(text: &mut String, edges: &[Edge]) {
     for (wanted, style) in [(true, "stroke-width:4px"), (false, "stroke:#c00,stroke-dasharray:4")] {
         let styled = edges.iter().enumerate().filter(|(_, edge)| edge.taken == Some(wanted));
@@ -91,7 +91,7 @@ fn mark(text: &mut String, edges: &[Edge]) {
     }
 }
 
-/// How many were taken, and each that was not.
+/// The number of taken edges, then each edge that was not taken.
 fn never_taken(edges: &[Edge]) -> Vec<String> {
     let never: Vec<_> = edges.iter().filter(|edge| edge.taken == Some(false)).collect();
     let rows = edges.iter().filter(|edge| edge.taken.is_some()).count();
@@ -100,7 +100,7 @@ fn never_taken(edges: &[Edge]) -> Vec<String> {
     lines
 }
 
-/// What the terminal says of a suite.
+/// The lines about a suite that are printed on the terminal.
 pub(super) fn summary(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter_map(|line| line.strip_prefix("    %% ")).filter(|line| line.contains("taken"))
 }
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
     use crate::control::Taken;
 
-    /// What a chart says of its edges, in their order.
+    /// The lines of the edges, in order.
     fn edges(text: &str) -> Vec<&str> {
         text.lines().filter(|line| line.contains("-->") || line.contains("-.->")).collect()
     }
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_taken_is_all_dashed_but_the_abort_which_is_no_row() {
+    fn without_taken_edges_all_are_dashed_except_the_abort() {
         let nothing = controls::texts().map(|texts| Exercised { texts, taken: Taken::default() });
         let text = text(None, &nothing.collect::<Vec<_>>());
         let dashed = styled(&text, "stroke:#c00,stroke-dasharray:4");

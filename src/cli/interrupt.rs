@@ -1,6 +1,6 @@
-//! Ctrl-C and SIGTERM: how a command that runs without an end is ended.
+//! Ctrl-C and SIGTERM: they end a command that otherwise runs forever.
 
-/// Listens for signals from now on, and waits for the first.
+/// Starts listening for signals; the future completes with the first one.
 #[cfg(unix)]
 pub(super) fn signals() -> std::io::Result<impl Future<Output = ()>> {
     use tokio::signal::unix::{SignalKind, signal};

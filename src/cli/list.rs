@@ -5,7 +5,7 @@ use clap::ValueEnum;
 use super::output::Output;
 use crate::source::Problem;
 
-/// How a list is printed.
+/// Output format of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Format {
     /// Aligned columns.
@@ -16,12 +16,12 @@ pub(super) enum Format {
     Csv,
 }
 
-/// What stands in a row under a head.
+/// A cell of a list.
 pub(super) trait Cell {
-    /// As people read it.
+    /// The text for tables and CSV.
     fn text(&self) -> &str;
 
-    /// As programs read it.
+    /// The value for JSON.
     fn json(&self) -> serde_json::Value {
         self.text().into()
     }
@@ -33,24 +33,24 @@ impl Cell for String {
     }
 }
 
-/// Rows under heads; every row has as many cells as there are heads.
+/// Rows below a heading line. Every row has as many cells as there are headings.
 pub(super) struct List<C = String> {
     pub(super) heads: &'static [&'static str],
     pub(super) rows: Vec<Vec<C>>,
 }
 
 impl<C: Cell> List<C> {
-    /// Keeps the rows in which a text occurs, whatever its case; warns where none is left.
+    /// Keeps the rows that contain a text, ignoring case. Warns if none is left.
     pub(super) fn retain_with(&mut self, filter: Option<&str>, output: &mut Output) {
         let Some(filter) = filter else { return };
         let wanted = filter.to_lowercase();
         self.rows.retain(|row| row.iter().any(|cell| cell.text().to_lowercase().contains(&wanted)));
         if self.rows.is_empty() {
-            output.warning(format!("no row contains `{filter}`; without a filter all are listed"));
+            output.warning(format!("no row contains `{filter}`; omit the filter to list all rows"));
         }
     }
 
-    /// Prints it; the exit code.
+    /// Prints the list and returns the exit code.
     pub(super) fn print(&self, format: Format, output: &mut Output) -> u8 {
         match self.text(format) {
             Ok(text) => {
@@ -91,7 +91,7 @@ impl<C: Cell> List<C> {
         self.rows.iter().map(object).collect()
     }
 
-    /// Columns as wide as their longest text; the last one is not padded.
+    /// Columns are as wide as their longest text; the last one is not padded.
     fn table(&self) -> String {
         let lines = || {
             let cells = self.rows.iter().map(|row| row.iter().map(Cell::text).collect());

@@ -1,6 +1,6 @@
-//! What happens while a machine is served, line by line on standard error: clients, refused requests, alarms, and writes on demand.
+//! The log of `opennck serve` on standard error, one event per line: clients, refused requests, alarms and, on request, writes.
 
-#![expect(clippy::disallowed_methods, reason = "each line has the time of the day")]
+#![expect(clippy::disallowed_methods, reason = "each line starts with the time of day")]
 
 use std::fmt::{Debug, Write};
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -14,7 +14,7 @@ use tracing::{Event, Level, Metadata, Subscriber};
 #[derive(Debug)]
 pub(super) struct Log {
     pub(super) status: ProgressBar,
-    /// Whether it shows what clients write, too.
+    /// Whether writes of clients are logged as well.
     pub(super) writes: bool,
 }
 
@@ -31,13 +31,13 @@ impl Subscriber for Log {
         let (hour, minute, second) = (seconds / 3600, seconds / 60 % 60, seconds % 60);
         let text = format!("{hour:02}:{minute:02}:{second:02} {}\n", line.0);
         self.status.suspend(|| {
-            // Where nobody reads there is nobody to tell.
+            // If standard error cannot be written, there is no other place to report it.
             let _ = std::io::Write::write_all(&mut std::io::stderr().lock(), text.as_bytes());
         });
     }
 
     fn new_span(&self, _: &Attributes<'_>) -> Id {
-        Id::from_u64(1) // nobody asks for spans
+        Id::from_u64(1) // spans are not used
     }
 
     fn record(&self, _: &Id, _: &Record<'_>) {}

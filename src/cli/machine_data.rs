@@ -1,4 +1,4 @@
-//! `opennck machine-data check`: what was read as a machine, and every finding in its machine data.
+//! `opennck machine-data check`: prints what was read as a machine, and every finding in its machine data.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::machine::Machine;
 use crate::source::{Place, Problem};
 use crate::units::AxisNumber;
 
-/// What was read, in words, and what is wrong with it.
+/// A summary of what was read, and the findings.
 struct Checked {
     summary: Vec<String>,
     findings: Vec<String>,
@@ -34,10 +34,10 @@ pub(super) fn check(path: &Path, output: &mut Output) -> u8 {
     u8::from(!findings.is_empty())
 }
 
-/// The findings in the files of a machine; what refuses it is a finding, too.
+/// The findings in the files of a machine. A reason to reject the machine is a finding as well.
 fn checked(path: &Path) -> Result<Checked, Problem> {
     if !path.exists() {
-        // The name of a built-in machine, or nothing.
+        // The name of a built-in machine, or an unknown name.
         let machine = Machine::open(path)?;
         return Ok(Checked { summary: configuration(&machine), findings: machine.warnings().to_vec() });
     }
@@ -48,12 +48,12 @@ fn checked(path: &Path) -> Result<Checked, Problem> {
     match Machine::open(path) {
         Ok(machine) => {
             summary.extend(configuration(&machine));
-            // Those about the files are there already; those about what the model leaves out are not.
+            // Findings about the files are listed already; add those about what the model does not simulate.
             let more = machine.warnings().iter().filter(|&warning| !findings.contains(warning));
             findings.extend(more.cloned().collect::<Vec<_>>());
         }
         Err(problem) if is_empty => return Err(problem),
-        // What a run refuses although every datum is right, as names that clash.
+        // A run rejects this although each machine datum is valid, for example names that clash.
         Err(mut problem) => {
             problem.place.get_or_insert_with(|| Place::file(&path.display().to_string()));
             findings.push(problem.to_string());

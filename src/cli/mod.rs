@@ -1,5 +1,5 @@
-//! The program `opennck`: arguments and wiring. Public, so that a user's own binary with own PLC programs has the
-//! same commands:
+//! The program `opennck`: arguments and wiring. The entry point is public: a user's own binary with its own PLC programs has the same
+//! commands.
 //!
 //! ```no_run
 //! fn main() -> std::process::ExitCode {
@@ -7,8 +7,8 @@
 //! }
 //! ```
 //!
-//! Exit codes: 0 all held; 1 an expectation failed, a limit was reached, a trace differs, a golden file is missing,
-//! machine data have findings, two traces differ (`diff`); 2 unusable input.
+//! Exit codes: 0 success; 1 an expectation failed, a limit was reached, a trace differs, a golden file is missing, machine data have
+//! findings, two traces differ (`diff`); 2 unusable input.
 
 mod alarms;
 mod completions;
@@ -40,13 +40,13 @@ use crate::plc::{MACHINE_CONTROL_PANEL_LAYOUT, Programs};
 use list::Format;
 use output::Output;
 
-/// What scripts ask for.
-const EXIT_CODES: &str = "Exit codes: 0 all held; 1 an expectation failed, a limit was reached, a trace differs, a golden \
+/// The exit codes, as printed below the help.
+const EXIT_CODES: &str = "Exit codes: 0 success; 1 an expectation failed, a limit was reached, a trace differs, a golden \
     file is missing, machine data have findings; 2 unusable input.";
 
 /// An open simulator of the NC/PLC interface of SINUMERIK-style controls.
 ///
-/// Without a command it runs the worked example of the gantry manual and shows its signal sequence.
+/// Without a command it runs the worked example of the gantry manual and prints its signal sequence.
 #[derive(Debug, Parser)]
 #[command(name = "opennck", version, after_help = EXIT_CODES)]
 struct Arguments {
@@ -56,8 +56,8 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Runs scenarios as fast as the machine allows and prints their signal sequences with causes.
-    #[command(after_long_help = format!("Inputs and outputs of the ready program machine_control_panel, a layout of ours:\n\n{MACHINE_CONTROL_PANEL_LAYOUT}"))]
+    /// Runs scenarios as fast as possible and prints their signal sequences with causes.
+    #[command(after_long_help = format!("Inputs and outputs of the built-in program machine_control_panel (OpenNCK's own layout):\n\n{MACHINE_CONTROL_PANEL_LAYOUT}"))]
     Run {
         /// Scenario files.
         #[arg(required = true, value_name = "SCENARIO")]
@@ -65,32 +65,32 @@ enum Command {
         #[command(flatten)]
         files: run::Files,
     },
-    /// Runs every scenario below the paths and compares each trace with the golden one beside it.
+    /// Runs every scenario below the paths and compares each trace with its golden file.
     Test {
         /// Directories or scenario files.
         #[arg(default_value = "golden", value_name = "PATH")]
         paths: Vec<PathBuf>,
-        /// Rewrites the golden files whose traces changed.
+        /// Rewrites the golden files of traces that changed.
         #[arg(long)]
         accept: bool,
-        /// Writes a report in JUnit's format.
+        /// Writes a report in JUnit format.
         #[arg(long, value_name = "F.xml")]
         junit: Option<PathBuf>,
-        /// How many scenarios run at once; as many as there are processors unless said.
+        /// Number of scenarios that run at the same time [default: the number of processors].
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
         jobs: Option<u16>,
-        /// Writes the flowchart of referencing and gantry with the transitions that the scenarios took, as Mermaid.
+        /// Writes the flowchart of referencing and gantry as Mermaid; transitions that the scenarios took are marked.
         #[arg(long, value_name = "F.mmd")]
         flowchart: Option<PathBuf>,
     },
     /// Runs a machine in real time and serves it to S7 clients: operator panels, data collectors, test tools.
     ///
-    /// They read and write DB10, DB11, DB21..., DB31..., the own data blocks and flags of the PLC, inputs and outputs, and read NC
-    /// variables. What one request reads is of one cycle; what it writes acts at the edge of the next, whole. Ctrl-C and SIGTERM end it
-    /// with 0.
+    /// Clients read and write DB10, DB11, DB21..., DB31..., the user data blocks, flags, inputs and outputs of the PLC, and read NC
+    /// variables. All values read by one request are of the same cycle. All values written by one request take effect together at the start
+    /// of the next cycle. Ctrl-C or SIGTERM ends the command with exit code 0.
     #[cfg(feature = "s7")]
     Serve(Box<serve::Arguments>),
-    /// Reads, writes and watches a PLC or an NCK by S7 communication: this simulator, a control, or any other.
+    /// Reads, writes and watches a PLC or an NCK by S7 communication: this simulator, a control, or any other device.
     #[cfg(feature = "s7")]
     S7 {
         #[command(subcommand)]
@@ -98,60 +98,60 @@ enum Command {
     },
     /// Lists the signal catalogue: address, symbol, writer, name.
     ///
-    /// Addresses and symbols are those of the first axis (AX1), channel (CHAN1) and mode group; a machine has its own
-    /// names. On 840D sl axis n has DB 30+n and channel n DB 20+n; the second mode group lies 20 bytes above the first.
+    /// Addresses and symbols are those of the first axis (AX1), channel (CHAN1) and mode group. A machine uses its own names. On 840D sl,
+    /// axis n has DB 30+n and channel n has DB 20+n. The second mode group starts 20 bytes after the first.
     Signals {
-        /// Shows only signals in whose address, symbol or name this text occurs.
+        /// Shows only signals with this text in their address, symbol or name.
         filter: Option<String>,
-        /// The profile whose addresses are shown: 840d_sl or 828d.
+        /// Profile of the addresses: 840d_sl or 828d.
         #[arg(long, default_value = "840d_sl")]
         profile: String,
-        /// How the list is printed.
+        /// Output format.
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
     },
-    /// Lists the alarm catalogue: number, whether the model raises it, what cancels it, its reactions, its text.
+    /// Lists the alarm catalogue: number, whether the model raises it, how it is cancelled, its reactions, its text.
     Alarms {
-        /// Shows only alarms in whose row this text occurs.
+        /// Shows only alarms with this text in their row.
         filter: Option<String>,
-        /// How the list is printed.
+        /// Output format.
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
     },
-    /// Tells the first difference of two traces in words; ends with 0 where they are the same, with 1 where they differ.
+    /// Reports the first difference between two traces; exit code 0 if they are the same, 1 if they differ.
     ///
-    /// It shows the signal, its time, what was expected and found, and the last changes before it. Causes may differ: that is told, and
-    /// the traces are still the same.
+    /// The report shows the signal, its time, the expected and the found value, and the last changes before it. Traces that differ only in
+    /// their causes count as the same; the difference is reported.
     Diff {
-        /// The trace that was expected: JSON lines (from `run --trace`) or a golden file (*.snap).
+        /// The expected trace: JSON lines (from `run --trace`) or a golden file (*.snap).
         expected: PathBuf,
-        /// The trace that was found, in the same form.
+        /// The trace to compare, in the same format.
         found: PathBuf,
     },
-    /// Tells why a signal has its value: the chain of causes behind an edge, back to what was written from outside the control.
+    /// Explains why a signal has its value: the chain of causes behind an edge, back to the first write from outside the control.
     ///
-    /// Each line has the time; then a change with who made it, or the event behind it with its rule and what it tested. The signals
-    /// that an event tested are followed to their last edge before it.
+    /// Each line shows the time, then a change and its writer, or the event behind it with its rule and the conditions it tested. The
+    /// signals that an event tested are traced back to their last edge before it.
     Why {
-        /// A trace (JSON lines, from `run --trace`), or a scenario (*.toml), which is then run.
+        /// A trace (JSON lines, from `run --trace`), or a scenario (*.toml) to run.
         trace: PathBuf,
-        /// A symbol, an address or `alarm(NUMBER)`, and a time in seconds: the last edge then or before is meant.
+        /// A symbol, an address or `alarm(NUMBER)`, and a time in seconds: the last edge at or before this time is explained.
         #[arg(value_name = "ADDRESS@TIME")]
         edge: String,
     },
-    /// Prints the reference point approach and the gantry grouping as a Mermaid flowchart, each transition with its rule.
+    /// Prints the reference point approach and the gantry grouping as a Mermaid flowchart; each transition shows its rule.
     ///
-    /// It is drawn from the tables by which the control runs.
+    /// The chart is drawn from the tables that the control runs.
     Flowchart {
-        /// Only this one.
+        /// Prints only this chart.
         #[arg(value_parser = flowchart::names())]
         chart: Option<String>,
     },
-    /// Prints the completions of commands and options for a shell.
+    /// Prints the completion script for a shell.
     ///
     /// For bash: `opennck completions bash > ~/.local/share/bash-completion/completions/opennck`.
     Completions {
-        /// Which shell.
+        /// The shell.
         shell: clap_complete::Shell,
     },
     /// Works with machine data.
@@ -170,14 +170,14 @@ enum MachineData {
     },
 }
 
-/// The program, with these PLC programs by name.
+/// Runs the program with these PLC programs, which are found by name.
 #[must_use]
-#[expect(clippy::needless_pass_by_value, reason = "the program ends with its programs")]
+#[expect(clippy::needless_pass_by_value, reason = "the process ends after this function")]
 pub fn main(programs: Programs) -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
-            // Where nobody reads the message there is nobody to tell.
+            // If the message cannot be printed, there is no other place to report it.
             let _ = error.print();
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }

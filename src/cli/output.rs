@@ -1,4 +1,5 @@
-//! What the program prints: results on standard output, errors on standard error, and no complaint when nobody reads.
+//! What the program prints: results on standard output, errors on standard error. A closed standard output is not an
+//! error.
 
 use std::fmt::Display;
 #[cfg(feature = "s7")]
@@ -10,32 +11,32 @@ use std::path::PathBuf;
 
 use crate::source::Problem;
 
-/// Refuses to write an output where an input of the same command is: it would be lost.
+/// Refuses to write an output to an input file of the same command, which would destroy the input.
 pub(super) fn apart<'a>(option: &str, path: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Problem> {
     let Ok(real) = path.canonicalize() else {
-        return Ok(()); // it is not there yet
+        return Ok(()); // the file does not exist yet
     };
     match inputs.into_iter().find(|input| input.canonicalize().is_ok_and(|input| input == real)) {
         Some(input) => Err(Problem::new(
             format!(
-                "expected a file of its own for {option}, found {}, which is read or written as well",
+                "expected a separate file for {option}, found {}, which this command also reads or writes",
                 input.display()
             ),
-            "name another one",
+            "choose another file name",
         )),
         None => Ok(()),
     }
 }
 
-/// Standard output and standard error; a reader who has gone is not an error.
+/// Standard output and standard error. A reader that has closed standard output is not an error.
 #[derive(Debug, Default)]
 pub(super) struct Output {
-    /// The reader of standard output has gone.
+    /// The reader has closed standard output.
     closed: bool,
 }
 
 impl Output {
-    /// Prints a text as it is.
+    /// Prints a text unchanged.
     pub(super) fn print(&mut self, text: &str) {
         if !self.closed {
             let mut out = std::io::stdout().lock();
@@ -43,7 +44,7 @@ impl Output {
         }
     }
 
-    /// Whether the reader of standard output has gone.
+    /// Whether the reader has closed standard output.
     #[cfg(feature = "s7")]
     pub(super) fn is_closed(&self) -> bool {
         self.closed
@@ -54,20 +55,20 @@ impl Output {
         self.print(&format!("{text}\n"));
     }
 
-    /// Prints an error: its cause, and behind it its cure.
-    #[expect(clippy::unused_self, reason = "whoever prints holds the output")]
+    /// Prints an error: the cause, then the remedy.
+    #[expect(clippy::unused_self, reason = "all printing goes through the output")]
     pub(super) fn error(&mut self, error: impl Display) {
         let _ = writeln!(std::io::stderr().lock(), "error: {error}");
     }
 
     /// Prints a warning.
-    #[expect(clippy::unused_self, reason = "whoever prints holds the output")]
+    #[expect(clippy::unused_self, reason = "all printing goes through the output")]
     pub(super) fn warning(&mut self, warning: impl Display) {
         let _ = writeln!(std::io::stderr().lock(), "warning: {warning}");
     }
 }
 
-/// A file that is written when all is over; what was in it before stays until then.
+/// A file that is written at the end of the command; until then it keeps its old content.
 #[cfg(feature = "s7")]
 pub(super) struct Kept {
     option: &'static str,
@@ -77,7 +78,7 @@ pub(super) struct Kept {
 
 #[cfg(feature = "s7")]
 impl Kept {
-    /// Opens it for an option, apart from the other files of the command.
+    /// Opens the file of an option, which must differ from the other files of the command.
     pub(super) fn open<'a>(
         option: &'static str,
         path: &Path,
@@ -89,7 +90,7 @@ impl Kept {
         Ok(Self { option, path: path.to_owned(), file })
     }
 
-    /// Replaces what is in it.
+    /// Replaces the content.
     pub(super) fn write(mut self, text: &str) -> Result<(), Problem> {
         let is_file = self.file.metadata().is_ok_and(|data| data.is_file());
         let emptied = if is_file { self.file.set_len(0) } else { Ok(()) };
@@ -100,7 +101,7 @@ impl Kept {
     fn cannot(option: &str, path: &Path, error: &std::io::Error) -> Problem {
         Problem::new(
             format!("{option} {}: cannot be written: {error}", path.display()),
-            "check the path, the rights and the disk",
+            "check the path, the permissions and the disk",
         )
     }
 }

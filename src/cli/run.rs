@@ -11,24 +11,24 @@ use crate::plc::Programs;
 use crate::scenario::{Failure, Finished, Prepared, Scenario};
 use crate::source::{Problem, unreadable};
 
-/// The files in which the trace is written, too.
+/// Files to which the trace is written as well.
 #[derive(Clone, Debug, Default, Args)]
 pub(super) struct Files {
     /// Writes the trace as JSON lines, for programs; one scenario only.
     #[arg(long, value_name = "F.jsonl")]
     trace: Option<PathBuf>,
-    /// Writes the trace as a waveform, for GTKWave and its kind; one scenario only.
+    /// Writes the trace as waveforms (VCD), for GTKWave and similar viewers; one scenario only.
     #[arg(long, value_name = "F.vcd")]
     vcd: Option<PathBuf>,
-    /// Writes the trace as a timing diagram, which shows what the scenario watches; one scenario only.
+    /// Writes the trace as a timing diagram of the watched signals; one scenario only.
     #[arg(long, value_name = "F.svg")]
     svg: Option<PathBuf>,
 }
 
-/// What makes the text of a file from what has run.
+/// Formats a finished run as the text of a file.
 type Form = fn(&Finished) -> String;
 
-/// A file that waits for its text.
+/// An open file and the format of its text.
 struct Waiting {
     path: PathBuf,
     file: File,
@@ -36,7 +36,7 @@ struct Waiting {
 }
 
 impl Files {
-    /// Opens them all, before anything runs.
+    /// Opens all files before anything runs.
     fn open(&self, runs: usize, scenarios: &[PathBuf]) -> Result<Vec<Waiting>, Problem> {
         let wanted: [(&str, &Option<PathBuf>, Form); 3] = [
             ("--trace", &self.trace, Finished::json_lines),
@@ -51,7 +51,7 @@ impl Files {
             if runs != 1 {
                 return Err(Problem::new(
                     format!("expected one scenario under one profile with {option}, found {runs} runs"),
-                    "run them one by one, each with its own file",
+                    "run each scenario separately, with its own file",
                 ));
             }
             apart(option, path, scenarios.iter().map(PathBuf::as_path))?;
@@ -62,7 +62,7 @@ impl Files {
     }
 }
 
-/// Reads all files before anything runs: one unusable file and nothing runs.
+/// Reads all files before anything runs. If one file is unusable, nothing runs.
 pub(super) fn run(scenarios: &[PathBuf], files: &Files, programs: &Programs, output: &mut Output) -> u8 {
     let mut ready = Vec::new();
     let mut usable = true;
@@ -112,7 +112,7 @@ fn prepare(file: &Path, programs: &Programs) -> Result<Vec<Prepared>, Problem> {
     scenario.profiles.iter().map(|profile| scenario.prepare(*profile, programs)).collect()
 }
 
-/// Prints how a scenario ended, and gives the exit code for it.
+/// Prints how a scenario ended, and returns its exit code.
 pub(super) fn result(finished: &Finished, output: &mut Output) -> u8 {
     let session = finished.session();
     if session.trace().lost() > 0 {
@@ -120,7 +120,7 @@ pub(super) fn result(finished: &Finished, output: &mut Output) -> u8 {
     }
     match &finished.failure {
         None => {
-            output.line(format!("\nheld, after {} s", session.time()));
+            output.line(format!("\npassed, after {} s", session.time()));
             0
         }
         Some(failure) => {

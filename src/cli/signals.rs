@@ -20,7 +20,7 @@ pub(super) fn signals(filter: Option<&str>, profile: &str, format: Format, outpu
     list.print(format, output)
 }
 
-/// The catalogue for the first axis, channel and mode group, which get names that stand for any.
+/// The catalogue for the first axis, channel and mode group, under placeholder names.
 fn rows(profile: Profile) -> Vec<Vec<String>> {
     let mut names = Names { profile, ..Names::default() };
     names.axes[AxisNumber::FIRST] = Some("AX1".to_owned());
@@ -29,7 +29,8 @@ fn rows(profile: Profile) -> Vec<Vec<String>> {
     profile.interface().signals().filter_map(|signal| row(signal, &names, &memory)).collect()
 }
 
-/// The address in the block of the first axis or channel, which the list shows: DB35.DBX29.4 is looked up in DB31.
+/// Converts an address to the block of the first axis or channel, which the list shows: DB35.DBX29.4 is found as
+/// DB31.DBX29.4.
 fn of_the_first(filter: &str, profile: Profile) -> String {
     let Some(rest) = filter.get(..2).filter(|letters| letters.eq_ignore_ascii_case("DB")).map(|_| &filter[2..]) else {
         return filter.to_owned();
@@ -40,7 +41,7 @@ fn of_the_first(filter: &str, profile: Profile) -> String {
     behind_the_first.map_or_else(|| filter.to_owned(), |first| format!("DB{first}{}", &rest[digits..]))
 }
 
-/// Nothing for a signal that the profile does not show.
+/// Returns nothing for a signal that the profile does not show.
 fn row(signal: &'static Signal, names: &Names, memory: &Memory) -> Option<Vec<String>> {
     let location = names.interface().location(signal, 1)?;
     let address = names.address(location);

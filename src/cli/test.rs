@@ -1,4 +1,5 @@
-//! `opennck test`: runs all scenarios below some paths, several at once, and compares their traces with the golden ones.
+//! `opennck test`: runs all scenarios below the given paths in parallel and compares their traces with the golden
+//! files.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -14,7 +15,7 @@ use crate::golden::{Case, Exercised, Outcome, Update, cases, scenario_files};
 use crate::plc::Programs;
 use crate::source::{Problem, unreadable};
 
-/// What was said on the command line.
+/// The options of the command line.
 #[derive(Clone, Debug)]
 pub(super) struct Options {
     pub(super) accept: bool,
@@ -23,7 +24,7 @@ pub(super) struct Options {
     pub(super) flowchart: Option<PathBuf>,
 }
 
-/// A case, or the reason why a file gives none.
+/// A case, or the reason why a file has none.
 enum Work {
     Case(Box<Case>),
     Unusable(Problem),
@@ -71,8 +72,8 @@ pub(super) fn test(paths: &[PathBuf], options: &Options, programs: &Programs, ou
     code
 }
 
-/// Runs everything, several at once; the outcomes are in the order of the work, whoever was first. What they took of the
-/// transitions of a control is one sum.
+/// Runs all cases in parallel. The outcomes are in the order of the work, not in order of completion. The transitions
+/// taken in all cases are added up per control.
 fn all(work: &[(String, Work)], options: &Options, programs: &Programs) -> (Vec<Outcome>, Vec<Exercised>) {
     let update = if options.accept { Update::Accept } else { Update::No };
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
@@ -130,7 +131,7 @@ fn bar(length: usize) -> ProgressBar {
     }
 }
 
-/// Prints what is not as it should be, and a count of everything; gives the highest exit code.
+/// Prints every case that did not pass, then the counts; returns the highest exit code.
 fn report(outcomes: &[(&str, Outcome)], output: &mut Output) -> u8 {
     let mut code = 0;
     for (name, outcome) in outcomes {
@@ -145,7 +146,7 @@ fn report(outcomes: &[(&str, Outcome)], output: &mut Output) -> u8 {
     }
     let count = |test: fn(&Outcome) -> bool| outcomes.iter().filter(|(_, outcome)| test(outcome)).count();
     let counts = [
-        (count(|outcome| matches!(outcome, Outcome::Held)), "held"),
+        (count(|outcome| matches!(outcome, Outcome::Held)), "passed"),
         (count(|outcome| matches!(outcome, Outcome::Accepted)), "accepted"),
         (count(|outcome| matches!(outcome, Outcome::Failed(_))), "failed"),
         (count(|outcome| matches!(outcome, Outcome::Differs(_))), "differ"),

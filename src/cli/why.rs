@@ -1,4 +1,4 @@
-//! `opennck why`: the chain of causes behind an edge, back to what was written from outside the control.
+//! `opennck why`: the chain of causes behind an edge, back to the first write from outside the control.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use crate::trace::Story;
 use crate::units::Time;
 
 pub(super) fn why(trace: &Path, edge: &str, programs: &Programs, output: &mut Output) -> u8 {
-    match told(trace, edge, programs) {
+    match explanation(trace, edge, programs) {
         Ok(text) => {
             output.print(&text);
             0
@@ -22,8 +22,8 @@ pub(super) fn why(trace: &Path, edge: &str, programs: &Programs, output: &mut Ou
     }
 }
 
-fn told(trace: &Path, edge: &str, programs: &Programs) -> Result<String, Problem> {
-    let (what, time) = asked(edge)?;
+fn explanation(trace: &Path, edge: &str, programs: &Programs) -> Result<String, Problem> {
+    let (what, time) = parse_edge(edge)?;
     let is_scenario = trace.extension().is_some_and(|extension| extension == "toml");
     let story = if is_scenario { run(trace, programs)? } else { read(trace)? };
     story.why(what, time).map_err(|problem| problem.at(&Place::file(&trace.display().to_string())))
@@ -43,8 +43,8 @@ fn run(scenario: &Path, programs: &Programs) -> Result<Story, Problem> {
     Ok(session.trace().story(session.machine()))
 }
 
-/// `X.controller_enable@7.466`, the time in seconds or with a unit.
-fn asked(edge: &str) -> Result<(&str, Time), Problem> {
+/// Parses `X.controller_enable@7.466`; the time is in seconds or has a unit.
+fn parse_edge(edge: &str) -> Result<(&str, Time), Problem> {
     let parsed = edge.rsplit_once('@').and_then(|(what, time)| {
         let seconds =
             || time.parse::<f64>().ok().filter(|seconds| (0.0..9e9).contains(seconds)).map(Time::from_seconds);
@@ -52,7 +52,7 @@ fn asked(edge: &str) -> Result<(&str, Time), Problem> {
     });
     parsed.filter(|(what, _)| !what.is_empty()).ok_or_else(|| {
         Problem::new(
-            format!("expected a signal or an alarm and a time, found `{edge}`"),
+            format!("expected SIGNAL@TIME or alarm(NUMBER)@TIME, found `{edge}`"),
             "write `X.gantry_grouping_is_synchronized@8.068`, `DB31.DBX101.5@9s` or `alarm(10654)@7.6`",
         )
     })

@@ -38,7 +38,7 @@ fn without_arguments_the_worked_example_runs_and_suggests_next_steps() {
     let output = opennck(&[], &directory("example"));
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     assert!(out(&output).contains("X.traversing_key_plus"));
-    assert!(out(&output).contains("held, after") && out(&output).contains("What to try next"));
+    assert!(out(&output).contains("passed, after") && out(&output).contains("What to try next"));
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn run_prints_the_sequence_and_the_result_and_writes_the_trace() {
     fs::write(directory.join("good.toml"), GOOD).unwrap();
     let output = opennck(&["run", "good.toml", "--trace", "t.jsonl"], &directory);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
-    assert!(out(&output).contains("0.002  # now") && out(&output).contains("held, after 0.010 s"));
+    assert!(out(&output).contains("0.002  # now") && out(&output).contains("passed, after 0.010 s"));
     let trace = fs::read_to_string(directory.join("t.jsonl")).unwrap();
     assert!(trace.starts_with("{\"t\":0.002,\"note\":\"now\"}\n"), "{trace}");
     assert!(trace.contains("{\"t\":0.002,\"signal\":\"M0.0\",\"value\":1,\"by\":\"outside\"}\n"), "{trace}");
@@ -131,8 +131,8 @@ fn why_follows_an_edge_back_to_the_written_signal() {
     let output = opennck(&["why", "t.jsonl", "alarm(10654)@7.6"], &directory);
     assert!(out(&output).contains("alarm(10654) (X)  raised  by nck\n    7.558    because REF-11"), "{}", out(&output));
     for (trace, edge, cause) in [
-        ("t.jsonl", "X.gantry_axis", "expected a signal or an alarm and a time"),
-        ("t.jsonl", "X.gantry_axis@soon", "expected a signal or an alarm and a time"),
+        ("t.jsonl", "X.gantry_axis", "expected SIGNAL@TIME or alarm(NUMBER)@TIME"),
+        ("t.jsonl", "X.gantry_axis@soon", "expected SIGNAL@TIME or alarm(NUMBER)@TIME"),
         ("t.jsonl", "X.gantri_axis@1", "did you mean `X.gantry_axis`?"),
         ("t.jsonl", "DB31.DBX101.5@1", "its first edge is at 8.068 s"),
         ("missing.jsonl", "X.gantry_axis@1", "cannot be read"),
@@ -172,7 +172,7 @@ fn no_output_replaces_an_input_of_the_same_command() {
     for output in ["--trace", "--vcd", "--svg"] {
         let refused = opennck(&["run", "good.toml", output, "./good.toml"], &directory);
         assert_eq!(refused.status.code(), Some(2));
-        assert!(err(&refused).contains(&format!("expected a file of its own for {output}, found good.toml")));
+        assert!(err(&refused).contains(&format!("expected a separate file for {output}, found good.toml")));
     }
     let serve = ["serve", "--scenario", "good.toml", "--s7", "127.0.0.1:0", "--trace", "good.toml"];
     let refused = opennck(&serve, &directory);
@@ -192,13 +192,13 @@ fn test_compares_accepts_and_reports() {
     assert_eq!((output.status.code(), out(&output).lines().count()), (Some(0), 2), "{}", out(&output));
     let output = opennck(&["test", "golden/area/flag.toml", "--jobs", "2", "--junit", "r.xml"], &directory);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
-    assert_eq!(out(&output), "1 scenarios: 1 held\n");
+    assert_eq!(out(&output), "1 scenarios: 1 passed\n");
     assert!(fs::read_to_string(directory.join("r.xml")).unwrap().contains("tests=\"1\" failures=\"0\" errors=\"0\""));
     // Valid scenarios run in addition to an invalid one, and the exit code of the program is the highest code.
     fs::write(directory.join("golden/area/bad.toml"), "title = 1").unwrap();
     let output = opennck(&["test"], &directory);
     assert_eq!(output.status.code(), Some(2));
-    assert_eq!(out(&output), "2 scenarios: 1 held, 1 unusable\n");
+    assert_eq!(out(&output), "2 scenarios: 1 passed, 1 unusable\n");
 }
 
 #[test]

@@ -262,7 +262,7 @@ impl Served {
         let mut child = command.stdout(Stdio::piped()).spawn().expect("the program was built");
         let mut lines = BufReader::new(child.stdout.take().expect("it is piped")).lines();
         let mut head = Vec::new();
-        while !head.iter().any(|line: &String| line.contains("Ctrl-C ends")) {
+        while !head.iter().any(|line: &String| line.contains("Ctrl-C")) {
             head.push(lines.next().expect("it serves").expect("text"));
         }
         Self { child, head }
@@ -402,7 +402,7 @@ fn until_a_plc_process_comes_the_machine_is_as_it_was_switched_on() {
     let file = File::new("held");
     let lock_step = ["g1_example", "--image", file.text(), "--lock-step", "--plc-timeout", "1min"];
     let served = Served::start(&[&lock_step[..], &["--metrics", "0"]].concat());
-    let said = format!("the first step waits for a PLC process that opens {}, for example", file.text());
+    let said = format!("waiting for a PLC process to open {} before the first step, for example", file.text());
     assert_eq!(served.head.iter().filter(|line| **line == said).count(), 1, "{:?}", served.head);
     let mut client = served.client();
     let mut flag = [0xFF];

@@ -28,7 +28,7 @@ impl Served {
         let mut lines = BufReader::new(child.stdout.take().expect("it is piped")).lines();
         let mut head = Vec::new();
         while !head.iter().any(|line: &String| line.contains("Ctrl-C")) {
-            head.push(lines.next().expect("it says that Ctrl-C ends").expect("text"));
+            head.push(lines.next().expect("the banner ends with Ctrl-C").expect("text"));
         }
         let port = head.iter().find_map(|line| line.split_once("127.0.0.1:")?.1.split(':').next()?.parse().ok());
         Self { child, head, port: port.expect("it says its port") }
@@ -121,7 +121,7 @@ fn who_lets_everybody_write_is_warned() {
     for (more, is_warned) in [(&[][..], true), (&["--read-only"], false), (&["--allow", "127.0.0.1"], false)] {
         let served = Served::start(&[&open[..], more].concat());
         let log = String::from_utf8(served.end("-INT").stderr).unwrap();
-        assert_eq!(log.contains("whoever can reach 0.0.0.0:"), is_warned, "{more:?}: {log}");
+        assert_eq!(log.contains("anyone who can reach 0.0.0.0:"), is_warned, "{more:?}: {log}");
     }
 }
 
@@ -181,10 +181,9 @@ fn the_log_tells_a_refused_slot_from_who_sends_something_else() {
 fn it_says_what_it_serves_and_on_which_terms() {
     let served = Served::start(&["g1_example", "--profile=828d", "--password=abc", "--pdu=480", "--protect=MB0"]);
     let head = served.head.join("\n");
-    for said in [
-        "profile 828d, no PLC image",
-        "but for what --protect names, protection level 2 with a password, PDU up to 480 bytes",
-    ] {
+    for said in
+        ["profile 828d, no PLC image", "except --protect, protection level 2 with a password, PDU up to 480 bytes"]
+    {
         assert!(head.contains(said), "{said}: {head}");
     }
     served.end("-INT");

@@ -126,7 +126,7 @@ fn a_refused_nc_variable_is_told_what_to_do() {
             &["nck:C/MachineAxis/actToolBasePos[99]"],
             &["actToolBasePos[99]: the address", "3 machine axes: rows 1 to 3"],
         ),
-        (&["nck:N/AlarmList/textIndex[99]"], &["places for alarms: rows 1 to "]),
+        (&["nck:N/AlarmList/textIndex[99]"], &["alarm rows: rows 1 to "]),
         (&["nck:C/Parameter/rpa[60000]"], &["R5 is row 6"]),
         (&["nck:C/ProgramInfo/block[9]"], &["count from 1"]),
         (&["nck:A1/M/31999:DOUBLE"], &["nck:A1/M/31999:DOUBLE: ", "`opennck s7 nck`"]),

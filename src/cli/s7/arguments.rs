@@ -1,4 +1,4 @@
-//! Whom to call, and what names mean.
+//! The host to connect to, and the source of names.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -12,15 +12,15 @@ use crate::units::Time;
 
 /// The port of S7 communication.
 const PORT: u16 = 102;
-/// How long an answer may take that is not needed.
+/// Timeout for optional requests.
 const SOON: Duration = Duration::from_secs(1);
-/// The longest time that can be given: a day.
+/// The longest allowed time: one day.
 const LONGEST: Time = Time::from_millis(86_400_000);
 
-/// Whom to call, and how.
+/// The host and the connection parameters.
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct Host {
-    /// Address and port of the module; the port is 102 unless said (`opennck serve` has 10102).
+    /// Address and port of the module; default port 102 (`opennck serve` uses 10102).
     #[arg(value_name = "HOST[:PORT]")]
     host: String,
     /// Rack of the PLC.
@@ -29,36 +29,37 @@ pub(in crate::cli) struct Host {
     /// Slot of the PLC.
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u8).range(0..=31))]
     slot: u8,
-    /// As what to register with the PLC.
+    /// Connection type to register with the PLC.
     #[arg(long, value_enum, default_value = "pg")]
     connection: Kind,
-    /// Calling and called TSAP of the PLC in hexadecimal, instead of rack, slot and kind of connection: 0100:0102.
+    /// Calling and called TSAP of the PLC in hexadecimal, instead of rack, slot and connection type: 0100:0102.
     #[arg(long, value_name = "CALLING:CALLED", value_parser = tsaps)]
     tsap: Option<Tsaps>,
     /// Calling and called TSAP of the NCK.
     #[arg(long, value_name = "CALLING:CALLED", value_parser = tsaps, default_value = "0400:0D04")]
     nck_tsap: Tsaps,
-    /// The longest PDU to ask for, in bytes.
+    /// Largest PDU size to request, in bytes.
     #[arg(long, value_name = "BYTES", default_value_t = 960, value_parser = clap::value_parser!(u16).range(64..=4096))]
     pdu: u16,
-    /// The most items in one request; for servers that do not take as many as fit.
+    /// Maximum number of items per request, for servers that accept fewer than fit in a PDU.
     #[arg(long, value_name = "N", default_value_t = 255, value_parser = clap::value_parser!(u8).range(1..))]
     items: u8,
-    /// How long an answer may take.
+    /// Timeout for an answer.
     #[arg(long, value_name = "TIME", default_value = "5s", value_parser = duration)]
     timeout: Duration,
-    /// The password of the PLC, one to eight ASCII characters; in the environment other users do not see it.
+    /// Password of the PLC, one to eight ASCII characters; use the environment variable to hide it from other users.
     #[arg(long, value_name = "TEXT", env = "OPENNCK_S7_PASSWORD", hide_env_values = true)]
     password: Option<String>,
 }
 
-/// What axes and channels are called, and which block numbers the interface has.
+/// The names of axes and channels, and the block numbers of the interface.
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct Names {
-    /// A directory, an archive file, or the name of a built-in machine whose names are meant; without it the NCK is asked.
+    /// A directory, an archive file, or the name of a built-in machine, for the names of axes and channels; by default they are read from
+    /// the NCK.
     #[arg(long)]
     pub(super) machine: Option<PathBuf>,
-    /// Which signals lie where: 840d_sl, 828d, or none for a PLC of something else.
+    /// Addresses of the signals: 840d_sl, 828d, or none for a PLC that is not part of a control.
     #[arg(long, default_value = "840d_sl")]
     pub(super) profile: String,
 }
@@ -90,7 +91,7 @@ impl Host {
             password(text).ok_or_else(|| {
                 Problem::new(
                     "expected a password of one to eight ASCII characters, found another text",
-                    "the module takes no others: check --password and OPENNCK_S7_PASSWORD",
+                    "modules accept no others: check --password and OPENNCK_S7_PASSWORD",
                 )
             })
         });
@@ -101,7 +102,7 @@ impl Host {
         self.connect(Options { tsaps: self.nck_tsap, ..self.options() }).await
     }
 
-    /// The NCK, where it is asked for more than was wanted: what does not answer soon need not be waited for.
+    /// Connects to the NCK for optional requests, with a short timeout.
     pub(super) async fn nck_soon(&self) -> Result<Client, Failure> {
         let timeout = self.timeout.min(SOON);
         self.connect(Options { tsaps: self.nck_tsap, timeout, ..self.options() }).await
@@ -126,7 +127,7 @@ fn with_port(host: &str) -> Result<String, Problem> {
         Some((_, port)) if port.parse::<u16>().is_ok_and(|port| port > 0) => Ok(host.to_owned()),
         Some((_, port)) if !host.ends_with(']') => Err(Problem::new(
             format!("expected a port from 1 to 65535, found {port} in {host}"),
-            "write it as 192.168.214.1:102, [::1]:10102 or localhost:10102; without a port it is 102",
+            "write it as 192.168.214.1:102, [::1]:10102 or localhost:10102; the default port is 102",
         )),
         _ => Ok(format!("{host}:{PORT}")),
     }
@@ -140,10 +141,10 @@ fn tsaps(text: &str) -> Result<Tsaps, String> {
     Ok(Tsaps { calling: calling.to_be_bytes(), called: called.to_be_bytes() })
 }
 
-/// `100ms`, `1.5s`, `2min`.
+/// Parses `100ms`, `1.5s` or `2min`.
 pub(super) fn duration(text: &str) -> Result<Duration, String> {
     let wrong = || format!("expected a time such as 100ms, 1.5s or 2min, found {text}");
-    // Without spaces and microseconds: what waits for a network needs neither.
+    // No spaces and no microseconds: network times need neither.
     let is_plain = !text.contains(char::is_whitespace) && !text.ends_with("us");
     let time = is_plain.then(|| Time::parse(text)).flatten().ok_or_else(wrong)?;
     if time == Time::ZERO || time > LONGEST {

@@ -6,7 +6,7 @@ use crate::s7::client::{NcVariable, Variable};
 use crate::s7::nck::CATALOGUE;
 use crate::source::Problem;
 
-/// How many similar names are told.
+/// How many similar names are suggested.
 const NEAREST: usize = 3;
 
 pub(super) fn list(filter: Option<&str>, format: Format, output: &mut Output) -> u8 {
@@ -24,13 +24,13 @@ pub(super) fn list(filter: Option<&str>, format: Format, output: &mut Output) ->
         return code;
     }
     output.error(Problem::new(
-        format!("expected a text that occurs in the name of an NC variable, found `{}`", filter.unwrap_or_default()),
-        format!("similar are {}; without a text all are listed", nearest(&wanted).join(", ")),
+        format!("no NC variable contains `{}`", filter.unwrap_or_default()),
+        format!("similar names: {}; omit the text to list all", nearest(&wanted).join(", ")),
     ));
     code.max(1)
 }
 
-/// The names that are most alike, behind their last slash.
+/// The most similar names; only the part after the last slash is compared.
 fn nearest(wanted: &str) -> Vec<&'static str> {
     let wanted = wanted.rsplit('/').next().unwrap_or_default();
     let last = |name: &str| name.rsplit('/').next().unwrap_or_default().to_lowercase();

@@ -1,4 +1,4 @@
-//! How values are shown: as text, in hexadecimal, for programs, and what they mean.
+//! How values are shown: as text, in hexadecimal, as JSON, and with their meaning.
 
 use serde_json::Value as Json;
 
@@ -30,7 +30,7 @@ impl From<String> for Cell {
     }
 }
 
-/// The cells of a value: itself, and in hexadecimal.
+/// The cells of a value: the value itself, and its bytes in hexadecimal.
 pub(super) fn cells(target: &Target, value: &Result<Value, Error>) -> [Cell; 2] {
     let variable = &target.variable;
     let value = match value {
@@ -38,7 +38,7 @@ pub(super) fn cells(target: &Target, value: &Result<Value, Error>) -> [Cell; 2] 
         Err(error) => return [format!("refused: {}", target.reason(error)).into(), String::new().into()],
     };
     let hex = match (variable, value) {
-        // They are in hexadecimal already, or no bytes of their own.
+        // These values are already in hexadecimal, or have no bytes of their own.
         (_, Value::Bytes(_) | Value::Text(_)) => Vec::new(),
         (Variable::Memory(Place { width: Width::Bits { .. }, .. }), Value::Byte(bits)) => vec![*bits],
         _ => value.encode(variable).unwrap_or_default(),
@@ -47,7 +47,7 @@ pub(super) fn cells(target: &Target, value: &Result<Value, Error>) -> [Cell; 2] 
     [Cell { text: value.to_string(), json: json(variable, value) }, hex.join(" ").into()]
 }
 
-/// Bits are true and false, numbers numbers, several of them a list. Bytes of which nobody knows what they are stay hexadecimal.
+/// Bits are `true` and `false`, numbers are numbers, several values are a list. Bytes of unknown type stay hexadecimal text.
 fn json(variable: &Variable, value: &Value) -> Json {
     match value {
         Value::Bit(value) => (*value).into(),
@@ -56,7 +56,7 @@ fn json(variable: &Variable, value: &Value) -> Json {
         Value::DoubleWord(value) => (*value).into(),
         Value::Int(value) => (*value).into(),
         Value::DoubleInt(value) => (*value).into(),
-        // 1.1 of four bytes is no 1.10000002384 of eight.
+        // Converted through text: the 4-byte REAL 1.1 is 1.10000002384 as an 8-byte number.
         Value::Real(_) => value.to_string().parse::<f64>().ok().map_or(Json::Null, Json::from),
         Value::Double(value) => (*value).into(),
         Value::Text(_) => value.to_string().into(),
@@ -66,7 +66,7 @@ fn json(variable: &Variable, value: &Value) -> Json {
     }
 }
 
-/// What the signal of a place means, and of an override its per cent.
+/// The meaning of the signal at this address; for an override also its value in per cent.
 pub(super) fn meant(target: &Target, value: &Result<Value, Error>) -> String {
     let Some(location) = target.location else { return String::new() };
     let meaning = target.coding.interface.meaning(location).unwrap_or_default();

@@ -1,9 +1,9 @@
-//! Why a command has not done what it was called for, and with which exit code it ends.
+//! Why a command failed, and its exit code.
 
 use crate::s7::client::Error;
 use crate::source::Problem;
 
-/// A problem, and the exit code.
+/// A problem and the exit code.
 #[derive(Debug)]
 pub(super) struct Failure {
     pub(super) problem: Problem,
@@ -17,7 +17,7 @@ impl From<Problem> for Failure {
 }
 
 impl From<&Error> for Failure {
-    /// Whoever was reached and said no ends it with 1.
+    /// A refusal by the module gives exit code 1.
     fn from(error: &Error) -> Self {
         let code = match error {
             Error::Refused { .. } | Error::Rejected { .. } => 1,
@@ -38,7 +38,7 @@ impl From<Error> for Failure {
     }
 }
 
-/// An error of the client as the program tells it.
+/// An error of the client in the form that the program prints.
 pub(super) fn problem(error: &Error) -> Problem {
     Problem::new(error.to_string(), error.cure())
 }

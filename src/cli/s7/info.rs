@@ -1,4 +1,4 @@
-//! `opennck s7 info`: what a module tells of itself. What it does not tell is left out.
+//! `opennck s7 info`: what a module reports about itself. Values that it does not report are left out.
 
 use super::arguments::Host;
 use super::failure::Failure;
@@ -9,15 +9,15 @@ use crate::s7::CpuState;
 use crate::s7::client::{BlockKind, Client, Error, Value, Variable};
 use crate::variables::AlarmNumber;
 
-/// Of how many data blocks the length is asked.
+/// Maximum number of data blocks for which the length is requested.
 const BLOCKS: usize = 200;
-/// How many alarms are shown.
+/// Maximum number of alarms shown.
 const ALARMS: u16 = 16;
 
 struct Rows(Vec<Vec<String>>);
 
 impl Rows {
-    /// Only what there is.
+    /// Adds a row unless the value is empty.
     fn add(&mut self, what: &str, value: impl Into<String>) {
         let value = value.into();
         if !value.is_empty() {
@@ -32,7 +32,7 @@ pub(super) async fn info(host: &Host, format: Format, output: &mut Output) -> Re
     rows.add("host", host.address()?);
     of_the_plc(&plc, &mut rows).await?;
     drop(plc);
-    // A PLC without an NCK beside it is all right, too.
+    // A PLC without an NCK is not an error.
     match host.nck().await {
         Ok(nck) => of_the_nck(&nck, &mut rows).await?,
         Err(failure) => rows.add("NCK", format!("none: {}", failure.problem.what)),
@@ -40,10 +40,10 @@ pub(super) async fn info(host: &Host, format: Format, output: &mut Output) -> Re
     Ok(List { heads: &["what", "value"], rows: rows.0 }.print(format, output))
 }
 
-/// What the module does not have is no error; that nobody answers is one.
-fn told<T>(result: Result<T, Error>) -> Result<Option<T>, Error> {
+/// A value that the module does not have is not an error; a failed connection is one.
+fn optional<T>(result: Result<T, Error>) -> Result<Option<T>, Error> {
     match result {
-        Ok(told) => Ok(Some(told)),
+        Ok(value) => Ok(Some(value)),
         Err(error) if error.is_of_the_connection() => Err(error),
         Err(_) => Ok(None),
     }
@@ -62,20 +62,20 @@ async fn of_the_plc(plc: &Client, rows: &mut Rows) -> Result<(), Error> {
     rows.add("plant", identification.plant);
     rows.add("serial number", identification.serial_number);
     rows.add("copyright", identification.copyright);
-    if let Some(state) = told(plc.cpu_state().await)? {
+    if let Some(state) = optional(plc.cpu_state().await)? {
         rows.add(
             "state",
             match state {
                 Some(CpuState::Run) => "RUN",
                 Some(CpuState::Stop) => "STOP",
-                None => "another than RUN and STOP",
+                None => "neither RUN nor STOP",
             },
         );
     }
-    if let Some(Some(level)) = told(plc.protection().await)? {
+    if let Some(Some(level)) = optional(plc.protection().await)? {
         rows.add("protection level", level.to_string());
     }
-    if let Some(time) = told(plc.clock().await)? {
+    if let Some(time) = optional(plc.clock().await)? {
         let date = format!("{:04}-{:02}-{:02}", time.year, time.month, time.day);
         let of_day = format!("{:02}:{:02}:{:02}.{:03}", time.hour, time.minute, time.second, time.millisecond);
         rows.add("clock", format!("{date} {of_day}"));
@@ -84,13 +84,13 @@ async fn of_the_plc(plc: &Client, rows: &mut Rows) -> Result<(), Error> {
 }
 
 async fn of_blocks(plc: &Client, rows: &mut Rows) -> Result<(), Error> {
-    if let Some(counts) = told(plc.block_counts().await)? {
+    if let Some(counts) = optional(plc.block_counts().await)? {
         let counts: Vec<_> = counts.iter().map(|count| format!("{} {}", count.count, count.kind.name())).collect();
         rows.add("blocks", counts.join(", "));
     }
-    let Some(blocks) = told(plc.blocks(BlockKind::Db).await)? else { return Ok(()) };
+    let Some(blocks) = optional(plc.blocks(BlockKind::Db).await)? else { return Ok(()) };
     for block in blocks.iter().take(BLOCKS) {
-        if let Some(block) = told(plc.describe_block(BlockKind::Db, block.number).await)? {
+        if let Some(block) = optional(plc.describe_block(BlockKind::Db, block.number).await)? {
             rows.add(&format!("DB{}", block.number), format!("{} bytes", block.length));
         }
     }
@@ -111,7 +111,7 @@ async fn of_the_nck(nck: &Client, rows: &mut Rows) -> Result<(), Error> {
         }
     }
     if axes.is_empty() {
-        rows.add("NCK", "tells no names of axes");
+        rows.add("NCK", "reports no axis names");
         return Ok(());
     }
     let positions = axes.iter().map(|(number, _)| format!("C/MachineAxis/actToolBasePos[{number}]"));
@@ -134,7 +134,7 @@ async fn of_the_nck(nck: &Client, rows: &mut Rows) -> Result<(), Error> {
     of_alarms(nck, word(2).unwrap_or(0), rows).await
 }
 
-/// Their numbers, and each with its text where this program knows it, as the control has it.
+/// The alarm numbers, and the text of each alarm in this program's catalogue.
 async fn of_alarms(nck: &Client, count: u16, rows: &mut Rows) -> Result<(), Error> {
     if count == 0 {
         rows.add("alarms", "none");
@@ -155,13 +155,13 @@ async fn of_alarms(nck: &Client, count: u16, rows: &mut Rows) -> Result<(), Erro
     Ok(())
 }
 
-/// What an alarm is called.
+/// The name of an alarm.
 fn name(number: AlarmNumber) -> String {
     let known = controls::texts().find_map(|texts| texts.alarm(number));
     known.map_or_else(|| number.0.to_string(), |alarm| alarm.name)
 }
 
-/// The text of an alarm; `%1` to `%4` are texts whose first letter says what they are.
+/// The text of an alarm. `%1` to `%4` are replaced by fill texts, whose first letter gives their kind.
 fn text(number: AlarmNumber, fills: &[Option<Value>]) -> String {
     let known = controls::texts().find_map(|texts| texts.alarm(number));
     let mut text = known.map_or_else(String::new, |alarm| alarm.text.to_owned());
@@ -173,10 +173,10 @@ fn text(number: AlarmNumber, fills: &[Option<Value>]) -> String {
     text
 }
 
-/// NC variables by name; none where the NCK does not have one.
+/// NC variables by name; `None` for one that the NCK does not have.
 async fn read(nck: &Client, names: impl Iterator<Item = String>) -> Result<Vec<Option<Value>>, Error> {
     let variables = names.map(|name| format!("nck:{name}").parse::<Variable>()).collect::<Result<Vec<_>, _>>()?;
-    nck.read_all(&variables).await.into_iter().map(told).collect()
+    nck.read_all(&variables).await.into_iter().map(optional).collect()
 }
 
 #[cfg(test)]
@@ -186,8 +186,8 @@ mod tests {
     #[test]
     fn an_alarm_has_its_text_with_what_the_control_fills_in() {
         let fills = [Some(Value::Text("KCHAN1".to_owned())), Some(Value::Text("S2".to_owned())), None, None];
-        let said = "channel CHAN1 waiting for synchronization start of gantry grouping 2";
-        assert_eq!(text(AlarmNumber(10654), &fills), said);
-        assert_eq!(text(AlarmNumber(999_999), &fills), "", "nobody knows it");
+        let expected = "channel CHAN1 waiting for synchronization start of gantry grouping 2";
+        assert_eq!(text(AlarmNumber(10654), &fills), expected);
+        assert_eq!(text(AlarmNumber(999_999), &fills), "", "it is not in the catalogue");
     }
 }

@@ -1,7 +1,7 @@
-//! `opennck s7`: a PLC or an NCK from the command line, by S7 communication.
+//! `opennck s7`: reads, writes and watches a PLC or an NCK by S7 communication.
 //!
-//! Exit codes: 0 all was read or written, or watching was ended by Ctrl-C; 1 something was refused; 2 unusable input, or nobody
-//! could be reached.
+//! Exit codes: 0 everything was read or written, or watching was ended by Ctrl-C; 1 a request was refused; 2 unusable input, or the host
+//! could not be reached.
 
 mod arguments;
 mod catalogue;
@@ -25,12 +25,12 @@ use crate::source::Problem;
 
 const ADDRESSES: &str = "Addresses:
   DB31.DBX101.4  DB31.DBB101  DB21.DBW4  DB31.DBD78:REAL  M10.3  IB0  QW4  T5  C3
-  DB31.DBB0..10                              bytes 0 to 10; words and double words likewise
-  X.gantry_synchronization_ready_to_start    a symbol; names of axes come from --machine, or from the NCK
+  DB31.DBB0..10                              bytes 0 to 10; also for words and double words
+  X.gantry_synchronization_ready_to_start    a symbol; axis names come from --machine, or from the NCK
   nck:C/MachineAxis/actToolBasePos[2]        an NC variable, row 2; [1..3] for three rows; `opennck s7 nck` lists them
   nck:A1/M/32000:DOUBLE                      an NC variable by area, module and column
 
-Exit codes: 0 all was read or written; 1 something was refused; 2 unusable input, or nobody could be reached.";
+Exit codes: 0 everything was read or written; 1 a request was refused; 2 unusable input, or the host could not be reached.";
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
@@ -39,29 +39,29 @@ pub(super) enum Command {
     Read {
         #[command(flatten)]
         host: arguments::Host,
-        /// What to read.
+        /// Addresses to read.
         #[arg(required = true, value_name = "ADDRESS")]
         addresses: Vec<String>,
         #[command(flatten)]
         names: arguments::Names,
-        /// How the list is printed.
+        /// Output format.
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
     },
-    /// Writes values once, all of them in one request where they fit.
+    /// Writes values once, in one request if they fit.
     ///
-    /// Values: whole numbers (also 16#D0 and 2#1101_0000), true and false for bits, fractions for REAL, 100% for overrides, several
-    /// with commas for a range. Nothing is written if one of them does not fit.
+    /// Values: integers (also 16#D0 and 2#1101_0000), true and false for bits, decimal fractions for REAL, 100% for overrides, a
+    /// comma-separated list for a range. If one value does not fit its address, nothing is written.
     #[command(after_help = ADDRESSES)]
     Write {
         #[command(flatten)]
         host: arguments::Host,
-        /// What to write.
+        /// Addresses and values to write.
         #[arg(required = true, value_name = "ADDRESS=VALUE")]
         writes: Vec<String>,
         #[command(flatten)]
         names: arguments::Names,
-        /// How the list is printed.
+        /// Output format.
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
     },
@@ -70,56 +70,56 @@ pub(super) enum Command {
     Watch {
         #[command(flatten)]
         host: arguments::Host,
-        /// What to watch.
+        /// Addresses to watch.
         #[arg(required = true, value_name = "ADDRESS")]
         addresses: Vec<String>,
         #[command(flatten)]
         names: arguments::Names,
-        /// How often the values are read: 100ms, 1s, 1min.
+        /// Polling interval: 100ms, 1s, 1min.
         #[arg(long, value_name = "TIME", default_value = "100ms", value_parser = arguments::duration)]
         every: std::time::Duration,
-        /// Lets the module send the values by itself, in whole tenths of a second.
+        /// Subscribes, so that the module sends the values; the interval is in whole tenths of a second.
         #[arg(long)]
         cyclic: bool,
-        /// How lines are printed: aligned, as JSON lines, or as CSV.
+        /// Output format: aligned, JSON lines, or CSV.
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
     },
-    /// Tells what a module is: its names, state, protection, clock and blocks, and the axes and alarms of its NCK.
+    /// Shows information about a module: names, state, protection, clock, blocks, and the axes and alarms of its NCK.
     Info {
         #[command(flatten)]
         host: arguments::Host,
-        /// How the list is printed.
+        /// Output format.
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
     },
-    /// Prints a system state list (SZL), a record in a line.
+    /// Prints a system state list (SZL), one record per line.
     Szl {
         #[command(flatten)]
         host: arguments::Host,
-        /// Which, in hexadecimal: 0011, 001C, 0424; 0000 lists all.
+        /// SZL ID in hexadecimal: 0011, 001C, 0424; 0000 lists all IDs.
         #[arg(value_parser = arguments::hexadecimal)]
         id: u16,
-        /// Of what, in hexadecimal.
+        /// SZL index in hexadecimal.
         #[arg(default_value = "0", value_parser = arguments::hexadecimal)]
         index: u16,
-        /// How the list is printed.
+        /// Output format.
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
     },
-    /// Lists the NC variables that have a name; 1 at the end says that none was found.
+    /// Lists the NC variables that have a name; exit code 1 if none is found.
     ///
-    /// Machine data go by their number, with their type: nck:N/M/10000:TEXT32[1], nck:C/M/20000:TEXT32, nck:A1/M/32000:DOUBLE.
+    /// Machine data are addressed by number and type: nck:N/M/10000:TEXT32[1], nck:C/M/20000:TEXT32, nck:A1/M/32000:DOUBLE.
     Nck {
-        /// Shows only variables in whose row this text occurs.
+        /// Shows only variables with this text in their row.
         filter: Option<String>,
-        /// How the list is printed.
+        /// Output format.
         #[arg(long, value_enum, default_value = "table")]
         format: Format,
     },
 }
 
-/// The exit code.
+/// Runs the command and returns its exit code.
 pub(super) fn run(command: &Command, output: &mut Output) -> u8 {
     if let Command::Nck { filter, format } = command {
         return catalogue::list(filter.as_deref(), *format, output);
@@ -127,7 +127,7 @@ pub(super) fn run(command: &Command, output: &mut Output) -> u8 {
     let runtime = match Builder::new_current_thread().enable_all().build() {
         Ok(runtime) => runtime,
         Err(error) => {
-            output.error(Problem::new(format!("no network: {error}"), "close other programs"));
+            output.error(Problem::new(format!("cannot open the network: {error}"), "close other programs"));
             return 2;
         }
     };

@@ -19,11 +19,11 @@ pub(super) async fn read(
     let targets = Dictionary::open(names)?.targets(host, addresses).await?;
     let sources = sources::open(host, &targets).await?;
     let values = sources::read(&sources, targets.len()).await?;
-    let cures = rows::told(&sources, &targets, &values).await;
+    let cures = rows::cures(&sources, &targets, &values).await;
     Ok(show(&targets, &values, &cures, format, output))
 }
 
-/// Prints targets with their values; the exit code. What to do about each refusal is told behind the list.
+/// Prints targets with their values, then the remedy for each refusal; returns the exit code.
 pub(super) fn show(
     targets: &[Target],
     values: &[Result<Value, Error>],

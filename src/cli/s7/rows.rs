@@ -1,17 +1,17 @@
-//! How many rows there are, for whoever asked for one too many: the NCK tells that of axes and alarms.
+//! The number of rows, for a request beyond the last one. The NCK reports it for axes and alarms.
 
 use super::sources::Source;
 use super::targets::Target;
 use crate::s7::client::{Error, NcVariable, Value, Variable};
 
-/// Modules whose rows are counted by another variable: area, modules, what counts them, what they are.
+/// Modules whose number of rows is in another variable: area, modules, that variable, kind of row.
 const COUNTED: &[(u8, &[u8], &str, &str)] = &[
     (2, &[0x71, 0x74], "Y/numMachAxes", "machine axes"),
-    (0, &[0x54, 0x75, 0x76, 0x77], "Y/maxnumAlarms", "places for alarms"),
+    (0, &[0x54, 0x75, 0x76, 0x77], "Y/maxnumAlarms", "alarm rows"),
 ];
 
-/// What to say of each target that was out of range, where there is more to say than of all.
-pub(super) async fn told(
+/// The remedy for each target that was out of range, if it is more specific than the general one.
+pub(super) async fn cures(
     sources: &[Source],
     targets: &[Target],
     values: &[Result<Value, Error>],

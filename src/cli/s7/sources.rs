@@ -1,11 +1,11 @@
-//! Where values come from: the PLC, the NCK, or both, each with its own connection, because a control has them at two places.
+//! The modules that hold the values: the PLC, the NCK, or both. A control has them at two TSAPs, so each has its own connection.
 
 use super::arguments::Host;
 use super::failure::Failure;
 use super::targets::Target;
 use crate::s7::client::{Client, Error, Value, Variable};
 
-/// One module, and which of the targets are there.
+/// One module, and which of the targets it holds.
 #[derive(Debug)]
 pub(super) struct Source {
     pub(super) name: &'static str,
@@ -22,7 +22,7 @@ impl Source {
 
 const NCK: &str = "NCK";
 
-/// Connects to whoever has one of the targets.
+/// Connects to each module that holds one of the targets.
 pub(super) async fn open(host: &Host, targets: &[Target]) -> Result<Vec<Source>, Failure> {
     let mut sources = Vec::new();
     for (name, is_nck) in [("PLC", false), (NCK, true)] {
@@ -37,7 +37,7 @@ pub(super) async fn open(host: &Host, targets: &[Target]) -> Result<Vec<Source>,
     Ok(sources)
 }
 
-/// Reads all targets, in their order; an error of a connection ends it.
+/// Reads all targets, in their order. A connection error ends the read.
 pub(super) async fn read(sources: &[Source], count: usize) -> Result<Vec<Result<Value, Error>>, Error> {
     let mut values: Vec<Option<Result<Value, Error>>> = vec![None; count];
     for source in sources {

@@ -1,4 +1,4 @@
-//! `opennck s7 szl`: a system state list, a record in a line: in hexadecimal, and what it means where that is known.
+//! `opennck s7 szl`: prints a system state list, one record per line: in hexadecimal, and its meaning if known.
 
 use super::arguments::Host;
 use super::failure::Failure;
@@ -21,7 +21,7 @@ pub(super) async fn szl(host: &Host, id: u16, index: u16, format: Format, output
     Ok(List { heads: &["record", "hex", "meaning"], rows }.print(format, output))
 }
 
-/// What a list is of; extracts have the number of their list in the low byte.
+/// The content of a list. The number of the list is in the low byte of the ID.
 fn name(id: u16) -> &'static str {
     match id & 0xFF {
         0x00 => "all lists",
@@ -41,7 +41,7 @@ fn name(id: u16) -> &'static str {
 }
 
 fn meaning(id: u16, record: &[u8]) -> String {
-    /// Index 9 of list 1C, the only one that is a number.
+    /// Index 9 of list 1C, the only numeric one.
     const MANUFACTURER: u16 = 9;
     let word = |at: usize| record.get(at..at + 2).map(|word| u16::from_be_bytes([word[0], word[1]]));
     let lookup = |number: Option<u16>, names: &[(u16, &str)]| {
@@ -96,7 +96,7 @@ fn meaning(id: u16, record: &[u8]) -> String {
     known.unwrap_or_else(|| printable(record)).trim_end().to_owned()
 }
 
-/// What can be printed, a point for what cannot.
+/// The printable characters; a point replaces each of the others.
 fn printable(bytes: &[u8]) -> String {
     let end = bytes.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
     let shown = |byte: &u8| if (0x20..0x7F).contains(byte) { char::from(*byte) } else { '.' };

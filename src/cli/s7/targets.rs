@@ -1,7 +1,7 @@
-//! What addresses and symbols of the command line mean.
+//! Resolves the addresses and symbols of the command line.
 //!
-//! An address of the interface has the type that the catalogue of its profile says; any other is a plain address. Symbols need
-//! names: those of a machine, those that the NCK tells, or AX1, AX2…, CHAN1… as `opennck signals` lists them.
+//! An address of the interface has the type given in the catalogue of its profile; any other address has its plain type. The names in
+//! symbols come from a machine, from the NCK, or are AX1, AX2…, CHAN1… as `opennck signals` lists them.
 
 use super::arguments::{Host, Names as Arguments};
 use super::failure::{Failure, problem};
@@ -12,39 +12,39 @@ use crate::scenario::profile_named;
 use crate::source::{Node, Problem, Table};
 use crate::units::{AxisNumber, ChannelNumber};
 
-/// Something that was named on the command line.
+/// An address or symbol of the command line.
 #[derive(Clone, Debug)]
 pub(super) struct Target {
     pub(super) variable: Variable,
-    /// As the list shows it: addresses as everywhere, NC variables as they were written.
+    /// The address as shown in the list: addresses in normal form, NC variables as typed.
     shown: String,
-    /// Empty where there is none.
+    /// Empty if there is none.
     pub(super) symbol: String,
-    /// Its place in the interface, if it lies there.
+    /// Its location in the interface, if it has one.
     pub(super) location: Option<Location>,
-    /// How overrides are coded there.
+    /// The coding of overrides at this location.
     pub(super) coding: OverrideCoding,
 }
 
 impl Target {
-    /// Its address, as the list shows it.
+    /// The address as shown in the list.
     pub(super) fn address(&self) -> String {
         self.shown.clone()
     }
 
-    /// Why it has no value, without its name.
+    /// The reason why it has no value, without its name.
     pub(super) fn reason(&self, error: &Error) -> String {
         let text = error.to_string();
         let name = format!("{}: ", self.variable);
         text.strip_prefix(&name).unwrap_or(&text).to_owned()
     }
 
-    /// An error of it as the program tells it, with what to do about it.
+    /// The error of this target in the form that the program prints, with its remedy.
     pub(super) fn problem(&self, error: &Error, cure: Option<String>) -> Problem {
         Problem::new(format!("{}: {}", self.shown, self.reason(error)), cure.unwrap_or_else(|| error.cure()))
     }
 
-    /// Whether its symbol begins with an axis or a channel, which the NCK may call otherwise.
+    /// Whether its symbol begins with an axis or a channel, which may have another name on the NCK.
     fn has_an_owner(&self) -> bool {
         ["AX", "CHAN"].iter().any(|owner| self.symbol.starts_with(owner))
     }
@@ -54,10 +54,10 @@ impl Target {
     }
 }
 
-/// What names mean.
+/// The meaning of names.
 pub(super) struct Dictionary {
     names: Names,
-    /// None where the host is something else than a control.
+    /// `None` if the host is not a control.
     memory: Option<Memory>,
     coding: OverrideCoding,
     /// Whether the names are those of a machine.
@@ -87,13 +87,13 @@ impl Dictionary {
         Ok(Self { names, memory, coding: OverrideCoding::default(), is_known: false })
     }
 
-    /// Everything that was named. Where a symbol has a name that is not known the NCK is asked for its names.
+    /// Resolves all texts. If a symbol has an unknown name, the names are read from the NCK.
     pub(super) async fn targets(&mut self, host: &Host, texts: &[String]) -> Result<Vec<Target>, Failure> {
         let all = |dictionary: &Self| texts.iter().map(|text| dictionary.target(text)).collect::<Result<Vec<_>, _>>();
         match all(self) {
             Err(first) if !self.is_known && texts.iter().any(|text| is_symbol(text)) => {
                 let Some(names) = self.names_of_the_nck(host).await? else {
-                    let cure = format!("{}\n  the NCK does not tell its names: give --machine", first.cure);
+                    let cure = format!("{}\n  the NCK does not report its names: give --machine", first.cure);
                     return Err(Problem { cure, ..first }.into());
                 };
                 self.names = names;
@@ -105,7 +105,7 @@ impl Dictionary {
                 let Some(names) = self.ask_names(&nck).await else { return Ok(targets) };
                 let before = std::mem::replace(&mut self.names, names);
                 Ok(all(self).unwrap_or_else(|_| {
-                    self.names = before; // who wrote AX1 means AX1
+                    self.names = before; // AX1 on the command line means AX1
                     targets
                 }))
             }
@@ -118,7 +118,7 @@ impl Dictionary {
         let resolved = place.map(|memory| self.names.resolve(memory, text));
         match resolved {
             Some(Ok(location)) => self.of_location(text, location),
-            // A block or a byte that a control does not have may be one of this host.
+            // The host may have a block or a byte that a control does not have.
             other => match (text.parse::<Variable>(), other) {
                 (Ok(variable), _) => {
                     let shown = match &variable {
@@ -137,7 +137,10 @@ impl Dictionary {
         let address = self.names.address(location);
         if let Some(memory) = &self.memory {
             memory.locate(&address, self.names.profile).map_err(|problem| {
-                Problem::new(format!("expected what this profile shows, found {text}: {}", problem.what), problem.cure)
+                Problem::new(
+                    format!("expected an address of this profile, found {text}: {}", problem.what),
+                    problem.cure,
+                )
             })?;
         }
         let address = Address { format: Some(location.format), ..address };
@@ -146,10 +149,10 @@ impl Dictionary {
         Ok(Target { shown: variable.to_string(), variable, symbol, location: Some(location), coding: self.coding })
     }
 
-    /// Names of axes (MD10000) and channels (MD20000) as the control has them; none where there is no NCK that tells them.
+    /// The names of axes (MD10000) and channels (MD20000) on the control; `None` if no NCK reports them.
     async fn names_of_the_nck(&self, host: &Host) -> Result<Option<Names>, Failure> {
         let Ok(nck) = host.nck().await else {
-            // Nobody at all is another thing than a PLC without an NCK.
+            // An unreachable host is an error; a PLC without an NCK is not.
             return host.plc().await.map(|_| None);
         };
         Ok(self.ask_names(&nck).await)
@@ -157,26 +160,26 @@ impl Dictionary {
 
     async fn ask_names(&self, nck: &Client) -> Option<Names> {
         let mut names = Names { profile: self.names.profile, ..Names::default() };
-        // Which channels there are comes first (MD10010): a name of one that does not exist would be refused, and stand in the
-        // control's log.
+        // First read which channels exist (MD10010). Reading the name of a channel that does not exist would be refused and logged by the
+        // control.
         let all = || AxisNumber::up_to(names.interface().count(Block::Axis));
         let axes = all().map(|axis| format!("N/$MN_AXCONF_MACHAX_NAME_TAB[{}]", axis.number()));
         let mut values = read(nck, axes.chain([format!("N/M/10010[1..{}]", ChannelNumber::all().count())])).await;
         let mode_groups = values.pop().flatten();
-        for (axis, told) in all().zip(values) {
-            names.axes[axis] = told.and_then(name);
+        for (axis, value) in all().zip(values) {
+            names.axes[axis] = value.and_then(name);
         }
         let channels: Vec<_> =
             ChannelNumber::all().filter(|channel| may_exist(*channel, mode_groups.as_ref())).collect();
         let values = read(nck, channels.iter().map(|channel| format!("C{}/$MC_CHAN_NAME", channel.number()))).await;
-        for (channel, told) in channels.into_iter().zip(values) {
-            names.channels[channel] = told.and_then(name);
+        for (channel, value) in channels.into_iter().zip(values) {
+            names.channels[channel] = value.and_then(name);
         }
-        let is_told = names.axes.iter().any(|(_, name)| name.is_some());
-        is_told.then_some(names)
+        let has_names = names.axes.iter().any(|(_, name)| name.is_some());
+        has_names.then_some(names)
     }
 
-    /// The value of a text, as scenarios have them.
+    /// Parses a value as scenarios do.
     pub(super) fn value(&self, target: &Target, text: &str) -> Result<Value, Problem> {
         let texts: Vec<&str> = match count(&target.variable) {
             1 => vec![text],
@@ -215,7 +218,7 @@ impl Dictionary {
     }
 }
 
-/// NC variables; none where the NCK does not have one.
+/// NC variables by name; `None` for one that the NCK does not have.
 async fn read(nck: &Client, names: impl Iterator<Item = String>) -> Vec<Option<Value>> {
     let variables: Vec<Variable> =
         names.filter_map(|name| name.parse().ok().map(|variable: NcVariable| variable.into())).collect();
@@ -229,16 +232,16 @@ fn name(value: Value) -> Option<String> {
     }
 }
 
-/// Whether a channel may exist: it is in a mode group, or the NCK does not tell which ones are.
+/// Whether a channel may exist: it belongs to a mode group, or the NCK does not report the mode groups.
 fn may_exist(channel: ChannelNumber, mode_groups: Option<&Value>) -> bool {
-    // How long a row is tells the answer alone.
+    // The length of a row follows from the length of the answer.
     let Some(Value::Bytes(bytes)) = mode_groups else { return true };
     let row = bytes.len() / ChannelNumber::all().count();
     let mode_group = bytes.chunks(row.max(1)).nth(usize::from(channel.number()) - 1);
     channel == ChannelNumber::FIRST || mode_group.is_some_and(|row| row.iter().any(|byte| *byte != 0))
 }
 
-/// How many elements there are.
+/// The number of elements.
 fn count(variable: &Variable) -> u32 {
     match variable {
         Variable::Memory(place) => place.count,
@@ -246,23 +249,23 @@ fn count(variable: &Variable) -> u32 {
     }
 }
 
-/// Whether it has the form of a symbol: a name in lower case behind a dot.
+/// Whether a text has the form of a symbol: a dot followed by a name in lower case.
 fn is_symbol(text: &str) -> bool {
     text.split_once('.').is_some_and(|(_, signal)| signal.starts_with(|c: char| c.is_ascii_lowercase()))
 }
 
-/// A value as it stands in a scenario, where text has quotes and numbers have none.
+/// A value in the syntax of a scenario, in which text has quotes and numbers do not.
 fn node(text: &str) -> Result<Node, Problem> {
     let parse = |line: String| Table::parse(&line, "the command line").ok()?.take("value");
     let quoted = || parse(format!("value = {}", serde_json::Value::from(text)));
-    // 16#D0 is no number with a comment.
+    // Otherwise TOML would read `16#D0` as 16 and a comment.
     let bare = (!text.contains('#')).then(|| format!("value = {text}"));
     bare.and_then(parse)
         .or_else(quoted)
         .ok_or_else(|| Problem::new(format!("expected a value, found `{text}`"), "write a number, true or false"))
 }
 
-/// A place of this width: which one does not matter for its value.
+/// Any location of this width. The location does not affect the value.
 fn anywhere(place: &Place) -> Location {
     let (bit, width) = match place.width {
         Width::Bit(bit) => (bit, 1),

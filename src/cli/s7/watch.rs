@@ -1,5 +1,5 @@
-//! `opennck s7 watch`: a line for each change, with the time in seconds since the start. Lost connections are told on standard
-//! error, and watching goes on when they are there again.
+//! `opennck s7 watch`: prints a line for each change, with the time in seconds since the start. A lost connection is reported on standard
+//! error; watching resumes after the reconnect.
 
 use std::time::Duration;
 
@@ -16,7 +16,7 @@ use crate::cli::output::Output;
 use crate::s7::client::{Error, Mode, State, Value};
 use crate::source::Problem;
 
-/// How to watch.
+/// The options of the command.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct How {
     pub(super) every: Duration,
@@ -24,13 +24,13 @@ pub(super) struct How {
     pub(super) format: Format,
 }
 
-/// What comes from the sources.
-enum News {
+/// An event from a source.
+enum Event {
     /// A value of a target.
     Value(usize, Result<Value, Error>),
-    /// Something about a connection.
+    /// A message about a connection.
     Connection(String),
-    /// Nothing more will come.
+    /// The source has ended.
     End(Failure),
 }
 
@@ -43,44 +43,43 @@ pub(super) async fn watch(
 ) -> Result<u8, Failure> {
     let targets = Dictionary::open(names)?.targets(host, addresses).await?;
     let sources = sources::open(host, &targets).await?;
-    let (to, mut news) = mpsc::channel(256);
+    let (to, mut events) = mpsc::channel(256);
     for source in sources {
-        tokio::spawn(tell_of_connection(source.name, source.client.changes(), to.clone()));
+        tokio::spawn(report_connection(source.name, source.client.changes(), to.clone()));
         tokio::spawn(follow(source, how, to.clone()));
     }
     drop(to);
     let mut screen = Screen::new(&targets, how.format);
     screen.head(output);
-    let mut end =
-        std::pin::pin!(crate::cli::interrupt::signals().map_err(|error| {
-            Problem::new(format!("the system gives no signals: {error}"), "close other programs")
-        })?);
-    let mut gone = std::pin::pin!(reader_gone());
+    let mut end = std::pin::pin!(crate::cli::interrupt::signals().map_err(|error| {
+        Problem::new(format!("cannot wait for Ctrl-C and SIGTERM: {error}"), "close other programs")
+    })?);
+    let mut closed = std::pin::pin!(reader_closed());
     loop {
-        let came = tokio::select! {
+        let event = tokio::select! {
             () = &mut end => return Ok(0),
-            () = &mut gone => return Ok(0),
-            came = news.recv() => came,
+            () = &mut closed => return Ok(0),
+            event = events.recv() => event,
         };
-        match came {
-            Some(News::Value(at, value)) => screen.take(at, &value, output),
-            Some(News::Connection(text)) => output.warning(text),
-            Some(News::End(failure)) => return Err(failure),
+        match event {
+            Some(Event::Value(at, value)) => screen.take(at, &value, output),
+            Some(Event::Connection(text)) => output.warning(text),
+            Some(Event::End(failure)) => return Err(failure),
             None => return Ok(0),
         }
         if output.is_closed() {
-            return Ok(0); // nobody reads any more
+            return Ok(0); // the reader has closed standard output
         }
     }
 }
 
-/// Waits until nobody reads standard output any more, as behind `head`; whatever comes, and if nothing comes, too.
+/// Waits until the reader closes standard output, as `head` does. This also works when no values arrive.
 #[cfg(unix)]
-async fn reader_gone() {
+async fn reader_closed() {
     use std::os::fd::AsFd;
     use tokio::io::Interest;
     use tokio::net::unix::pipe::Sender;
-    // Nothing is written through it: it stays as it is, and only tells of an error. Where it is a file there is nobody to go.
+    // Nothing is written through this handle; it only reports the error state of the pipe. A file has no reader that could close it.
     let watched = std::io::stdout().as_fd().try_clone_to_owned().and_then(Sender::from_owned_fd_unchecked);
     match watched {
         Ok(watched) if watched.ready(Interest::ERROR).await.is_ok() => {}
@@ -89,26 +88,26 @@ async fn reader_gone() {
 }
 
 #[cfg(not(unix))]
-async fn reader_gone() {
+async fn reader_closed() {
     std::future::pending().await
 }
 
-/// Values of one source, read again and again or sent by the module.
-async fn follow(source: Source, how: How, to: mpsc::Sender<News>) {
+/// Values of one source, polled or sent by the module.
+async fn follow(source: Source, how: How, to: mpsc::Sender<Event>) {
     if how.cyclic {
         let subscribed = source.client.subscribe(&source.variables, Mode::Cycle, how.every).await;
         let mut subscription = match subscribed {
             Ok(subscription) => subscription,
-            Err(error) => return drop(to.send(News::End(error.into())).await),
+            Err(error) => return drop(to.send(Event::End(error.into())).await),
         };
         while let Some(update) = subscription.next().await {
             match update {
                 Ok(update) => {
                     for (at, value) in update.values {
-                        let _ = to.send(News::Value(source.targets[at], value)).await;
+                        let _ = to.send(Event::Value(source.targets[at], value)).await;
                     }
                 }
-                Err(error) => return drop(to.send(News::End(error.into())).await),
+                Err(error) => return drop(to.send(Event::End(error.into())).await),
             }
         }
         return;
@@ -118,21 +117,21 @@ async fn follow(source: Source, how: How, to: mpsc::Sender<News>) {
     loop {
         ticks.tick().await;
         for (at, value) in source.targets.iter().zip(source.client.read_all(&source.variables).await) {
-            // A lost connection is told by itself.
+            // A lost connection is reported separately.
             if value.as_ref().err().is_some_and(Error::is_of_the_connection) {
                 continue;
             }
-            if to.send(News::Value(*at, value)).await.is_err() {
+            if to.send(Event::Value(*at, value)).await.is_err() {
                 return;
             }
         }
     }
 }
 
-async fn tell_of_connection(
+async fn report_connection(
     name: &'static str,
     mut state: tokio::sync::watch::Receiver<State>,
-    to: mpsc::Sender<News>,
+    to: mpsc::Sender<Event>,
 ) {
     let mut is_lost = false;
     while state.changed().await.is_ok() {
@@ -141,21 +140,21 @@ async fn tell_of_connection(
             State::Connected(_) if !is_lost => continue, // the first one
             State::Lost { cause, .. } => {
                 is_lost = true;
-                format!("{name}: the connection was lost ({cause}); trying again")
+                format!("{name}: connection lost ({cause}); reconnecting")
             }
             State::Connected(_) => {
                 is_lost = false;
-                format!("{name}: connected again")
+                format!("{name}: reconnected")
             }
-            State::Ended { cause } => format!("{name}: the connection was lost ({cause})"),
+            State::Ended { cause } => format!("{name}: connection lost ({cause})"),
         };
-        if to.send(News::Connection(text)).await.is_err() {
+        if to.send(Event::Connection(text)).await.is_err() {
             return;
         }
     }
 }
 
-/// What was printed.
+/// What has been printed.
 struct Screen<'a> {
     targets: &'a [Target],
     format: Format,
@@ -176,7 +175,7 @@ impl<'a> Screen<'a> {
         }
     }
 
-    /// Prints a value if it is another one than before.
+    /// Prints a value if it has changed.
     fn take(&mut self, at: usize, value: &Result<Value, Error>, output: &mut Output) {
         let target = &self.targets[at];
         let cells = cells(target, value);
@@ -215,7 +214,7 @@ impl<'a> Screen<'a> {
     }
 }
 
-/// Address, and symbol where there is one.
+/// The address, and the symbol if there is one.
 fn name(target: &Target) -> String {
     if target.symbol.is_empty() { target.address() } else { format!("{}  {}", target.address(), target.symbol) }
 }

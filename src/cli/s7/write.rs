@@ -27,7 +27,7 @@ pub(super) async fn write(
     let targets = dictionary.targets(host, &addresses).await?;
     let values = targets.iter().zip(&texts).map(|(target, text)| dictionary.value(target, text));
     let values = values.collect::<Result<Vec<Value>, _>>()?;
-    // Whoever cannot be reached is found out before anything is written.
+    // Connect first: an unreachable host is reported before anything is written.
     let sources = sources::open(host, &targets).await?;
     let results = send(&sources, &targets, &values).await;
     let lost = results.iter().find_map(|result| result.as_ref().err().filter(|error| error.is_of_the_connection()));
@@ -35,7 +35,7 @@ pub(super) async fn write(
         return Err(error.into());
     }
     let shown: Vec<_> = values.into_iter().zip(results).map(|(value, result)| result.map(|()| value)).collect();
-    let cures = rows::told(&sources, &targets, &shown).await;
+    let cures = rows::cures(&sources, &targets, &shown).await;
     Ok(read::show(&targets, &shown, &cures, format, output))
 }
 

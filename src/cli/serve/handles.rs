@@ -1,17 +1,17 @@
-//! How many files and sockets the system lets this process have: each client is one.
+//! The limit on open files and sockets of this process: each client uses one.
 
 use std::fmt::Display;
 
-/// What the program needs besides its clients: listeners, files, the system's events.
+/// Handles that the program needs besides its clients: listeners, files, the event queue of the system.
 const BESIDE: u64 = 64;
 
-/// Asks the system for enough handles; says so where it does not give them.
+/// Raises the limit to what the clients need; returns a warning if the system grants less.
 pub(super) fn allow(clients: usize) -> Option<impl Display> {
     let wanted = u64::try_from(clients).unwrap_or(u64::MAX).saturating_add(BESIDE);
-    // It asks for no more than what anybody may have.
+    // It raises the soft limit up to the hard limit, which any process may do.
     let given = rlimit::increase_nofile_limit(wanted).ok()?;
     (given < wanted).then(|| {
         let clients = given.saturating_sub(BESIDE);
-        format!("expected {wanted} handles for --clients, found {given}: about {clients} clients find a place; `ulimit -Hn` tells the limit")
+        format!("--clients needs {wanted} open files, the system allows {given}: about {clients} clients can connect; `ulimit -Hn` shows the limit")
     })
 }

@@ -1,7 +1,7 @@
-//! `opennck serve`: a machine in real time with its S7 server. Here are arguments, banner, status line and exit code; the machine is
-//! [`live`](crate::live), the server [`s7::live`](crate::s7::live).
+//! `opennck serve`: a machine in real time with its S7 server. This module has the arguments, banner, status line and exit code. The
+//! machine is [`live`](crate::live), the server is [`s7::live`](crate::s7::live).
 
-#![expect(clippy::disallowed_methods, reason = "real time is what it is for")]
+#![expect(clippy::disallowed_methods, reason = "the command runs in real time")]
 
 mod arguments;
 mod banner;
@@ -25,7 +25,7 @@ use crate::s7::live::Window;
 use crate::source::Problem;
 use status::{Status, status_line};
 
-/// How often the status line is drawn.
+/// Refresh interval of the status line.
 const DRAW: Duration = Duration::from_millis(200);
 
 pub(super) fn serve(arguments: &Arguments, programs: &Programs, output: &mut Output) -> u8 {
@@ -43,22 +43,22 @@ pub(super) fn serve(arguments: &Arguments, programs: &Programs, output: &mut Out
     }
 }
 
-/// What is open.
+/// Everything that is open while the machine is served.
 struct Served {
-    /// It closes before the machine ends.
+    /// Closed before the machine ends.
     window: Window,
-    /// It ends before the machine, too.
+    /// Also ended before the machine.
     keeper: Option<Keeper>,
     live: Live,
     status: ProgressBar,
-    /// What to say of it.
+    /// The banner.
     head: String,
-    /// Where the trace is written when it ends.
+    /// The file to which the trace is written at the end.
     trace: Option<Kept>,
 }
 
 impl Served {
-    /// Ends it: no client writes any more, then the last step, then what was kept.
+    /// Ends in this order: clients can no longer write, the machine takes its last step, the trace is written.
     fn close(self) -> Result<(), Problem> {
         let Self { window, keeper, live, trace, .. } = self;
         drop(window);
@@ -69,19 +69,19 @@ impl Served {
         let ended = live.end();
         let lost = ended.as_ref().and_then(|ended| ended.trace.as_ref()).map_or(0, |(trace, _)| trace.lost());
         if lost > 0 {
-            tracing::warn!("{lost} rows of the trace were lost: too much changed in one cycle");
+            tracing::warn!("{lost} rows of the trace were lost: too many changes in one cycle");
         }
         let text = ended.and_then(|ended| ended.json_lines());
         trace.write(&text.unwrap_or_default())
     }
 }
 
-/// The file of `--trace`, which must be no other file of the command.
+/// The file of `--trace`, which must differ from every other file of the command.
 fn trace_file(path: &Path, arguments: &Arguments) -> Result<Kept, Problem> {
     if arguments.record.as_deref() == Some(path) {
         return Err(Problem::new(
-            format!("expected two files, found {} for --record and --trace", path.display()),
-            "name another one for the trace, for example one that ends in .jsonl",
+            format!("expected different files for --record and --trace, found {} for both", path.display()),
+            "choose another file for the trace, for example one that ends in .jsonl",
         ));
     }
     let Arguments { scenario, plc_image, image, identity, pcap, .. } = arguments;
@@ -96,19 +96,19 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let window = arguments.window(machine)?;
     if let (Some(_), Some(name)) = (&arguments.image, &opened.plc) {
         return Err(Problem::new(
-            format!("expected one PLC program, found {name} of the scenario and --image"),
-            "remove `plc` from the scenario: the PLC process is the program",
+            format!("expected one PLC program, found two: {name} in the scenario, and --image"),
+            "remove `plc` from the scenario, or omit --image",
         ));
     }
     let terms = window.terms.clone();
     let mut head = banner::machine(&opened, arguments);
     let status = status_line();
-    // A program that has a log of its own keeps it.
+    // A program that has set up its own log keeps it.
     let _ = tracing::subscriber::set_global_default(Log { status: status.clone(), writes: arguments.log_writes });
     let exchange = Exchange { lock_step: arguments.lock_step, time_out: arguments.plc_timeout };
     let mapped = arguments.image.as_deref().map(|file| MappedPlc::create(file, machine, exchange)).transpose()?;
     let trace = arguments.trace.as_deref().map(|path| trace_file(path, arguments)).transpose()?;
-    // Last of the files: one that has begun would be in the way of the next try.
+    // The recording is opened last: if opening failed after it, the new file would block the next attempt.
     let recording = arguments.record.as_deref().map(|path| opened.record(path)).transpose()?;
     let Opened { machine, operator, watch, .. } = opened;
     let (is_held, is_lock_step) = (arguments.lock_step, arguments.lock_step);
@@ -129,7 +129,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let window = match Window::open_with(&live, &addresses, window) {
         Ok(window) => window,
         Err(problem) => {
-            // Nobody could come: a file that has only just begun would be in the way of the next try.
+            // No client could connect. Remove the new recording: it would block the next attempt.
             drop(keeper);
             drop(live);
             let _ = arguments.record.as_ref().map(std::fs::remove_file);
@@ -139,7 +139,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     if let Some(warning) = arguments.warning(window.addresses()) {
         output.warning(warning);
     }
-    head += &banner::doors(window.addresses(), arguments, &terms);
+    head += &banner::endpoints(window.addresses(), arguments, &terms);
     for address in window.metrics_addresses() {
         head += &format!("metrics on http://{address}/metrics\n");
     }
@@ -147,17 +147,17 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
         head += &waiting(file);
     }
     if let Some(faults) = &arguments.s7_fault {
-        head += &format!("faults on purpose: {faults}\n");
+        head += &format!("injected faults: {faults}\n");
     }
-    head += "Ctrl-C ends\n";
+    head += "press Ctrl-C to stop\n";
     Ok(Served { window, keeper, live, status, head, trace })
 }
 
-/// What the first step waits for.
+/// The hint about what the first step waits for.
 fn waiting(image: &Path) -> String {
     let image = image.display();
     format!(
-        "the first step waits for a PLC process that opens {image}, for example\n  \
+        "waiting for a PLC process to open {image} before the first step, for example\n  \
         python3 examples/python_plc/worked_example.py {image}\n"
     )
 }
@@ -168,14 +168,14 @@ fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result
     let mut status = Status::new(live, window);
     let no_signals = |error: std::io::Error| {
         Problem::new(
-            format!("the system gives no signals: {error}"),
-            "close other programs: it may have no handles left",
+            format!("cannot wait for Ctrl-C and SIGTERM: {error}"),
+            "close other programs: the system may have no free file handles",
         )
     };
     let runtime = Builder::new_current_thread().enable_all().build().map_err(no_signals)?;
     let ended = runtime.block_on(async {
         let mut end = std::pin::pin!(interrupt::signals().map_err(no_signals)?);
-        // From here on a signal ends it properly.
+        // From here on Ctrl-C and SIGTERM shut down in order.
         output.print(head);
         let mut draw = tokio::time::interval(DRAW);
         loop {
@@ -185,20 +185,20 @@ fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result
             }
             if !live.is_running() {
                 return Err(Problem::new(
-                    "the machine has stopped by a defect of the simulator",
-                    "please report it with what stands above",
+                    "the machine stopped because of a bug in the simulator",
+                    "please report it together with the messages above",
                 ));
             }
         }
     });
     if arguments.lock_step {
-        // Before it need not wait any more: so the scan that waits is the last one, whenever the signal came.
+        // Call this before the waiting scan is released. That scan is then the last one, independent of when the signal arrived.
         live.finish();
     }
     if let Some(keeper) = keeper {
         keeper.let_go();
     }
     bar.finish_and_clear();
-    tracing::info!("ends: {}", status.sum());
+    tracing::info!("stopped: {}", status.sum());
     ended
 }

@@ -1,4 +1,4 @@
-//! The line at the bottom of a terminal while a machine is served: time, speed, clients, alarms.
+//! The line at the bottom of the terminal while a machine is served: time, speed, clients, alarms.
 
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -10,10 +10,10 @@ use crate::s7::live::Window;
 use crate::scenario::State;
 use crate::variables::Describe;
 
-/// Over how long its rates are taken.
+/// Period over which the rates are measured.
 const RATES: Duration = Duration::from_secs(1);
 
-/// Where it is drawn: nowhere, if standard error is no terminal.
+/// Draws the status line, or nothing if standard error is not a terminal.
 pub(super) fn status_line() -> ProgressBar {
     let bar = if std::io::stderr().is_terminal() {
         ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr())
@@ -24,11 +24,11 @@ pub(super) fn status_line() -> ProgressBar {
     bar
 }
 
-/// The line at the bottom of a terminal.
+/// The status line.
 pub(super) struct Status<'a> {
     live: &'a Live,
     window: &'a Window,
-    /// When rates were taken last: time of the machine, answers.
+    /// The last measurement of the rates: real time, machine time, number of answers.
     last: (Instant, f64, u64),
     speed: Option<f64>,
     rate: u64,
@@ -42,7 +42,7 @@ impl<'a> Status<'a> {
 
     pub(super) fn line(&mut self, wanted: Speed) -> String {
         if self.live.is_held() {
-            return format!("step 0  waits for a PLC process to open the image  clients {}", self.window.clients());
+            return format!("step 0  waiting for a PLC process to open the image  clients {}", self.window.clients());
         }
         let looked = self.live.with_soon(|machine, scenario| {
             let name = |number| machine.alarm_name(number);
@@ -50,8 +50,8 @@ impl<'a> Status<'a> {
             (machine.time().seconds(), machine.cycle(), alarms, scenario.cloned())
         });
         let Some((time, cycle, alarms, scenario)) = looked else {
-            // A scan in lock-step waits for its answer; whoever waited here would not hear a signal.
-            return "waits for the PLC process".to_owned();
+            // A scan in lock-step waits for its answer. Waiting for it here would delay Ctrl-C.
+            return "waiting for the PLC process".to_owned();
         };
         let elapsed = self.last.0.elapsed();
         if elapsed >= RATES {
@@ -69,8 +69,8 @@ impl<'a> Status<'a> {
         }
         if let Some(scenario) = scenario {
             let how = match scenario {
-                State::Acting => "acts",
-                State::Done => "held",
+                State::Acting => "running",
+                State::Done => "passed",
                 State::Failed(_) => "FAILED",
             };
             line += &format!("  scenario {how}");
@@ -88,7 +88,7 @@ impl<'a> Status<'a> {
         text + ")"
     }
 
-    /// What all of it was.
+    /// The summary of the whole run.
     pub(super) fn sum(&self) -> String {
         let step = self.live.with(|machine| machine.cycle());
         format!("step {step}  {}  answers {}", self.overruns(), self.window.answers())
