@@ -1,5 +1,5 @@
-//! A machine with what goes with it: the clock and the diagnostic buffer of its CPU, its recording, its trace, and the scenario that
-//! acts on it. The stepping thread changes it, under the lock of `shared.rs`.
+//! A machine together with the clock and the diagnostic buffer of its CPU, its recording, its trace, and the scenario that runs on it. The
+//! stepping thread changes it under the lock in `shared.rs`.
 
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
@@ -12,14 +12,14 @@ use crate::scenario::{Operator, State};
 use crate::trace::{Trace, Watch};
 use crate::units::Time;
 
-/// A machine with what goes with it.
+/// A machine with its clock, diagnostic buffer, recording, trace and scenario.
 #[derive(Debug)]
 pub(super) struct Clocked {
     pub(super) machine: Machine,
-    /// How many steps it has taken here.
+    /// The number of steps taken since the start.
     steps: u64,
     diagnosis: Buffer,
-    /// The time to which the clock was set last, and the time of the machine then.
+    /// The time to which the clock was last set, and the machine time at that moment.
     set: SystemTime,
     set_at: Time,
     pub(super) recording: Option<Recording>,
@@ -44,24 +44,24 @@ impl Clocked {
         Self { diagnosis, set, set_at, steps: 0, machine, recording, trace, operator }
     }
 
-    /// How many steps it has taken here.
+    /// The number of steps taken since the start.
     pub(super) fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// The machine and its trace, when all is over.
+    /// The machine and its trace, at the end.
     pub(super) fn into_parts(self) -> (Machine, Option<(Trace, Watch)>) {
         (self.machine, self.trace)
     }
 
-    /// What clients see of it now.
+    /// The copy of the current state for clients.
     pub(super) fn seen(&self) -> Box<Seen> {
         let (machine, diagnosis) = (self.machine.snapshot(), self.diagnosis.entries());
         let clock = clock(self.set, self.machine.time() - self.set_at);
         Box::new(Seen { step: self.steps, machine, clock, diagnosis })
     }
 
-    /// Queues what clients asked for. Reports what of it the machine does not take.
+    /// Queues the orders of clients. Returns a log line for each command that the machine rejects.
     pub(super) fn take(&mut self, orders: Vec<Order>) -> Vec<String> {
         let mut lines = Vec::new();
         for Order { client, commands, clock } in orders {
@@ -71,7 +71,7 @@ impl Clocked {
             for command in commands {
                 self.diagnosis.ordered(&command);
                 if let Err(problem) = self.machine.queue(command) {
-                    lines.push(format!("a client wrote what the machine does not take: {problem}"));
+                    lines.push(format!("rejected a command of a client: {problem}"));
                 }
             }
             if let Some(time) = clock {
@@ -81,7 +81,7 @@ impl Clocked {
         lines
     }
 
-    /// One step, with what goes with the machine. Reports how the scenario ended, if it did in this step.
+    /// Takes one step. Returns a log line if the scenario ended in this step.
     pub(super) fn step(&mut self) -> Option<String> {
         let Self { machine, steps, recording, trace, operator, .. } = self;
         let was_at_work = operator.as_ref().is_some_and(|operator| *operator.state() == State::Acting);
@@ -114,24 +114,24 @@ impl Clocked {
         machine.drain();
         match operator.as_ref().filter(|_| was_at_work)?.state() {
             State::Acting => None,
-            State::Done => Some("the scenario is over, all of it held; serving goes on".to_owned()),
-            State::Failed(failure) => Some(format!("the scenario failed, serving goes on: {failure}")),
+            State::Done => Some("the scenario passed; the server keeps running".to_owned()),
+            State::Failed(failure) => Some(format!("the scenario failed; the server keeps running: {failure}")),
         }
     }
 
-    /// Notes what became of the CPU in a step.
+    /// Adds the CPU events of a step to the diagnostic buffer.
     pub(super) fn observe(&mut self) {
         let Self { machine, diagnosis, set, set_at, .. } = self;
         diagnosis.observe(machine, || clock(*set, machine.time() - *set_at));
     }
 }
 
-/// The clock so long after it was set, in whole milliseconds: it goes with the machine, at whatever speed.
+/// The clock after a time since it was set, in whole milliseconds. It advances with machine time, at any speed.
 fn clock(set: SystemTime, since: Time) -> SystemTime {
     set + Duration::from_millis(u64::try_from(since.nanos() / 1_000_000).unwrap_or(0))
 }
 
-/// The computer's clock, in whole milliseconds. The clock of a CPU begins in 1990, that of a computer without a battery in 1970.
+/// The clock of the computer, in whole milliseconds. The clock of a CPU starts in 1990, that of a computer without a battery in 1970.
 fn today() -> SystemTime {
     /// From 1970 to 1990.
     const EARLIER: Duration = Duration::from_secs(7305 * 86_400);

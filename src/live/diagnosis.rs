@@ -1,53 +1,54 @@
-//! The diagnostic buffer of the PLC's CPU: when its operating state changed, and why. A server shows it in the form of its protocol.
+//! The diagnostic buffer of the PLC's CPU: the changes of its operating state with their reasons. A server shows it in the format of its
+//! protocol.
 
 use std::sync::Arc;
 use std::time::SystemTime;
 
 use crate::machine::{Command, Machine};
 
-/// The most entries that are kept.
+/// The maximum number of entries.
 const ENTRIES: usize = 100;
 
 /// A change of the operating state, or its reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// Power came; what is retentive is still there.
+    /// Power on; retentive data are kept.
     PowerOn,
-    /// STOP became START-UP.
+    /// STOP to START-UP.
     StartUp,
-    /// START-UP became RUN.
+    /// START-UP to RUN.
     Run,
     /// STOP on request.
     Stop,
-    /// STOP by a fault of the program.
+    /// STOP because of an error in the program.
     Fault,
-    /// A client asked for a warm restart.
+    /// A client requested a warm restart.
     WarmRestart,
-    /// A client asked for a cold restart.
+    /// A client requested a cold restart.
     ColdRestart,
 }
 
 /// An event and its time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// What happened.
+    /// The event.
     pub event: Event,
-    /// When, by the clock of the CPU, in UTC.
+    /// The time by the clock of the CPU, in UTC.
     pub time: SystemTime,
 }
 
 /// The diagnostic buffer, newest entry first.
 #[derive(Debug)]
 pub(super) struct Buffer {
-    /// Shared with the copies of the machine, and replaced when an entry is added.
+    /// Shared with the copies of the machine; replaced when an entry is added.
     entries: Arc<[Entry]>,
     is_stopped: bool,
-    /// The restart that a client asked for.
+    /// The restart that a client requested.
     restart: Option<Event>,
 }
 
 impl Buffer {
-    /// A CPU that was just switched on.
+    /// The buffer of a CPU that was just switched on.
     pub(super) fn new(machine: &Machine, now: SystemTime) -> Self {
         let mut buffer = Self { entries: Arc::new([]), is_stopped: machine.is_plc_stopped(), restart: None };
         for event in [Event::PowerOn, Event::StartUp, Event::Run] {
@@ -56,7 +57,7 @@ impl Buffer {
         buffer
     }
 
-    /// Notes a restart that a client asks for; it is entered when the CPU runs again.
+    /// Remembers a restart that a client requested. It is entered when the CPU runs again.
     pub(super) fn ordered(&mut self, command: &Command) {
         match command {
             Command::PlcRun => self.restart = Some(Event::WarmRestart),
@@ -76,7 +77,7 @@ impl Buffer {
         }
     }
 
-    /// Looks at the operating state after a step.
+    /// Enters changes of the operating state after a step.
     pub(super) fn observe(&mut self, machine: &Machine, now: impl Fn() -> SystemTime) {
         if machine.is_plc_stopped() == self.is_stopped {
             return;
@@ -94,7 +95,7 @@ impl Buffer {
         self.add(Event::Run, now);
     }
 
-    /// All that are kept.
+    /// All entries.
     pub(super) fn entries(&self) -> Arc<[Entry]> {
         Arc::clone(&self.entries)
     }

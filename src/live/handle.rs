@@ -1,4 +1,4 @@
-//! The boundary at which a server plugs into a live machine. `live/mod.rs` says what holds there.
+//! The boundary between a server and a live machine. `live/mod.rs` has its rules.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -8,8 +8,7 @@ use super::seen::Seen;
 use super::shared::{Pace, Shared};
 use super::speed::Speed;
 
-/// What a server holds of a live machine. A clone is of the same machine. Nothing here waits for a step that lasts, but for what is
-/// `async`.
+/// A server's access to a live machine. A clone refers to the same machine. Only `async` functions wait for a step that takes long.
 #[derive(Clone, Debug)]
 pub struct Handle(Arc<Shared>);
 
@@ -18,69 +17,69 @@ impl Handle {
         Self(shared)
     }
 
-    /// Looks at the machine as its last step left it: everything that is read in one call is of the step [`Seen::step`]. Other callers
-    /// wait meanwhile, so a look takes microseconds and does not block.
+    /// Reads the state after the last step. Everything read in one call is of the step [`Seen::step`]. Other callers wait meanwhile, so
+    /// `look` must take only microseconds and must not block.
     pub fn look<T>(&self, look: impl FnOnce(&Seen) -> T) -> T {
         self.0.look(look)
     }
 
-    /// Orders something for the edge of the next step, at which all of it acts. Gives the number of that step, which is a later one
-    /// where the next has enough to do.
+    /// Queues an order for the start of the next step; all of it takes effect there. Returns the number of that step. It is a later step if
+    /// the next one is full.
     #[must_use = "the order is acknowledged when this step is over"]
     pub fn order(&self, order: Order) -> u64 {
         self.0.inbox.add(order)
     }
 
-    /// Waits until an order may be acknowledged: until its step is over, so that a client that writes and then reads finds what it wrote.
-    /// Orders from a machine that is held are acknowledged at once, unless very many wait. False where the machine ended
-    /// before: the order was not done.
+    /// Waits until an order can be acknowledged: until its step has ended. A client that writes and then reads therefore gets what it
+    /// wrote. A machine that is held acknowledges orders at once, unless very many are queued. Returns false if the machine ended first:
+    /// the order was not executed.
     pub async fn taken_up(&self, step: u64) -> bool {
         self.0.is_held() && !self.is_crowded() || self.over(step).await
     }
 
-    /// Waits until a step is over. A server that follows the machine waits for the step behind the one that it has seen; it may find a
-    /// later one then. False where the machine ended before.
+    /// Waits until a step has ended. A server that follows the machine waits for the step after the one it has seen, and may then find an
+    /// even later one. Returns false if the machine ended first.
     pub async fn over(&self, step: u64) -> bool {
         self.0.over(step).await
     }
 
-    /// Whether so many orders wait that a client has to wait for its own, however long that takes.
+    /// Whether so many orders are queued that a client has to wait for its own, for as long as it takes.
     #[must_use]
     pub fn is_crowded(&self) -> bool {
         self.0.inbox.is_full()
     }
 
-    /// Whether the PLC is in RUN after what was ordered so far: a client that stops the PLC finds it in STOP at once and may start it.
+    /// Whether the PLC is in RUN after all orders so far. A client that stops the PLC sees it in STOP at once and may start it again.
     #[must_use]
     pub fn plc_runs(&self, seen: &Seen) -> bool {
         self.0.inbox.plc_runs(seen.step).unwrap_or_else(|| !seen.machine.is_plc_stopped())
     }
 
-    /// Whether the machine takes no step yet: it waits for a PLC process.
+    /// Whether the machine takes no steps yet because it waits for a PLC process.
     #[must_use]
     pub fn is_held(&self) -> bool {
         self.0.is_held()
     }
 
-    /// Whether the machine takes no step any more. Then the server ends, too.
+    /// Whether the machine takes no more steps. The server must then end as well.
     #[must_use]
     pub fn has_ended(&self) -> bool {
         self.0.has_ended()
     }
 
-    /// How many times real time is wanted.
+    /// The requested speed relative to real time.
     #[must_use]
     pub fn speed(&self) -> Speed {
         self.0.speed()
     }
 
-    /// How well the schedule was kept so far.
+    /// How well the schedule has been kept so far.
     #[must_use]
     pub fn pace(&self) -> Pace {
         self.0.pace()
     }
 
-    /// How long a cycle takes at this speed, by the clock of the computer.
+    /// The duration of a cycle at this speed, by the clock of the computer.
     #[must_use]
     pub fn cycle(&self) -> Duration {
         let nanos = self.look(|seen| seen.machine.cycle_time().nanos());

@@ -1,5 +1,6 @@
-//! The inbox: what clients asked for, until the edge of the next step. A client does not wait for a step that lasts, and all of an
-//! order acts at the same edge. Where clients ask for more than a step has time for, some orders wait for the edges behind it, in order.
+//! The inbox: the orders of clients, queued for the start of the next step. A client does not wait for a step that takes long. All of an
+//! order takes effect at the start of the same step. If there are more orders than one step has time for, the rest wait for the following
+//! steps, in order.
 
 use std::collections::VecDeque;
 use std::net::SocketAddr;
@@ -8,55 +9,55 @@ use std::time::SystemTime;
 
 use crate::machine::Command;
 
-/// From so many orders on, clients wait a while with each.
+/// From this number of queued orders on, each client waits for its own.
 const MANY: usize = 1000;
-/// How many bytes an edge writes: what takes half a millisecond, and far less than what the record of a step has room for. One order
-/// has fewer.
+/// Bytes that are written at the start of one step: they take half a millisecond, and far less than the capacity of a step's record. One
+/// order has fewer bytes.
 const EDGE: usize = 4096;
 
-/// What one request of a client asks for; all of it acts at the edge of the same step.
+/// The changes requested by one client request; all of them take effect at the start of the same step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Order {
-    /// The address of the client, if it has one: a recording numbers clients by it.
+    /// The address of the client, if it has one. A recording uses it to number the clients.
     pub client: Option<SocketAddr>,
-    /// What the machine does, in this order. A command that it does not take (see [`Machine::check`](crate::machine::Machine::check)) is
-    /// logged and left out; the others are done.
+    /// The commands, in order. A command that the machine rejects (see [`Machine::check`](crate::machine::Machine::check)) is logged and
+    /// skipped; the others are executed.
     pub commands: Vec<Command>,
     /// The time to which the clock of the PLC's CPU is set, in UTC.
     pub clock: Option<SystemTime>,
 }
 
-/// Orders that wait for the edge of a step.
+/// Orders queued for the start of a step.
 #[derive(Debug)]
 pub(super) struct Inbox(Mutex<Waiting>);
 
 #[derive(Debug)]
 struct Waiting {
-    /// With the step at whose edge each is taken up.
+    /// Each order with the step at whose start it is executed.
     orders: VecDeque<(u64, Order)>,
-    /// The step of the last of them, and how many bytes its edge writes already.
+    /// The step of the last order, and the bytes already queued for that step.
     step: u64,
     bytes: usize,
-    /// How many steps have begun.
+    /// The number of steps that have begun.
     begun: u64,
-    /// The last order to start or stop the PLC: the step at whose edge it acts, and whether the PLC runs then.
+    /// The last order to start or stop the PLC: the step at whose start it takes effect, and the requested state, RUN as true.
     plc: Option<(u64, bool)>,
 }
 
 impl Order {
-    /// Whether it asks for nothing.
+    /// Whether it contains nothing.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.commands.is_empty() && self.clock.is_none()
     }
 
-    /// How many bytes it writes.
+    /// The number of bytes that it writes.
     fn bytes(&self) -> usize {
         let clock = if self.clock.is_some() { size_of::<f64>() } else { 0 };
         self.commands.iter().map(bytes).sum::<usize>() + clock
     }
 
-    /// Whether it starts or stops the PLC: the state that its last such command asks for, RUN as true.
+    /// The state requested by its last command to start or stop the PLC, RUN as true; `None` without one.
     fn plc_runs(&self) -> Option<bool> {
         self.commands.iter().rev().find_map(plc_runs)
     }
@@ -100,12 +101,12 @@ fn plc_runs(command: &Command) -> Option<bool> {
 }
 
 impl Inbox {
-    /// An empty one, before the first step.
+    /// An empty inbox, before the first step.
     pub(super) fn new() -> Self {
         Self(Mutex::new(Waiting { orders: VecDeque::new(), step: 1, bytes: 0, begun: 0, plc: None }))
     }
 
-    /// Adds an order; gives the step that takes it up.
+    /// Adds an order; returns the step that executes it.
     pub(super) fn add(&self, order: Order) -> u64 {
         let mut waiting = self.lock();
         let bytes = order.bytes();
@@ -121,23 +122,23 @@ impl Inbox {
         step
     }
 
-    /// Whether the PLC was ordered to run or to stop and does not show it yet after this step. So a client that stops it may start it at
-    /// once.
+    /// The state ordered for the PLC, if the state after this step does not show it yet. A client that stops the PLC may therefore start it
+    /// again at once.
     pub(super) fn plc_runs(&self, after: u64) -> Option<bool> {
         self.lock().plc.filter(|(step, _)| *step > after).map(|(_, runs)| runs)
     }
 
-    /// Whether many orders wait.
+    /// Whether many orders are queued.
     pub(super) fn is_full(&self) -> bool {
         self.count() >= MANY
     }
 
-    /// How many orders wait.
+    /// The number of queued orders.
     pub(super) fn count(&self) -> usize {
         self.lock().orders.len()
     }
 
-    /// The orders for the edge of the step that begins; what comes from now on waits for the next.
+    /// Takes the orders for the step that begins; later orders wait for the next step.
     pub(super) fn take(&self) -> Vec<Order> {
         let mut waiting = self.lock();
         waiting.begun += 1;
@@ -160,7 +161,7 @@ mod tests {
     use crate::image::{Format, Location, Part};
     use crate::trace::Recorder;
 
-    /// So many doubles.
+    /// An order that writes this many doubles.
     fn order(doubles: usize) -> Order {
         let location = Location { part: Part::Flags, offset: 0, bit: 0, width: 32, format: Format::Unsigned };
         Order { commands: vec![Command::Write { location, value: 0 }; doubles], ..Order::default() }
@@ -170,8 +171,7 @@ mod tests {
         orders.iter().map(|order| order.commands.len()).collect()
     }
 
-    /// 1,000 and 24 doubles are the 4,096 bytes of the first edge, the next order is for the second, and what comes in the end for
-    /// the third.
+    /// 1,000 and 24 doubles are the 4,096 bytes of the first step. The next order is for the second step, and the last one for the third.
     #[test]
     fn an_edge_takes_whole_orders_as_far_as_it_has_time() {
         let inbox = Inbox::new();
@@ -181,10 +181,10 @@ mod tests {
         assert_eq!(inbox.add(order(5)), 3);
         assert_eq!((sizes(&inbox.take()), sizes(&inbox.take())), (vec![1, 1023], vec![1, 5]));
         assert!(inbox.take().is_empty());
-        assert_eq!(inbox.add(order(7)), 5, "the edge of step 4 is over");
+        assert_eq!(inbox.add(order(7)), 5, "step 4 has begun");
     }
 
-    /// A byte that changes is a row, and each write that the program overwrites is another one.
+    /// Each byte that changes takes a row, and each write that the program overwrites takes another one.
     #[test]
     fn the_record_of_a_step_has_room_for_an_edge() {
         const { assert!(Recorder::ROWS >= 2 * 2 * EDGE) };

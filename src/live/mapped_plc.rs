@@ -1,15 +1,15 @@
-//! `--image FILE`: the PLC program runs in another process, which sees the interface as a mapped file.
+//! `--image FILE`: the PLC program runs in another process, which accesses the interface through a mapped file.
 //!
-//! [`MappedPlc`] is that program as the machine sees it. A scan publishes the memory and takes what the other process made of it: in
-//! lock-step the answer to this very scan, else the newest that there is. While a scan waits in lock-step the machine is in the middle
-//! of a step, and clients see the one before; the time-out bounds that. A process that is silent for longer is a PLC without a sign
-//! of life: the PLC stops, alarm 2000. So that the process may be started later, the monitoring begins with its first answer, and in
-//! lock-step when it has opened the file, which is also when scans begin to wait. A run is the same to the byte where that is before
-//! the first step: a machine that is held ([`LiveOptions::is_held`](super::LiveOptions::is_held)) begins then.
+//! [`MappedPlc`] represents that program in the machine. A scan publishes the memory and takes the answer of the other process: in
+//! lock-step the answer to this scan, otherwise the newest answer. While a scan waits in lock-step, the machine is in the middle of a step
+//! and clients see the step before; the time-out limits the wait. If the process is silent for longer than the time-out, the sign of life
+//! is missing: the PLC stops with alarm 2000. The process may be started later than the machine: monitoring begins with its first answer,
+//! and in lock-step when it has opened the file, which is also when scans begin to wait. A run is reproducible to the byte if this happens
+//! before the first step: a machine that is held ([`LiveOptions::is_held`](super::LiveOptions::is_held)) takes its first step then.
 //!
-//! [`Keeper`] keeps the file alive while no scan does: it lets a machine that is held begin, says RUN and STOP, shows the memory in
-//! STOP, restarts the PLC when a new process comes after a fault (alarm 2000 stays, as on a control, until power off and on), and
-//! switches power on request.
+//! [`Keeper`] maintains the file between scans: it starts a machine that is held, publishes RUN and STOP, shows the memory in STOP,
+//! restarts the PLC when a new process opens the file after a fault (alarm 2000 stays until power off and on, as on a control), and
+//! switches power off and on when requested.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,17 +27,18 @@ use crate::plc::{PlcFault, PlcIo, PlcProgram};
 use crate::source::Problem;
 use crate::units::Time;
 
-/// How often the keeper looks.
+/// Polling interval of the keeper.
 const KEEP: Duration = Duration::from_millis(10);
-/// One scan counts at most this part of the time-out as silence: a computer that slept makes nobody silent.
+/// One scan adds at most this fraction of the time-out to the silence. A computer that was asleep must not make the process count as
+/// silent.
 const SHARE: u32 = 4;
-/// How long the last scans wait for their answer when all of it ends.
+/// How long the last scans wait for their answer at the end.
 const FAREWELL: Duration = Duration::from_millis(100);
-/// So long a scan waits awake for its answer, before it sleeps in between.
+/// How long a scan polls for its answer without sleeping.
 const AWAKE: Duration = Duration::from_micros(20);
-/// So short it sleeps then.
+/// How long it sleeps between polls after that.
 const NAP: Duration = Duration::from_micros(20);
-/// What another process does is said so often at most: first, and where it goes on and on.
+/// Shortest and longest interval between log lines about repeated events of the other process.
 const PAUSES: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(64)];
 
 /// How answers are taken.
@@ -54,16 +55,16 @@ pub struct Exchange {
 pub struct MappedPlc {
     image: Arc<Mutex<MappedImage>>,
     exchange: Exchange,
-    /// Answers to earlier steps are from before the start.
+    /// Answers to earlier steps are older than the start.
     least: u64,
-    /// A process has answered since one was found silent; in lock-step it is enough that it has opened the file.
+    /// A process has answered since the last silence; in lock-step, it has opened the file.
     is_watched: bool,
     silent: Duration,
     last_scan: Instant,
     refusal: Option<Refusal>,
-    /// How often a process had opened the file when this was created, or one was found silent.
+    /// How often a process had opened the file when this was created or when the last silence was detected.
     plc_starts: u64,
-    /// Nobody waits for the process any more.
+    /// The machine is ending; scans no longer wait for the process.
     ends: Arc<AtomicBool>,
 }
 
@@ -71,7 +72,7 @@ impl MappedPlc {
     /// Creates the file for a machine.
     ///
     /// # Errors
-    /// The file cannot be used, is no image, or is in use by another machine.
+    /// The file cannot be used, is not an image, or is in use by another machine.
     pub fn create(path: &Path, machine: &Machine, exchange: Exchange) -> Result<Self, Problem> {
         let time_out = i64::try_from(exchange.time_out.as_nanos()).unwrap_or(i64::MAX);
         let rules = Rules { lock_step: exchange.lock_step, time_out: Time::from_nanos(time_out) };
@@ -90,18 +91,18 @@ impl MappedPlc {
         })
     }
 
-    /// Waits until a process has opened the file, for a machine without a [`Keeper`]. In lock-step it then answers from the first scan
-    /// on, and the same program gives the same trace in every run.
+    /// Waits until a process has opened the file, for a machine without a [`Keeper`]. In lock-step the process then answers from the first
+    /// scan on, and the same program gives the same trace in every run.
     ///
     /// # Errors
-    /// Nobody came in time.
+    /// No process opened the file in time.
     pub fn wait_for_plc(&mut self, longest: Duration) -> Result<(), Problem> {
         let start = Instant::now();
         while lock(&self.image).plc_starts() == self.plc_starts {
             if start.elapsed() > longest {
                 return Err(Problem::new(
-                    format!("expected a PLC that opens the image within {longest:?}, found none"),
-                    "start it; it adds 1 to PLC_STARTS when it has opened the file",
+                    format!("no PLC process opened the image within {longest:?}"),
+                    "start the process; it must add 1 to PLC_STARTS when it has opened the file",
                 ));
             }
             std::thread::sleep(Duration::from_millis(1));
@@ -143,7 +144,7 @@ impl MappedPlc {
                     image.take(io);
                     return Ok(());
                 }
-                // An answer to a step from before the start: now that it was seen, the PLC goes on with a step that says so.
+                // The process answered a step from before the start. It is alive: publish a new step for it to answer.
                 Look::Refused(Refusal::Step) => number = publish(&mut image, io, step, true),
                 Look::Refused(refusal) => self.refusal = Some(refusal),
                 Look::Nothing => {}
@@ -153,7 +154,7 @@ impl MappedPlc {
                 return Ok(());
             }
             if waited > self.exchange.time_out {
-                // Who opens the file from now on is another process.
+                // A process that opens the file from now on is a new one.
                 self.plc_starts = image.plc_starts();
                 image.give_up();
                 drop(image);
@@ -169,7 +170,7 @@ impl MappedPlc {
 
     fn silence(&self) -> PlcFault {
         let refused =
-            self.refusal.map_or_else(String::new, |refusal| format!("; its last answer was refused: {refusal}"));
+            self.refusal.map_or_else(String::new, |refusal| format!("; its last answer was rejected: {refusal}"));
         PlcFault::new(format!("no answer from the PLC process for {:?}{refused}", self.exchange.time_out))
     }
 }
@@ -207,7 +208,7 @@ impl PlcProgram for MappedPlc {
         taken
     }
 
-    /// What it remembers is in the other process.
+    /// The state of the program is in the other process.
     fn save(&self) -> Vec<u8> {
         Vec::new()
     }
@@ -229,7 +230,7 @@ impl PlcProgram for MappedPlc {
     fn reset(&mut self) {}
 }
 
-/// Keeps the file of a live machine alive until it is dropped.
+/// Maintains the file of a live machine until it is dropped.
 #[derive(Debug)]
 pub struct Keeper {
     ends: Arc<AtomicBool>,
@@ -238,8 +239,8 @@ pub struct Keeper {
 }
 
 impl Keeper {
-    /// Gives a machine its program in another process, starts the machine, and keeps the file. A machine that is held begins when a
-    /// process has opened the file since it was created.
+    /// Gives a machine its program in another process, starts the machine, and maintains the file. A machine that is held takes its first
+    /// step when a process has opened the file.
     #[must_use]
     pub fn start(mut machine: Machine, plc: MappedPlc, start: impl FnOnce(Machine) -> Live) -> (Live, Self) {
         let (image, ends) = (Arc::clone(&plc.image), Arc::clone(&plc.ends));
@@ -254,7 +255,7 @@ impl Keeper {
 }
 
 impl Keeper {
-    /// All of it ends: nobody waits long for a process any more, however patient the time-out is.
+    /// Ends the waiting: scans wait only a moment for their answer from now on, however long the time-out is.
     pub fn let_go(&self) {
         self.ends.store(true, Ordering::Relaxed);
     }
@@ -281,7 +282,7 @@ fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mp
         let mut image = lock(image);
         let is_stopped = machine.is_plc_stopped();
         image.cycle_time(machine.cycle_time());
-        // Before its first scan the PLC is not in RUN: a process that answered then would have a scan more than in another run.
+        // The PLC is not in RUN before its first scan: a process that answered then would have one scan more than in another run.
         image.state(if is_stopped || !image.has_started() { State::Stop } else { State::Run });
         if is_stopped {
             show(&mut image, machine);
@@ -295,13 +296,13 @@ fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mp
             shared.begin();
             if machine.plc_fault().is_some() && !machine.queued().contains(&Command::PlcRun) {
                 lines.push("the PLC restarts; alarm 2000 stays until power off and on".to_owned());
-                let _ = machine.queue(Command::PlcRun); // it has no parameter that could be wrong
+                let _ = machine.queue(Command::PlcRun); // it has no parameters to reject
             }
         }
         if image.power_requests() != powers {
             powers = image.power_requests();
             switched.times += 1;
-            // Once a step, however often it is asked for.
+            // Queued once per step, however often it is requested.
             if !machine.queued().contains(&Command::PowerOn) {
                 let _ = machine.queue(Command::PowerOn);
             }
@@ -309,7 +310,7 @@ fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mp
         was_stopped = is_stopped;
         drop(image);
         drop(clocked);
-        // Nobody waits for the machine while a terminal waits for its reader.
+        // Log after releasing the machine: a blocked terminal must not hold up a step.
         let now = Instant::now();
         let opened = opened.line("a PLC process has opened the image", now);
         let switched = switched.line("the PLC process switches power off and on", now);
@@ -319,18 +320,18 @@ fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mp
     }
 }
 
-/// Something that another process may do as often as it likes, and garbage in its words does all the time.
+/// An event that another process may repeat at any rate, for example because its words contain garbage.
 #[derive(Debug, Default)]
 struct Said {
-    /// How often it happened since it was said last.
+    /// Number of events since the last log line.
     times: u64,
     last: Option<Instant>,
-    /// How long it is not said again.
+    /// Interval until the next log line.
     pause: Duration,
 }
 
 impl Said {
-    /// What to say of it now: at once where it is rare, ever more rarely where it goes on.
+    /// The log line for an event: at once if it is rare, at growing intervals if it repeats.
     fn line(&mut self, what: &str, now: Instant) -> Option<String> {
         let since = self.last.map(|last| now.saturating_duration_since(last));
         if self.times == 0 || since.is_some_and(|since| since < self.pause) {
@@ -344,14 +345,14 @@ impl Said {
     }
 }
 
-/// Publishes a step of the PLC in RUN. It says so after the step is there: until then the newest one is of before the start.
+/// Publishes a step of the PLC in RUN. The state follows the step: until then the newest step is from before the start.
 fn publish(image: &mut MappedImage, io: &PlcIo<'_, AsBytes>, step: Step, waits: bool) -> u64 {
     let number = image.publish(io, step, waits);
     image.state(State::Run);
     number
 }
 
-/// Shows the memory while no scan does.
+/// Shows the memory between scans.
 fn show(image: &mut MappedImage, machine: &Machine) {
     let step = Step { cycle: machine.cycle(), time: machine.time(), since_last: Time::ZERO };
     image.publish(machine.memory(), step, false);
@@ -376,10 +377,10 @@ mod tests {
                 Some((after, said.line("power off and on", begin + Duration::from_millis(after))?))
             })
             .collect();
-        // Every 10 ms: at once, after a second, after 2 s more, after 4 s more.
+        // Every 10 ms: logged at once, after 1 s, after 2 s more, after 4 s more.
         let wanted = [(0, ""), (1000, ", 100 times"), (3000, ", 200 times"), (7000, ", 400 times")];
         assert_eq!(lines, wanted.map(|(after, times)| (after, format!("power off and on{times}"))));
-        // Once after a long time is as the first time.
+        // An event after a long pause is logged like the first one.
         said.times = 1;
         let later = begin + 2 * PAUSES[1];
         assert_eq!(said.line("opened", later).as_deref(), Some("opened"));

@@ -1,18 +1,18 @@
-//! A machine in real time, and the boundary at which servers plug into it.
+//! A machine in real time, and the boundary for servers.
 //!
-//! [`Live`] steps a machine when its cycle is due. A server holds a [`Handle`] of it and knows nothing else of the thread behind:
+//! [`Live`] steps a machine when its cycle is due. A server holds a [`Handle`] and has no other access to the stepping thread:
 //!
-//! * It sees a copy. [`Handle::look`] shows the machine as its last step left it ([`Seen`]), with one step number for all that is read in
-//!   one call. A look never waits for the step that goes on, however long that lasts.
-//! * It orders. [`Handle::order`] puts an [`Order`] into the inbox; all of it acts at the edge of one step, in order, and is recorded
-//!   there, so that a session with clients becomes a scenario again. The number of that step comes back, and the order is acknowledged when
-//!   [`Handle::taken_up`] is done: then a look shows what the order did.
-//! * It learns of new steps. [`Handle::over`] waits for a step by its number. A server that does not wait looks when it likes.
-//! * It ends before the machine: its owner ends it, it drops its handle, then the machine ends ([`Live::end`] gives the machine only when
-//!   no handle is left). Where the machine ends first, [`Handle::over`] and [`Handle::taken_up`] return false at once, and
+//! * It reads a copy. [`Handle::look`] shows the machine after its last step ([`Seen`]); everything read in one call is of one step number.
+//!   A look never waits for the current step, however long that takes.
+//! * It orders. [`Handle::order`] puts an [`Order`] into the inbox. All of it takes effect in order at the start of one step and is
+//!   recorded there, so a session with clients can be repeated as a scenario. The call returns the number of that step. The order is
+//!   acknowledged when [`Handle::taken_up`] completes: a look then shows its effect.
+//! * It follows. [`Handle::over`] waits for a step by its number. A server that does not wait can look at any time.
+//! * It ends before the machine. Its owner ends the server, the server drops its handle, then the machine ends ([`Live::end`] returns the
+//!   machine only when no handle is left). If the machine ends first, [`Handle::over`] and [`Handle::taken_up`] return false at once, and
 //!   [`Handle::has_ended`] is true.
 //!
-//! `s7::live` is such a server. A small one:
+//! `s7::live` is such a server. A minimal one:
 //!
 //! ```
 //! use opennck::live::{Live, Order, Speed};
@@ -33,12 +33,11 @@
 //! # Ok::<(), opennck::source::Problem>(())
 //! ```
 //!
-//! `stepping.rs` is the thread and its schedule, `shared.rs` what it shares with others, `clocked.rs` the machine with what goes with it,
-//! `seen.rs` the copy of the last step, `inbox.rs` the orders, `handle.rs` the boundary, `opening.rs` what a machine is opened from, `record.rs` the
-//! recording. `MappedPlc` (feature `mapped`) is a PLC program in
-//! another process.
+//! `stepping.rs` has the thread and its schedule, `shared.rs` the data shared between threads, `clocked.rs` the machine with its clock and
+//! recording, `seen.rs` the copy of the last step, `inbox.rs` the orders, `handle.rs` the boundary, `opening.rs` the inputs from which a
+//! machine is opened, `record.rs` the recording. `MappedPlc` (feature `mapped`) is a PLC program in another process.
 
-#![expect(clippy::disallowed_methods, reason = "real time is what it is for")]
+#![expect(clippy::disallowed_methods, reason = "this module runs machines in real time")]
 
 mod clocked;
 mod diagnosis;

@@ -1,8 +1,8 @@
-//! What a live machine is opened from: a machine with its PLC program and PLC image, or a scenario that acts on it. And the other way
-//! round: the heading of the recording that runs the same again.
+//! The inputs of a live machine: a machine with its PLC program and PLC image, or a scenario that runs on it. Also the reverse: the heading
+//! of a recording that repeats the session.
 //!
-//! A scenario brings its own machine, program and image, with its profile (the first one), its `[plant]`, and its `watch` for the
-//! trace; what is named beside it counts instead. Its `limit` bounds the scenario, not the machine.
+//! A scenario brings its own machine, program and image, its profile (the first one), its `[plant]`, and its `watch` list for the trace;
+//! explicit options take precedence. Its `limit` bounds the scenario, not the machine.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -14,12 +14,12 @@ use crate::scenario::{Heading, Named, Operator, Scenario, profile_named};
 use crate::source::{Place, Problem, Table, unreadable};
 use crate::trace::Watch;
 
-/// What is named for a live machine, as in the options of `opennck serve`.
+/// The inputs of a live machine, as in the options of `opennck serve`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Opening<'a> {
-    /// A directory, an archive file, or the name of a built-in machine; without one, that of the scenario.
+    /// A directory, an archive file, or the name of a built-in machine; by default the machine of the scenario.
     pub machine: Option<&'a Path>,
-    /// The scenario that acts on it.
+    /// The scenario that runs on it.
     pub scenario: Option<&'a Path>,
     /// The name of its PLC program.
     pub plc: Option<&'a str>,
@@ -34,27 +34,27 @@ pub struct Opening<'a> {
 pub struct Opened {
     /// The machine, with its PLC program.
     pub machine: Machine,
-    /// The scenario that acts on it.
+    /// The scenario that runs on it.
     pub operator: Option<Operator>,
-    /// What its trace shows.
+    /// The content of its trace.
     pub watch: Watch,
-    /// The entries of the scenario that say so.
+    /// The `watch` entries of the scenario.
     pub entries: Option<Vec<String>>,
-    /// Where it is from.
+    /// The path from which it was read.
     pub path: PathBuf,
     /// The name of its PLC program.
     pub plc: Option<String>,
     /// The file of its PLC image.
     pub image: Option<PathBuf>,
-    /// What was merged into its plant.
+    /// The changes merged into its plant.
     pub plant: Option<Table>,
 }
 
 impl Opening<'_> {
-    /// Opens it; `warn` takes what was odd and did not hinder.
+    /// Opens the machine; `warn` receives warnings.
     ///
     /// # Errors
-    /// Neither a machine nor a scenario is named, or one of the files cannot be used, with its line.
+    /// Neither a machine nor a scenario is given, or one of the files cannot be used; the error has its line.
     pub fn open(&self, programs: &Programs, warn: &mut dyn FnMut(&str)) -> Result<Opened, Problem> {
         let profile = self.profile.map(profile_named).transpose()?;
         let opened = match (self.scenario, self.machine) {
@@ -63,7 +63,7 @@ impl Opening<'_> {
             (None, None) => {
                 return Err(Problem::new(
                     "expected a machine or a scenario, found neither",
-                    "opennck serve g1_example",
+                    "for example: opennck serve g1_example",
                 ));
             }
         };
@@ -103,16 +103,19 @@ impl Opening<'_> {
         if let Some(machine) = self.machine {
             if !is_same(machine, &path) {
                 let (named, served) = (&scenario.machine.text, machine.display());
-                warn(&format!("{}: it names the machine {named}; {served} is served", file.display()));
+                warn(&format!(
+                    "{}: the scenario names the machine {named}; the given machine {served} is used",
+                    file.display()
+                ));
             }
-            scenario.machine = said("MACHINE", &absolute(machine));
+            scenario.machine = override_named("MACHINE", &absolute(machine));
             path = machine.to_owned();
         }
         if let Some(plc) = self.plc {
-            scenario.plc = Some(said("--plc", plc));
+            scenario.plc = Some(override_named("--plc", plc));
         }
         if let Some(image) = self.plc_image {
-            scenario.plc_image = Some(said("--plc-image", &absolute(image)));
+            scenario.plc_image = Some(override_named("--plc-image", &absolute(image)));
         }
         let image = scenario.image_file()?;
         let prepared = scenario.prepare(profile.unwrap_or(scenario.profiles[0]), programs)?;
@@ -131,10 +134,10 @@ impl Opening<'_> {
 }
 
 impl Opened {
-    /// Begins a recording of it.
+    /// Begins a recording.
     ///
     /// # Errors
-    /// As [`Recording::begin`]; or the scenario could not find the machine again from where it is written.
+    /// As for [`Recording::begin`], or the recording could not refer to the machine from its folder.
     pub fn record(&self, path: &Path) -> Result<Recording, Problem> {
         let machine = if self.path.exists() { from(path, &self.path)? } else { built_in(path, &self.path)? };
         let image = self.image.as_deref().map(|image| from(path, image)).transpose()?;
@@ -152,12 +155,12 @@ impl Opened {
     }
 }
 
-/// What is named in place of what a scenario says.
-fn said(place: &str, text: &str) -> Named {
+/// A value that replaces one of the scenario.
+fn override_named(place: &str, text: &str) -> Named {
     Named { text: text.to_owned(), place: Place::file(place) }
 }
 
-/// The path of something from wherever it is looked for; a machine that is built in has only its name.
+/// The absolute path of a file or folder; a built-in machine has only its name.
 fn absolute(path: &Path) -> String {
     path.canonicalize().unwrap_or_else(|_| path.to_owned()).to_string_lossy().into_owned()
 }
@@ -170,24 +173,24 @@ fn is_same(one: &Path, other: &Path) -> bool {
     }
 }
 
-/// A machine that is built in has no path, but a folder of its name beside the file would be taken for it.
+/// The name of a built-in machine. A folder of this name beside the file would be used instead.
 fn built_in(path: &Path, machine: &Path) -> Result<String, Problem> {
     let name = machine.file_name().unwrap_or_default();
     if path.with_file_name(name).exists() {
-        let what = format!("expected no machine {} beside the recording, found one", name.display());
-        return Err(Place::file(&path.display().to_string()).problem(what, "write the recording elsewhere"));
+        let what = format!("the folder {} beside the recording has the name of the built-in machine", name.display());
+        return Err(Place::file(&path.display().to_string()).problem(what, "write the recording to another folder"));
     }
     Ok(name.to_string_lossy().into_owned())
 }
 
-/// The path of something that exists, from the folder of a file on.
+/// The path of an existing file or folder, relative to the folder of a file.
 fn from(file: &Path, to: &Path) -> Result<String, Problem> {
     let found = |path: &Path| path.canonicalize().map_err(|error| unreadable(path, &error));
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or_else(|| Path::new("."));
     let (folder, to) = (found(folder)?, found(to)?);
     let common = folder.components().zip(to.components()).take_while(|(one, other)| one == other).count();
     let up = folder.components().skip(common).map(|_| Component::ParentDir);
-    // Two disks have nothing in common.
+    // Paths on two disks have no common part.
     let relative: PathBuf = if common == 0 { to } else { up.chain(to.components().skip(common)).collect() };
     let text = relative.to_str().ok_or_else(|| {
         let what = format!("expected a path in UTF-8, found {}", relative.display());

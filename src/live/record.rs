@@ -1,10 +1,10 @@
-//! `--record`: what is done to a live machine, written down as a scenario that does the same again.
+//! `--record`: writes the changes to a live machine as a scenario that repeats them.
 //!
-//! The stepping thread writes down what waits for the edge of its step (`scenario::Transcript`), whoever queued it. A thread of
-//! its own brings that to the disk, once a second. The last step of the file lets time pass up to the end and is written anew each
-//! time; so the file is a whole scenario at any moment, also after an end without warning (only who reads while it is written may
-//! meet half a step). Whatever was written before stays. A
-//! disk that takes nothing more ends the recording, not the machine: the file is what it was a second before.
+//! The stepping thread collects the commands queued for the start of its step (`scenario::Transcript`), from all sources. A separate thread
+//! writes them to the disk once per second. The last step of the file lets time pass up to the end and is rewritten each time. The file is
+//! therefore a complete scenario at any time, also after a crash; only a reader during the write may see an incomplete step. Earlier
+//! content never changes. If the disk accepts no more data, the recording ends and the machine keeps running: the file has the state of one
+//! second before.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
@@ -20,49 +20,48 @@ use crate::machine::Machine;
 use crate::scenario::{Heading, Remark, Transcript};
 use crate::source::{Place, Problem};
 
-/// How often the file is written.
+/// Interval between writes of the file.
 const EVERY: Duration = Duration::from_secs(1);
 
-/// A file that becomes the scenario of what is done to a machine.
+/// A file that becomes the scenario of a live session.
 #[derive(Debug)]
 pub struct Recording {
     book: Arc<Mutex<Book>>,
     remarks: Vec<Remark>,
-    /// Who has written, in order.
+    /// The clients that have written, numbered in order.
     clients: BTreeMap<SocketAddr, usize>,
     end: Option<mpsc::Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// What waits for the disk.
+/// Text that waits for the disk.
 #[derive(Debug)]
 struct Book {
     transcript: Transcript,
     /// The last cycle.
     cycle: u64,
-    /// The disk takes nothing more.
+    /// The disk accepts no more data.
     is_over: bool,
 }
 
 impl Recording {
-    /// Begins a file for a machine that has not run yet; the heading's paths are relative to the file.
+    /// Begins a file for a machine that has not run yet. The paths in the heading are relative to the file.
     ///
     /// # Errors
-    /// There is such a file already, or it cannot be written; or the machine has run.
+    /// The file exists already or cannot be written, or the machine has run.
     pub fn begin(path: &Path, heading: &Heading<'_>, machine: &Machine) -> Result<Self, Problem> {
         let place = Place::file(&path.display().to_string());
         if machine.cycle() > 0 {
             return Err(place.problem(
-                format!("expected a machine that was just switched on, found one after {} s", machine.time()),
-                "begin the recording before the machine runs",
+                format!("expected a machine that has not run yet, found one that has run for {} s", machine.time()),
+                "begin the recording before the first step",
             ));
         }
         let mut transcript = Transcript::begin(heading);
         let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(|error| match error.kind() {
-            io::ErrorKind::AlreadyExists => place.problem(
-                "expected a new file, found one that exists",
-                "name another one: a recording replaces nothing",
-            ),
+            io::ErrorKind::AlreadyExists => {
+                place.problem("the file exists already", "choose another name: a recording does not overwrite files")
+            }
             _ => place.problem(format!("cannot be written: {error}"), "check the path and the permissions"),
         })?;
         let mut written = Written { path: path.to_owned(), file, whole: 0, rest: String::new() };
@@ -75,8 +74,8 @@ impl Recording {
         Ok(Self { book, remarks: Vec::new(), clients: BTreeMap::new(), end: Some(end), thread: Some(thread) })
     }
 
-    /// Says that a client queues the commands that follow. Clients have numbers in the order in which they write: the port from
-    /// which one comes is another one each time.
+    /// Marks the following commands as those of a client. Clients are numbered in the order in which they first write, because their ports
+    /// differ from run to run.
     pub(super) fn client(&mut self, machine: &Machine, client: Option<SocketAddr>) {
         let text = client.map_or_else(
             || "a client".to_owned(),
@@ -89,12 +88,12 @@ impl Recording {
         self.remark(machine.queued().len(), text);
     }
 
-    /// Says whose the commands are behind the first ones.
+    /// Adds a remark on the origin of all commands after the first `before` ones.
     pub(super) fn remark(&mut self, before: usize, text: String) {
         self.remarks.push(Remark { before, text });
     }
 
-    /// Notes a text, as the trace does at the end of the next step.
+    /// Adds a note, which the trace shows at the end of the next step.
     pub(super) fn note(&mut self, text: &str) {
         let mut book = self.book.lock().unwrap_or_else(PoisonError::into_inner);
         if !book.is_over {
@@ -102,7 +101,7 @@ impl Recording {
         }
     }
 
-    /// Writes down what a machine does at the edge of its next step, which follows at once.
+    /// Records the commands at the start of the next step, which must follow immediately.
     pub(super) fn edge(&mut self, machine: &Machine) {
         let mut book = self.book.lock().unwrap_or_else(PoisonError::into_inner);
         if !book.is_over {
@@ -122,18 +121,18 @@ impl Drop for Recording {
     }
 }
 
-/// A file whose last step is written anew each time.
+/// A file whose last step is rewritten each time.
 #[derive(Debug)]
 struct Written {
     path: PathBuf,
     file: File,
-    /// Where the last step begins.
+    /// Offset at which the last step begins.
     whole: u64,
     rest: String,
 }
 
 impl Written {
-    /// Brings to the disk what there is, until the end or until the disk takes nothing more.
+    /// Writes new text to the disk until the recording ends or the disk accepts no more data.
     fn follow(mut self, book: &Mutex<Book>, ended: &mpsc::Receiver<()>) {
         loop {
             let is_last = ended.recv_timeout(EVERY) != Err(RecvTimeoutError::Timeout);
@@ -143,7 +142,7 @@ impl Written {
             };
             if let Err(error) = self.write(&text, rest) {
                 book.lock().unwrap_or_else(PoisonError::into_inner).is_over = true;
-                tracing::error!("the recording ends, {} cannot be written: {error}", self.path.display());
+                tracing::error!("the recording ends: {} cannot be written: {error}", self.path.display());
                 return;
             }
             if is_last {
@@ -152,7 +151,7 @@ impl Written {
         }
     }
 
-    /// Writes more in place of the last step, and a new last step; or leaves everything as it was.
+    /// Replaces the last step by new text and a new last step. On an error the file stays as it was.
     fn write(&mut self, more: &str, rest: String) -> io::Result<()> {
         let written = self.put(&format!("{more}{rest}"));
         if written.is_ok() {

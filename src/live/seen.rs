@@ -1,8 +1,8 @@
-//! What clients see: a copy of the machine as its last step left it, apart from the machine that goes on.
+//! The state that clients see: a copy of the machine after its last step, separate from the running machine.
 //!
-//! Clients that look again and again hold up neither the step that is due nor, where a step lasts (a scan that waits for a PLC process),
-//! each other. A step is copied once, which takes some microseconds, however many look at it: by the stepping thread while somebody
-//! has looked not long ago, else by the first client that looks, which takes the lock of the machine for that.
+//! Clients that read again and again do not delay the next step. If a step takes long (a scan that waits for a PLC process), they do not
+//! delay each other either. Each step is copied at most once, in a few microseconds, for any number of readers: by the stepping thread if a
+//! client has read recently, otherwise by the first reader, which takes the lock of the machine.
 
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -11,10 +11,10 @@ use std::time::SystemTime;
 use super::diagnosis::Entry;
 use crate::machine::{Machine, Snapshot};
 
-/// So many steps are shown after somebody has looked.
+/// The number of steps that are copied after a client has read.
 const LINGER: u32 = 1000;
 
-/// A machine after a step, with the clock of its CPU and what its diagnostic buffer held. It does not change.
+/// A machine after a step, with the clock of its CPU and the content of its diagnostic buffer. It does not change.
 #[derive(Debug)]
 pub struct Seen {
     pub(super) step: u64,
@@ -24,8 +24,8 @@ pub struct Seen {
 }
 
 impl Seen {
-    /// The number of the step: how many have been taken since the start. All that is seen is of this step.
-    /// [`Machine::cycle`] may differ: a machine that is restored counts its cycles anew.
+    /// The number of the step, counted from the start. Everything in this copy is of this step. [`Machine::cycle`] may differ: a restored
+    /// machine counts its cycles anew.
     #[must_use]
     pub fn step(&self) -> u64 {
         self.step
@@ -43,21 +43,21 @@ impl Seen {
         self.clock
     }
 
-    /// The diagnostic buffer of the PLC's CPU, newest entry first. It is another allocation only when an entry was added.
+    /// The diagnostic buffer of the PLC's CPU, newest entry first. The allocation changes only when an entry is added.
     #[must_use]
     pub fn diagnosis(&self) -> &Arc<[Entry]> {
         &self.diagnosis
     }
 }
 
-/// The last step, for everybody who looks.
+/// The last step, for all readers.
 #[derive(Debug)]
 pub(super) struct View {
-    /// How many steps are over.
+    /// The number of completed steps.
     step: AtomicU64,
-    /// How many more steps are shown.
+    /// The number of further steps to be copied.
     lingers: AtomicU32,
-    /// What the stepping thread shows, if it does; nobody holds this lock for longer than it takes to put something there.
+    /// The copy made by the stepping thread, if any. The lock is held only while the copy is exchanged.
     fresh: Mutex<Option<Box<Seen>>>,
     seen: Mutex<Box<Seen>>,
 }
@@ -68,24 +68,24 @@ impl View {
         Self { step, lingers, fresh: Mutex::new(None), seen: Mutex::new(seen) }
     }
 
-    /// Whether somebody has looked not long ago; asked once a step.
+    /// Whether a client has read recently; called once per step.
     pub(super) fn is_looked_at(&self) -> bool {
         let less = |lingers: u32| lingers.checked_sub(1);
         self.lingers.fetch_update(Ordering::Relaxed, Ordering::Relaxed, less).is_ok()
     }
 
-    /// A step is over; whoever looks from now on sees what it left.
+    /// A step has ended. Readers see its result from now on.
     pub(super) fn over(&self, step: u64, shown: Option<Box<Seen>>) {
         let before = shown.and_then(|shown| lock(&self.fresh).replace(shown));
         self.step.store(step, Ordering::Release);
         drop(before);
     }
 
-    /// Looks at the last step; `copy` gives it where nobody has shown it.
+    /// Reads the last step; `copy` makes the copy if the stepping thread has not.
     pub(super) fn look<T>(&self, copy: impl FnOnce() -> Box<Seen>, look: impl FnOnce(&Seen) -> T) -> T {
         self.lingers.store(LINGER, Ordering::Relaxed);
         let mut seen = lock(&self.seen);
-        // Asked once: another step may be over a moment later, and nobody waits for the one behind it.
+        // Loaded once: another step may end a moment later, and the reader does not wait for it.
         let step = self.step.load(Ordering::Acquire);
         if seen.step < step {
             let shown = lock(&self.fresh).take();
@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     fn seen(step: u64) -> Box<Seen> {
-        let machine = Machine::open("g1_example").expect("it is built in").snapshot();
+        let machine = Machine::open("g1_example").expect("it is a built-in machine").snapshot();
         Box::new(Seen { step, machine, clock: SystemTime::UNIX_EPOCH, diagnosis: Arc::new([]) })
     }
 
@@ -112,7 +112,7 @@ mod tests {
     fn steps_are_shown_for_a_while_after_somebody_has_looked() {
         let view = View::new(seen(0));
         assert!(!view.is_looked_at());
-        view.look(|| unreachable!("it is the last step"), |_| ());
+        view.look(|| unreachable!("the copy is of the last step"), |_| ());
         assert_eq!((0..2 * LINGER).filter(|_| view.is_looked_at()).count(), LINGER as usize);
     }
 
@@ -120,13 +120,13 @@ mod tests {
     fn a_step_that_was_shown_is_not_copied_again() {
         let view = View::new(seen(0));
         view.over(1, Some(seen(1)));
-        assert_eq!(view.look(|| unreachable!("it was shown"), |seen| seen.step), 1);
+        assert_eq!(view.look(|| unreachable!("the copy exists already"), |seen| seen.step), 1);
         view.over(2, None);
         assert_eq!(view.look(|| seen(2), |seen| seen.step), 2);
-        // Who copies meets a machine that is further already.
+        // The reader that copies may find a machine that has advanced further.
         view.over(3, None);
         assert_eq!(view.look(|| seen(4), |seen| seen.step), 4);
         view.over(4, Some(seen(4)));
-        assert_eq!(view.look(|| unreachable!("it was seen"), |seen| seen.step), 4);
+        assert_eq!(view.look(|| unreachable!("the copy exists already"), |seen| seen.step), 4);
     }
 }

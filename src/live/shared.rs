@@ -1,5 +1,5 @@
-//! What the stepping thread and everybody else share: the machine behind its lock, the copy of its last step, the inbox, and how well
-//! the schedule is kept.
+//! The data shared between the stepping thread and all other threads: the machine behind its lock, the copy of its last step, the inbox,
+//! and the statistics of the schedule.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
@@ -12,47 +12,47 @@ use super::inbox::Inbox;
 use super::seen::{Seen, View};
 use super::speed::Speed;
 
-/// How often the lock is tried by a caller that does not wait for it.
+/// How often a caller that does not wait tries the lock.
 const SOON: u32 = 40;
-/// How often the stepping thread lets others go first, at most.
+/// How often, at most, the stepping thread lets other threads take the lock first.
 const COURTESY: u32 = 100;
-/// How often a caller that wants the machine lets others go first before it waits in a queue.
+/// How often a caller yields before it blocks on the lock.
 const PATIENCE: u32 = 20;
 
 /// How well the schedule was kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pace {
-    /// Cycles that began later than the next one was due.
+    /// Cycles that began after the next one was already due.
     pub overruns: u64,
-    /// The latest of them.
+    /// The largest delay.
     pub worst: Duration,
-    /// Time that was given up.
+    /// Time that was skipped.
     pub lost: Duration,
 }
 
-/// What the stepping thread and those outside share.
+/// The data shared between the stepping thread and all other threads.
 #[derive(Debug)]
 pub(super) struct Shared {
     clocked: Mutex<Clocked>,
-    /// What clients see of it.
+    /// The state that clients see.
     view: View,
-    /// What clients asked for.
+    /// The orders of clients.
     pub(super) inbox: Inbox,
-    /// A scan may wait for a process: each step is shown before it does.
+    /// A scan may wait for a process, so each step is copied before the next one begins.
     is_lock_step: bool,
-    /// A step is shown while somebody looks; faster, few of so many are looked at, and each is copied by the client that looks.
+    /// Whether the stepping thread copies steps. Above real time few of the steps are read, and the reader copies them.
     is_real_time: bool,
-    /// How many wait for the lock.
+    /// The number of threads that wait for the lock.
     waiting: AtomicUsize,
-    /// How many steps are over.
+    /// The number of completed steps.
     steps: watch::Sender<u64>,
     overruns: AtomicU64,
     worst: AtomicU64,
     lost: AtomicU64,
     speed: Speed,
-    /// It takes no step yet.
+    /// It takes no steps yet.
     is_held: AtomicBool,
-    /// It takes no step any more.
+    /// It takes no more steps.
     has_ended: AtomicBool,
 }
 
@@ -75,19 +75,19 @@ impl Shared {
         }
     }
 
-    /// The machine with what goes with it, when nobody shares it any more.
+    /// The machine, when no other thread shares it any more.
     pub(super) fn into_clocked(self) -> Clocked {
         self.clocked.into_inner().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// How well the schedule was kept so far.
+    /// How well the schedule has been kept so far.
     pub(super) fn pace(&self) -> Pace {
         let nanos = |counter: &AtomicU64| Duration::from_nanos(counter.load(Ordering::Relaxed));
         let Self { overruns, worst, lost, .. } = self;
         Pace { overruns: overruns.load(Ordering::Relaxed), worst: nanos(worst), lost: nanos(lost) }
     }
 
-    /// A cycle began too late.
+    /// Counts a cycle that began too late.
     pub(super) fn overrun(&self, late: Duration, is_given_up: bool) {
         let nanos = u64::try_from(late.as_nanos()).unwrap_or(u64::MAX);
         self.overruns.fetch_add(1, Ordering::Relaxed);
@@ -105,14 +105,14 @@ impl Shared {
         self.is_held.load(Ordering::Acquire)
     }
 
-    /// How many times real time is wanted.
+    /// The requested speed relative to real time.
     pub(super) fn speed(&self) -> Speed {
         self.speed
     }
 
-    /// The machine between two steps.
+    /// Locks the machine between two steps.
     pub(super) fn lend(&self) -> MutexGuard<'_, Clocked> {
-        // A step is over sooner than the system puts a thread to sleep and wakes it.
+        // A step ends sooner than the system can put a thread to sleep and wake it.
         for _ in 0..PATIENCE {
             match self.clocked.try_lock() {
                 Ok(lent) => return lent,
@@ -126,7 +126,7 @@ impl Shared {
         lent
     }
 
-    /// The machine between two steps, or none within some milliseconds.
+    /// Locks the machine between two steps; `None` if that takes longer than some milliseconds.
     pub(super) fn lend_soon(&self) -> Option<MutexGuard<'_, Clocked>> {
         self.waiting.fetch_add(1, Ordering::Relaxed);
         let lent = (0..SOON).find_map(|_| match self.clocked.try_lock() {
@@ -141,7 +141,7 @@ impl Shared {
         lent
     }
 
-    /// The machine for its next step, after those that wait for it.
+    /// Locks the machine for its next step, after the threads that wait for it.
     pub(super) fn lend_for_a_step(&self) -> MutexGuard<'_, Clocked> {
         for _ in 0..COURTESY {
             if self.waiting.load(Ordering::Relaxed) == 0 {
@@ -152,12 +152,12 @@ impl Shared {
         self.clocked.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The machine as it was after its last step.
+    /// Reads the machine as it was after its last step.
     pub(super) fn look<T>(&self, look: impl FnOnce(&Seen) -> T) -> T {
         self.view.look(|| self.lend().seen(), look)
     }
 
-    /// A step is over: gives the machine back, and shows the step to those who look.
+    /// Ends a step: unlocks the machine and shows the step to readers.
     pub(super) fn give_back(&self, clocked: MutexGuard<'_, Clocked>) {
         let is_shown = self.is_lock_step || self.is_real_time && self.view.is_looked_at();
         let (step, shown) = (clocked.steps(), is_shown.then(|| clocked.seen()));
@@ -166,14 +166,14 @@ impl Shared {
         self.steps.send_replace(step);
     }
 
-    /// Waits until a step is over; whether it ever is.
+    /// Waits until a step has ended; returns false if it never will.
     pub(super) async fn over(&self, step: u64) -> bool {
         let mut steps = self.steps.subscribe();
         let _ = steps.wait_for(|steps| *steps >= step || self.has_ended()).await;
         *self.steps.borrow() >= step
     }
 
-    /// No step follows.
+    /// Marks the end: no step follows.
     pub(super) fn end(&self) {
         self.has_ended.store(true, Ordering::Release);
         self.steps.send_modify(|_| {});

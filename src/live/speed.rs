@@ -1,8 +1,8 @@
-//! How many times real time a machine runs: `--speed N` of `opennck serve`, and what a schedule makes of it.
+//! The speed of a machine relative to real time: `--speed N` of `opennck serve`, and its use in the schedule.
 
 use std::time::Duration;
 
-/// How many times real time, in thousandths.
+/// The speed relative to real time, in thousandths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Speed(u32);
 
@@ -13,7 +13,7 @@ impl Default for Speed {
 }
 
 impl Speed {
-    /// How long so many nanoseconds of the machine take.
+    /// The real time that corresponds to a simulated time in nanoseconds.
     pub(super) fn real(self, simulated: u128) -> Duration {
         Duration::from_nanos(u64::try_from(simulated * 1000 / u128::from(self.0)).unwrap_or(u64::MAX))
     }
@@ -25,7 +25,7 @@ impl std::str::FromStr for Speed {
     fn from_str(text: &str) -> Result<Self, String> {
         let number = text.parse::<f64>().ok().filter(|number| (0.001..=1000.0).contains(number));
         let number = number.ok_or("expected a number from 0.001 to 1000, where 1 is real time")?;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is from 1 to 1,000,000")]
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the value is from 1 to 1,000,000")]
         Ok(Self((number * 1000.0).round() as u32))
     }
 }

@@ -1,9 +1,9 @@
-//! A machine in real time: a thread that steps it when its cycle is due. Clients do not take the lock of the machine: they see a copy of
-//! the last step (`seen.rs`), and their orders wait for the edge of the next (`inbox.rs`).
+//! A machine in real time: a thread steps it when its cycle is due. Clients do not take the lock of the machine: they read a copy of the
+//! last step (`seen.rs`), and their orders wait for the start of the next step (`inbox.rs`).
 //!
-//! The schedule is absolute: cycle n is due n cycles after the start, so delays do not add up. A cycle that begins later than the
-//! next one was due is an overrun and is made up for at once. A delay of more than [`GIVE_UP`] is not made up for: a computer that
-//! slept does not rush.
+//! The schedule is absolute: cycle n is due n cycles after the start, so delays do not accumulate. A cycle that begins after the next one
+//! was due is an overrun, and the thread catches up at once. Delays of more than [`GIVE_UP`] are skipped: a computer that was asleep does
+//! not catch up.
 
 use std::sync::Arc;
 use std::sync::mpsc::{self, RecvTimeoutError, TryRecvError};
@@ -21,14 +21,14 @@ use crate::scenario::{Operator, State};
 use crate::trace::{Trace, Watch};
 use crate::variables::{Describe, RaisedAlarm};
 
-/// Later than this, and the time is lost.
+/// The delay above which the lost time is skipped.
 pub const GIVE_UP: Duration = Duration::from_millis(500);
-/// A computer wakes nobody more exactly than this.
+/// The accuracy with which a computer wakes a thread.
 const EXACT: Duration = Duration::from_millis(1);
-/// How often a machine that is held looks whether it may begin.
+/// Polling interval of a machine that is held.
 const HELD: Duration = Duration::from_millis(1);
 
-/// A machine that runs in real time until it is dropped. Servers plug in by its [`handle`](Live::handle) and end before it.
+/// A machine that runs in real time until it is dropped. Servers connect through its [`handle`](Live::handle) and end before it.
 #[derive(Debug)]
 pub struct Live {
     shared: Arc<Shared>,
@@ -36,27 +36,27 @@ pub struct Live {
     thread: Option<JoinHandle<()>>,
 }
 
-/// What goes with a live machine.
+/// The options of a live machine.
 #[derive(Debug, Default)]
 pub struct LiveOptions {
-    /// Writes down what is done to it.
+    /// Records the changes made to it.
     pub recording: Option<Recording>,
-    /// Keeps its trace, in memory, which shows this.
+    /// Keeps the trace in memory, with this content.
     pub trace: Option<Watch>,
-    /// Acts on it, for a machine that has not run yet.
+    /// A scenario that runs on a machine that has not run yet.
     pub operator: Option<Operator>,
-    /// It is looked at as it was switched on, and takes its first step after [`Live::begin`].
+    /// The machine shows its state after power on, and takes its first step only after [`Live::begin`].
     pub is_held: bool,
-    /// Its scans may wait for a process: each step is shown to clients before it waits in the next one.
+    /// Its scans may wait for a process: each step is shown to clients before the next one waits.
     pub is_lock_step: bool,
 }
 
-/// What was kept of a machine that has ended.
+/// The result of a machine that has ended.
 #[derive(Debug)]
 pub struct Ended {
     /// The machine.
     pub machine: Machine,
-    /// Its trace and what that shows, if it was kept.
+    /// Its trace and the content of that trace, if it was kept.
     pub trace: Option<(Trace, Watch)>,
 }
 
@@ -69,13 +69,13 @@ impl Ended {
 }
 
 impl Live {
-    /// Starts a machine. The clock of its CPU begins with the computer's, in UTC.
+    /// Starts a machine. The clock of its CPU is set to the computer's clock, in UTC.
     #[must_use]
     pub fn start(machine: Machine, speed: Speed) -> Self {
         Self::start_with(machine, speed, LiveOptions::default())
     }
 
-    /// Starts a machine with what goes with it.
+    /// Starts a machine with options.
     #[must_use]
     pub fn start_with(machine: Machine, speed: Speed, options: LiveOptions) -> Self {
         let LiveOptions { recording, trace, operator, is_held, is_lock_step } = options;
@@ -87,67 +87,67 @@ impl Live {
         Self { shared, end: Some(end), thread: Some(thread) }
     }
 
-    /// What a server plugs into.
+    /// The handle with which servers connect.
     #[must_use]
     pub fn handle(&self) -> Handle {
         Handle::new(self.shared())
     }
 
-    /// A machine that is held takes its first step; its schedule begins now.
+    /// Lets a machine that is held take its first step. Its schedule begins now.
     pub fn begin(&self) {
         self.shared.begin();
     }
 
-    /// Whether it takes no step yet.
+    /// Whether it takes no steps yet.
     #[must_use]
     pub fn is_held(&self) -> bool {
         self.shared.is_held()
     }
 
-    /// The step that is being taken is the last one.
+    /// Makes the current step the last one.
     pub fn finish(&self) {
         if let Some(end) = &self.end {
             let _ = end.send(());
         }
     }
 
-    /// Looks at the machine between two steps, or queues commands.
+    /// Reads the machine between two steps, or queues commands.
     pub fn with<T>(&self, look: impl FnOnce(&mut Machine) -> T) -> T {
         look(&mut self.shared.lend().machine)
     }
 
-    /// Looks at the machine and at the scenario that acts on it, if they can be had within some milliseconds: a scan in lock-step may wait
-    /// for long.
+    /// Reads the machine and the scenario that runs on it, if they are free within some milliseconds: a scan in lock-step may wait for
+    /// long.
     pub fn with_soon<T>(&self, look: impl FnOnce(&Machine, Option<&State>) -> T) -> Option<T> {
         self.shared.lend_soon().map(|lent| look(&lent.machine, lent.operator.as_ref().map(Operator::state)))
     }
 
-    /// How far the scenario is that acts on it, if one does.
+    /// The state of the scenario that runs on it, if there is one.
     #[must_use]
     pub fn scenario(&self) -> Option<State> {
         self.shared.lend().operator.as_ref().map(|operator| operator.state().clone())
     }
 
-    /// How long a cycle takes at its speed, by the clock of the computer.
+    /// The duration of a cycle at its speed, by the clock of the computer.
     #[must_use]
     pub fn cycle(&self) -> Duration {
         let nanos = self.with(|machine| machine.cycle_time().nanos());
         self.shared.speed().real(u128::try_from(nanos).unwrap_or(1))
     }
 
-    /// How well the schedule was kept so far.
+    /// How well the schedule has been kept so far.
     #[must_use]
     pub fn pace(&self) -> Pace {
         self.shared.pace()
     }
 
-    /// Whether it still runs; only a defect of the simulator ends it otherwise than by dropping it.
+    /// Whether it still runs. Before it is dropped, only a bug in the simulator ends it.
     #[must_use]
     pub fn is_running(&self) -> bool {
         self.thread.as_ref().is_some_and(|thread| !thread.is_finished())
     }
 
-    /// Ends it; gives what was kept. Nothing where a server still holds a handle: servers end before.
+    /// Ends it and returns the result. Returns `None` if a server still holds a handle: servers must end first.
     #[must_use]
     pub fn end(mut self) -> Option<Ended> {
         self.stop();
@@ -163,10 +163,10 @@ impl Live {
             let _ = thread.join();
             let left = self.shared.inbox.count();
             if left > 0 {
-                tracing::warn!("no step came any more for what clients wrote last: {left} requests");
+                tracing::warn!("{left} requests of clients were still queued at shutdown and were not executed");
             }
         }
-        // Its file is whole before anybody looks at it.
+        // Closes the file of the recording, so that it is complete for its first reader.
         drop(self.shared.lend().recording.take());
     }
 
@@ -181,7 +181,7 @@ impl Drop for Live {
     }
 }
 
-/// Tells everybody that no step follows, also where a step ends by a defect.
+/// Marks the end for all waiting threads, also if a step panics.
 struct End<'a>(&'a Shared);
 
 impl Drop for End<'_> {
@@ -227,7 +227,7 @@ fn run(shared: &Shared, speed: Speed, ended: &mpsc::Receiver<()>) {
     }
 }
 
-/// One step; gives the nanoseconds of its cycle.
+/// Takes one step; returns the nanoseconds of its cycle.
 fn step(shared: &Shared, alarms: &mut Vec<RaisedAlarm>) -> u128 {
     let mut clocked = shared.lend_for_a_step();
     let refused = clocked.take(shared.inbox.take());
@@ -236,14 +236,14 @@ fn step(shared: &Shared, alarms: &mut Vec<RaisedAlarm>) -> u128 {
     let changed = changed_alarms(&clocked.machine, alarms);
     let period = clocked.machine.cycle_time().nanos();
     shared.give_back(clocked);
-    // Nobody waits for the machine while a terminal waits for its reader.
+    // Log after releasing the machine: a blocked terminal must not hold up a step.
     for line in refused.into_iter().chain(changed).chain(over) {
         tracing::info!("{line}");
     }
     u128::try_from(period).unwrap_or(1).max(1)
 }
 
-/// A line for each alarm that has come or gone.
+/// A log line for each alarm that was raised or cancelled.
 fn changed_alarms(machine: &Machine, known: &mut Vec<RaisedAlarm>) -> Vec<String> {
     let pending = &machine.variables().alarms;
     if pending.iter().eq(known.iter()) {
@@ -253,7 +253,7 @@ fn changed_alarms(machine: &Machine, known: &mut Vec<RaisedAlarm>) -> Vec<String
         |alarm: &RaisedAlarm| format!("alarm {} {}", machine.alarm_name(alarm.number), machine.alarm_text(alarm));
     let come = pending.iter().filter(|alarm| !known.contains(alarm)).map(said);
     let gone = known.iter().filter(|known| !pending.iter().any(|alarm| alarm == *known));
-    let changed = come.chain(gone.map(|alarm| format!("gone: {}", said(alarm)))).collect();
+    let changed = come.chain(gone.map(|alarm| format!("cancelled: {}", said(alarm)))).collect();
     known.clear();
     known.extend(pending.iter().copied());
     changed

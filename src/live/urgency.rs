@@ -1,16 +1,16 @@
-//! The stepping thread goes before others where the system allows it: a round-robin thread of the lowest real-time priority. Linux
-//! allows that to the administrator and to whom `ulimit -r` says so; everybody else steps as all programs run, where a thread that
-//! computes without a pause can hold up a cycle for a time slice of some 3 ms.
+//! The stepping thread has priority over other threads if the system allows it: a round-robin thread of the lowest real-time priority.
+//! Linux allows this to the administrator and to users with a limit set in `ulimit -r`. Without it the thread is scheduled like any other,
+//! and another thread that computes without a pause can delay a cycle by a time slice of about 3 ms.
 //!
-//! It needs some microseconds of each cycle. Where it needs all the time it must not go before anybody: not at more than real time,
-//! and not when cycles take longer than they last.
+//! The stepping thread needs some microseconds of each cycle. If it needed all the time, it must not have priority: not above real time,
+//! and not when cycles take longer than their duration.
 
 use super::speed::Speed;
 
-/// After so many cycles without a pause others are as urgent again.
+/// After this many cycles without a pause the thread gives up its priority.
 const BREATHLESS: u32 = 50;
 
-/// Whether this thread goes before others.
+/// Whether this thread has priority.
 #[derive(Debug)]
 pub(super) struct Urgency {
     is_urgent: bool,
@@ -19,20 +19,20 @@ pub(super) struct Urgency {
 }
 
 impl Urgency {
-    /// Makes this thread urgent, if that may be.
+    /// Gives this thread priority if that is allowed.
     pub(super) fn new(speed: Speed) -> Self {
         Self { is_urgent: speed <= Speed::default() && system::hurry(), breathless: 0 }
     }
 
-    /// A cycle is over, and there was a pause before the next or not.
+    /// A cycle has ended, with or without a pause before the next one.
     pub(super) fn note(&mut self, has_paused: bool) {
         self.breathless = if has_paused { 0 } else { self.breathless + u32::from(self.is_urgent) };
         if self.breathless > BREATHLESS {
             *self = Self { is_urgent: false, breathless: 0 };
             system::calm_down();
             tracing::warn!(
-                "{BREATHLESS} cycles one after another took longer than they last: other programs keep this computer busy, or a PLC process \
-                 in lock-step is slow. The machine goes before other programs no more; close some, or take a smaller --speed"
+                "{BREATHLESS} consecutive cycles took longer than the cycle time: this computer is busy, or a PLC process in lock-step is \
+                 slow. The machine now runs without priority; close other programs, or choose a smaller --speed"
             );
         }
     }

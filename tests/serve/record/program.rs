@@ -77,7 +77,7 @@ fn a_scenario_acts_in_real_time_as_it_runs_and_is_recorded() {
     let arguments = ["--scenario", &scenario, "--speed", "50", "--record", "again.toml", "--trace", "live.jsonl"];
     let mut program = Program::start(&folder, &arguments);
     let mut client = Bare::connect(program.address());
-    program.says("the scenario is over, all of it held");
+    program.says("the scenario passed");
     // It is still served, and what clients write then is recorded, too.
     assert_eq!(client.write(&[Item::bytes((FLAGS, 0), 77, &[7])]), [0xFF]);
     assert_eq!(program.end("-TERM"), Some(0));
