@@ -145,8 +145,9 @@ fn main() -> io::Result<()> {
 fn show_log(server: Server) {
     let name = server.name;
     let said = server.end();
-    for line in
-        said.lines().filter(|line| !["has come", "has left", "were left out"].iter().any(|usual| line.contains(usual)))
+    for line in said
+        .lines()
+        .filter(|line| ![" connected", " disconnected", "were omitted"].iter().any(|usual| line.contains(usual)))
     {
         println!("{name}: {line}");
     }

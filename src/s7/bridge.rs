@@ -1,8 +1,8 @@
-//! The station of this simulator: one step's memory to read, commands for the edge of the next step to write.
+//! The station of this simulator: it reads the memory of one step, and collects commands for the start of the next step.
 //!
-//! A server makes a bridge over the state after a step, lets sessions work on it, and queues the commands that it collected: all
-//! of them at the same edge, so nobody sees half of what a request wrote. A bit of the NCK takes what is written, as on a
-//! control, and loses it at the NCK's next publication (SIG-11).
+//! A server creates a bridge over the state after a step, lets sessions work on it, and queues the collected commands. All of them take
+//! effect at the start of the same step, so no client sees a partial write. A bit written by the NCK accepts a write, as on a control, and
+//! loses it at the next publication of the NCK (SIG-11).
 
 use super::command::Command;
 use super::directory::Directory;
@@ -17,28 +17,28 @@ use super::wire::items::{DriveItem, NckItem};
 use crate::image::{Address, Area, Format, Location, Memory, Names, Width};
 use crate::variables::Variables;
 
-/// What a server knows besides memory and variables.
+/// The data of a machine besides its memory and variables.
 #[derive(Clone, Copy)]
 pub struct Machinery<'a> {
     /// RUN or STOP.
     pub state: CpuState,
     /// The clock of the CPU.
     pub clock: DateAndTime,
-    /// What it is called.
+    /// The identification of the CPU.
     pub identity: Identity<'a>,
-    /// What is protected.
+    /// The protection level and password.
     pub protection: Protection,
-    /// The diagnostic buffer, newest first.
+    /// The diagnostic buffer, newest entry first.
     pub diagnosis: &'a [Diagnosis],
-    /// Whether clients may change nothing.
+    /// Whether clients may not change anything.
     pub is_read_only: bool,
-    /// What clients may not write in any case.
+    /// Addresses that clients may never write.
     pub protected: &'a [Protected],
-    /// Machine data; none where there is none of them to be seen.
+    /// The machine data; `None` if they are not available.
     pub machine_data: Option<&'a dyn MachineData>,
-    /// What the control knows beside them: overrides, R parameters, motors, alarms; none where it is not to be seen.
+    /// Further values of the control: overrides, R parameters, motors, alarms; `None` if they are not available.
     pub control: Option<&'a dyn ControlValues>,
-    /// How many clients may be connected at once.
+    /// Maximum number of connected clients.
     pub connections: u16,
 }
 
@@ -83,19 +83,19 @@ impl<'a> Bridge<'a> {
         Self { memory, variables, names, directory, machinery: Machinery::default(), commands: Vec::new() }
     }
 
-    /// With more of the machine than memory and variables.
+    /// Adds the data besides memory and variables.
     #[must_use]
     pub fn with(self, machinery: Machinery<'a>) -> Self {
         Self { machinery, ..self }
     }
 
-    /// What clients asked for so far, in order.
+    /// The commands of the clients so far, in order.
     #[must_use]
     pub fn commands(&self) -> &[Command] {
         &self.commands
     }
 
-    /// Takes what clients asked for.
+    /// The commands of the clients.
     #[must_use]
     pub fn into_commands(self) -> Vec<Command> {
         self.commands
@@ -122,7 +122,7 @@ impl<'a> Bridge<'a> {
         self.memory.locate(&address, self.names.profile).ok()
     }
 
-    /// Queues a number where it lies in one piece.
+    /// Queues a number if it lies in one part of the memory.
     fn write_number(&mut self, area: Area, byte: u32, width: Width, bytes: &[u8]) -> bool {
         let Some(location) = self.locate(area, byte, width) else {
             return false;
@@ -132,7 +132,7 @@ impl<'a> Bridge<'a> {
         true
     }
 
-    /// Queues one element of a type: as one number if it lies in one piece, else byte by byte.
+    /// Queues one element of a type: as one number if it lies in one part of the memory, otherwise byte by byte.
     fn write_element(&mut self, area: Area, byte: u32, bytes: &[u8]) {
         let width = match bytes.len() {
             2 => Some(Width::Word),
@@ -161,8 +161,8 @@ impl Areas for Bridge<'_> {
     }
 
     fn may_read(&self, area: Area, start: u32, length: u32) -> Result<(), Refusal> {
-        // A window of the 828D ends in the middle of a block, so each byte is looked at; it is what is done on reading, too. The end
-        // comes first: nearly always it is there that something is missing, and nobody looks at half a megabyte.
+        // A range of the 828D may end in the middle of a block, so each byte is checked, as for a read. The end is checked first: most
+        // invalid ranges are too long, and the check must not read half a megabyte.
         let mut probe = [0; 1024];
         let mut left = length;
         while left > 0 {
@@ -200,7 +200,7 @@ impl Areas for Bridge<'_> {
                 }
                 Write::Variable { item, bytes } => {
                     let mut commands = std::mem::take(&mut self.commands);
-                    // It was judged before.
+                    // The write was checked before.
                     let _ = nck::write(&self.nck(), &item, bytes, &mut commands);
                     self.commands = commands;
                 }
@@ -216,7 +216,7 @@ impl Blocks for Bridge<'_> {
 
     fn read_block(&self, number: u16, into: &mut [u8]) {
         if self.read(Area::DataBlock(number), 0, into).is_err() {
-            // A block of the 828D has gaps, where nothing is looked for: the machine stands meanwhile.
+            // A block of the 828D has gaps. Skipping them keeps the machine waiting for a shorter time.
             for (first, end) in self.names.profile.spans(number) {
                 if let Some(bytes) = into.get_mut(first.into()..end.into()) {
                     let _ = self.read(Area::DataBlock(number), first.into(), bytes);
@@ -288,7 +288,7 @@ impl NcVariables for Bridge<'_> {
         let Machinery { is_read_only, protected, .. } = self.machinery;
         let is_protected = is_read_only || protected.contains(&Protected::NcVariables);
         match judged {
-            // What is not there cannot be protected either.
+            // An item that does not exist cannot be protected.
             Err(Refusal::DoesNotExist | Refusal::OutOfRange) => judged,
             _ if is_protected => Err(Refusal::NotAllowed),
             _ => judged,

@@ -1,4 +1,4 @@
-//! What clients ask of the machine.
+//! The commands that clients give to the machine.
 
 use crate::image::Location;
 use crate::s7::station::Restart;
@@ -6,19 +6,19 @@ use crate::s7::wire::date_and_time::DateAndTime;
 use crate::units::ChannelNumber;
 use crate::variables::Place;
 
-/// What a client asks of the machine, for the edge of its next step.
+/// A command of a client, to be executed at the start of the next step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// Writes bits once.
     Write {
-        /// Which.
+        /// The address.
         location: Location,
         /// Raw value.
         value: u64,
     },
     /// Stores a machine datum.
     MachineDatum {
-        /// Whose.
+        /// The NCK, mode group, channel or axis that has the datum.
         place: Place,
         /// Its number.
         number: u16,
@@ -29,17 +29,17 @@ pub enum Command {
     },
     /// Writes an R parameter.
     RParameter {
-        /// Whose.
+        /// The channel.
         channel: ChannelNumber,
-        /// `R number`.
+        /// The number: `5` for `R5`.
         number: u16,
         /// Its value.
         value: f64,
     },
-    /// The PLC stops.
+    /// Stops the PLC.
     PlcStop,
-    /// The PLC restarts.
+    /// Restarts the PLC.
     PlcStart(Restart),
-    /// The clock of the CPU is set.
+    /// Sets the clock of the CPU.
     SetClock(DateAndTime),
 }

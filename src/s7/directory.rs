@@ -1,4 +1,5 @@
-//! Which data blocks there are and how long they are, looked up once: blocks do not come and go while a machine runs.
+//! The existing data blocks and their lengths. They are determined once, because blocks do not change while a machine
+//! runs.
 
 use super::station::BlockInfo;
 use crate::image::{Memory, Profile};
@@ -10,10 +11,10 @@ pub struct Directory {
 }
 
 impl Directory {
-    /// The interface blocks of a profile and the own blocks of a memory.
+    /// The interface blocks of a profile and the user blocks of a memory.
     #[must_use]
     pub fn of(memory: &Memory, profile: Profile) -> Self {
-        // An interface block ends behind its last byte, whatever gaps it has.
+        // An interface block ends after its last byte; gaps before it count.
         let end = |number| profile.spans(number).last().map_or(0, |(_, end)| *end);
         let interface = profile.data_blocks().into_iter();
         let mut blocks: Vec<_> = interface.map(|number| BlockInfo { number, length: end(number) }).collect();
@@ -25,13 +26,13 @@ impl Directory {
         Self { blocks }
     }
 
-    /// All of them, ascending.
+    /// All blocks in ascending order.
     #[must_use]
     pub fn blocks(&self) -> &[BlockInfo] {
         &self.blocks
     }
 
-    /// Whether there is a block of this number.
+    /// Whether a block with this number exists.
     #[must_use]
     pub fn has(&self, number: u16) -> bool {
         self.blocks.binary_search_by_key(&number, |block| block.number).is_ok()

@@ -1,8 +1,8 @@
-//! THE WINDOW: S7 communication, through which operator panels, data collectors and test tools see PLC and NCK.
+//! THE S7 SERVER AND CLIENT: S7 communication, with which operator panels, data collectors and test tools access PLC and NCK.
 //!
-//! [`wire`] holds the formats, [`Session`] is one client's conversation without a socket (bytes in, answers out), and
-//! [`Station`] is what it serves. [`Bridge`] is the station of this simulator: the [`Memory`](crate::image::Memory) of one step
-//! to read, and commands for the edge of the next step to write. [`nck`] is the catalogue of NC variables.
+//! [`wire`] has the formats. [`Session`] is the conversation with one client without a socket (bytes in, answers out), and [`Station`] is
+//! the data that it serves. [`Bridge`] is the station of this simulator: it reads the [`Memory`](crate::image::Memory) of one step, and
+//! collects commands for the start of the next step. [`nck`] is the catalogue of NC variables.
 //!
 //! ```
 //! use opennck::image::{Memory, Names};
@@ -13,14 +13,14 @@
 //! let directory = Directory::of(&memory, names.profile);
 //! let mut station = Bridge::new(&memory, &variables, &names, &directory);
 //! let (mut session, mut answers) = (Session::new(Settings::default()), Answers::default());
-//! // The connection request of most clients, and the confirm: 22 bytes, and the TSAPs as they came.
+//! The connection request of most clients and its confirm: 22 bytes each; the confirm repeats the TSAPs.
 //! let request = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
 //! session.receive(&request, &mut station, &mut answers);
 //! assert_eq!(answers.bytes()[5], 0xD0);
 //! ```
 //!
-//! A session asks no clock and opens no socket: time comes in with [`Session::tick`], bytes with [`Session::receive`]. [`server`] does
-//! both, for many clients; [`live`] is the server of a machine in real time.
+//! A session uses no clock and no socket: the time comes from [`Session::tick`], bytes from [`Session::receive`]. [`server`] does both for
+//! many clients; [`live`] is the server of a machine in real time.
 
 pub mod nck;
 pub mod wire;

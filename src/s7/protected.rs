@@ -1,27 +1,27 @@
-//! What clients may not write: data blocks, bytes, NC variables.
+//! Addresses that clients may not write: data blocks, bytes, NC variables.
 
 use std::ops::RangeInclusive;
 
 use crate::image::Area;
 
-/// A part of the machine that clients may read and not write.
+/// A part of the machine that clients may read but not write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Protected {
     /// Data blocks by their numbers.
     Blocks(RangeInclusive<u16>),
-    /// Bytes of an area or a data block; timers and counters have two each.
+    /// Bytes of an area or a data block; timers and counters have two bytes each.
     Bytes {
-        /// Where.
+        /// The area.
         area: Area,
-        /// Which.
+        /// The bytes.
         bytes: RangeInclusive<u32>,
     },
-    /// All NC variables, machine data among them.
+    /// All NC variables, including machine data.
     NcVariables,
 }
 
 impl Protected {
-    /// Whether one of so many bytes from `start` on is in it.
+    /// Whether it contains one of the `length` bytes from `start` on.
     #[must_use]
     pub fn covers(&self, area: Area, start: u32, length: u32) -> bool {
         match self {

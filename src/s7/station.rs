@@ -1,5 +1,5 @@
-//! What a session serves, as small traits: memory, blocks, the CPU, NC variables. A session calls them in the middle of a
-//! request; an implementation answers from one step's state and keeps what is to be changed for the next one.
+//! The interface between a session and its data, as small traits: memory, blocks, the CPU, NC variables. A session calls them while it
+//! handles a request. An implementation reads the state of one step and collects changes for the next one.
 
 use super::wire::data::Refusal;
 use super::wire::date_and_time::DateAndTime;
@@ -16,10 +16,10 @@ pub trait Areas {
     /// Copies bytes from `start` of an area; timers and counters have two bytes each.
     ///
     /// # Errors
-    /// No such block, or it ends before the last byte.
+    /// The block does not exist, or it ends before the last byte.
     fn read(&self, area: Area, start: u32, into: &mut [u8]) -> Result<(), Refusal>;
 
-    /// Whether bytes could be read, however many they are.
+    /// Whether bytes can be read, for any length.
     ///
     /// # Errors
     /// As [`Areas::read`].
@@ -28,48 +28,48 @@ pub trait Areas {
     /// Whether bytes may be written.
     ///
     /// # Errors
-    /// As [`Areas::read`], or the memory is read-only.
+    /// As for [`Areas::read`], or the memory is read-only.
     fn may_write(&self, area: Area, start: u32, length: u32) -> Result<(), Refusal>;
 
-    /// How many bytes an area has: for inputs, outputs, flags, timers and counters.
+    /// The number of bytes of an area: inputs, outputs, flags, timers or counters.
     fn area_length(&self, area: Area) -> u32;
 
-    /// Takes over everything that one request writes, all of which was checked. It becomes visible at once and whole.
+    /// Executes all writes of one request, which were checked before. They become visible together.
     fn write(&mut self, writes: &[Write<'_>]);
 }
 
-/// One item of a request to write.
+/// One item of a write request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Write<'a> {
-    /// Into the memory of the PLC.
+    /// Writes into the memory of the PLC.
     Area {
-        /// Where.
+        /// The area.
         area: Area,
         /// The first byte.
         byte: u32,
-        /// What.
+        /// The value.
         value: WrittenValue<'a>,
     },
-    /// An NC variable.
+    /// Writes an NC variable.
     Variable {
-        /// Which.
+        /// The variable.
         item: NckItem,
-        /// Its bytes as the item has them.
+        /// Its bytes in the form of the item.
         bytes: &'a [u8],
     },
 }
 
-/// What is written into the memory of the PLC.
+/// A value written into the memory of the PLC.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WrittenValue<'a> {
     /// One bit.
     Bit {
-        /// Which bit of the byte.
+        /// Number of the bit in the byte.
         bit: u8,
         /// 1 or 0.
         value: bool,
     },
-    /// Bytes, and how many make one element of the type.
+    /// Bytes and the size of one element.
     Bytes {
         /// The bytes.
         bytes: &'a [u8],
@@ -80,10 +80,10 @@ pub enum WrittenValue<'a> {
 
 /// The blocks of the PLC; only data blocks exist here.
 pub trait Blocks {
-    /// The numbers of all data blocks, ascending.
+    /// The numbers of all data blocks, in ascending order.
     fn data_blocks(&self) -> &[BlockInfo];
 
-    /// Copies a data block; bytes that it does not have stay as they are.
+    /// Copies a data block; bytes in gaps of the block stay unchanged.
     fn read_block(&self, number: u16, into: &mut [u8]);
 }
 
@@ -92,37 +92,37 @@ pub trait Blocks {
 pub struct BlockInfo {
     /// Its number.
     pub number: u16,
-    /// Its bytes, the end of the last one that exists.
+    /// Its length in bytes, up to the end of the last existing byte.
     pub length: u16,
 }
 
 /// The CPU of the PLC.
 pub trait Cpu {
-    /// What it is called.
+    /// The identification of the CPU.
     fn identity(&self) -> Identity<'_>;
 
     /// RUN or STOP.
     fn state(&self) -> CpuState;
 
-    /// Asks for STOP; whether that is possible at all.
+    /// Requests STOP; returns whether that is possible at all.
     fn stop(&mut self) -> bool;
 
-    /// Asks for a restart; whether that is possible at all.
+    /// Requests a restart; returns whether that is possible at all.
     fn start(&mut self, restart: Restart) -> bool;
 
     /// The clock of the CPU.
     fn clock(&self) -> DateAndTime;
 
-    /// Asks to set the clock; whether that is possible at all.
+    /// Requests to set the clock; returns whether that is possible at all.
     fn set_clock(&mut self, time: DateAndTime) -> bool;
 
-    /// What is protected, and by which password.
+    /// The protection level and its password.
     fn protection(&self) -> Protection;
 
     /// The diagnostic buffer, newest entry first.
     fn diagnosis(&self) -> &[Diagnosis];
 
-    /// How many clients may be connected at once.
+    /// Maximum number of connected clients.
     fn connections(&self) -> u16;
 }
 
@@ -131,20 +131,20 @@ pub trait Cpu {
 pub enum CpuState {
     /// The program runs.
     Run,
-    /// It does not.
+    /// The program does not run.
     Stop,
 }
 
 /// How a CPU restarts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Restart {
-    /// What is retentive stays: OB100.
+    /// Retentive data are kept: OB100.
     Warm,
-    /// Everything starts anew: OB102.
+    /// All data are initialised: OB102.
     Cold,
 }
 
-/// What a module says of itself.
+/// The identification of a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Identity<'a> {
     /// Order number, 20 characters.
@@ -157,13 +157,13 @@ pub struct Identity<'a> {
     pub module_name: &'a str,
     /// Plant identification.
     pub plant: &'a str,
-    /// Whose it is.
+    /// Copyright entry.
     pub copyright: &'a str,
     /// Serial number.
     pub serial_number: &'a str,
     /// Type of the module.
     pub module_type: &'a str,
-    /// Where it stands.
+    /// Location identification.
     pub location: &'a str,
 }
 
@@ -181,7 +181,7 @@ impl Identity<'static> {
         location: "",
     };
 
-    /// The PLC of an 828D: part of the control, whose operator unit (PPU) has the order number. Choice: a PPU 28x.
+    /// The PLC of an 828D: part of the control; the order number is that of its operator unit (PPU). Choice: a PPU 28x.
     pub const SINUMERIK_828D: Self = Self {
         order_number: "6FC5370-5AA40-0AA0  ",
         version: [4, 0, 0],
@@ -191,18 +191,18 @@ impl Identity<'static> {
     };
 }
 
-/// What is protected.
+/// The protection of a CPU.
 ///
-/// | level | what needs the password |
+/// | level | functions that need the password |
 /// |---|---|
 /// | 1 | nothing |
 /// | 2 | stop, restart, setting the clock |
-/// | 3 | reading blocks, too |
+/// | 3 | also reading blocks |
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Protection {
     /// 1 to 3.
     pub level: u8,
-    /// Eight characters; none where there is nothing to give.
+    /// Eight characters; `None` if there is no password.
     pub password: Option<[u8; 8]>,
 }
 
@@ -211,29 +211,29 @@ pub struct Protection {
 pub struct Diagnosis {
     /// Number of the event, such as [`Diagnosis::STOP`].
     pub event: u16,
-    /// Its information.
+    /// Additional information.
     pub information: [u8; 10],
-    /// When it happened.
+    /// Time of the event.
     pub time: DateAndTime,
 }
 
 impl Diagnosis {
-    /// Power came; what is retentive is still there.
+    /// Power on; retentive data are kept.
     pub const POWER_ON: u16 = 0x4300;
-    /// STOP became START-UP.
+    /// STOP to START-UP.
     pub const START_UP: u16 = 0x4301;
-    /// START-UP became RUN.
+    /// START-UP to RUN.
     pub const RUN: u16 = 0x4302;
     /// STOP by a programming device.
     pub const STOP: u16 = 0x4304;
-    /// STOP by a fault of the program.
+    /// STOP because of an error in the program.
     pub const FAULT: u16 = 0x4562;
-    /// A warm restart was asked for by hand.
+    /// Manual request for a warm restart.
     pub const WARM_RESTART: u16 = 0x1381;
-    /// A cold restart was asked for by hand.
+    /// Manual request for a cold restart.
     pub const COLD_RESTART: u16 = 0x1385;
 
-    /// An event of the operating state, with no program behind it.
+    /// A change of the operating state that no program caused.
     #[must_use]
     pub const fn of_state(event: u16, time: DateAndTime) -> Self {
         // Priority class FF: none.
@@ -243,7 +243,7 @@ impl Diagnosis {
 
 /// The variables of the NCK.
 pub trait NcVariables {
-    /// Appends the rows that an item asks for.
+    /// Appends the requested rows.
     ///
     /// # Errors
     /// There is no such variable, or no such row.
@@ -252,12 +252,12 @@ pub trait NcVariables {
     /// Appends a parameter of a drive object.
     ///
     /// # Errors
-    /// There is no such object or parameter, or it is of another type.
+    /// There is no such object or parameter, or it has another type.
     fn read_drive(&self, item: &DriveItem, into: &mut Vec<u8>) -> Result<(), Refusal>;
 
-    /// Whether a variable takes these bytes.
+    /// Whether a variable accepts these bytes.
     ///
     /// # Errors
-    /// There is no such variable or row, it cannot be written, or a value or the length does not fit.
+    /// There is no such variable or row, it cannot be written, or the value or its length does not fit.
     fn may_write_variable(&self, item: &NckItem, bytes: &[u8]) -> Result<(), Refusal>;
 }

@@ -60,7 +60,7 @@ fn it_serves_until_it_is_asked_to_end() {
         let output = served.end(signal);
         let log = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(0), "{log}");
-        assert!(log.contains("has come") && log.contains("the server ends"), "{log}");
+        assert!(log.contains(" connected") && log.contains("the server stops"), "{log}");
     }
 }
 
@@ -70,7 +70,7 @@ fn a_closed_door_ends_it_with_cause_and_cure() {
     let taken = taken.local_addr().unwrap().to_string();
     let metrics = format!("--metrics={taken}");
     for (arguments, said) in [
-        (["g1_example", "--s7", &taken], ["one in use", "choose another port"]),
+        (["g1_example", "--s7", &taken], ["the port is in use", "choose another port"]),
         (["g1_example", "--plc", "enable_al"], ["`enable_al`", "enable_all"]),
         (["g1_exampel", "--s7", "127.0.0.1:0"], ["g1_exampel", "g1_example"]),
         (["g1_example", "--plc-image", "no_such"], ["plc_images/no_such.toml", ".toml"]),
@@ -78,15 +78,15 @@ fn a_closed_door_ends_it_with_cause_and_cure() {
         (["g1_example", "--allow", "10.0.0.0/33"], ["10.0.0.0/33", "192.168.0.0/24"]),
         (["g1_example", "--profile", "840d"], ["840d", "828d"]),
         (["g1_example", "--s7-fault", "drop=2"], ["drop", "1/100"]),
-        (["g1_example", "--s7-fault", "code=8104"], ["error= beside code=", "code=8104: add error=1%"]),
-        (["g1_example", "--s7=127.0.0.1:0", "--pcap=no_such/a.pcap"], ["no_such/a.pcap", "a folder that is there"]),
+        (["g1_example", "--s7-fault", "code=8104"], ["error= together with code=", "code=8104: add error=1%"]),
+        (["g1_example", "--s7=127.0.0.1:0", "--pcap=no_such/a.pcap"], ["no_such/a.pcap", "an existing folder"]),
         (["g1_example", "--protect", "DB99"], ["--protect DB99", "DB1000.DBB0..99"]),
         (["g1_example", "--password", "too long for it"], ["--password", "1 to 8 characters"]),
         (["g1_example", "--protection-level=3", "--read-only"], ["--protection-level 3", "OPENNCK_S7_PASSWORD"]),
         (["g1_example", "--identity", "no_such.toml"], ["no_such.toml", "check the path"]),
         (["g1_example", "--pdu", "100"], ["100", "240..=960"]),
         (["g1_example", "--idle", "10"], ["10", "500ms, 30s or 10min"]),
-        (["g1_example", "--s7=127.0.0.1:0", &metrics], ["--metrics", "one in use"]),
+        (["g1_example", "--s7=127.0.0.1:0", &metrics], ["--metrics", "the port is in use"]),
     ] {
         let output = serve(&arguments).output().unwrap();
         let error = String::from_utf8(output.stderr).unwrap();
@@ -106,9 +106,9 @@ fn its_log_says_who_wrote_and_what_was_refused() {
     assert!(client.read_db(99, 4, &mut [0; 10]).is_err());
     let log = String::from_utf8(served.end("-INT").stderr).unwrap();
     for line in [
-        "has written MB0, 2 bytes = AB CD",
-        "was refused to write MB8, 4 bytes: 03, access is not allowed",
-        "was refused to read DB99.DBB4, 10 bytes: 0A, the object does not exist",
+        "wrote MB0, 2 bytes = AB CD",
+        "refused: write MB8, 4 bytes: 03, access is not allowed",
+        "refused: read DB99.DBB4, 10 bytes: 0A, the object does not exist",
     ] {
         assert!(log.lines().any(|found| found.contains("127.0.0.1:") && found.ends_with(line)), "{line}: {log}");
     }
@@ -151,7 +151,7 @@ fn the_own_client_asks_nothing_that_is_refused() {
     assert!(read.contains("DB33.DBB0") && read.contains("XF.feed_override"), "{read}");
     assert_eq!(s7("info", &[]).status.code(), Some(0));
     let log = String::from_utf8(served.end("-INT").stderr).unwrap();
-    assert!(log.contains("has come") && !log.contains("was refused"), "{log}");
+    assert!(log.contains(" connected") && !log.contains("refused"), "{log}");
 }
 
 /// Who called a slot that is not there is not told to have asked for the end.
@@ -168,10 +168,9 @@ fn the_log_tells_a_refused_slot_from_who_sends_something_else() {
     call(&connect);
     call(b"GET / HTTP/1.1");
     let log = String::from_utf8(served.end("-INT").stderr).unwrap();
-    for line in [
-        "was refused: there is no module at TSAP 0109 (rack 0, slot 9)",
-        "was disconnected: what it sent is no S7 communication",
-    ] {
+    for line in
+        ["rejected: no module at TSAP 0109 (rack 0, slot 9)", "closed: the client does not use S7 communication"]
+    {
         assert!(log.lines().any(|found| found.ends_with(line)), "{line}: {log}");
     }
 }

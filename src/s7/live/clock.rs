@@ -1,4 +1,4 @@
-//! The clock of the CPU: `DATE_AND_TIME` of S7, which has no time zone, for a point in time in UTC.
+//! Converts the clock of the CPU between a point in time in UTC and `DATE_AND_TIME` of S7, which has no time zone.
 
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
@@ -7,7 +7,7 @@ use crate::s7::DateAndTime;
 /// From 1970 to the first `DATE_AND_TIME`, 1990.
 const EARLIER: Duration = Duration::from_secs(7305 * 86_400);
 
-/// In whole milliseconds; 1990 for what is earlier, and again from 2090 on.
+/// In whole milliseconds. Earlier times become 1990; from 2090 on the count starts again at 1990.
 pub(super) fn to_date_and_time(time: SystemTime) -> DateAndTime {
     let since = time.duration_since(UNIX_EPOCH + EARLIER).unwrap_or_default();
     DateAndTime::FIRST.later(u64::try_from(since.as_millis()).unwrap_or(u64::MAX))

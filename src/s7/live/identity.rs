@@ -1,4 +1,4 @@
-//! `--identity F.toml`: what the CPU says of itself, where that is to be as on a certain machine.
+//! `--identity F.toml`: the identification of the CPU, for example that of a particular machine.
 //!
 //! ```toml
 //! order_number = "6ES7 317-2EK14-0AB0"   # up to 20 characters
@@ -11,14 +11,14 @@
 //! module_type = "CPU 317-2 PN/DP"
 //! location = "=A1+S2"
 //! ```
-//! What is not there stays as it is.
+//! Missing keys keep their defaults.
 
 use std::path::Path;
 
 use crate::s7::Identity;
 use crate::source::{Node, Problem, Table, read_text};
 
-/// What a file says of the CPU.
+/// The content of an identity file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct OwnIdentity {
     order_number: Option<String>,
@@ -36,7 +36,7 @@ impl OwnIdentity {
     /// Reads a file.
     ///
     /// # Errors
-    /// It cannot be read, is no TOML, has other keys, or a text that the module has no room for.
+    /// The file cannot be read, is not TOML, or has unknown keys or a text that is too long for its field.
     pub fn read(path: &Path) -> Result<Self, Problem> {
         Self::parse(&read_text(path)?, &path.display().to_string())
     }
@@ -59,7 +59,7 @@ impl OwnIdentity {
         Ok(identity)
     }
 
-    /// An identity with what the file says.
+    /// The identification `base` with the values of the file.
     #[must_use]
     pub fn over<'a>(&'a self, base: Identity<'a>) -> Identity<'a> {
         let said = |own: &'a Option<String>, base| own.as_deref().unwrap_or(base);
@@ -77,13 +77,13 @@ impl OwnIdentity {
     }
 }
 
-/// A text of ASCII for a field of fixed length.
+/// An ASCII text for a field of fixed length.
 fn short(node: &Node, longest: usize) -> Result<String, Problem> {
     let text = node.text("a text")?;
     if text.len() <= longest && text.bytes().all(|byte| (b' '..=b'~').contains(&byte)) {
         return Ok(text.to_owned());
     }
-    Err(node.expected(&format!("at most {longest} characters of ASCII"), "a module has no room for more"))
+    Err(node.expected(&format!("at most {longest} characters of ASCII"), "the field of the module is not longer"))
 }
 
 fn version(node: &Node) -> Result<[u8; 3], Problem> {

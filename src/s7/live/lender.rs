@@ -1,6 +1,7 @@
-//! What S7 clients see of a live machine, and how they order from it.
+//! The access of S7 clients to a live machine.
 //!
-//! A request reads the machine as its last step left it. What it writes is one order, so all of it acts at the edge of the same step.
+//! A request reads the machine as its last step left it. Everything that it writes is one order, and therefore takes effect at the start of
+//! the same step.
 
 use std::net::SocketAddr;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -13,7 +14,7 @@ use crate::machine;
 use crate::s7::server::Stations;
 use crate::s7::{Bridge, Command, CpuState, Diagnosis, Directory, Machinery, Restart, Station};
 
-/// Lends a live machine to one request after another.
+/// Serves one request after another from a live machine.
 #[derive(Debug)]
 pub(super) struct Lender {
     live: Handle,
@@ -24,7 +25,7 @@ pub(super) struct Lender {
     diagnosis: Mutex<Shown>,
 }
 
-/// The diagnostic buffer of the machine, and the same as S7 shows it.
+/// The diagnostic buffer of the machine, and its form in S7.
 #[derive(Debug)]
 struct Shown {
     of: Arc<[Entry]>,
@@ -48,7 +49,7 @@ impl Lender {
         (!order.is_empty()).then(|| self.live.order(order))
     }
 
-    /// Lends what is seen of the machine; gives what was asked for.
+    /// Serves a request from a copy of the machine; returns the requested commands.
     fn show(&self, seen: &Seen, work: &mut dyn FnMut(&mut dyn Station)) -> Vec<Command> {
         let machine = seen.machine();
         let data = Panel(machine);
@@ -85,7 +86,7 @@ impl Stations for Lender {
 
     async fn taken_up(&self, step: u64) {
         if !self.live.taken_up(step).await {
-            // The machine has ended: what was written is not acknowledged before the server's own time limit.
+            // The machine has ended. The write is not acknowledged within the time limit of the server.
             std::future::pending::<()>().await;
         }
     }
@@ -114,7 +115,7 @@ fn diagnosis(entry: &Entry) -> Diagnosis {
     Diagnosis::of_state(event, to_date_and_time(entry.time))
 }
 
-/// What a request asked for, as the machine does it.
+/// Converts the commands of a request to commands of the machine.
 fn order(client: Option<SocketAddr>, commands: Vec<Command>, machine: &machine::Machine) -> Order {
     let mut order = Order { client, commands: Vec::with_capacity(commands.len()), clock: None };
     for command in commands {
@@ -124,7 +125,7 @@ fn order(client: Option<SocketAddr>, commands: Vec<Command>, machine: &machine::
                 match machine_datum(machine, place, number, index, value) {
                     Ok(command) => command,
                     Err(problem) => {
-                        tracing::info!("a client wrote what the machine does not take: {problem}");
+                        tracing::info!("rejected a command of a client: {problem}");
                         continue;
                     }
                 }

@@ -1,7 +1,7 @@
-//! What Prometheus scrapes: `GET /metrics`, as text (exposition format 0.0.4), over as much HTTP as that takes.
+//! Metrics for Prometheus: `GET /metrics` as text (exposition format 0.0.4) over a minimal HTTP server.
 //!
-//! Counters end in `_total`, times are seconds. Rates are for Prometheus to take: the real speed is
-//! `rate(opennck_simulated_seconds_total[1m])`, requests per second `rate(opennck_s7_answers_total[1m])`.
+//! Counters end in `_total`, times are in seconds. Prometheus computes the rates: the real speed is
+//! `rate(opennck_simulated_seconds_total[1m])`, requests per second are `rate(opennck_s7_answers_total[1m])`.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::fmt::{Display, Write};
@@ -20,13 +20,13 @@ use crate::variables::Describe;
 
 /// The longest request.
 const LONGEST: usize = 8192;
-/// How long a request and its answer may take.
+/// Time limit for a request and its answer.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// How many may ask at once.
+/// Maximum number of simultaneous requests.
 const PLACES: usize = 16;
 
-/// Answers everybody who asks, until it is dropped. Where all places are taken, whoever has asked for the longest time gives way: a
-/// scrape takes milliseconds, and those who connect and say nothing keep nobody from it.
+/// Answers requests until it is dropped. At the limit the oldest request is dropped: a scrape takes milliseconds, and idle connections must
+/// not block it.
 pub(super) async fn serve(listener: TcpListener, text: impl Fn() -> String + Send + Sync + 'static) {
     let text = Arc::new(text);
     let (mut tasks, mut places) = (JoinSet::new(), VecDeque::<AbortHandle>::new());
@@ -44,7 +44,7 @@ pub(super) async fn serve(listener: TcpListener, text: impl Fn() -> String + Sen
         }
         let text = Arc::clone(&text);
         places.push_back(tasks.spawn(async move {
-            // Who asks too slowly or goes away gets nothing.
+            // A request that is too slow or disconnects gets no answer.
             let _ = timeout(PATIENCE, answer(&mut stream, &*text)).await;
         }));
     }
@@ -64,7 +64,7 @@ async fn answer(stream: &mut TcpStream, text: &(impl Fn() -> String + Sync)) -> 
     stream.shutdown().await
 }
 
-/// The answer to a request; nothing while it is not whole.
+/// The answer to a request; `None` while the request is incomplete.
 fn answer_to(request: &[u8], text: impl Fn() -> String) -> Option<String> {
     let mut headers = [httparse::EMPTY_HEADER; 64];
     let mut parsed = httparse::Request::new(&mut headers);
@@ -75,7 +75,7 @@ fn answer_to(request: &[u8], text: impl Fn() -> String) -> Option<String> {
         Err(_) => ("400 Bad Request", kind, String::new()),
         Ok(httparse::Status::Complete(_)) => match (parsed.method, parsed.path.map(path)) {
             (Some("GET" | "HEAD"), Some("/metrics")) => ("200 OK", "text/plain; version=0.0.4; charset=utf-8", text()),
-            (Some("GET" | "HEAD"), _) => ("404 Not Found", kind, "It is at /metrics.\n".to_owned()),
+            (Some("GET" | "HEAD"), _) => ("404 Not Found", kind, "The metrics are at /metrics.\n".to_owned()),
             _ => ("405 Method Not Allowed\r\nAllow: GET, HEAD", kind, String::new()),
         },
     };
@@ -86,14 +86,14 @@ fn answer_to(request: &[u8], text: impl Fn() -> String) -> Option<String> {
     ))
 }
 
-/// A target without its query.
+/// The target without its query.
 fn path(target: &str) -> &str {
-    // With a proxy in between it is a whole address.
+    // A request through a proxy has a complete URL.
     let path = target.strip_prefix("http://").and_then(|rest| rest.find('/').map(|at| &rest[at..])).unwrap_or(target);
     path.split_once('?').map_or(path, |(path, _)| path)
 }
 
-/// Everything there is to tell, now.
+/// The current values of all metrics.
 pub(super) fn text(live: &Handle, clients: usize, counters: &Counters) -> String {
     let mut text = Text(String::new());
     let pace = live.pace();
@@ -105,32 +105,32 @@ pub(super) fn text(live: &Handle, clients: usize, counters: &Counters) -> String
         }
         (machine.cycle(), machine.time().seconds(), !machine.is_plc_stopped(), alarms)
     });
-    text.one("opennck_steps_total", "Steps of the machine, one a cycle.", steps);
-    text.one("opennck_simulated_seconds_total", "Time of the machine.", seconds);
-    text.one("opennck_speed", "How many times real time is wanted.", live.speed());
-    text.one("opennck_overruns_total", "Steps that began later than the next one was due.", pace.overruns);
-    text.one("opennck_worst_lateness_seconds", "The latest of them.", pace.worst.as_secs_f64());
-    text.one("opennck_lost_seconds_total", "Time that was given up.", pace.lost.as_secs_f64());
-    text.one("opennck_plc_running", "Whether the PLC is in RUN.", u8::from(runs));
-    text.family("opennck_alarms_pending", "Alarms that are pending, by number.");
+    text.one("opennck_steps_total", "Steps of the machine, one per cycle.", steps);
+    text.one("opennck_simulated_seconds_total", "Simulated time of the machine.", seconds);
+    text.one("opennck_speed", "Requested speed relative to real time.", live.speed());
+    text.one("opennck_overruns_total", "Steps that began after the next one was already due.", pace.overruns);
+    text.one("opennck_worst_lateness_seconds", "Largest delay of a step.", pace.worst.as_secs_f64());
+    text.one("opennck_lost_seconds_total", "Real time that was skipped.", pace.lost.as_secs_f64());
+    text.one("opennck_plc_running", "1 if the PLC is in RUN.", u8::from(runs));
+    text.family("opennck_alarms_pending", "Pending alarms, by number.");
     for (number, count) in alarms {
         text.sample("opennck_alarms_pending", &[("number", &number)], count);
     }
-    text.one("opennck_s7_clients", "Clients that are connected.", clients);
-    text.one("opennck_s7_connections_total", "Connections that were accepted.", counters.connections.get());
-    text.family("opennck_s7_sent_away_total", "Clients that were sent away, by reason.");
+    text.one("opennck_s7_clients", "Connected clients.", clients);
+    text.one("opennck_s7_connections_total", "Accepted connections.", counters.connections.get());
+    text.family("opennck_s7_sent_away_total", "Rejected clients, by reason.");
     text.sample("opennck_s7_sent_away_total", &[("reason", "network")], counters.foreign.get());
     text.sample("opennck_s7_sent_away_total", &[("reason", "places")], counters.crowded.get());
-    text.family("opennck_s7_ended_total", "Connections that ended, by how.");
+    text.family("opennck_s7_ended_total", "Ended connections, by kind of end.");
     for (how, count) in counters.ends() {
         text.sample("opennck_s7_ended_total", &[("how", how)], count);
     }
-    text.one("opennck_s7_answers_total", "Answers, confirms of connections and pushes.", counters.answers.get());
-    text.one("opennck_s7_pushes_total", "Values that were sent by themselves.", counters.pushes.get());
-    text.one("opennck_s7_writes_total", "Requests that changed something.", counters.writes.get());
+    text.one("opennck_s7_answers_total", "Answers, connection confirms and pushes.", counters.answers.get());
+    text.one("opennck_s7_pushes_total", "Updates sent for subscriptions.", counters.pushes.get());
+    text.one("opennck_s7_writes_total", "Requests that changed the machine.", counters.writes.get());
     text.family(
         "opennck_s7_refusals_total",
-        "Refused items (return codes of two digits) and requests (errors of four).",
+        "Refused items (two-digit return codes) and requests (four-digit errors).",
     );
     for (refused, count) in counters.refusals() {
         let of = match refused {
@@ -140,28 +140,28 @@ pub(super) fn text(live: &Handle, clients: usize, counters: &Counters) -> String
         let labels = [("of", of), ("code", &refused.to_string()), ("meaning", refused.meaning())];
         text.sample("opennck_s7_refusals_total", &labels, count);
     }
-    text.one("opennck_s7_received_bytes_total", "Bytes from clients.", counters.received.get());
-    text.one("opennck_s7_sent_bytes_total", "Bytes to clients.", counters.sent.get());
-    text.one("opennck_s7_faults_total", "Answers that met a fault on purpose.", counters.faults.get());
+    text.one("opennck_s7_received_bytes_total", "Bytes received from clients.", counters.received.get());
+    text.one("opennck_s7_sent_bytes_total", "Bytes sent to clients.", counters.sent.get());
+    text.one("opennck_s7_faults_total", "Answers with an injected fault.", counters.faults.get());
     text.0
 }
 
 struct Text(String);
 
 impl Text {
-    /// A number that has no labels.
+    /// A metric without labels.
     fn one(&mut self, name: &str, help: &str, value: impl Display) {
         self.family(name, help);
         self.sample(name, &[], value);
     }
 
-    /// What a name means; its samples follow.
+    /// The description of a metric; its samples follow.
     fn family(&mut self, name: &str, help: &str) {
         let kind = if name.ends_with("_total") { "counter" } else { "gauge" };
         let _ = writeln!(self.0, "# HELP {name} {help}\n# TYPE {name} {kind}");
     }
 
-    /// Labels hold neither quotes nor backslashes nor ends of lines: they are names and numbers of ours.
+    /// Labels are names and numbers of this program, so they contain no quotes, backslashes or line ends.
     fn sample(&mut self, name: &str, labels: &[(&str, &str)], value: impl Display) {
         self.0 += name;
         for (index, (label, said)) in labels.iter().enumerate() {

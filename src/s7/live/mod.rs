@@ -1,6 +1,7 @@
-//! The S7 server of a live machine. It plugs in by a [`live::Handle`](crate::live::Handle) and sees nothing else of [`live`](crate::live).
+//! The S7 server of a live machine. It connects through a [`live::Handle`](crate::live::Handle) and uses nothing else of
+//! [`live`](crate::live).
 //!
-//! A test of a panel can have a machine and its server in its own process:
+//! A test of an operator panel can run a machine and its server in its own process:
 //!
 //! ```
 //! use opennck::live::{Live, Speed};

@@ -1,4 +1,4 @@
-//! What clients see of a live machine beside memory and variables: machine data, and what its control knows.
+//! The data of a live machine besides memory and variables: machine data, and values of its control.
 
 use crate::control::{Datum as StoredDatum, Kind, Owner, Value};
 use crate::image::Profile;
@@ -19,13 +19,13 @@ pub(super) fn machine_datum(
 ) -> Result<Command, Problem> {
     let datum = stored(machine, place, number, index).ok_or_else(|| {
         Problem::new(
-            format!("expected a machine datum that exists, found {number} with index {index}"),
-            "machine data and their indices are those of this control",
+            format!("machine datum {number} with index {index} does not exist"),
+            "use the machine data and indices of this control",
         )
     })?;
     let value = match datum.kind {
         Kind::Boolean => Value::Boolean(value > 0.5),
-        // A whole number is written without a point, and read as one.
+        // An integer has no decimal point in the text, and is read back as an integer.
         Kind::Byte | Kind::Dword | Kind::Udword => Value::parse(&value.to_string()).unwrap_or(Value::Real(value)),
         Kind::Double | Kind::String => Value::Real(value),
     };
@@ -52,7 +52,7 @@ fn stored(machine: &Machine, place: Place, number: u16, index: u16) -> Option<St
     machine.control().data().stored(number.into(), owner(place), u8::try_from(index).ok()?)
 }
 
-/// What an operator panel shows of the control: machine data as they are stored, and what acts.
+/// The control as an operator panel sees it: the stored machine data, and the values in effect.
 pub(super) struct Panel<'a>(pub(super) &'a Machine);
 
 impl nck::MachineData for Panel<'_> {
@@ -105,12 +105,12 @@ impl nck::ControlValues for Panel<'_> {
     }
 
     fn clear_info(&self, alarm: AlarmNumber) -> u8 {
-        // What the control does not know goes with power.
+        // An alarm that the control does not know is cancelled by power on.
         self.0.control().texts().alarm(alarm).map_or(1, |alarm| alarm.clear_info)
     }
 }
 
-/// What the PLC of a control is called.
+/// The identification of the PLC of a control.
 pub(super) fn identity(machine: &Machine) -> Identity<'static> {
     if machine.names().profile == Profile::SINUMERIK_828D {
         Identity::SINUMERIK_828D

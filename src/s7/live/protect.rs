@@ -1,5 +1,5 @@
-//! What S7 clients may not write, and what they may do only with a password, as `--protect`, `--password` and `--protection-level` of
-//! `opennck serve` have it.
+//! Write protection and password protection of the S7 server: the options `--protect`, `--password` and `--protection-level` of `opennck
+//! serve`.
 
 use crate::image::{Address, Area, Width};
 use crate::machine::Machine;
@@ -9,10 +9,10 @@ use crate::source::Problem;
 const CURE: &str =
     "protect whole bytes: DB21, DB21..30, DB1000.DBB0..99, DB1000.DBW4, MB0..99, IB0, T0..9, M, I, Q, T, C or nck";
 
-/// Reads what is protected: a data block or several, an area, bytes of one of them, or the NC variables.
+/// Parses a protected range: one or more data blocks, an area, bytes of either, or the NC variables.
 ///
 /// # Errors
-/// The text is no such address, or the machine does not have it: a misspelt address would protect nothing.
+/// The text is not such an address, or the machine does not have it: a misspelt address would protect nothing.
 pub fn protected(text: &str, machine: &Machine) -> Result<Protected, Problem> {
     let wrong = |what: &str| Problem::new(format!("--protect {text}: {what}"), CURE);
     let (first, last) = text.split_once("..").map_or((text, None), |(first, last)| (first, Some(last)));
@@ -26,14 +26,18 @@ pub fn protected(text: &str, machine: &Machine) -> Result<Protected, Problem> {
         _ => None,
     };
     if let Some(whole) = whole {
-        return if last.is_none() { Ok(whole) } else { Err(wrong("expected a range of bytes, found one of areas")) };
+        return if last.is_none() {
+            Ok(whole)
+        } else {
+            Err(wrong("expected a range of bytes, found a range of areas"))
+        };
     }
     if let Some(number) = first.strip_prefix("DB").and_then(|number| number.parse::<u16>().ok()) {
         let last = last.map(|last| last.strip_prefix("DB").unwrap_or(last).parse());
-        let last = last.unwrap_or(Ok(number)).map_err(|_| wrong("expected the number of the last block behind .."))?;
+        let last = last.unwrap_or(Ok(number)).map_err(|_| wrong("expected the number of the last block after .."))?;
         let directory = Directory::of(machine.memory(), machine.names().profile);
         if !(number..=last).any(|number| directory.has(number)) {
-            return Err(wrong("expected a data block of this machine, found none"));
+            return Err(wrong("expected a data block of this machine, found an unknown number"));
         }
         return Ok(Protected::Blocks(number..=last));
     }
@@ -49,7 +53,7 @@ pub fn protected(text: &str, machine: &Machine) -> Result<Protected, Problem> {
         None => address.byte,
         Some(last) if is_range => match last.parse() {
             Ok(last) if last >= address.byte => last,
-            _ => return Err(wrong("expected the number of the last byte behind .., found another text")),
+            _ => return Err(wrong("expected the number of the last byte after .., found other text")),
         },
         Some(_) => return Err(wrong("expected a range to begin with a byte, found a word")),
     };
@@ -68,26 +72,26 @@ fn all(area: Area) -> Protected {
     Protected::Bytes { area, bytes: 0..=u32::MAX }
 }
 
-/// What needs the password. Without a level, a password protects stop, restart and the clock.
+/// The functions that need the password. Without a level, a password protects stop, restart and setting the clock.
 ///
 /// # Errors
-/// A level without a password, or a password that a module does not take: 1 to 8 characters of ASCII.
+/// A level without a password, or a password that modules do not accept: 1 to 8 ASCII characters are allowed.
 pub fn protection(password: Option<&str>, level: Option<u8>) -> Result<Protection, Problem> {
     let Some(text) = password else {
         return match level {
             None | Some(1) => Ok(Protection { level: 1, password: None }),
             Some(level) => Err(Problem::new(
                 format!("--protection-level {level}: expected a password, found none"),
-                "set OPENNCK_S7_PASSWORD or give --password; nobody could lift the protection without one",
+                "set OPENNCK_S7_PASSWORD or give --password; without a password the protection could not be removed",
             )),
         };
     };
     let bytes = text.as_bytes();
     if !(1..=8).contains(&bytes.len()) || !bytes.iter().all(|byte| (b' '..=b'~').contains(byte)) {
-        // The password itself is not repeated.
+        // The message does not repeat the password.
         return Err(Problem::new(
             format!("--password: expected 1 to 8 characters of ASCII, found {}", text.chars().count()),
-            "choose a shorter one; a module takes letters, digits and usual signs",
+            "choose a shorter one; modules accept letters, digits and common punctuation marks",
         ));
     }
     let mut password = [b' '; 8];

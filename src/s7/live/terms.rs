@@ -1,16 +1,16 @@
-//! On which terms S7 clients are served: what they may not write, what needs a password, and whom they meet.
+//! The terms for S7 clients: protected addresses, functions that need a password, and the identification of the CPU.
 
 use super::identity::OwnIdentity;
 use crate::s7::{Machinery, Protected, Protection};
 
-/// What is said of the CPU and of rights in it; the default protects nothing.
+/// Protection and identification of the CPU. The default protects nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Terms {
-    /// What clients may not write in any case.
+    /// Addresses that clients may never write.
     pub protected: Vec<Protected>,
-    /// What needs a password.
+    /// The functions that need a password.
     pub protection: Protection,
-    /// What the CPU says of itself.
+    /// The identification of the CPU.
     pub identity: OwnIdentity,
 }
 
@@ -22,7 +22,7 @@ impl Default for Terms {
 }
 
 impl Terms {
-    /// A machinery on these terms.
+    /// Applies these terms to a machine.
     pub(super) fn over<'a>(&'a self, machinery: Machinery<'a>) -> Machinery<'a> {
         Machinery {
             protected: &self.protected,

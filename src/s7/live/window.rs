@@ -1,4 +1,4 @@
-//! The S7 server of a live machine: a thread with all its clients. `lender.rs` is what they see.
+//! The S7 server of a live machine: one thread serves all clients. `lender.rs` has their access to the machine.
 
 use std::io;
 use std::net::SocketAddr;
@@ -18,7 +18,7 @@ use crate::s7::Settings;
 use crate::s7::server::{Capture, Counters, Faults, Instruments, Limits, Server, listen};
 use crate::source::Problem;
 
-/// An S7 server that shows a live machine until it is dropped.
+/// An S7 server of a live machine; it runs until it is dropped.
 #[derive(Debug)]
 pub struct Window {
     server: Arc<Server<Lender>>,
@@ -28,40 +28,41 @@ pub struct Window {
     thread: Option<JoinHandle<()>>,
 }
 
-/// How a window is opened other than as usual.
+/// Options of the server.
 #[derive(Debug, Default)]
 pub struct WindowOptions {
-    /// Clients may change nothing.
+    /// Clients may not change anything.
     pub is_read_only: bool,
-    /// How many clients, from where, and how long anybody may take.
+    /// The number of clients, their networks, and time limits.
     pub limits: Limits,
-    /// What each client is offered.
+    /// The settings of each connection.
     pub settings: Settings,
-    /// Faults on purpose.
+    /// Injected faults.
     pub faults: Option<Faults>,
-    /// The file in which all that goes over the wire is written; it must not be there yet.
+    /// The file for the capture of all network traffic; it must not exist yet.
     pub capture: Option<PathBuf>,
-    /// What clients may not write, what needs a password, and whom they meet.
+    /// Protected addresses, functions that need a password, and the identification of the CPU.
     pub terms: Terms,
-    /// Where Prometheus finds its metrics.
+    /// The address for the metrics of Prometheus.
     pub metrics: Option<String>,
 }
 
 impl Window {
-    /// Opens a server on addresses such as `127.0.0.1:10102`, `[::1]:10102`, `localhost:10102`; port 0 is any free one.
+    /// Opens a server on addresses such as `127.0.0.1:10102`, `[::1]:10102` or `localhost:10102`. Port 0 selects a free
+    /// port.
     ///
     /// # Errors
-    /// An address is none, is not of this computer, may not be used, or is in use.
+    /// An address is invalid, does not belong to this computer, may not be used, or is in use.
     pub fn open(live: &Live, addresses: &[&str], is_read_only: bool, limits: Limits) -> Result<Self, Problem> {
         Self::open_with(live, addresses, WindowOptions { is_read_only, limits, ..WindowOptions::default() })
     }
 
-    /// The same with more to say.
+    /// Opens a server with options.
     ///
     /// # Errors
     /// As [`Window::open`].
     pub fn open_with(live: &Live, addresses: &[&str], options: WindowOptions) -> Result<Self, Problem> {
-        // In a thread of its own: a runtime cannot be entered from within another, and tests of clients have one.
+        // In a separate thread: a runtime cannot be entered from within another one, and tests of clients have one.
         std::thread::scope(|scope| {
             let opening = scope.spawn(|| Self::open_here(&live.handle(), addresses, options));
             opening.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
@@ -70,13 +71,13 @@ impl Window {
 
     fn open_here(live: &Handle, addresses: &[&str], options: WindowOptions) -> Result<Self, Problem> {
         let WindowOptions { is_read_only, mut limits, settings, faults, capture, terms, metrics } = options;
-        // A slow machine takes up what was written later.
+        // At low speed a step takes long, and so does the acknowledgement of a write.
         limits.step = limits.step.max(2 * live.cycle());
         let connections = u16::try_from(limits.clients).unwrap_or(u16::MAX);
         let runtime = Builder::new_current_thread().enable_all().build().map_err(|error| {
             Problem::new(
                 format!("the server cannot start: {error}"),
-                "close other programs: the system has no handles left",
+                "close other programs: the system has no free file handles",
             )
         })?;
         let mut listeners = Vec::new();
@@ -92,7 +93,7 @@ impl Window {
             None => Vec::new(),
         };
         let metrics_addresses = for_metrics.iter().filter_map(|listener| listener.local_addr().ok()).collect();
-        // A file is begun when nothing else can stop it.
+        // The capture file is created last, when nothing else can fail.
         let capture = capture.as_deref().map(captured).transpose()?;
         let lender = Lender::new(live.clone(), is_read_only, connections, terms);
         let server = Arc::new(Server::new(lender, settings, limits).with(Instruments { faults, capture }));
@@ -107,31 +108,31 @@ impl Window {
         Ok(Self { server, addresses, metrics_addresses, end, thread: Some(thread) })
     }
 
-    /// Where it can be reached.
+    /// The addresses of the S7 server.
     #[must_use]
     pub fn addresses(&self) -> &[SocketAddr] {
         &self.addresses
     }
 
-    /// Where Prometheus finds its metrics: at `/metrics` of these.
+    /// The addresses at which `/metrics` can be scraped.
     #[must_use]
     pub fn metrics_addresses(&self) -> &[SocketAddr] {
         &self.metrics_addresses
     }
 
-    /// How many clients there are now.
+    /// The number of connected clients.
     #[must_use]
     pub fn clients(&self) -> usize {
         self.server.clients()
     }
 
-    /// How many answers were given so far.
+    /// The number of answers so far.
     #[must_use]
     pub fn answers(&self) -> u64 {
         self.server.counters().answers.get()
     }
 
-    /// What the server counted so far.
+    /// The counters of the server.
     #[must_use]
     pub fn counters(&self) -> &Counters {
         self.server.counters()
@@ -170,8 +171,8 @@ fn serve(
 fn captured(path: &Path) -> Result<Capture, Problem> {
     Capture::create(path).map_err(|error| {
         Problem::new(
-            format!("--pcap {}: expected a file that can be made anew: {error}", path.display()),
-            "name a file that is not there yet, in a folder that is there",
+            format!("--pcap {}: cannot create the file: {error}", path.display()),
+            "choose a file that does not exist yet, in an existing folder",
         )
     })
 }
@@ -179,19 +180,19 @@ fn captured(path: &Path) -> Result<Capture, Problem> {
 fn closed_door(option: &str, address: &str, error: &io::Error) -> Problem {
     let (what, cure) = match error.kind() {
         io::ErrorKind::AddrInUse => (
-            "expected a free port, found one in use".to_owned(),
-            "end the program that has it, or choose another port, for example 127.0.0.1:10103",
+            "the port is in use".to_owned(),
+            "end the program that uses it, or choose another port, for example 127.0.0.1:10103",
         ),
         io::ErrorKind::PermissionDenied => (
-            "expected a port that may be opened, found a protected one".to_owned(),
-            "choose a port from 1024 on, as 10102 is; the usual 102 needs the rights of an administrator",
+            "the port needs administrator rights".to_owned(),
+            "choose a port of 1024 or above, for example 10102, or run as administrator (port 102)",
         ),
         io::ErrorKind::AddrNotAvailable => (
-            "expected an address of this computer, found another one".to_owned(),
-            "127.0.0.1 is this computer only, 0.0.0.0 everybody who can reach it",
+            "the address does not belong to this computer".to_owned(),
+            "use 127.0.0.1 for clients on this computer only, or 0.0.0.0 for clients in the network",
         ),
         _ => (
-            format!("expected an address and a port, found what cannot be opened: {error}"),
+            format!("cannot open this address and port: {error}"),
             "write it as 127.0.0.1:10102, [::1]:10102 or localhost:10102",
         ),
     };

@@ -1,4 +1,4 @@
-//! Clients that come to a listener: each is admitted and served in a task of its own, or rejected.
+//! New clients: each is admitted and served in its own task, or rejected.
 
 use std::future::Future;
 use std::io;
@@ -17,12 +17,12 @@ use tokio::time::{sleep, timeout};
 use super::conversation::Conversation;
 use super::{Server, Stations};
 
-/// How long a place may take to become free whose client was asked to give way.
+/// How long to wait for the place of a client that was asked to disconnect.
 const GIVING_WAY: Duration = Duration::from_secs(1);
 
 impl<S: Stations> Server<S> {
-    /// Serves everybody who comes to a listener, until the end is there. Requests on their way are still answered. One server
-    /// may run on several listeners; its limits are for all of them together.
+    /// Serves all clients of a listener until the end. Requests in progress are still answered. One server may run on several listeners;
+    /// its limits apply to all of them together.
     pub async fn run(self: Arc<Self>, listener: TcpListener, end: impl Future<Output = ()>) {
         let (ending, ended) = watch::channel(false);
         let mut conversations = JoinSet::new();
@@ -38,8 +38,8 @@ impl<S: Stations> Server<S> {
                         }
                     }
                     Err(error) => {
-                        // No more handles, or a client that has gone already: others may still come.
-                        tracing::warn!("a client could not be accepted: {error}");
+                        // No free handles, or the client has already disconnected. Other clients may still connect.
+                        tracing::warn!("cannot accept a client: {error}");
                         sleep(Duration::from_millis(50)).await;
                     }
                 },
@@ -51,12 +51,12 @@ impl<S: Stations> Server<S> {
         conversations.shutdown().await;
     }
 
-    /// A place for a client, if it may come; one that will be free in a moment where somebody silent gives way.
+    /// A place for a client that may connect. The place is `None` if a silent client was asked to disconnect first.
     fn admit(&self, stream: &TcpStream, peer: SocketAddr) -> Option<Option<OwnedSemaphorePermit>> {
         let networks = &self.limits.networks;
         if !networks.is_empty() && !networks.iter().any(|network| network.contains(peer.ip())) {
             self.counters.foreign.add(1);
-            self.flood.log(|| tracing::warn!("{peer} was sent away: it is in none of the networks that are allowed"));
+            self.flood.log(|| tracing::warn!("{peer} rejected: not in an allowed network"));
             return None;
         }
         let place = Arc::clone(&self.places).try_acquire_owned().ok();
@@ -64,7 +64,7 @@ impl<S: Stations> Server<S> {
             self.send_away(peer);
             return None;
         }
-        // Without these it works, too, only later.
+        // The server also works without these options, only more slowly.
         let _ = stream.set_nodelay(true);
         let keep_alive = TcpKeepalive::new().with_time(Duration::from_secs(30));
         let _ = SockRef::from(stream).set_tcp_keepalive(&keep_alive);
@@ -73,7 +73,7 @@ impl<S: Stations> Server<S> {
 
     fn send_away(&self, peer: SocketAddr) {
         self.counters.crowded.add(1);
-        self.flood.log(|| tracing::warn!("{peer} was sent away: {} clients are there already", self.limits.clients));
+        self.flood.log(|| tracing::warn!("{peer} rejected: client limit ({}) reached", self.limits.clients));
     }
 
     async fn attend(
@@ -98,7 +98,7 @@ impl<S: Stations> Server<S> {
     }
 }
 
-/// Counts a client as long as it lives.
+/// Counts a client during its lifetime.
 struct Counted<'a>(&'a AtomicUsize);
 
 impl<'a> Counted<'a> {
@@ -114,11 +114,11 @@ impl Drop for Counted<'_> {
     }
 }
 
-/// Opens every address that a text such as `127.0.0.1:10102`, `[::1]:10102` or `localhost:10102` stands for. Where a name stands for
-/// several, those of a protocol that this computer does not have are left out.
+/// Opens all addresses of a text such as `127.0.0.1:10102`, `[::1]:10102` or `localhost:10102`. If a name has several addresses, those of a
+/// protocol that this computer does not support are skipped.
 ///
 /// # Errors
-/// There is no such address here, or its port is in use.
+/// The address does not belong to this computer, or its port is in use.
 pub async fn listen(address: &str) -> io::Result<Vec<TcpListener>> {
     let mut listeners = Vec::new();
     let mut nowhere = io::Error::from(io::ErrorKind::AddrNotAvailable);

@@ -1,11 +1,11 @@
-//! What goes over the wire as a capture that Wireshark opens (pcap): TCP as it would have been, with its handshake, its sequence
-//! numbers and its end.
+//! Captures the network traffic in a file for Wireshark (pcap): TCP as on the wire, with handshake, sequence numbers and end of each
+//! connection.
 //!
-//! The server's port is written as 102, whichever it is: there Wireshark knows S7 communication without being told. A packet is
-//! what was read or written at once, up to 32 KiB, with the time of the computer's clock. Every packet is in the file as
-//! soon as it is there. The file ends at 1 GiB, or where the disk is full; that is logged, and serving goes on.
+//! The server's port is written as 102, whatever it is, because Wireshark recognises S7 communication there. A packet contains what was
+//! read or written at once, up to 32 KiB, with the time of the computer's clock. Every packet is written to the file immediately. The file
+//! ends at 1 GiB or when the disk is full; this is logged, and the server keeps running.
 
-#![expect(clippy::disallowed_methods, reason = "a capture has the computer's time")]
+#![expect(clippy::disallowed_methods, reason = "the packets have the computer's time")]
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -19,13 +19,13 @@ use etherparse::{PacketBuilder, TcpOptionElement};
 
 /// The port of S7 communication (RFC 1006).
 const PORT: u16 = 102;
-/// Bytes of one packet.
+/// Maximum bytes of one packet.
 const SEGMENT: usize = 32_768;
-/// The largest file.
+/// Maximum size of the file.
 const LARGEST: u64 = 1 << 30;
-/// The packets of the file begin with IP, of version 4 or 6.
+/// Link type: packets begin with IP, version 4 or 6.
 const RAW: u32 = 101;
-/// Windows are written as multiples of 128 bytes.
+/// Window sizes are in units of 128 bytes.
 const WINDOW_SCALE: u8 = 7;
 
 /// A capture of all connections of a server.
@@ -34,7 +34,7 @@ pub struct Capture(Mutex<Output>);
 
 #[derive(Debug)]
 struct Output {
-    /// None when it has ended.
+    /// `None` after the end.
     file: Option<File>,
     length: u64,
     last: Duration,
@@ -42,7 +42,7 @@ struct Output {
 }
 
 impl Capture {
-    /// A new file.
+    /// Creates a new file.
     ///
     /// # Errors
     /// It exists already, or cannot be written.
@@ -52,7 +52,7 @@ impl Capture {
 
     fn into_file(mut file: File) -> io::Result<Self> {
         let mut head = Vec::with_capacity(24);
-        // Microseconds; version 2.4; time zone and accuracy, which nobody uses; longest packet; how packets begin.
+        // Magic number for microseconds; version 2.4; time zone and accuracy (unused); longest packet; link type.
         for word in [0xA1B2_C3D4_u32, 0x0004_0002, 0, 0, 0x0004_0000, RAW] {
             head.extend(word.to_le_bytes());
         }
@@ -61,10 +61,10 @@ impl Capture {
         Ok(Self(Mutex::new(output)))
     }
 
-    /// The connection of this number begins: three packets.
+    /// Begins the connection with this number: three packets.
     pub(super) fn begin(&self, client: SocketAddr, server: SocketAddr, number: u64) -> Recording<'_> {
         let at = |address: SocketAddr, port| SocketAddr::new(address.ip().to_canonical(), port);
-        // Ports are used again: other sequence numbers tell the connections apart.
+        // Ports are reused: different sequence numbers distinguish the connections.
         let start = u32::try_from(number.wrapping_mul(0x0100_0000) & 0xFFFF_FFFF).unwrap_or(0);
         let mut recording = Recording {
             capture: self,
@@ -86,14 +86,14 @@ impl Capture {
 impl Output {
     fn put(&mut self, packet: impl FnOnce(&mut Vec<u8>) -> Result<(), BuildWriteError>) {
         let Some(file) = &mut self.file else { return };
-        // A clock that is set back does not set packets back.
+        // Time stamps never go back, even if the clock is set back.
         let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().max(self.last);
         self.last = now;
         let record = &mut self.record;
         record.clear();
         record.resize(16, 0);
         if packet(record).is_err() {
-            return; // both addresses are of one family and a segment is short
+            return; // both addresses have the same family, and a segment is short enough
         }
         let word = |number: u64| u32::try_from(number).unwrap_or(u32::MAX).to_le_bytes();
         let length = word(record.len() as u64 - 16);
@@ -101,17 +101,17 @@ impl Output {
         record[..16].copy_from_slice(head.as_flattened());
         let larger = self.length + record.len() as u64;
         let ended = if larger > LARGEST {
-            Some("it is as large as it may be".to_owned())
+            Some("the maximum file size is reached".to_owned())
         } else {
-            file.write_all(record).err().map(|error| format!("it cannot be written any more: {error}"))
+            file.write_all(record).err().map(|error| format!("the file cannot be written: {error}"))
         };
         match ended {
             None => self.length = larger,
             Some(why) => {
-                // No half packet at its end.
+                // Removes an incomplete packet at the end.
                 let _ = file.set_len(self.length);
                 self.file = None;
-                tracing::warn!("the capture ends, serving goes on: {why}");
+                tracing::warn!("the capture ends: {why}; the server keeps running");
             }
         }
     }
@@ -120,7 +120,7 @@ impl Output {
 const CLIENT: usize = 0;
 const SERVER: usize = 1;
 
-/// What a packet of TCP does besides carrying bytes.
+/// What a TCP packet does besides carrying bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Begin,
@@ -164,7 +164,7 @@ impl Recording<'_> {
         let taken = match kind {
             Kind::Begin | Kind::Accepted | Kind::End => 1,
             Kind::Acknowledge => 0,
-            Kind::Data => u32::try_from(bytes.len()).unwrap_or(0), // at most a segment
+            Kind::Data => u32::try_from(bytes.len()).unwrap_or(0), // at most one segment
         };
         self.next[from] = sequence.wrapping_add(taken);
         self.capture.output().put(|record| {
@@ -206,7 +206,7 @@ impl Drop for Recording<'_> {
 mod tests {
     use super::*;
 
-    /// A full disk, as the system offers one: nobody is disturbed, and nothing more is written.
+    /// `/dev/full` behaves like a full disk: the capture ends, and nothing else is affected.
     #[test]
     #[cfg(target_os = "linux")]
     fn a_full_disk_ends_the_capture_and_nothing_else() {

@@ -1,7 +1,7 @@
-//! One client of a server: its socket, its session, and when it is left.
+//! One client of a server: its socket, its session, and the reasons to close its connection.
 //!
-//! What a client costs while it says nothing is its session: the room for requests and answers is one for all clients of a thread,
-//! and lent to whoever is being answered ([`Space`]). A client keeps bytes of its own only while a packet of it is not whole yet.
+//! An idle client costs only its session. The buffers for requests and answers are shared by all clients of a thread, and lent to the
+//! client that is being answered ([`Space`]). A client has its own buffer only while one of its packets is incomplete.
 
 use std::cell::Cell;
 use std::future::{Future, poll_fn};
@@ -30,36 +30,36 @@ use crate::s7::wire::pdu::Answers;
 use crate::s7::wire::tpkt::{self, Packet};
 use crate::units::Time;
 
-/// Space for what a client has sent: the longest packet of a TPDU of 8192 bytes, or many short ones.
+/// Size of the input buffer: the longest packet of a TPDU of 8192 bytes, or many short ones.
 const INPUT: usize = 8192 + tpkt::HEADER;
-/// Bytes of answers after which they are sent, and others have their turn.
+/// Bytes of answers after which they are sent and other clients get their turn.
 const TURN: usize = 32 * 1024;
-/// Into how many parts the time is divided after which a client is idle: the clock is asked so often, not at each request.
+/// The idle time is divided into this many parts: the clock is read once per part, not for each request.
 const PARTS: u32 = 8;
-/// How often subscriptions are looked at.
+/// Polling interval of subscriptions.
 const PUSHES: Duration = Duration::from_millis(10);
-/// How long who is disconnected is still listened to.
+/// How long the server still reads from a client that is being disconnected.
 const FAREWELL: Duration = Duration::from_millis(200);
 
 thread_local! {
-    /// The space of this thread, while nobody has it.
+    /// The buffers of this thread, while no client uses them.
     static SPACE: Cell<Space> = const { Cell::new((Vec::new(), None)) };
 }
 
-/// Room for what comes and for what is answered. Two clients have one each where one of them waits in the middle of its turn.
+/// Buffers for input and answers. If one client waits in the middle of its turn, a second client gets new buffers.
 type Space = (Vec<u8>, Option<Answers>);
 
 /// One client.
 pub(super) struct Conversation<'a, S> {
     server: &'a Server<S>,
-    /// Until its first request; taken when the conversation is held.
+    /// Present until the first request; taken when the conversation starts.
     stranger: Option<Stranger<'a>>,
     witness: Witness<'a>,
     faulty: Option<Faulty>,
     stream: TcpStream,
     session: Session,
     answers: Answers,
-    /// What has come and is not a whole packet yet: as many bytes as there are, or the space of the thread, filled so far.
+    /// Bytes of an incomplete packet: an own buffer of exactly their size, or the buffer of the thread, partly filled.
     input: Vec<u8>,
     filled: usize,
 }
@@ -82,8 +82,8 @@ impl<'a, S: Stations> Conversation<'a, S> {
         }
     }
 
-    /// Says good-bye on TCP. Whoever is disconnected in the middle of what it sends has a moment to take what was answered before:
-    /// bytes that nobody reads would reset the connection, and answers on their way would be lost with it.
+    /// Closes the TCP connection. A client that is disconnected while it is still sending has a moment to read the last answers: unread
+    /// bytes would reset the connection, and the answers in transit would be lost.
     pub(super) async fn close(mut self, end: End) {
         self.witness.ended(end);
         let _ = timeout(self.server.limits.writing, self.stream.shutdown()).await;
@@ -131,7 +131,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
                 }
             }
             if is_full {
-                // It may go on like that for ever: others first, and what waits here, too.
+                // The client may continue without end: yield to other clients, and to the events that wait here.
                 yield_now().await;
                 if poll_fn(|cx| Poll::Ready(end.as_mut().poll(cx).is_ready())).await {
                     return self.send().await.unwrap_or(End::Server);
@@ -155,7 +155,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
         }
     }
 
-    /// Reads what has come, into the space of the thread.
+    /// Reads into the buffer of the thread.
     fn poll_read(&mut self, cx: &mut Context<'_>) -> Poll<io::Result<usize>> {
         ready!(self.stream.poll_read_ready(cx))?;
         self.take_space();
@@ -179,7 +179,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
         self.answers = answers.unwrap_or_default();
     }
 
-    /// A turn is over: all its answers were sent.
+    /// Ends a turn: all answers have been sent.
     fn give_space_back(&mut self) {
         if self.input.len() == INPUT {
             let rest = self.input[..self.filled].to_vec();
@@ -187,8 +187,8 @@ impl<'a, S: Stations> Conversation<'a, S> {
         }
     }
 
-    /// Gives the session what has come. Reads that came together see one step. What is written by packets that came together is
-    /// taken up together; whatever else is asked behind them finds it.
+    /// Passes the input to the session. Reads that arrive together see the same step. Writes that arrive together are executed in the same
+    /// step, and any other request after them sees their result.
     async fn receive(&mut self) -> Option<End> {
         let mut start = 0;
         let mut owed = None;
@@ -226,8 +226,8 @@ impl<'a, S: Stations> Conversation<'a, S> {
         None
     }
 
-    /// Answers the packet of this length, and the reads behind it if it is one: so many bytes, whether the connection goes on, and
-    /// the step that takes up what was written.
+    /// Answers the packet of this length, and all further reads if it is a read. Returns the number of bytes, whether the connection
+    /// continues, and the step that executes the writes.
     fn answer(&mut self, start: usize, length: usize) -> (usize, Connection, Option<u64>) {
         let Self { server, witness, faulty, session, answers, input, filled, .. } = self;
         let mut rest = &input[start..*filled];
@@ -257,13 +257,13 @@ impl<'a, S: Stations> Conversation<'a, S> {
             }
         };
         let written = server.stations.lend_to(peer, &mut work);
-        let answered = answered.max(length); // where no station was lent, the packet is passed over
+        let answered = answered.max(length); // skip the packet if no station was lent
         let last = &input[start + answered - length..start + answered];
         witness.answered(last, answers, known, written.is_some());
         (answered, connection, written)
     }
 
-    /// Waits for the step that takes up what was written.
+    /// Waits for the step that executes the writes.
     async fn settle(&self, owed: &mut Option<u64>) {
         if let Some(step) = owed.take() {
             let Server { stations, limits, .. } = self.server;
@@ -271,12 +271,12 @@ impl<'a, S: Stations> Conversation<'a, S> {
         }
     }
 
-    /// The end of the session; what it answered is still sent.
+    /// Ends the session; its last answers are still sent.
     async fn end_session(&mut self) -> Option<End> {
         self.send().await.or(Some(End::Closed))
     }
 
-    /// What is due by itself.
+    /// Sends the updates that are due.
     fn push(&mut self) {
         let now = self.server.begin.elapsed().as_millis();
         let now = Time::from_millis(i64::try_from(now).unwrap_or(i64::MAX));
@@ -305,7 +305,7 @@ async fn until(mut ended: watch::Receiver<bool>) {
     let _ = ended.wait_for(|ended| *ended).await;
 }
 
-/// Waits until a stranger has to give way.
+/// Waits until a client without a request must disconnect.
 async fn turn(stranger: Option<&Stranger<'_>>) {
     match stranger {
         Some(stranger) => stranger.gives_way().await,
@@ -313,7 +313,7 @@ async fn turn(stranger: Option<&Stranger<'_>>) {
     }
 }
 
-/// Waits until it is time to look at the subscriptions; who has none has no clock for them.
+/// Waits until subscriptions are due; without subscriptions no timer runs.
 async fn due(pushes: &mut Option<Interval>) {
     let pushes = pushes.get_or_insert_with(|| {
         let mut pushes = interval(PUSHES);
@@ -323,12 +323,12 @@ async fn due(pushes: &mut Option<Interval>) {
     pushes.tick().await;
 }
 
-/// Whether a packet holds a whole job that writes variables and nothing else: what it is answered does not tell of the memory.
+/// Whether a packet is a complete write job and nothing else: its answer does not depend on the memory.
 fn is_write(packet: &[u8]) -> bool {
     job_of(packet) == Some(function::WRITE)
 }
 
-/// Whether a packet holds a whole job that reads variables and nothing else: it changes nothing.
+/// Whether a packet is a complete read job and nothing else: it changes nothing.
 fn is_read(packet: &[u8]) -> bool {
     job_of(packet) == Some(function::READ)
 }
@@ -341,7 +341,7 @@ fn job_of(packet: &[u8]) -> Option<u8> {
     }
 }
 
-/// Whether a packet that has begun would not fit.
+/// Whether a packet that has begun does not fit.
 fn is_too_long(bytes: &[u8]) -> bool {
     matches!(bytes, [_, _, high, low, ..] if usize::from(u16::from_be_bytes([*high, *low])) > INPUT)
 }

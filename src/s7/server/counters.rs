@@ -1,4 +1,4 @@
-//! What a server counts: who came, what went over the wire, what was refused. Whoever shows it reads it with
+//! The counters of a server: connections, bytes, refusals. They are read with
 //! [`Server::counters`](super::Server::counters).
 
 use std::collections::BTreeMap;
@@ -8,41 +8,41 @@ use std::sync::{Mutex, PoisonError};
 use super::end::End;
 use super::refusals::Refused;
 
-/// Counts from the start of a server.
+/// Counts since the start of a server.
 #[derive(Debug, Default)]
 pub struct Counters {
-    /// Connections that were accepted, those that were sent away not counted.
+    /// Accepted connections, without those that were rejected.
     pub connections: Counter,
-    /// Sent away because of their network.
+    /// Clients rejected because of their network.
     pub foreign: Counter,
-    /// Sent away because all places were taken.
+    /// Clients rejected because of the client limit.
     pub crowded: Counter,
-    /// Bytes that came.
+    /// Received bytes.
     pub received: Counter,
-    /// Bytes that went.
+    /// Sent bytes.
     pub sent: Counter,
-    /// Answers, pushes and confirms of transport.
+    /// Answers, pushes and transport confirms.
     pub answers: Counter,
     /// Requests that changed something.
     pub writes: Counter,
-    /// What was sent without being asked for each time: values in cycles, values that changed.
+    /// Updates sent for subscriptions: cyclic values and changed values.
     pub pushes: Counter,
-    /// Answers that were delayed, swallowed, falsified or cut off on purpose.
+    /// Answers that were delayed, dropped, replaced or cut off by an injected fault.
     pub faults: Counter,
-    /// How connections ended.
+    /// Ended connections by kind of end.
     pub(super) ends: [Counter; End::ALL.len()],
     refusals: Mutex<BTreeMap<Refused, u64>>,
 }
 
 impl Counters {
-    /// How often what was refused.
+    /// The number of refusals by code.
     #[must_use]
     pub fn refusals(&self) -> Vec<(Refused, u64)> {
         let refusals = self.refusals.lock().unwrap_or_else(PoisonError::into_inner);
         refusals.iter().map(|(refused, count)| (*refused, *count)).collect()
     }
 
-    /// How many connections ended in which way.
+    /// The number of ended connections by kind of end.
     pub fn ends(&self) -> impl Iterator<Item = (&'static str, u64)> {
         End::ALL.iter().zip(&self.ends).map(|(end, count)| (end.name(), count.get()))
     }
@@ -52,7 +52,7 @@ impl Counters {
     }
 }
 
-/// A number that only grows.
+/// A number that only increases.
 #[derive(Debug, Default)]
 pub struct Counter(AtomicU64);
 
@@ -67,7 +67,7 @@ impl Counter {
         self.0.fetch_add(count as u64, Ordering::Relaxed);
     }
 
-    /// One more, and the number of it.
+    /// Increments and returns the new number.
     pub(super) fn next(&self) -> u64 {
         self.0.fetch_add(1, Ordering::Relaxed) + 1
     }

@@ -3,19 +3,19 @@
 /// How a conversation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum End {
-    /// The client has gone.
+    /// The client closed the connection.
     Left,
-    /// The session ended: a disconnect request, or bytes of something else.
+    /// The session ended: a disconnect request, or bytes of another protocol.
     Closed,
-    /// It asked nothing for too long.
+    /// Idle timeout.
     Idle,
-    /// It had asked nothing yet, and somebody else needed its place.
+    /// The client had not made a request, and another client needed its place.
     GaveWay,
-    /// It did not take its answers.
+    /// The client did not read its answers.
     Slow,
-    /// The server ends.
+    /// The server stops.
     Server,
-    /// A fault on purpose.
+    /// Injected fault.
     Fault,
 }
 
@@ -23,7 +23,7 @@ impl End {
     pub(super) const ALL: [Self; 7] =
         [Self::Left, Self::Closed, Self::Idle, Self::GaveWay, Self::Slow, Self::Server, Self::Fault];
 
-    /// In one word, for whoever counts.
+    /// A label for the counters.
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::Left => "left",
@@ -40,13 +40,13 @@ impl End {
 impl std::fmt::Display for End {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Self::Left => "has left",
-            Self::Closed => "was disconnected: what it sent is no S7 communication",
-            Self::Idle => "was disconnected: it asked nothing for too long",
-            Self::GaveWay => "was disconnected: it had asked nothing yet, and another client needed its place",
-            Self::Slow => "was disconnected: it did not take its answers",
-            Self::Server => "was disconnected: the server ends",
-            Self::Fault => "was disconnected: a fault on purpose",
+            Self::Left => "disconnected",
+            Self::Closed => "closed: the client does not use S7 communication",
+            Self::Idle => "closed: idle timeout",
+            Self::GaveWay => "closed: no request so far, and the client limit is reached",
+            Self::Slow => "closed: the client did not read its answers",
+            Self::Server => "closed: the server stops",
+            Self::Fault => "closed: injected fault",
         })
     }
 }

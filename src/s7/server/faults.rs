@@ -1,17 +1,19 @@
-//! Faults on purpose, for tests of panels: answers that come late, never, or as an error, and connections that break.
+//! Injected faults for tests of operator panels: answers that are late, missing or errors, and connections that break.
 //!
-//! | said | what happens |
+//! | option | effect |
 //! |---|---|
-//! | `delay=50ms`, `delay=10ms..80ms` | an answer leaves so much later; those to requests that came together wait together |
-//! | `drop=1%` | an answer is swallowed; what was asked for is done |
-//! | `close=1/1000` | the connection is closed in place of an answer; what was asked for is done |
-//! | `error=1%` | a request to read or write is refused and not done: each item has the return code `0A` |
-//! | `code=05`, `code=8104` | `error` with another return code (two digits), or with an error of the whole request (four) |
-//! | `seed=7` | other chances; without it 1 |
+//! | `delay=50ms`, `delay=10ms..80ms` | delays each answer; requests that arrive together are delayed together |
+//! | `drop=1%` | drops an answer; the request is executed |
+//! | `close=1/1000` | closes the connection instead of answering; the request is executed |
+//! | `error=1%` | refuses a read or write request without executing it: each item gets the return code `0A` |
+//! | `code=05`, `code=8104` | changes the refusal of `error`: another return code (two digits), or an error of the whole request (four
+//! digits) |
+//! | `seed=7` | seed of the random numbers; default 1 |
 //!
-//! Only answers of S7 are meant, also those that come by themselves; transport connects and disconnects as always. Answers of a
-//! connection stay in order. Chance is drawn from the seed and the number of the connection, once for each request and once for each
-//! answer, so the same clients that ask the same in the same order meet the same faults, in however many packets they ask.
+//! Faults affect only S7 answers, including updates of subscriptions; transport connects and disconnects as usual. The answers of a
+//! connection stay in order. The random numbers depend on the seed and the number of the connection, with one draw per request and one per
+//! answer. The same clients with the same requests in the same order therefore get the same faults, however the requests are split into
+//! packets.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -34,7 +36,7 @@ use crate::units::Time;
 /// The longest delay.
 const LONGEST: Duration = Duration::from_mins(1);
 
-/// Which faults, and how often.
+/// Kinds of faults and their probabilities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Faults {
     delay: RangeInclusive<Duration>,
@@ -53,7 +55,7 @@ impl Default for Faults {
 }
 
 impl Faults {
-    /// Other chances.
+    /// The seed of the random numbers.
     #[must_use]
     pub const fn seed(&self) -> u64 {
         self.seed
@@ -84,11 +86,11 @@ impl FromStr for Faults {
         }
         if has_code && faults.error == 0.0 {
             return Err(format!(
-                "expected error= beside code=, found {text}: add error=1% for one request in a hundred"
+                "expected error= together with code=, found {text}: add error=1% for one request in a hundred"
             ));
         }
         if faults.delay.end() < faults.delay.start() || *faults.delay.end() > LONGEST {
-            return Err(format!("expected a delay of at most a minute, the shorter one first, found {text}"));
+            return Err(format!("expected a delay of at most a minute, the shorter time first, found {text}"));
         }
         Ok(faults)
     }
@@ -100,12 +102,12 @@ fn delay(value: &str) -> Result<RangeInclusive<Duration>, String> {
     Ok(duration(first).ok_or_else(wrong)?..=duration(last).ok_or_else(wrong)?)
 }
 
-/// `50ms`, `1.5s`.
+/// Parses `50ms` or `1.5s`.
 fn duration(text: &str) -> Option<Duration> {
     Time::parse(text).map(|time| Duration::from_nanos(time.nanos().unsigned_abs()))
 }
 
-/// `1%`, `1/100`.
+/// Parses `1%` or `1/100`.
 fn chance(value: &str) -> Result<f64, String> {
     let number = |text: &str| text.parse::<f64>().ok();
     let chance = match (value.strip_suffix('%'), value.split_once('/')) {
@@ -150,7 +152,7 @@ impl fmt::Display for Faults {
     }
 }
 
-/// What becomes of an answer.
+/// The treatment of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Fate {
     Sent,
@@ -163,13 +165,13 @@ enum Fate {
 pub(super) struct Faulty {
     faults: Faults,
     requests: Chance,
-    /// For how many requests was drawn.
+    /// The number of requests for which a random number was drawn.
     drawn: u64,
     answers: Chance,
 }
 
 impl Faulty {
-    /// The connection of this number.
+    /// The faults of the connection with this number.
     pub(super) fn new(faults: &Faults, number: u64) -> Self {
         let mut seeds = Chance(faults.seed);
         let seed = seeds.next() ^ number;
@@ -177,7 +179,7 @@ impl Faulty {
         Self { faults: faults.clone(), requests: Chance(seeds.next()), drawn: 0, answers: Chance(seeds.next()) }
     }
 
-    /// How the request behind so many is refused, if it is; nothing where that was told before.
+    /// The refusal of the request after `requests` requests. The outer `None` means that it was returned before.
     pub(super) fn failure(&mut self, requests: u64) -> Option<Option<Failure>> {
         if requests < self.drawn {
             return None;
@@ -186,7 +188,7 @@ impl Faulty {
         Some((self.requests.fraction() < self.faults.error).then_some(self.faults.failure))
     }
 
-    /// Each answer draws as often, whatever is wanted.
+    /// Every answer draws the same number of random numbers, whatever faults are set.
     fn fate(&mut self) -> (Fate, Duration) {
         let (drop, close, delay) = (self.answers.fraction(), self.answers.fraction(), self.answers.fraction());
         let (first, last) = (*self.faults.delay.start(), *self.faults.delay.end());
@@ -198,7 +200,7 @@ impl Faulty {
         (fate, first + (last - first).mul_f64(delay))
     }
 
-    /// Sends answers, or does not.
+    /// Sends answers, or injects faults.
     pub(super) async fn send(
         &mut self,
         stream: &mut (impl AsyncWrite + Unpin),
@@ -234,12 +236,12 @@ impl Faulty {
     }
 }
 
-/// Whether it is connection or disconnect confirm.
+/// Whether it is a connection confirm or a disconnect confirm.
 fn is_transport(answer: &[u8]) -> bool {
     answer.get(tpkt::HEADER + 1) != Some(&cotp::DATA_LAST[1])
 }
 
-/// Splitmix64 (Steele, Lea, Flood 2014): the same numbers from the same seed for ever, which no crate promises.
+/// Splitmix64 (Steele, Lea, Flood 2014): the same numbers from the same seed in all versions, which no crate guarantees.
 #[derive(Debug)]
 struct Chance(u64);
 
@@ -279,7 +281,7 @@ mod tests {
             ("drop=1/0", "1/0"),
             ("delay=50", "50ms"),
             ("delay=-1ms", "50ms"),
-            ("delay=80ms..10ms", "shorter one first"),
+            ("delay=80ms..10ms", "shorter time first"),
             ("delay=61s", "a minute"),
             ("code=FF", "not FF"),
             ("code=0", "two hexadecimal digits"),
@@ -308,7 +310,7 @@ mod tests {
         assert_eq!(fates(1, 1), fates(1, 1));
         assert_ne!(fates(1, 1), fates(1, 2));
         assert_ne!(fates(1, 1), fates(2, 1));
-        // 1000 answers: 100 are cut, 10 % of the other 900 swallowed; five standard deviations are less than 50.
+        // Of 1000 answers, 100 are cut off, and 10 % of the other 900 are dropped; five standard deviations are less than 50.
         let count = |fate| fates(1, 1).iter().filter(|found| **found == fate).count();
         assert!(count(Fate::Cut).abs_diff(100) < 50 && count(Fate::Swallowed).abs_diff(90) < 50);
     }

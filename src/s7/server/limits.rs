@@ -1,25 +1,25 @@
-//! What a server allows: how many clients, from where, and how long anybody may take.
+//! The limits of a server: number of clients, networks, and times.
 
 use std::net::IpAddr;
 use std::time::Duration;
 
-/// What a server allows.
+/// The limits of a server.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Clients at once. One more takes the place of the oldest connection that has not made any request; where there is none, it is sent
-    /// away.
+    /// Maximum number of clients. A further client takes the place of the oldest connection without a request; if there is none, it is
+    /// rejected.
     pub clients: usize,
-    /// From which networks they may come; from all where there is none.
+    /// Allowed networks; an empty list allows all.
     pub networks: Vec<Network>,
-    /// How long a client may stay silent.
+    /// Idle timeout.
     pub idle: Duration,
-    /// How long the first request may take; never longer than [`Limits::idle`].
+    /// Time limit for the first request; never longer than [`Limits::idle`].
     pub greeting: Duration,
-    /// How long a client may take to take an answer.
+    /// Time limit for a client to read an answer.
     pub writing: Duration,
-    /// How long an answer waits for the step that takes up a write.
+    /// Time limit for the step that executes a write, before the answer is sent.
     pub step: Duration,
-    /// How long requests on their way have when the server ends.
+    /// Time limit for requests in progress when the server stops.
     pub end: Duration,
 }
 
@@ -37,7 +37,7 @@ impl Default for Limits {
     }
 }
 
-/// Addresses that begin alike: `192.168.0.0/24`, `fd00::/8`, or one address.
+/// A network: `192.168.0.0/24`, `fd00::/8`, or one address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Network {
     address: IpAddr,
@@ -45,7 +45,7 @@ pub struct Network {
 }
 
 impl Network {
-    /// Whether an address is in it. IPv4 in IPv6 (`::ffff:192.168.0.1`) counts as IPv4.
+    /// Whether it contains an address. IPv4 in IPv6 (`::ffff:192.168.0.1`) counts as IPv4.
     #[must_use]
     pub fn contains(&self, address: IpAddr) -> bool {
         match (self.address, address.to_canonical()) {
@@ -72,7 +72,7 @@ impl std::str::FromStr for Network {
         if bits > most {
             return Err(wrong());
         }
-        // IPv4 in IPv6 counts as IPv4 here, too, as far as all its bits before the IPv4 address are meant.
+        // IPv4 in IPv6 counts as IPv4 here as well, if the network includes all bits before the IPv4 address.
         match (address, address.to_canonical()) {
             (IpAddr::V6(_), IpAddr::V4(within)) if bits >= 96 => Ok(Self { address: within.into(), bits: bits - 96 }),
             _ => Ok(Self { address, bits }),

@@ -1,20 +1,19 @@
-//! Sessions on TCP: who may come, how long anybody may take, and how it ends. What the clients see is lent by [`Stations`], one
-//! request at a time.
+//! S7 sessions on TCP: admission, time limits and shutdown. [`Stations`] provides the data for the clients, one request at a time.
 //!
-//! | what | and why |
+//! | behaviour | reason |
 //! |---|---|
-//! | one request, one loan; reads that came together have one as well | what they read is of one step, and what is written is taken up whole |
-//! | an answer to a write waits until the write was taken up | who writes and then reads finds what was written |
-//! | writes that came together wait for one step | it takes them up whole, and the next request finds all of them |
-//! | a turn ends after 32 KiB of answers | who floods holds up nobody |
-//! | the room for requests and answers belongs to the thread, not to the client | a thousand panels need some 3 MiB |
-//! | answers leave in one write, in order; no delay of TCP | clients that read once find all of it |
-//! | a client that does not take its answers is not read any more, and is left after a while | it holds up nobody else |
-//! | where all places are taken, the oldest connection without any request gives way | silence keeps nobody out |
-//! | idle is who got no answer for long, not who has sent nothing | half packets keep no place |
-//! | who waits for values that change is never idle; keep-alive of TCP finds out who has gone | panels stay connected over night |
+//! | one request gets one station; reads that arrive together share one | values read together are of one step, and a write is executed as a whole |
+//! | a write is answered after its execution | a client that writes and then reads gets what it wrote |
+//! | writes that arrive together wait for one step | they are executed together, and the next request sees all of them |
+//! | a turn ends after 32 KiB of answers | a client that floods the server does not hold up others |
+//! | the buffers for requests and answers belong to the thread, not to the client | a thousand panels need about 3 MiB |
+//! | answers leave in one write, in order, without TCP delay | clients that read once get the complete answer |
+//! | the server stops reading from a client that does not read its answers, and closes its connection after a while | it does not hold up others |
+//! | at the client limit, the oldest connection without a request is closed | idle connections do not block new clients |
+//! | a client is idle if it has received no answer for a long time, not if it has sent nothing | incomplete packets do not keep a place |
+//! | a client with subscriptions is never idle; TCP keep-alive detects lost clients | panels stay connected overnight |
 //!
-//! Nothing here knows a machine; this folder is all of the room that knows a clock.
+//! Nothing here depends on a machine. Within `s7`, only this folder uses a clock.
 
 mod accepting;
 mod capture;
@@ -47,32 +46,32 @@ pub use refusals::Refused;
 use strangers::Strangers;
 use witness::Flood;
 
-/// Whoever has stations to lend.
+/// A source of stations.
 pub trait Stations: Send + Sync + 'static {
-    /// Lends a station, which nobody else changes meanwhile, exactly once. Gives the number of the step that takes up what was written;
-    /// nothing where nothing was written.
+    /// Lends a station exactly once. Nothing else changes it meanwhile. Returns the number of the step that executes the writes, or `None`
+    /// if nothing was written.
     fn lend(&self, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64>;
 
-    /// The same to somebody who is known, for who keeps a record of it.
+    /// Lends a station to a known client, for implementations that keep a record of clients.
     fn lend_to(&self, _client: SocketAddr, work: &mut dyn FnMut(&mut dyn Station)) -> Option<u64> {
         self.lend(work)
     }
 
-    /// Waits until that step is over.
+    /// Waits until that step has ended.
     fn taken_up(&self, step: u64) -> impl Future<Output = ()> + Send;
 
-    /// Whether so much waits to be taken up that clients have to wait for that, however long it takes.
+    /// Whether so many writes are queued that clients have to wait for their execution, for as long as it takes.
     fn is_crowded(&self) -> bool {
         false
     }
 }
 
-/// What a server does besides serving.
+/// Optional instruments of a server.
 #[derive(Debug, Default)]
 pub struct Instruments {
-    /// Faults on purpose.
+    /// Injected faults.
     pub faults: Option<Faults>,
-    /// Where everything that goes over the wire is written.
+    /// The capture of the network traffic.
     pub capture: Option<Capture>,
 }
 
@@ -92,7 +91,7 @@ pub struct Server<S> {
 }
 
 impl<S: Stations> Server<S> {
-    /// A server that nobody can reach yet.
+    /// A server without listeners.
     #[must_use]
     pub fn new(stations: S, settings: Settings, limits: Limits) -> Self {
         let places = Arc::new(Semaphore::new(limits.clients.min(Semaphore::MAX_PERMITS)));
@@ -111,19 +110,19 @@ impl<S: Stations> Server<S> {
         }
     }
 
-    /// The same with instruments.
+    /// Adds instruments.
     #[must_use]
     pub fn with(self, instruments: Instruments) -> Self {
         Self { instruments, ..self }
     }
 
-    /// How many clients there are now.
+    /// The number of connected clients.
     #[must_use]
     pub fn clients(&self) -> usize {
         self.clients.load(Ordering::Relaxed)
     }
 
-    /// What was counted so far.
+    /// The counters so far.
     #[must_use]
     pub fn counters(&self) -> &Counters {
         &self.counters

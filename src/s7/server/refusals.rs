@@ -1,4 +1,4 @@
-//! What an answer refuses, and in words what was asked for: for the log and for whoever counts.
+//! The refusals in an answer, and the request as text: for the log and the counters.
 
 use std::fmt::{self, Write};
 
@@ -11,7 +11,7 @@ use crate::s7::wire::items::{Item, Items, NckItem};
 use crate::s7::wire::tpkt::{self, Packet};
 use crate::s7::wire::user_data::{self, Received, group};
 
-/// What an answer says instead of yes.
+/// A refusal in an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Refused {
     /// The return code of an item.
@@ -21,7 +21,7 @@ pub enum Refused {
 }
 
 impl fmt::Display for Refused {
-    /// As manuals write it, `0A` or `8104`.
+    /// In the notation of the manuals, `0A` or `8104`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Item(code) => write!(f, "{code:02X}"),
@@ -31,7 +31,7 @@ impl fmt::Display for Refused {
 }
 
 impl Refused {
-    /// What the number means.
+    /// The meaning of the code.
     #[must_use]
     pub const fn meaning(self) -> &'static str {
         match self {
@@ -41,7 +41,7 @@ impl Refused {
     }
 }
 
-/// What an answer refuses: the index of the item, from 0, and its return code; or the error of the whole.
+/// The refusals in an answer: the index of the item, from 0, and its return code; or the error of the whole request.
 pub(super) fn refusals(answer: &[u8], mut each: impl FnMut(usize, Refused)) {
     match answer.get(tpkt::HEADER + 3..) {
         Some(&[0x32, kind::ACK | kind::ACK_DATA, _, _, _, _, _, _, _, _, class, code, ..])
@@ -80,7 +80,7 @@ pub(super) fn refusals(answer: &[u8], mut each: impl FnMut(usize, Refused)) {
     }
 }
 
-/// What a packet asks for, as far as it tells: the function, and the item of this index.
+/// The request in a packet as text: the function, and the item with this index.
 pub(super) fn asked(packet: &[u8], item: usize) -> String {
     let Packet::Whole { content, .. } = tpkt::split(packet) else { return "a request".to_owned() };
     let Tpdu::Data { piece, last: true } = Tpdu::parse(content) else { return "a request in pieces".to_owned() };
@@ -120,9 +120,9 @@ pub(super) fn asked(packet: &[u8], item: usize) -> String {
     }
 }
 
-/// What a packet writes, item by item, in hexadecimal digits.
+/// The values written by a packet, item by item, in hexadecimal.
 pub(super) fn written(packet: &[u8]) -> Option<String> {
-    /// So many bytes of a value are shown.
+    /// The number of bytes shown of a value.
     const SHOWN: usize = 16;
     let Packet::Whole { content, .. } = tpkt::split(packet) else { return None };
     let Tpdu::Data { piece, last: true } = Tpdu::parse(content) else { return None };
@@ -187,12 +187,12 @@ mod tests {
     #[test]
     fn every_refused_item_and_every_error_is_found() {
         let head = |parameter, data| [0x32, 3, 0, 0, 0, 1, 0, parameter, 0, data, 0, 0];
-        // Three items: a byte with its fill byte, none, a word.
+        // Three items: a byte with its fill byte, a refused item, a word.
         let read = [0xFF, 4, 0, 8, 7, 0, 0x0A, 0, 0, 0, 0xFF, 4, 0, 16, 1, 2];
         let answer = [&head(2, 16)[..], &[4, 3], &read].concat();
         assert_eq!(found(&answer), [(1, Refused::Item(0x0A))]);
         for end in 0..answer.len() {
-            found(&answer[..end]); // half an answer is nothing to stumble over
+            found(&answer[..end]); // an incomplete answer must not panic
         }
         let answer = [&head(2, 3)[..], &[5, 3, 3, 0xFF, 5]].concat();
         assert_eq!(found(&answer), [(0, Refused::Item(3)), (2, Refused::Item(5))]);

@@ -1,24 +1,24 @@
-//! Who has a place and has said nothing yet. Where all places are taken, whoever has been silent for the longest time gives way to who
-//! comes: connections without a connection request keep nobody out. The server meets them, conversations wait for their turn to go.
+//! Clients that have a place but have made no request yet. At the client limit, the oldest of them is closed in favour of a new client, so
+//! idle connections do not block the server. The server registers them; their conversations wait for the request to close.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tokio::sync::Notify;
 
-/// The silent ones by the order in which they came.
+/// The clients without a request, in the order of their arrival.
 #[derive(Debug, Default)]
 pub(super) struct Strangers(Mutex<BTreeMap<u64, Arc<Notify>>>);
 
 impl Strangers {
-    /// Somebody with this number, which only grows, has come.
+    /// Registers a client with this number. Numbers only increase.
     pub(super) fn meet(&self, number: u64) -> Stranger<'_> {
         let turn = Arc::new(Notify::new());
         self.waiting().insert(number, Arc::clone(&turn));
         Stranger { strangers: self, number, turn }
     }
 
-    /// Asks the oldest one to give way; whether there is one.
+    /// Asks the oldest one to disconnect; returns whether there is one.
     pub(super) fn send_oldest_away(&self) -> bool {
         let oldest = self.waiting().pop_first();
         oldest.map(|(_, turn)| turn.notify_one()).is_some()

@@ -1,7 +1,7 @@
-//! What is noticed of a conversation besides holding it: counts, lines of the log, the capture.
+//! Observes a conversation: counters, log and capture.
 //!
-//! A client that makes many mistakes fills no log: the first [`REFUSALS`] of a connection are logged, and of all clients together
-//! [`LINES`] lines in a second, with the number of those that were left out. Everything is counted.
+//! A client with many errors does not fill the log: only the first [`REFUSALS`] of a connection are logged, and at most [`LINES`] lines per
+//! second for all clients together, with the number of omitted lines. All events are counted.
 
 use std::net::SocketAddr;
 use std::sync::{Mutex, PoisonError};
@@ -17,12 +17,12 @@ use crate::s7::wire::cotp::Tpdu;
 use crate::s7::wire::pdu::Answers;
 use crate::s7::wire::tpkt::{self, Packet};
 
-/// How many refused requests of one connection are logged.
+/// Maximum number of logged refusals per connection.
 const REFUSALS: u32 = 20;
-/// How many lines about clients are logged in a second.
+/// Maximum number of log lines about clients per second.
 const LINES: u32 = 100;
 
-/// Who notices what one client does.
+/// Observes one client.
 #[derive(Debug)]
 pub(super) struct Witness<'a> {
     counters: &'a Counters,
@@ -40,16 +40,16 @@ impl<'a> Witness<'a> {
         peer: SocketAddr,
         recording: Option<Recording<'a>>,
     ) -> Self {
-        flood.log(|| tracing::info!("{peer} has come"));
+        flood.log(|| tracing::info!("{peer} connected"));
         Self { counters, flood, peer, recording, refusals: 0, farewell: None }
     }
 
-    /// Whose conversation it is.
+    /// The address of the client.
     pub(super) const fn peer(&self) -> SocketAddr {
         self.peer
     }
 
-    /// Bytes have come.
+    /// Bytes were received.
     pub(super) fn received(&mut self, bytes: &[u8]) {
         self.counters.received.add(bytes.len());
         if let Some(recording) = &mut self.recording {
@@ -57,14 +57,14 @@ impl<'a> Witness<'a> {
         }
     }
 
-    /// A packet was answered: with the answers behind the first `known`, and with a change of the machine or without one.
+    /// A packet was answered. The answers after the first `known` belong to it; `wrote` is whether it changed the machine.
     pub(super) fn answered(&mut self, packet: &[u8], answers: &Answers, known: usize, wrote: bool) {
         if wrote {
             self.counters.writes.add(1);
             if tracing::enabled!(tracing::Level::DEBUG)
                 && let Some(written) = written(packet)
             {
-                self.flood.log(|| tracing::debug!("{} has written {written}", self.peer));
+                self.flood.log(|| tracing::debug!("{} wrote {written}", self.peer));
             }
         }
         for answer in answers.since(known) {
@@ -74,26 +74,26 @@ impl<'a> Witness<'a> {
                 if self.refusals < REFUSALS && tracing::enabled!(tracing::Level::INFO) {
                     self.refusals += 1;
                     let (asked, meaning) = (asked(packet, item), refused.meaning());
-                    self.flood.log(|| tracing::info!("{} was refused to {asked}: {refused}, {meaning}", self.peer));
+                    self.flood.log(|| tracing::info!("{} refused: {asked}: {refused}, {meaning}", self.peer));
                     if self.refusals == REFUSALS {
-                        self.flood.log(|| tracing::info!("{}: further refusals are not shown", self.peer));
+                        self.flood.log(|| tracing::info!("{}: further refusals are not logged", self.peer));
                     }
                 }
             });
         }
     }
 
-    /// So much is to be sent without being asked for.
+    /// Updates are to be sent.
     pub(super) fn pushed(&self, count: usize) {
         self.counters.pushes.add(count);
     }
 
-    /// Something is to be sent.
+    /// Answers are to be sent.
     pub(super) fn answering(&self, answers: &Answers) {
         self.counters.answers.add(answers.count());
     }
 
-    /// Bytes have gone.
+    /// Bytes were sent.
     pub(super) fn sent(&mut self, bytes: &[u8]) {
         self.counters.sent.add(bytes.len());
         if let Some(recording) = &mut self.recording {
@@ -101,12 +101,12 @@ impl<'a> Witness<'a> {
         }
     }
 
-    /// Something was done wrong on purpose.
+    /// A fault was injected.
     pub(super) fn fault(&self) {
         self.counters.faults.add(1);
     }
 
-    /// The conversation is over.
+    /// The conversation has ended.
     pub(super) fn ended(&mut self, end: End) {
         let index = End::ALL.iter().position(|each| *each == end);
         if let Some(count) = index.and_then(|index| self.counters.ends.get(index)) {
@@ -123,7 +123,7 @@ impl<'a> Witness<'a> {
     }
 }
 
-/// What to say of a connection that ends with this answer; nothing of another one.
+/// The log text for a connection that ends with this answer; `None` for any other answer.
 fn farewell(packet: &[u8], answer: &[u8]) -> Option<String> {
     let tpdu = |packet| match tpkt::split(packet) {
         Packet::Whole { content, .. } => Tpdu::parse(content),
@@ -133,16 +133,16 @@ fn farewell(packet: &[u8], answer: &[u8]) -> Option<String> {
         (Tpdu::ConnectionRequest(request), Tpdu::DisconnectRequest { .. }) => Some(match request.called {
             Some(&[kind, place]) => {
                 let (rack, slot) = (place >> 5, place & 0x1F);
-                format!("was refused: there is no module at TSAP {kind:02X}{place:02X} (rack {rack}, slot {slot})")
+                format!("rejected: no module at TSAP {kind:02X}{place:02X} (rack {rack}, slot {slot})")
             }
-            _ => "was refused: it names no TSAP of a module".to_owned(),
+            _ => "rejected: no TSAP of a module in the connection request".to_owned(),
         }),
-        (Tpdu::DisconnectRequest { .. }, _) => Some("has left, and said so".to_owned()),
+        (Tpdu::DisconnectRequest { .. }, _) => Some("disconnected with a disconnect request".to_owned()),
         _ => None,
     }
 }
 
-/// Keeps the log of all clients together short.
+/// Limits the log lines of all clients together.
 #[derive(Debug)]
 pub(super) struct Flood(Mutex<Shown>);
 
@@ -165,7 +165,7 @@ impl Flood {
         let mut shown = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if shown.since.elapsed() >= Duration::from_secs(1) {
             if shown.left_out > 0 {
-                tracing::warn!("{} more lines about clients were left out", shown.left_out);
+                tracing::warn!("{} more log lines about clients were omitted", shown.left_out);
             }
             *shown = Shown { since: Instant::now(), shown: 0, left_out: 0 };
         }
@@ -186,6 +186,6 @@ mod tests {
     fn a_flood_leaves_a_short_log() {
         let (flood, mut lines) = (Flood::default(), 0);
         (0..1000).for_each(|_| flood.log(|| lines += 1));
-        assert!((LINES..1000).contains(&lines), "{lines}"); // a slow computer may see a second second
+        assert!((LINES..1000).contains(&lines), "{lines}"); // a slow computer may need a second second
     }
 }

@@ -180,7 +180,7 @@ fn the_doors_of_a_recording_say_what_is_wrong() {
     for (arguments, said) in [
         (vec!["g1_example", "--record", "old.toml"], ["old.toml: expected a new file", "replaces nothing"]),
         (vec!["g1_example", "--record", "none/new.toml"], ["none/new.toml", "check the path"]),
-        (vec!["g1_example", "--record", "new.toml", "--s7", &taken], ["one in use", "--s7"]),
+        (vec!["g1_example", "--record", "new.toml", "--s7", &taken], ["the port is in use", "--s7"]),
         (vec!["--scenario", "wrong.toml"], ["wrong.toml:3", "`sett`"]),
         (vec!["--scenario", "none.toml"], ["none.toml", "cannot be read"]),
         (vec![], ["<MACHINE>", "required"]),
