@@ -187,7 +187,7 @@ fn unusable_input_ends_with_2_and_writes_nothing() {
         ("read", &["nck:C/SMA/actToolBasePo"], ["actToolBasePo", "did you mean"]),
         ("read", &["MB0", "--profile", "840"], ["840", "840d_sl"]),
         ("read", &["nck:A1/M/99999:DOUBLE"], ["A1/M/99999:DOUBLE", "a column from 0 to 65535"]),
-        ("read", &["nck:A1/M/32000:FLOAT"], ["a type behind the column", "DOUBLE"]),
+        ("read", &["nck:A1/M/32000:FLOAT"], ["a type after the column", "DOUBLE"]),
         ("read", &["nck:A1/MD/32000"], ["a module with its column", "SMA"]),
         ("write", &["DB1000.DBB20=1", "DB1000.DBB21=256"], ["256", "-128 to 255"]),
         ("write", &["DB1000.DBB20=1", "DB1000.DBB21"], ["DB1000.DBB21", "ADDRESS=VALUE"]),

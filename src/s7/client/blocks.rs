@@ -1,4 +1,4 @@
-//! The blocks of the PLC: how many of each type, which, what one is, and its content.
+//! The blocks of the PLC: their number by type, a list, the description of a block, and its content.
 
 use super::error::Error;
 use super::system::text;
@@ -8,10 +8,10 @@ use crate::s7::wire::replies;
 use crate::s7::wire::requests;
 use crate::s7::wire::user_data::group;
 
-/// The longest block in load memory: 64 KiB of content and its head and foot.
+/// The longest block in load memory: 64 KiB of content with header and trailer.
 const LONGEST: usize = 128 * 1024;
 
-/// Types of block.
+/// Block types.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BlockKind {
     /// Organization block.
@@ -31,7 +31,7 @@ pub enum BlockKind {
 }
 
 impl BlockKind {
-    /// All of them.
+    /// All types.
     pub const ALL: [Self; 7] = [Self::Ob, Self::Db, Self::Sdb, Self::Fc, Self::Sfc, Self::Fb, Self::Sfb];
 
     /// Its letter on the wire.
@@ -63,12 +63,12 @@ impl BlockKind {
     }
 }
 
-/// How many blocks of a type there are.
+/// The number of blocks of a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BlockCount {
     /// The type.
     pub kind: BlockKind,
-    /// How many.
+    /// The number of blocks.
     pub count: u16,
 }
 
@@ -77,42 +77,42 @@ pub struct BlockCount {
 pub struct BlockEntry {
     /// Its number.
     pub number: u16,
-    /// Flags, as they come.
+    /// Flags, uninterpreted.
     pub flags: u8,
-    /// Language, as it comes; 5 is a data block.
+    /// Language, uninterpreted; 5 is a data block.
     pub language: u8,
 }
 
-/// What a module tells of one block.
+/// The description of a block.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BlockDescription {
     /// Its type.
     pub kind: BlockKind,
     /// Its number.
     pub number: u16,
-    /// Language, as it comes; 5 is a data block.
+    /// Language, uninterpreted; 5 is a data block.
     pub language: u8,
     /// Bytes in load memory.
     pub load_memory: u32,
     /// Bytes of its code or data.
     pub length: u16,
-    /// Who made it.
+    /// Its author.
     pub author: String,
     /// Its family.
     pub family: String,
     /// Its name.
     pub name: String,
-    /// Its version, the digit before the point in the high half.
+    /// Its version; the high four bits are the digit before the point.
     pub version: u8,
     /// Its checksum.
     pub checksum: u16,
 }
 
 impl Client {
-    /// How many blocks of each type there are.
+    /// The number of blocks of each type.
     ///
     /// # Errors
-    /// The module does not tell, or no answer comes.
+    /// The module does not report it, or no answer arrives.
     pub async fn block_counts(&self) -> Result<Vec<BlockCount>, Error> {
         let payload = self.short("number of blocks", group::BLOCKS, 1, &[], true).await?;
         let count = |entry: &[u8]| {
@@ -126,7 +126,7 @@ impl Client {
     /// The blocks of a type.
     ///
     /// # Errors
-    /// The module does not tell, or no answer comes.
+    /// The module does not report them, or no answer arrives.
     pub async fn blocks(&self, kind: BlockKind) -> Result<Vec<BlockEntry>, Error> {
         let payload = match self.long("list of blocks", group::BLOCKS, 2, &[b'0', kind.code()]).await {
             Err(Error::Rejected { error: ErrorCode::NO_BLOCK, .. }) => return Ok(Vec::new()),
@@ -139,10 +139,10 @@ impl Client {
         Ok(payload.chunks(4).filter_map(entry).collect())
     }
 
-    /// What a block is.
+    /// The description of a block.
     ///
     /// # Errors
-    /// There is no such block, or no answer comes.
+    /// There is no such block, or no answer arrives.
     pub async fn describe_block(&self, kind: BlockKind, number: u16) -> Result<BlockDescription, Error> {
         let name = format!("{}{number}", kind.name());
         let block = requests::block_name(kind.code(), number);
@@ -152,22 +152,22 @@ impl Client {
             .ok_or_else(|| Error::Unexpected { what: name, found: format!("{} bytes", payload.len()) })
     }
 
-    /// Uploads a block as it lies in load memory: a head of 36 bytes, its content, a foot.
+    /// Uploads a block in its load memory format: a header of 36 bytes, its content, a trailer.
     ///
     /// # Errors
-    /// There is no such block, it is not permitted, or no answer comes.
+    /// There is no such block, the upload is not permitted, or no answer arrives.
     pub async fn upload(&self, kind: BlockKind, number: u16) -> Result<Vec<u8>, Error> {
         let name = format!("upload of {}{number}", kind.name());
         let unexpected = |found: String| Error::Unexpected { what: name.clone(), found };
         let begin = requests::start_upload(requests::block_name(kind.code(), number));
         let reply = self.ask(Question::job("upload", &begin)).await.map_err(|error| error.of(&name))?;
         let begun = replies::upload_begun(&reply.parameter);
-        let (number, length) = begun.ok_or_else(|| unexpected("no number of the upload".to_owned()))?;
+        let (number, length) = begun.ok_or_else(|| unexpected("no upload number".to_owned()))?;
         let block = self.pieces(&name, number).await;
         if matches!(block, Err(Error::Lost { .. })) {
-            return block; // the upload is gone with its connection
+            return block; // the upload ended with its connection
         }
-        // Whatever came: an upload that is not ended keeps one of few places at the module.
+        // End the upload even after an error: an open upload occupies one of the few upload slots of the module.
         let end = requests::upload(function::END_UPLOAD, number);
         let ended = self.ask(Question::job("upload", &end)).await.map_err(|error| error.of(&name));
         let block = block?;
@@ -175,7 +175,7 @@ impl Client {
         if block.len() == length { Ok(block) } else { Err(unexpected(format!("{} of {length} bytes", block.len()))) }
     }
 
-    /// The content of an upload that was begun.
+    /// The content of an upload that has begun.
     async fn pieces(&self, name: &str, number: [u8; 4]) -> Result<Vec<u8>, Error> {
         let unexpected = |found: String| Error::Unexpected { what: name.to_owned(), found };
         let mut block = Vec::new();
@@ -189,13 +189,13 @@ impl Client {
                 return Ok(block);
             }
             if block.len() > LONGEST || piece.is_empty() {
-                return Err(unexpected(format!("a block without end, {} bytes so far", block.len())));
+                return Err(unexpected(format!("the block exceeds the maximum length, {} bytes so far", block.len())));
             }
         }
     }
 }
 
-/// The head of the block begins behind its type, a length and an unknown word.
+/// The description of the block begins after its type, a length and an unknown word.
 fn describe(kind: BlockKind, payload: &[u8]) -> Option<BlockDescription> {
     let head = payload.get(6..)?;
     let word = |at: usize| Some(u16::from_be_bytes(head.get(at..at + 2)?.try_into().ok()?));

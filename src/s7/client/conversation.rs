@@ -1,27 +1,27 @@
-//! The client's side of the transport, without a socket: bytes in, whole S7 PDUs out. Whatever comes is bounded: a packet by its
-//! length field of two bytes, a PDU in pieces by the longest PDU that there is.
+//! The client's side of the transport, without a socket: bytes in, complete S7 PDUs out. All input is bounded: a packet by its two-byte
+//! length field, a PDU in pieces by the maximum length of a PDU.
 
 use crate::s7::wire::cotp::{ConnectionConfirm, Tpdu};
 use crate::s7::wire::tpkt::{self, Packet};
 
-/// The longest PDU that is put together. Servers were seen that answer more than was agreed; that is taken as far as here.
+/// The longest PDU that is reassembled. Some servers send longer answers than agreed; they are accepted up to this length.
 const LONGEST: usize = 65_536;
 
-/// What came, one after another.
+/// An event of the stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Event<'a> {
-    /// The server takes the connection.
+    /// The server accepts the connection.
     Confirmed(ConnectionConfirm),
     /// An S7 PDU.
     Pdu(&'a [u8]),
 }
 
-/// Why the stream cannot be followed any more.
+/// The reason why the stream cannot be decoded any further.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Broken {
-    /// Something else than S7 communication.
+    /// A protocol other than S7 communication.
     Foreign,
-    /// A PDU longer than any.
+    /// A PDU that is too long.
     TooLong,
     /// The server disconnects.
     Disconnected,
@@ -30,14 +30,14 @@ pub(super) enum Broken {
 impl Broken {
     pub(super) const fn words(self) -> &'static str {
         match self {
-            Self::Foreign => "what came is no S7 communication",
-            Self::TooLong => "a PDU came that is longer than any",
+            Self::Foreign => "the answer is not S7 communication",
+            Self::TooLong => "a PDU is longer than the maximum",
             Self::Disconnected => "the server disconnected",
         }
     }
 }
 
-/// What has come and is not whole yet.
+/// Received bytes of an incomplete packet or PDU.
 #[derive(Debug, Default)]
 pub(super) struct Conversation {
     input: Vec<u8>,
@@ -45,7 +45,7 @@ pub(super) struct Conversation {
 }
 
 impl Conversation {
-    /// Takes bytes as they came, in whatever pieces, and tells everything that became whole by them.
+    /// Takes received bytes in pieces of any size, and reports every complete event.
     pub(super) fn receive(&mut self, bytes: &[u8], mut tell: impl FnMut(Event<'_>)) -> Result<(), Broken> {
         let mut input = std::mem::take(&mut self.input);
         input.extend_from_slice(bytes);
@@ -76,7 +76,7 @@ impl Conversation {
                     return Err(Broken::TooLong);
                 }
                 match (last, self.pieces.is_empty()) {
-                    (true, true) if piece.is_empty() => {} // says nothing
+                    (true, true) if piece.is_empty() => {} // an empty PDU is ignored
                     (true, true) => tell(Event::Pdu(piece)),
                     (_, _) => {
                         self.pieces.extend_from_slice(piece);

@@ -1,4 +1,4 @@
-//! Opening a connection: TCP, connection request, setup communication, password.
+//! Opens a connection: TCP, connection request, setup communication, password.
 
 use std::time::Duration;
 
@@ -18,15 +18,15 @@ use crate::s7::wire::replies::{Setup, UserData};
 use crate::s7::wire::requests;
 use crate::s7::wire::user_data::group;
 
-/// The references of setup and password; requests have those that follow.
+/// The references used for setup and password; requests use the following numbers.
 pub(super) const REFERENCES: u16 = 2;
 
-/// The shortest PDU with which one can work.
+/// The shortest usable PDU.
 const SHORTEST: u16 = 64;
-/// The longest PDU that is built.
+/// The longest supported PDU.
 const LONGEST: u16 = 4096;
 
-/// What a connection goes over.
+/// The stream under a connection.
 pub(super) trait Stream: AsyncRead + AsyncWrite + std::fmt::Debug + Send + Unpin {}
 
 impl<T: AsyncRead + AsyncWrite + std::fmt::Debug + Send + Unpin> Stream for T {}
@@ -41,7 +41,7 @@ pub(super) struct Door {
     pub(super) piece: usize,
 }
 
-/// What came during the opening.
+/// A message received while opening.
 enum Came {
     Confirm(ConnectionConfirm),
     Pdu(Vec<u8>),
@@ -53,14 +53,14 @@ pub(super) async fn open(address: &str, options: &Options) -> Result<Door, Error
     let none = || unreachable(format!("no answer within {} s", options.timeout.as_secs_f64()));
     let stream = by(deadline, TcpStream::connect(address)).await.ok_or_else(none)?;
     let stream = stream.map_err(|error| unreachable(error.to_string()))?;
-    // Without these it works, too, only later.
+    // The connection also works without these options, only more slowly.
     let _ = stream.set_nodelay(true);
     let keep_alive = TcpKeepalive::new().with_time(Duration::from_secs(30));
     let _ = SockRef::from(&stream).set_tcp_keepalive(&keep_alive);
     greet(Box::new(stream), address, options, deadline).await
 }
 
-/// Opens what comes behind the transport.
+/// Opens the layers above TCP.
 pub(super) async fn greet(
     stream: Box<dyn Stream>,
     address: &str,
@@ -101,7 +101,7 @@ impl Opening<'_> {
         ConnectionRequest { source: [0, 1], size: Some(TPDU), calling, called }.put(&mut out);
         match self.exchange(&out).await? {
             Came::Confirm(confirm) => Ok(confirm),
-            Came::Pdu(_) => Err(self.refused("it answers a connection request with data")),
+            Came::Pdu(_) => Err(self.refused("the answer to the connection request is data")),
         }
     }
 
@@ -110,14 +110,14 @@ impl Opening<'_> {
         let pdu = self.ask(kind::JOB, 1, &requests::setup(jobs, asked), &[], piece).await?;
         let message = self.message(&pdu, 1)?;
         if message.error != ErrorCode::NONE {
-            return Err(self.refused(format!("it refuses to set up communication: error {:04X}", message.error.0)));
+            return Err(self.refused(format!("setup communication is refused: error {:04X}", message.error.0)));
         }
         match Setup::parse(message.parameter) {
             Some(setup) if setup.pdu >= SHORTEST => {
-                // Some grant more than was asked for; nobody is obliged to take it.
+                // Some servers grant more than requested; the client uses at most what it requested.
                 Ok(Setup { jobs: setup.jobs.clamp(1, jobs), pdu: setup.pdu.min(asked) })
             }
-            _ => Err(self.refused("it does not answer the setup of communication properly")),
+            _ => Err(self.refused("the answer to setup communication is invalid")),
         }
     }
 
@@ -127,17 +127,17 @@ impl Opening<'_> {
         let pdu = self.ask(kind::USER_DATA, 2, &parameter, &data, piece).await?;
         let message = self.message(&pdu, 2)?;
         match UserData::parse(message.parameter, message.data) {
-            // Where there is no password none is needed.
+            // A module without a password does not need one.
             Some(UserData { error: ErrorCode::NONE | ErrorCode::NO_PASSWORD, .. }) => Ok(()),
             Some(UserData { error, .. }) => Err(Error::Rejected { what: "password".to_owned(), error }),
-            None => Err(self.refused("it does not answer the password properly")),
+            None => Err(self.refused("the answer to the password is invalid")),
         }
     }
 
     fn message<'a>(&self, pdu: &'a [u8], reference: u16) -> Result<Message<'a>, Error> {
         match Message::parse(pdu) {
             Ok(message) if message.reference == reference => Ok(message),
-            _ => Err(self.refused("what it answers is no S7 communication")),
+            _ => Err(self.refused("the answer is not S7 communication")),
         }
     }
 
@@ -161,11 +161,11 @@ impl Opening<'_> {
         pdu.finish();
         match self.exchange(out.bytes()).await? {
             Came::Pdu(pdu) => Ok(pdu),
-            Came::Confirm(_) => Err(self.refused("it confirms the connection twice")),
+            Came::Confirm(_) => Err(self.refused("the connection is confirmed twice")),
         }
     }
 
-    /// Sends, and waits for what comes.
+    /// Sends bytes and waits for a message.
     async fn exchange(&mut self, bytes: &[u8]) -> Result<Came, Error> {
         let late = || format!("no answer within {} s", self.options.timeout.as_secs_f64());
         match by(self.deadline, self.stream.write_all(bytes)).await {
@@ -177,7 +177,7 @@ impl Opening<'_> {
         let mut came = None;
         loop {
             let count = match by(self.deadline, self.stream.read(&mut input)).await {
-                Some(Ok(0)) => return Err(self.refused("it closes the connection")),
+                Some(Ok(0)) => return Err(self.refused("the server closed the connection")),
                 Some(Ok(count)) => count,
                 Some(Err(error)) => return Err(self.refused(error.to_string())),
                 None => return Err(self.refused(late())),

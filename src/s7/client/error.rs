@@ -1,4 +1,4 @@
-//! What can go wrong: each error says what was asked, what came, and what to do.
+//! The errors of a client. Each names the request, what was found, and what to do.
 
 use std::fmt;
 use std::time::Duration;
@@ -6,75 +6,75 @@ use std::time::Duration;
 use crate::s7::wire::codes;
 use crate::s7::wire::header::ErrorCode;
 
-/// Why a client has no answer, or not the one that was hoped for.
+/// The reason why a request failed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
-    /// An address or a value that is none; nothing was sent.
+    /// An invalid address or value; nothing was sent.
     Input {
-        /// What was expected and what came.
+        /// What was expected and what was found.
         what: String,
-        /// What to do.
+        /// The remedy.
         cure: String,
     },
-    /// Nobody answers there.
+    /// The host cannot be reached.
     Unreachable {
-        /// Who was called.
+        /// The host.
         host: String,
-        /// What the system says.
+        /// The error of the system.
         cause: String,
     },
-    /// Somebody answers, and does not take the connection or speaks something else.
+    /// The host answers, but does not accept the connection or uses another protocol.
     NotAccepted {
-        /// Who was called.
+        /// The host.
         host: String,
-        /// With which TSAP.
+        /// The called TSAP.
         called: [u8; 2],
-        /// What came instead.
+        /// What was received instead.
         cause: String,
     },
-    /// One item was refused; others of the same request are not affected.
+    /// One item was refused; the other items of the same request are not affected.
     Refused {
-        /// Which.
+        /// The item.
         what: String,
         /// Return code of the item.
         code: u8,
     },
     /// A whole request was refused.
     Rejected {
-        /// What was asked.
+        /// The request.
         what: String,
-        /// Class and code.
+        /// Error class and error code.
         error: ErrorCode,
     },
-    /// No answer came in time.
+    /// No answer arrived in time.
     TimedOut {
-        /// What was asked.
+        /// The request.
         what: String,
-        /// How long was waited.
+        /// The time limit.
         after: Duration,
-        /// Whether it was sent; a write that was sent may have been done.
+        /// Whether it was sent; a write that was sent may have been executed.
         sent: bool,
     },
-    /// The connection was lost, and what was asked was not asked again.
+    /// The connection was lost, and the request was not repeated.
     Lost {
-        /// What was asked.
+        /// The request.
         what: String,
-        /// Whether it was sent; a write that was sent may have been done.
+        /// Whether it was sent; a write that was sent may have been executed.
         sent: bool,
-        /// Why.
+        /// The reason.
         cause: String,
     },
-    /// An answer came that does not fit the question.
+    /// An answer does not fit the request.
     Unexpected {
-        /// What was asked.
+        /// The request.
         what: String,
-        /// What came.
+        /// What was received.
         found: String,
     },
 }
 
 impl Error {
-    /// Whether the connection is to blame and not what was asked.
+    /// Whether the connection caused the error, not the request.
     #[must_use]
     pub fn is_of_the_connection(&self) -> bool {
         match self {
@@ -83,40 +83,40 @@ impl Error {
         }
     }
 
-    /// What to do about it.
+    /// The remedy.
     #[must_use]
     pub fn cure(&self) -> String {
         match self {
             Self::Input { cure, .. } => cure.clone(),
             Self::Unreachable { .. } => {
-                "check address and port (102 on a module, 10102 of `opennck serve`) and whether it runs".to_owned()
+                "check the address, the port (102 on a module, 10102 with `opennck serve`) and whether the server runs".to_owned()
             }
             Self::NotAccepted { called: [kind, place], .. } => format!(
-                "it was called as {kind:02X}{place:02X} (rack {}, slot {}): try another rack, slot or kind of connection",
+                "the called TSAP was {kind:02X}{place:02X} (rack {}, slot {}): try another rack, slot or connection type",
                 place >> 5,
                 place & 0x1F
             ),
             Self::Refused { what, code } if is_of_the_nck(what) => cure_of_nc_code(*code).to_owned(),
             Self::Refused { code, .. } => cure_of_code(*code).to_owned(),
             Self::Rejected { what, error: ErrorCode::NOT_IMPLEMENTED } if is_of_the_nck(what) => {
-                "what was called has no NC variables: the NCK is at TSAP 0D04 (slot 4) of an 840D sl or 828D, at 0103 \
-                (slot 3) of an 840D powerline; say --nck-tsap 0400:0D04"
+                "the called module has no NC variables: the NCK is at TSAP 0D04 (slot 4) on an 840D sl or 828D, at 0103 \
+                (slot 3) on an 840D powerline; use --nck-tsap 0400:0D04"
                     .to_owned()
             }
             Self::Rejected { error, .. } => cure_of_error(*error).to_owned(),
             Self::TimedOut { sent: true, .. } => {
-                "it may have been done: read before you repeat it, or allow more time".to_owned()
+                "the request may have been executed: read the value before you repeat it, or increase the timeout".to_owned()
             }
-            Self::TimedOut { sent: false, .. } => "it was not sent: check the connection, then repeat it".to_owned(),
-            Self::Lost { sent: true, .. } => "it was sent and may have been done: read before you repeat it".to_owned(),
+            Self::TimedOut { sent: false, .. } => "the request was not sent: check the connection, then repeat it".to_owned(),
+            Self::Lost { sent: true, .. } => "the request was sent and may have been executed: read the value before you repeat it".to_owned(),
             Self::Lost { sent: false, .. } => {
-                "it was not sent: repeat it when the connection is there again".to_owned()
+                "the request was not sent: repeat it after the reconnect".to_owned()
             }
-            Self::Unexpected { .. } => "the server does not keep to the protocol: report it to its maker".to_owned(),
+            Self::Unexpected { .. } => "the server violates the protocol: report it to its manufacturer".to_owned(),
         }
     }
 
-    /// The same error, of something else that was asked.
+    /// The same error for another request text.
     #[must_use]
     pub(super) fn of(self, what: &str) -> Self {
         let what = what.to_owned();
@@ -136,34 +136,34 @@ impl fmt::Display for Error {
         match self {
             Self::Input { what, .. } => f.write_str(what),
             Self::Unreachable { host, cause } => write!(f, "{host} cannot be reached: {cause}"),
-            Self::NotAccepted { host, cause, .. } => write!(f, "{host} does not take the connection: {cause}"),
+            Self::NotAccepted { host, cause, .. } => write!(f, "{host} does not accept the connection: {cause}"),
             Self::Refused { what, code } => write!(f, "{what}: {} (return code {code:02X})", codes::of_item(*code)),
             Self::Rejected { what, error } => {
                 write!(f, "{what}: {} (error {:04X})", codes::of_request(*error), error.0)
             }
             Self::TimedOut { what, after, sent } => {
-                let sent = if *sent { "" } else { "; it was not sent" };
+                let sent = if *sent { "" } else { "; the request was not sent" };
                 write!(f, "{what}: no answer within {} s{sent}", after.as_secs_f64())
             }
             Self::Lost { what, sent, cause } => {
-                let sent = if *sent { "it was sent" } else { "it was not sent" };
-                write!(f, "{what}: the connection was lost ({cause}); {sent}")
+                let sent = if *sent { "the request was sent" } else { "the request was not sent" };
+                write!(f, "{what}: connection lost ({cause}); {sent}")
             }
-            Self::Unexpected { what, found } => write!(f, "{what}: an answer that does not fit: {found}"),
+            Self::Unexpected { what, found } => write!(f, "{what}: invalid answer: {found}"),
         }
     }
 }
 
-/// Whether NC variables were asked for, which are written so.
+/// Whether the error is about an NC variable, which is written in this form.
 fn is_of_the_nck(what: &str) -> bool {
     what.starts_with("nck:")
 }
 
-/// By the return code of an item.
+/// The remedy by the return code of an item.
 fn cure_of_code(code: u8) -> &'static str {
     match code {
-        0x03 => "the server allows reading only, or the value cannot be set",
-        0x05 => "`opennck s7 info` lists the blocks and how long they are",
+        0x03 => "the server is read-only, or the value cannot be written",
+        0x05 => "`opennck s7 info` lists the blocks and their lengths",
         0x06 | 0x07 => "read it as bytes (DBB)",
         0x0A => "`opennck s7 info` lists the blocks",
         _ => "see the manual of the module",
@@ -172,25 +172,25 @@ fn cure_of_code(code: u8) -> &'static str {
 
 fn cure_of_nc_code(code: u8) -> &'static str {
     match code {
-        0x03 => "the server allows reading only, or the NCK alone sets it",
-        0x05 => "there is no such row or unit: both count from 1, so [1] is the first axis, and R5 is row 6",
-        0x06 | 0x07 => "give its type behind the column, nck:A1/M/32000:DOUBLE, or none for the bytes as they come",
+        0x03 => "the server is read-only, or only the NCK sets the value",
+        0x05 => "the row or unit does not exist: both count from 1, so [1] is the first axis, and R5 is row 6",
+        0x06 | 0x07 => "give the type after the column, nck:A1/M/32000:DOUBLE, or omit it for raw bytes",
         0x0A => {
-            "this NCK does not have it: `opennck s7 nck` lists names, machine data go by number (nck:A1/M/32000:DOUBLE)"
+            "this NCK does not have it: `opennck s7 nck` lists the names; address machine data by number (nck:A1/M/32000:DOUBLE)"
         }
         _ => "see the manual of the control",
     }
 }
 
-/// By the error of a whole request.
+/// The remedy by the error of a whole request.
 fn cure_of_error(error: ErrorCode) -> &'static str {
     match error {
         ErrorCode::NOT_IMPLEMENTED => {
-            "what was called does not have this function: the PLC of a control is in slot 2, its NCK in slot 4 (3 on powerline)"
+            "the called module does not have this function: the PLC of a control is in slot 2, its NCK in slot 4 (3 on powerline)"
         }
         ErrorCode::PROTECTED => "give the password",
-        ErrorCode::WRONG_PASSWORD => "check --password and OPENNCK_S7_PASSWORD: capitals count",
-        ErrorCode::WRONG_LIST | ErrorCode::WRONG_INDEX => "list 0000 tells which lists there are",
+        ErrorCode::WRONG_PASSWORD => "check --password and OPENNCK_S7_PASSWORD; passwords are case-sensitive",
+        ErrorCode::WRONG_LIST | ErrorCode::WRONG_INDEX => "read list 0000 for the available lists",
         _ => "see the manual of the module",
     }
 }

@@ -1,4 +1,4 @@
-//! What a client asks of its link: requests with a way back for their answers, and subscriptions.
+//! The commands of a client to its link: requests with a channel for their answers, and subscriptions.
 
 use std::future::Future;
 
@@ -8,16 +8,16 @@ use tokio::time::{Instant, timeout_at};
 use super::error::Error;
 use crate::s7::wire::header::ErrorCode;
 
-/// What was agreed with a module.
+/// The values negotiated with a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Negotiated {
     /// Bytes of a PDU.
     pub pdu: usize,
-    /// Requests on their way at once.
+    /// Maximum number of parallel requests.
     pub jobs: usize,
 }
 
-/// What a task is asked to do.
+/// A command to the task.
 #[derive(Debug)]
 pub(super) enum LinkCommand {
     Ask(Job),
@@ -27,27 +27,27 @@ pub(super) enum LinkCommand {
 /// A request.
 #[derive(Debug)]
 pub(super) struct Job {
-    /// What it is, for errors.
+    /// Its name in errors.
     pub(super) what: &'static str,
     /// A job, or user data.
     pub(super) kind: u8,
     pub(super) parameter: Vec<u8>,
     pub(super) data: Vec<u8>,
-    /// The PDU that it needs; it is given back where another connection has a shorter one.
+    /// The PDU size that it needs. It is returned if a new connection has a shorter PDU.
     pub(super) pdu: usize,
-    /// Whether it may be asked again on another connection.
+    /// Whether it may be repeated on another connection.
     pub(super) repeat: bool,
     pub(super) asked: Instant,
     pub(super) reply: ReplyTo,
 }
 
-/// Who waits for an answer.
+/// The receiver of an answer.
 #[derive(Debug)]
 pub(super) enum ReplyTo {
     Caller(oneshot::Sender<Result<Reply, Failure>>),
     /// The subscription with this identifier.
     Subscription(u64),
-    /// Nobody.
+    /// No receiver.
     Nobody,
 }
 
@@ -59,7 +59,7 @@ pub(super) struct Reply {
     pub(super) data: Vec<u8>,
 }
 
-/// Why there is none.
+/// The reason why there is no answer.
 #[derive(Debug)]
 pub(super) enum Failure {
     Error(Error),
@@ -73,24 +73,24 @@ pub(super) struct InFlight {
     pub(super) sent: Instant,
 }
 
-/// A subscription, as long as somebody listens.
+/// A subscription, as long as it has a receiver.
 #[derive(Debug)]
 pub(super) struct Subscribed {
-    /// In cycles or on change.
+    /// Cyclic or on change.
     pub(super) function: u8,
     pub(super) payload: Vec<u8>,
     pub(super) pdu: usize,
-    /// Which of several that belong together.
+    /// The index of its group.
     pub(super) group: usize,
     pub(super) to: mpsc::Sender<(usize, Result<Vec<u8>, Error>)>,
-    /// Told once.
+    /// Reports the first result, once.
     pub(super) ready: Option<oneshot::Sender<Result<(), Error>>>,
     /// Number at the module, while there is a connection.
     pub(super) number: Option<u8>,
     pub(super) identifier: u64,
 }
 
-/// The same deadline for everything that is awaited.
+/// Runs `work` until a common deadline.
 pub(super) async fn by<T>(deadline: Instant, work: impl Future<Output = T>) -> Option<T> {
     timeout_at(deadline, work).await.ok()
 }

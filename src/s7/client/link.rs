@@ -1,17 +1,17 @@
-//! One connection to a module, kept alive: a task that owns the socket, gives references, sends as many requests at once as was
-//! agreed, and connects again.
+//! One connection to a module, kept alive by a task. The task owns the socket, assigns references, sends as many parallel requests as
+//! negotiated, and reconnects.
 //!
-//! | what happens | what becomes of a request |
+//! | event | effect on a request |
 //! |---|---|
-//! | an answer with its reference and function | it is the answer |
-//! | an answer with another reference, or one that timed out long ago | dropped; nobody else gets it |
-//! | no answer in time | it failed; its place is free again |
-//! | the connection is lost, it only reads | it is asked again on the next connection |
-//! | the connection is lost, it changes something and was sent | it failed, and says that it was sent; never sent again |
+//! | an answer with its reference and function | it is its answer |
+//! | an answer with an unknown reference, or after the time limit | dropped; no other request gets it |
+//! | no answer in time | it fails; its slot is free again |
+//! | the connection is lost, it only reads | repeated on the next connection |
+//! | the connection is lost, it changes something and was sent | it fails and reports that it was sent; never repeated |
 //! | the connection is lost, it was not sent yet | it waits for the next connection |
-//! | it waited too long for a connection | it failed, and says that it was not sent |
+//! | it waited too long for a connection | it fails and reports that it was not sent |
 //!
-//! Several requests without an answer and nothing else heard are a lost connection, too.
+//! Several consecutive requests without an answer, and no other input, count as a lost connection as well.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::pin::pin;
@@ -31,26 +31,26 @@ use crate::s7::wire::header::{ErrorCode, Message, Unreadable, kind};
 use crate::s7::wire::pdu::{Answers, Budget, Pdu};
 use crate::s7::wire::replies::UserData;
 
-/// How many requests wait here; more wait with those who ask.
+/// Maximum number of requests queued here; further callers wait.
 const QUEUE: usize = 64;
-/// After so many requests in a row without an answer nobody is there any more.
+/// After this many consecutive requests without an answer the connection counts as lost.
 const SILENCES: u32 = 2;
 
-/// How the connection is.
+/// The state of the connection.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum State {
     /// It is open.
     Connected(Negotiated),
-    /// It was lost and is being opened again.
+    /// It was lost and is being reopened.
     Lost {
-        /// Why.
+        /// The reason.
         cause: String,
-        /// How many attempts have failed.
+        /// The number of failed attempts.
         attempts: u32,
     },
-    /// It was lost, and stays so.
+    /// It was lost and will not be reopened.
     Ended {
-        /// Why.
+        /// The reason.
         cause: String,
     },
 }
@@ -67,17 +67,17 @@ pub(super) struct Link {
     pub(super) subscriptions: Vec<Subscribed>,
     reference: u16,
     identifier: u64,
-    /// When something came last.
+    /// Time of the last input.
     heard: Instant,
     silences: u32,
-    /// How long the next attempt to connect waits. An answer ends it, an open connection alone does not: a server that closes on
-    /// each request is not called without a pause.
+    /// Delay before the next attempt to connect. It is reset by an answer, not by an open connection: otherwise a server that closes on
+    /// each request would be called without a pause.
     wait: Duration,
 }
 
-/// Why the task leaves a connection.
+/// The reason for leaving a connection.
 enum End {
-    /// Nobody asks any more.
+    /// All clients were dropped.
     Left,
     Lost(String),
 }
@@ -91,7 +91,7 @@ impl Link {
     ) -> Self {
         let (queue, in_flight, subscriptions) = (VecDeque::new(), BTreeMap::new(), Vec::new());
         let heard = Instant::now();
-        // The handshake has the numbers before.
+        // The handshake uses the numbers before.
         let reference = super::door::REFERENCES;
         Self {
             address,
@@ -109,12 +109,12 @@ impl Link {
         }
     }
 
-    /// Whether such a job is on its way.
+    /// Whether such a job is in flight.
     pub(super) fn is_in_flight(&self, is_it: impl Fn(&Job) -> bool) -> bool {
         self.in_flight.values().any(|waiting| is_it(&waiting.job))
     }
 
-    /// Works until nobody asks any more, or the connection is lost for good.
+    /// Runs until all clients are dropped, or the connection is lost for good.
     pub(super) async fn run(mut self, mut door: Door) {
         loop {
             self.state.send_replace(State::Connected(door.negotiated));
@@ -149,14 +149,14 @@ impl Link {
                 match timeout(self.options.timeout, door.stream.write_all(out.bytes())).await {
                     Ok(Ok(())) => {}
                     Ok(Err(error)) => return End::Lost(error.to_string()),
-                    Err(_) => return End::Lost("the server takes no requests".to_owned()),
+                    Err(_) => return End::Lost("the server does not accept requests".to_owned()),
                 }
             }
             let deadline = self.deadline();
-            // Each in its turn: a server that floods keeps nobody from asking, and no time from running out.
+            // Events take turns: a server that floods the client must not block requests or time limits.
             tokio::select! {
                 read = door.stream.read(&mut input) => match read {
-                    Ok(0) => return End::Lost("the server closed it".to_owned()),
+                    Ok(0) => return End::Lost("the server closed the connection".to_owned()),
                     Err(error) => return End::Lost(error.to_string()),
                     Ok(count) => {
                         self.heard = Instant::now();
@@ -178,7 +178,7 @@ impl Link {
                 () = sleep_until(deadline) => {
                     self.expire();
                     if self.silences >= SILENCES {
-                        return End::Lost("no answers came any more".to_owned());
+                        return End::Lost("the server no longer answers".to_owned());
                     }
                 }
             }
@@ -197,14 +197,14 @@ impl Link {
         }
     }
 
-    /// Sends what may be sent.
+    /// Sends the requests that may be sent.
     fn emit(&mut self, door: &Door, out: &mut Answers) {
         let Negotiated { pdu, jobs } = door.negotiated;
         let budget = Budget { pdu, piece: door.piece };
         while self.in_flight.len() < jobs {
             let Some(job) = self.queue.pop_front() else { return };
             if matches!(&job.reply, ReplyTo::Caller(reply) if reply.is_closed()) {
-                continue; // nobody waits for it any more
+                continue; // its receiver is gone
             }
             if job.pdu > pdu {
                 self.answer(job, Err(Failure::Renegotiated));
@@ -229,7 +229,7 @@ impl Link {
         }
     }
 
-    /// A reference that no request on its way has, and not 0.
+    /// A reference that no request in flight has, and not 0.
     fn free_reference(&mut self) -> u16 {
         loop {
             self.reference = self.reference.checked_add(1).unwrap_or(1);
@@ -239,7 +239,7 @@ impl Link {
         }
     }
 
-    /// Takes a PDU from the server. What answers nothing that was asked is dropped.
+    /// Takes a PDU from the server. A PDU that answers no request is dropped.
     fn pdu(&mut self, pdu: &[u8]) {
         let message = match Message::parse(pdu) {
             Ok(message) => message,
@@ -274,21 +274,21 @@ impl Link {
     fn answer(&mut self, job: Job, reply: Result<Reply, Failure>) {
         match job.reply {
             ReplyTo::Caller(caller) => {
-                let _ = caller.send(reply); // who has gone does not mind
+                let _ = caller.send(reply); // the receiver may be gone
             }
             ReplyTo::Subscription(identifier) => self.subscription_answered(identifier, reply),
             ReplyTo::Nobody => {}
         }
     }
 
-    /// When something is over next.
+    /// The next deadline.
     fn deadline(&self) -> Instant {
         let sent = self.in_flight.values().map(|waiting| waiting.sent + self.options.timeout);
         let asked = self.queue.iter().map(|job| job.asked + self.options.patience);
         sent.chain(asked).min().unwrap_or_else(|| Instant::now() + Duration::from_hours(1))
     }
 
-    /// Ends what waited too long.
+    /// Ends requests that exceeded their time limit.
     fn expire(&mut self) {
         let now = Instant::now();
         let (timeout, patience, heard) = (self.options.timeout, self.options.patience, self.heard);
@@ -306,7 +306,7 @@ impl Link {
         }
     }
 
-    /// What becomes of requests on their way when the connection is lost.
+    /// Handles the requests in flight when the connection is lost.
     fn take_back(&mut self, cause: &str) {
         let may_repeat = self.options.reconnect.is_some();
         let sent = std::mem::take(&mut self.in_flight);
@@ -318,11 +318,11 @@ impl Link {
                 self.answer(job, Err(Failure::Error(error)));
             }
         }
-        // Subscriptions are asked for anew on the next connection.
+        // Subscriptions are requested anew on the next connection.
         self.queue.retain(|job| !matches!(job.reply, ReplyTo::Subscription(_) | ReplyTo::Nobody));
     }
 
-    /// Opens the connection again; none when nobody asks any more or it is not wanted.
+    /// Reopens the connection; `None` when all clients are dropped or reconnecting is disabled.
     async fn reconnect(&mut self, cause: &str) -> Option<Door> {
         let Some(backoff) = self.options.reconnect else {
             self.state.send_replace(State::Ended { cause: cause.to_owned() });
@@ -366,17 +366,17 @@ impl Link {
         }
     }
 
-    /// A subscription that comes while there is no connection is asked for with the others.
+    /// A subscription that arrives without a connection is requested together with the others.
     fn accept_later(&mut self, command: LinkCommand) {
         self.accept(command);
         self.queue.retain(|job| !matches!(job.reply, ReplyTo::Subscription(_)));
     }
 }
 
-/// Whether a message answers a request: of its kind, and of its function.
+/// Whether a message answers a request: same kind, same function.
 fn answers(job: &Job, message: &Message<'_>) -> bool {
     match (job.kind, message.kind) {
-        // A refusal may be of any request.
+        // A refusal fits any request.
         (_, kind::ACK) => true,
         (kind::USER_DATA, kind::USER_DATA) => {
             let at = |parameter: &[u8]| parameter.get(5..7).map(|at| (at[0] & 0xF, at[1]));

@@ -1,4 +1,5 @@
-//! Subscriptions at the link: asked for on each connection anew, forwarded to whoever listens, ended when he has gone.
+//! Subscriptions of a link: requested on each new connection, forwarded to their receiver, ended when the receiver is
+//! dropped.
 
 use tokio::sync::mpsc;
 use tokio::time::Instant;
@@ -12,7 +13,7 @@ use crate::s7::wire::requests;
 use crate::s7::wire::user_data::group;
 
 impl Link {
-    /// Asks for a subscription, the first time or on another connection.
+    /// Requests a subscription, for the first time or on a new connection.
     pub(super) fn renew(&mut self, at: usize) {
         let subscribed = &mut self.subscriptions[at];
         subscribed.number = None;
@@ -22,14 +23,14 @@ impl Link {
             parameter: requests::user_data(group::CYCLIC, subscribed.function).to_vec(),
             data: requests::payload(&subscribed.payload),
             pdu: subscribed.pdu,
-            repeat: false, // it is asked for again with the others
+            repeat: false, // it is requested again together with the other subscriptions
             asked: Instant::now(),
             reply: ReplyTo::Subscription(subscribed.identifier),
         };
         self.queue.push_back(job);
     }
 
-    /// Forwards what the module sends by itself.
+    /// Forwards an update that the module sent.
     pub(super) fn push(&mut self, push: &UserData<'_>) {
         let is_it = |subscribed: &Subscribed| {
             push.group == group::CYCLIC
@@ -38,7 +39,8 @@ impl Link {
         };
         match self.subscriptions.iter().position(is_it) {
             Some(at) => self.forward(at, Ok(push.payload.to_vec())),
-            // The answer that said its number never came: nobody listens, and the module has few places.
+            // The answer with its number never arrived. It has no receiver, and the module has few subscription slots:
+            // end it.
             None if push.group == group::CYCLIC => self.end(push.function, push.sequence),
             None => {}
         }
@@ -63,7 +65,8 @@ impl Link {
         });
     }
 
-    /// Gives values to whoever listens. Who does not take them misses some; who has gone is unsubscribed.
+    /// Forwards values to the receiver. If its buffer is full, the update is dropped; if it is gone, the subscription
+    /// is ended.
     fn forward(&mut self, at: usize, values: Result<Vec<u8>, Error>) {
         let subscribed = &self.subscriptions[at];
         if let Err(mpsc::error::TrySendError::Closed(_)) = subscribed.to.try_send((subscribed.group, values)) {
@@ -99,7 +102,7 @@ impl Link {
                 }
                 self.forward(at, Ok(values));
             }
-            // One answer was lost, the connection was not: nobody else asks again.
+            // An answer was lost but the connection was not: nothing else would request it again.
             Err(Error::TimedOut { .. }) if ready.is_none() => {
                 if subscribed.to.is_closed() {
                     self.subscriptions.swap_remove(at);
@@ -107,7 +110,7 @@ impl Link {
                     self.renew(at);
                 }
             }
-            // A connection that was lost meanwhile brings it again.
+            // After a lost connection the reconnect requests it again.
             Err(error) if ready.is_none() && error.is_of_the_connection() => {}
             Err(error) => {
                 match ready {

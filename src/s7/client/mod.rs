@@ -1,4 +1,5 @@
-//! A client of S7 communication, over the same formats as the server: for test tools, collectors, and the program's own commands.
+//! A client of S7 communication, which shares the wire formats with the server: for test tools, data collectors, and the commands of
+//! `opennck s7`.
 //!
 //! ```no_run
 //! use opennck::s7::client::{Client, Options, Value, Variable};
@@ -9,7 +10,7 @@
 //! if plc.read(&ready).await? == Value::Bit(true) {
 //!     plc.write(&"DB31.DBX29.4".parse()?, &Value::Bit(true)).await?;
 //! }
-//! // Any number of items: as few requests as the negotiated PDU permits, and each item has its own result.
+//! Any number of items: as few requests as the negotiated PDU permits; each item has its own result.
 //! let many = ["DB31.DBD78:REAL".parse()?, "MB0..500".parse()?, "DB99.DBW0".parse()?];
 //! for (variable, value) in many.iter().zip(plc.read_all(&many).await) {
 //!     println!("{variable}: {value:?}");
@@ -18,20 +19,20 @@
 //! # }
 //! ```
 //!
-//! A client is a handle: clones share one connection, and requests of all of them are on their way at once, as many as the module
-//! takes. The connection is opened again when it is lost; what only reads is then asked again, what changes something never is:
-//! its error says whether it was sent. [`Client::changes`] tells of the connection.
+//! A client is a handle: its clones share one connection and send requests in parallel, as many as the module accepts. A lost connection is
+//! reopened. Reads are then repeated; requests that change something are never repeated: their error reports whether they were sent.
+//! [`Client::changes`] reports the state of the connection.
 //!
-//! What comes from the other side is trusted nowhere: lengths are checked, memory is bounded, and an answer goes only to the
-//! question whose reference and function it has.
+//! Data from the server are not trusted: lengths are checked, memory is bounded, and an answer is matched to its request by reference and
+//! function.
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
-//! | `variable`, `nc`, `value` | what is meant, and its bytes |
-//! | `plan` | which items go into which request |
+//! | `variable`, `nc`, `value` | variables, values, and their bytes |
+//! | `plan` | the distribution of items over requests |
 //! | `conversation` | the transport without a socket |
-//! | `door`, `link`, `listeners` | opening, and the task that owns the socket |
-//! | `variables`, `subscription`, `system`, `blocks` | what a client can ask |
+//! | `door`, `link`, `listeners` | opening the connection, and the task that owns the socket |
+//! | `variables`, `subscription`, `system`, `blocks` | the requests of a client |
 
 mod blocks;
 mod conversation;
@@ -74,7 +75,7 @@ use crate::s7::wire::header::{ErrorCode, kind};
 use job::{Failure, Job, LinkCommand, Reply, ReplyTo, by};
 use link::Link;
 
-/// How many requests wait for the task; who has more waits itself.
+/// The number of requests queued for the task; further callers wait.
 const COMMANDS: usize = 32;
 
 /// A connection to a module. It is closed when the last clone and the last subscription are dropped.
@@ -83,11 +84,11 @@ pub struct Client {
     commands: mpsc::Sender<LinkCommand>,
     state: watch::Receiver<State>,
     options: Arc<Options>,
-    /// A module keeps one long answer at a time.
+    /// A module keeps only one long answer at a time.
     long: Arc<Mutex<()>>,
 }
 
-/// What is asked; the rest is the same for all.
+/// A request without the fields that are the same for all requests.
 struct Question<'a> {
     what: &'static str,
     kind: u8,
@@ -100,19 +101,20 @@ struct Question<'a> {
 impl Client {
     /// Connects to an address with port: `192.168.214.1:102`, `[::1]:10102`, `localhost:10102`.
     ///
-    /// It has to be called inside a runtime of tokio, whatever its kind.
+    /// The call needs a tokio runtime of either kind.
     ///
     /// # Errors
-    /// Nobody is there, or does not take the connection, or the password.
+    /// The host cannot be reached, or does not accept the connection or the password.
     pub async fn connect(address: &str, options: Options) -> Result<Self, Error> {
         let door = door::open(address, &options).await?;
         Ok(Self::behind(door, address, options))
     }
 
-    /// Over a stream that somebody has opened: a tunnel, or a test's. It is not opened again when it is lost, whatever the options say.
+    /// Connects over a stream that is already open: a tunnel, or a test's stream. It is not reopened when it is lost, whatever the options
+    /// are.
     ///
     /// # Errors
-    /// Who is at its other end does not take the connection, or the password.
+    /// The server does not accept the connection or the password.
     pub async fn over(
         stream: impl AsyncRead + AsyncWrite + Debug + Send + Unpin + 'static,
         options: Options,
@@ -131,19 +133,19 @@ impl Client {
         Self { commands, state, options, long: Arc::default() }
     }
 
-    /// How the connection is now.
+    /// The state of the connection.
     #[must_use]
     pub fn state(&self) -> State {
         self.state.borrow().clone()
     }
 
-    /// Tells every change of the connection.
+    /// A receiver for every change of the connection state.
     #[must_use]
     pub fn changes(&self) -> watch::Receiver<State> {
         self.state.clone()
     }
 
-    /// What was agreed with the module on this connection, or on the last one.
+    /// The values negotiated with the module on this connection, or on the last one.
     #[must_use]
     pub fn negotiated(&self) -> Option<Negotiated> {
         match &*self.state.borrow() {
@@ -152,7 +154,7 @@ impl Client {
         }
     }
 
-    /// Waits for a connection, at most as long as a request does.
+    /// Waits for a connection, at most as long as for a request.
     async fn connected(&self, what: &str) -> Result<Negotiated, Error> {
         let mut state = self.state.clone();
         let lost = |cause: &str| Error::Lost { what: what.to_owned(), sent: false, cause: cause.to_owned() };
@@ -170,19 +172,19 @@ impl Client {
         }
     }
 
-    /// Hands a request to the task; the answer comes later.
+    /// Hands a request to the task; the answer is received later.
     async fn send(&self, question: Question<'_>) -> oneshot::Receiver<Result<Reply, Failure>> {
         let (reply, answer) = oneshot::channel();
         let Question { what, kind, parameter, data, pdu, repeat } = question;
         let (parameter, data) = (parameter.to_vec(), data.to_vec());
         let (asked, reply) = (Instant::now(), ReplyTo::Caller(reply));
         let job = Job { what, kind, parameter, data, pdu, repeat, asked, reply };
-        // If the task has ended the answer tells that, too.
+        // If the task has ended, the answer channel reports it as well.
         let _ = self.commands.send(LinkCommand::Ask(job)).await;
         answer
     }
 
-    /// Asks and waits; errors of the whole request are errors.
+    /// Sends a request and waits for the answer. An error of the whole request is returned as an error.
     async fn ask(&self, question: Question<'_>) -> Result<Reply, Error> {
         let what = question.what;
         let reply = match self.send(question).await.await {
@@ -196,7 +198,7 @@ impl Client {
         }
     }
 
-    /// The error of a request that the task did not take any more.
+    /// The error of a request that the task did not accept any more.
     fn gone(&self, what: &str) -> Error {
         let cause = match &*self.state.borrow() {
             State::Ended { cause } | State::Lost { cause, .. } => cause.clone(),
@@ -215,7 +217,7 @@ impl<'a> Question<'a> {
         Self { what, kind: kind::USER_DATA, parameter, data, pdu: 0, repeat: false }
     }
 
-    /// It changes nothing and may be asked again.
+    /// Marks a request that changes nothing and may be repeated.
     fn repeated(self) -> Self {
         Self { repeat: true, ..self }
     }

@@ -1,17 +1,17 @@
-//! NC variables by name, as the catalogue of the server has them, or by number where it has none.
+//! NC variables by their name in the server's catalogue, or by number if they are not in it.
 //!
-//! | text | means |
+//! | text | meaning |
 //! |---|---|
-//! | `C/MachineAxis/actToolBasePos[2]` | a name of the catalogue, row 2; row 1 where nothing is said |
-//! | `C/SMA/actToolBasePos[1..3]` | the same by its module, three rows |
-//! | `C2/State/chanStatus` | of channel 2; unit 1 where nothing is said |
+//! | `C/MachineAxis/actToolBasePos[2]` | a name of the catalogue, row 2; default row 1 |
+//! | `C/SMA/actToolBasePos[1..3]` | the same variable by its module, three rows |
+//! | `C2/State/chanStatus` | a variable of channel 2; default unit 1 |
 //! | `A1/M/32000:DOUBLE` | column 32000 of module M of axis 1, and its type |
-//! | `C/Parameter/rpa[6]` | R5: rows count from 1 |
-//! | `C/RP/1[5]` | without a type the bytes as they come |
+//! | `C/Parameter/rpa[6]` | R5: the first row is 1 |
+//! | `C/RP/1[5]` | without a type, the raw bytes |
 //! | `V/16#80/30:REAL` | a module by its number |
 //!
-//! Types: `BYTE`, `WORD`, `LONG`, `ULONG`, `REAL`, `DOUBLE`, `DATE`, `TEXT32` and other lengths. Drives (areas V and H) are big-endian, all others
-//! little-endian.
+//! Types: `BYTE`, `WORD`, `LONG`, `ULONG`, `REAL`, `DOUBLE`, `DATE`, `TEXT32` and other lengths. Values of drives (areas V and H) are
+//! big-endian, all others are little-endian.
 
 use std::fmt;
 use std::str::FromStr;
@@ -23,30 +23,30 @@ use crate::s7::wire::items::{MeasuringSystem, NckItem};
 /// Rows of a variable of the NCK.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NcVariable {
-    /// Which, as it goes on the wire.
+    /// The item on the wire.
     pub item: NckItem,
-    /// What a row is; none where nobody knows: then it is read as bytes.
+    /// The type of a row; `None` if it is unknown: then the row is read as bytes.
     pub kind: Option<NcKind>,
 }
 
-/// What a row is.
+/// The type of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NcKind {
     /// One byte.
     Byte,
-    /// A word of two bytes.
+    /// A two-byte word.
     Word,
-    /// A whole number of four bytes.
+    /// A signed four-byte integer.
     Long,
-    /// A whole number of four bytes without a sign.
+    /// An unsigned four-byte integer.
     UnsignedLong,
-    /// A floating point number of four bytes.
+    /// A four-byte floating-point number.
     Real,
-    /// A floating point number of eight bytes.
+    /// An eight-byte floating-point number.
     Double,
-    /// A point in time of eight bytes (`DATE_AND_TIME`), all zeros where there is none.
+    /// A point in time of eight bytes (`DATE_AND_TIME`); all zeros if there is none.
     Date,
-    /// A text of so many bytes, filled with zeros.
+    /// A text of this many bytes, padded with zeros.
     Text(usize),
 }
 
@@ -63,7 +63,7 @@ impl NcKind {
         }
     }
 
-    /// As the catalogue of the server writes it down.
+    /// The type in the server's catalogue.
     #[must_use]
     pub const fn of(kind: Kind) -> Self {
         match kind {
@@ -79,10 +79,10 @@ impl NcKind {
     }
 }
 
-/// Area letters, their number is their place; the first three and A are what the simulator has.
+/// The letters of the areas; the position is the area number. The simulator has the first three and A.
 const AREAS: &[u8; 8] = b"NBCATVHM";
 
-/// Modules by the names of Siemens' lists.
+/// Modules by their names in Siemens' lists.
 const MODULES: &[(&str, u8)] = &[
     ("Y", 0x10),
     ("FU", 0x12),
@@ -119,7 +119,7 @@ const MODULES: &[(&str, u8)] = &[
 ];
 
 impl NcVariable {
-    /// A row of the catalogue, of unit 1 and line 1.
+    /// A row of the catalogue, with unit 1 and line 1.
     #[must_use]
     pub fn of(row: &Row) -> Self {
         let item = NckItem {
@@ -134,13 +134,13 @@ impl NcVariable {
         Self { item, kind: Some(NcKind::of(row.kind)) }
     }
 
-    /// These rows of it.
+    /// These rows of the variable.
     #[must_use]
     pub fn rows(self, first: u16, count: u8) -> Self {
         Self { item: NckItem { line: first, count, ..self.item }, ..self }
     }
 
-    /// Of this channel, mode group or axis.
+    /// The variable of this channel, mode group or axis.
     #[must_use]
     pub fn unit(self, unit: u8) -> Self {
         Self { item: NckItem { unit, ..self.item }, ..self }
@@ -192,7 +192,7 @@ impl FromStr for NcVariable {
     }
 }
 
-/// `M/32000:DOUBLE`.
+/// Parses `M/32000:DOUBLE`.
 fn numbered(area: u8, module: &str, column: &str, text: &str) -> Result<NcVariable, Error> {
     let (column, kind) = column.split_once(':').map_or((column, None), |(column, kind)| (column, Some(kind)));
     let code = match module.strip_prefix("16#") {
@@ -201,21 +201,25 @@ fn numbered(area: u8, module: &str, column: &str, text: &str) -> Result<NcVariab
     };
     let module = code.ok_or_else(|| {
         let names: Vec<_> = MODULES.iter().map(|(name, _)| *name).collect();
-        wrong(text, "a module with its column", format!("write C/RP/1, or 16#15 for RP; known are {}", names.join(" ")))
+        wrong(
+            text,
+            "a module with its column",
+            format!("write C/RP/1, or 16#15 for RP; known modules: {}", names.join(" ")),
+        )
     })?;
     let column = column.parse();
-    let column = column.map_err(|_| wrong(text, "a column from 0 to 65535", "of machine data it is the number"))?;
+    let column = column.map_err(|_| wrong(text, "a column from 0 to 65535", "for machine data it is their number"))?;
     let kind = kind.map(|kind| {
         of_type(kind).ok_or_else(|| {
             let types = "BYTE, WORD, LONG, ULONG, REAL, DOUBLE, DATE, or TEXT32 for texts of 1 to 200 bytes";
-            wrong(text, "a type behind the column", types)
+            wrong(text, "a type after the column", types)
         })
     });
     let item = NckItem { system: MeasuringSystem::Current, area, unit: 1, column, line: 1, module, count: 1 };
     Ok(NcVariable { item, kind: kind.transpose()? })
 }
 
-/// `DOUBLE`.
+/// Parses `DOUBLE`.
 fn of_type(text: &str) -> Option<NcKind> {
     Some(match text {
         "BYTE" | "BOOL" => NcKind::Byte,
@@ -232,7 +236,7 @@ fn of_type(text: &str) -> Option<NcKind> {
     })
 }
 
-/// `MachineAxis/actToolBasePos` or `SMA/actToolBasePos`.
+/// Parses `MachineAxis/actToolBasePos` or `SMA/actToolBasePos`.
 fn named(area: u8, path: &str, text: &str) -> Result<NcVariable, Error> {
     let in_area = || CATALOGUE.iter().filter(|row| row.area.code() == area);
     let tail = |row: &Row| row.name.split_once('/').map_or("", |(_, tail)| tail);
@@ -247,7 +251,7 @@ fn named(area: u8, path: &str, text: &str) -> Result<NcVariable, Error> {
     let distance = |row: &&Row| strsim::damerau_levenshtein(&last(row.name), &last(path));
     let near = CATALOGUE.iter().min_by_key(distance).filter(|row| distance(row) <= 3);
     let cure = near.map_or_else(
-        || "`opennck s7 nck` lists them; others go by number: C/SMA/2:DOUBLE[1]".to_owned(),
+        || "`opennck s7 nck` lists them; address others by number: C/SMA/2:DOUBLE[1]".to_owned(),
         |row| format!("did you mean `{}`?", row.name),
     );
     Err(wrong(text, "an NC variable of the catalogue", cure))

@@ -1,11 +1,11 @@
-//! How a client connects, what it asks for, and how long it waits.
+//! How a client connects, which limits it negotiates, and how long it waits.
 
 use std::time::Duration;
 
-/// The length of a TPDU that is asked for, as a binary logarithm: 1024, as most clients do.
+/// The requested TPDU size as a binary logarithm: 1024 bytes, as most clients request.
 pub(super) const TPDU: u8 = 10;
 
-/// As what a client registers with a module, which has a number of places for each kind.
+/// The connection type registered with a module, which has a limited number of connections per type.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ConnectionKind {
     /// Programming device.
@@ -27,17 +27,17 @@ impl ConnectionKind {
     }
 }
 
-/// Who calls whom: transport service access points.
+/// Transport service access points of both sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tsaps {
-    /// Of the client.
+    /// The TSAP of the client.
     pub calling: [u8; 2],
-    /// Of the module.
+    /// The TSAP of the module.
     pub called: [u8; 2],
 }
 
 impl Tsaps {
-    /// A module by rack (0 to 7) and slot (0 to 31), called as this kind of client.
+    /// The TSAPs for a module at a rack (0 to 7) and slot (0 to 31), with this connection type.
     #[must_use]
     pub const fn of(kind: ConnectionKind, rack: u8, slot: u8) -> Self {
         Self { calling: [1, 0], called: [kind.code(), (rack & 7) << 5 | slot & 0x1F] }
@@ -49,41 +49,41 @@ impl Tsaps {
         Self::of(ConnectionKind::ProgrammingDevice, 0, 2)
     }
 
-    /// The NCK of a SINUMERIK solution line, as data collectors call it.
+    /// The NCK of a SINUMERIK solution line, with the TSAPs that data collectors use.
     #[must_use]
     pub const fn nck() -> Self {
         Self { calling: [4, 0], called: [0x0D, 4] }
     }
 }
 
-/// How long to wait between attempts to connect again: the first time, then twice as long each time, up to the most.
+/// The delay between attempts to reconnect: it starts with `first` and doubles each time, up to `most`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Backoff {
     /// Before the second attempt; the first follows at once.
     pub first: Duration,
-    /// Never longer than that.
+    /// The maximum delay.
     pub most: Duration,
 }
 
-/// How a client connects and what it asks for.
+/// The options of a connection.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Who calls whom.
+    /// TSAPs of both sides.
     pub tsaps: Tsaps,
-    /// The longest PDU that is asked for, 64 to 4096; modules of a SINUMERIK grant up to 960.
+    /// The requested PDU size, 64 to 4096; modules of a SINUMERIK grant up to 960.
     pub pdu: u16,
-    /// How many requests on their way at once are asked for.
+    /// The requested number of parallel requests.
     pub jobs: u16,
-    /// How many items one request may have. As many as fit is what modules take; snap7's server ends on more than 20 in a write
-    /// request and cuts a read request to 20.
+    /// Maximum number of items per request. Modules accept as many as fit in a PDU. snap7's server closes the connection if a write request
+    /// has more than 20 items, and answers only 20 items of a read request.
     pub items: u8,
-    /// How long connecting may take, and the answer to a request.
+    /// Time limit for connecting, and for the answer to a request.
     pub timeout: Duration,
-    /// How long a request waits until a lost connection is there again.
+    /// How long a request waits for the reconnect after a lost connection.
     pub patience: Duration,
-    /// How a lost connection is opened again; none: not at all.
+    /// How a lost connection is reopened; `None`: not at all.
     pub reconnect: Option<Backoff>,
-    /// Given to the module on each connection.
+    /// The password that is sent on each connection.
     pub password: Option<[u8; 8]>,
 }
 
@@ -110,7 +110,7 @@ impl Options {
     }
 }
 
-/// A password of one to eight ASCII characters, filled with blanks.
+/// A password of one to eight ASCII characters, padded with blanks.
 #[must_use]
 pub fn password(text: &str) -> Option<[u8; 8]> {
     let mut password = [b' '; 8];

@@ -1,13 +1,13 @@
-//! Which items go into which request: in order, as many as request and answer have room for. What is longer than a PDU is
-//! split at elements and fills the room that is left; what fits into one PDU stays whole, so that it is of one cycle.
+//! Distributes items over requests: in order, as many as fit into a request and its answer. A value that is longer than a PDU is split
+//! between elements and fills the remaining space. A value that fits into one PDU is never split, so that it is of one cycle.
 //!
 //! | | request | answer |
 //! |---|---|---|
 //! | read | header 10, parameter 2 + items | header 12, parameter 2, data items of 4 + value |
-//! | write | the same, and data items of 4 + value | header 12, parameter 2, a code for each |
+//! | write | as for read, and data items of 4 + value | header 12, parameter 2, one code per item |
 //! | subscribe | header 10, parameter 8, data 4 + 4, items | header 10, parameter 12, data 4 + 2, data items |
 //!
-//! Values of an odd length are followed by a fill byte where another item follows.
+//! A value of odd length is followed by a fill byte if another item follows.
 
 use crate::image::{Area, Width};
 use crate::s7::wire::items::{AnyItem, NckItem};
@@ -15,7 +15,7 @@ use crate::s7::wire::items::{AnyItem, NckItem};
 use super::nc::NcVariable;
 use super::variable::{Memory, Variable};
 
-/// What is planned.
+/// The kind of request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Purpose {
     Read,
@@ -23,29 +23,29 @@ pub(super) enum Purpose {
     Subscribe,
 }
 
-/// How much goes into one request.
+/// The limits of one request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Room {
     /// Bytes of a PDU.
     pub(super) pdu: usize,
-    /// Items.
+    /// Number of items.
     pub(super) items: usize,
 }
 
-/// The most bytes of one value: its length is counted in bits, in two bytes.
+/// Maximum bytes of one value: its length field counts bits in two bytes.
 const LONGEST_VALUE: usize = 8190;
 
-/// How long the answer of an NC variable may be of which nobody knows what it is.
+/// Assumed maximum length of an NC variable of unknown type.
 const UNKNOWN: usize = 200;
 
 /// Some bytes of a variable, in one item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Part {
-    /// Whose, by its place in what was asked.
+    /// The index of the variable in the request of the caller.
     pub(super) of: usize,
-    /// Which of its bytes.
+    /// Offset of its first byte.
     pub(super) offset: usize,
-    /// How many.
+    /// Number of bytes.
     pub(super) length: usize,
     what: What,
 }
@@ -61,7 +61,7 @@ impl Part {
     pub(super) fn all(of: usize, variable: &Variable, purpose: Purpose) -> Vec<Self> {
         match *variable {
             Variable::Memory(memory) => match (purpose, memory.width) {
-                // Bits are written one by one: whoever writes the byte writes its other bits, too.
+                // Bits are written one by one: writing the byte would overwrite its other bits.
                 (Purpose::Write, Width::Bits { first, last }) => (first..=last)
                     .zip(0..)
                     .map(|(bit, offset)| {
@@ -78,11 +78,11 @@ impl Part {
         }
     }
 
-    /// Its item on the wire.
+    /// Appends its item in wire format.
     pub(super) fn put_item(&self, out: &mut Vec<u8>) {
         match self.what {
             What::Memory(memory) => {
-                // A bit of a group is at the same byte as its group.
+                // The bits of a group are in the same byte.
                 let offset = if matches!(memory.width, Width::Bit(_)) { 0 } else { self.offset };
                 out.extend_from_slice(&memory.item(offset, self.length).bytes());
             }
@@ -97,12 +97,12 @@ impl Part {
         }
     }
 
-    /// Whether its value is a bit, whose length is counted as one.
+    /// Whether its value is a bit; its length counts as one.
     pub(super) fn is_bit(&self) -> bool {
         matches!(self.what, What::Memory(Memory { width: Width::Bit(_), .. }))
     }
 
-    /// Whether its value is a string of octets: timers, counters, NC variables.
+    /// Whether its value is an octet string: timers, counters, NC variables.
     pub(super) fn is_octets(&self) -> bool {
         match self.what {
             What::Memory(memory) => matches!(memory.area, Area::Timers | Area::Counters),
@@ -110,7 +110,7 @@ impl Part {
         }
     }
 
-    /// Whether a value of this length answers it.
+    /// Whether an answer may have a value of this length.
     pub(super) fn takes(&self, length: usize) -> bool {
         matches!(self.what, What::Nc(NcVariable { kind: None, .. })) || length == self.length
     }
@@ -122,7 +122,7 @@ impl Part {
         }
     }
 
-    /// Where it may be split; nowhere if none.
+    /// The size of its elements, between which it may be split; `None` if it cannot be split.
     fn grain(&self) -> Option<usize> {
         match self.what {
             What::Memory(memory) => Some(memory.element()),
@@ -155,7 +155,7 @@ impl Open {
         Self { purpose, room, parts: Vec::new(), request, answer }
     }
 
-    /// How many bytes a value behind an item of this length may have; none where the item has no room.
+    /// The bytes available for a value after an item of this length; `None` if the item does not fit.
     fn left(&self, wire: usize) -> Option<usize> {
         if self.parts.len() >= self.room.items {
             return None;
@@ -185,11 +185,11 @@ impl Open {
     }
 }
 
-/// What goes into which request, and what goes into none.
+/// The planned requests, and the parts that do not fit into any request.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(super) struct Plan {
     pub(super) requests: Vec<Vec<Part>>,
-    /// Too long for a PDU, and cannot be split.
+    /// Parts that are too long for a PDU and cannot be split.
     pub(super) too_long: Vec<Part>,
 }
 
@@ -206,7 +206,7 @@ pub(super) fn plan(parts: impl IntoIterator<Item = Part>, purpose: Purpose, room
                 open.push(part);
                 continue;
             }
-            // What fits into a PDU of its own stays whole; what is subscribed is never split.
+            // A value that fits into a PDU is not split; a subscribed value never is.
             let may_split = part.length > fresh && purpose != Purpose::Subscribe;
             let most = match part.what {
                 What::Memory(_) => usize::MAX,
@@ -221,7 +221,7 @@ pub(super) fn plan(parts: impl IntoIterator<Item = Part>, purpose: Purpose, room
             } else if part.length > fresh && (!may_split || piece(fresh) == 0) {
                 plan.too_long.push(part);
             } else {
-                // Here it has no room, in an empty one it has.
+                // It does not fit here, but fits into an empty request.
                 rest = Some(part);
             }
             if rest.is_some() && !open.parts.is_empty() {
@@ -256,18 +256,18 @@ mod tests {
     }
 
     #[test]
-    fn elements_are_never_torn() {
+    fn elements_are_never_split() {
         // 55 double words are 220 bytes.
         assert_eq!(lengths(&["DB1.DBD0..236"], Purpose::Read, SMALL), [[220], [20]]);
     }
 
     #[test]
-    fn what_fits_into_one_pdu_stays_whole() {
+    fn a_value_that_fits_into_one_pdu_is_not_split() {
         assert_eq!(lengths(&["MB0..149", "MB200..349"], Purpose::Read, SMALL), [[150], [150]]);
     }
 
     #[test]
-    fn what_does_not_fit_fills_the_room_that_is_left() {
+    fn a_longer_value_fills_the_remaining_space() {
         // After 100 bytes: 240 - 14 - 104 - 4 = 118.
         assert_eq!(lengths(&["MB0..99", "DB1.DBB0..299"], Purpose::Read, SMALL), [vec![100, 118], vec![182]]);
     }
@@ -279,7 +279,7 @@ mod tests {
         let many: Vec<&str> = many.iter().map(String::as_str).collect();
         let counts: Vec<usize> = lengths(&many, Purpose::Read, SMALL).iter().map(Vec::len).collect();
         assert_eq!(counts, [19, 19, 2]);
-        // (240 - 12 - 18 + 1) / 18: twelve whole ones of 12 + 4 + 2 bytes, the last without its fill byte.
+        // (240 - 12 - 18 + 1) / 18: twelve complete items of 12 + 4 + 2 bytes, the last one without its fill byte.
         let counts: Vec<usize> = lengths(&many, Purpose::Write, SMALL).iter().map(Vec::len).collect();
         assert_eq!(counts, [12, 12, 12, 4]);
         let counts: Vec<usize> =
@@ -289,7 +289,7 @@ mod tests {
 
     #[test]
     fn rows_of_the_nck_are_split_between_rows() {
-        // 27 numbers of 8 bytes are 216 of 222.
+        // 27 numbers of 8 bytes are 216 of 222 bytes.
         assert_eq!(lengths(&["nck:C/SMA/actToolBasePos[1..31]"], Purpose::Read, SMALL), [[216], [32]]);
         let part = plan(
             Part::all(0, &"nck:C/SMA/actToolBasePos[1..31]".parse().unwrap(), Purpose::Read),
@@ -303,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_split_and_has_no_room_is_told() {
+    fn a_value_that_is_too_long_and_cannot_be_split_is_reported() {
         let variable = "DB1.DBB0..299".parse().unwrap();
         let plan = plan(Part::all(0, &variable, Purpose::Subscribe), Purpose::Subscribe, SMALL);
         assert_eq!((plan.requests.len(), plan.too_long.len()), (0, 1));

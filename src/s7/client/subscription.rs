@@ -1,4 +1,4 @@
-//! Values that the module sends by itself: in cycles, or when they change.
+//! Values that the module sends without further requests: cyclically, or when they change.
 
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ use super::value::Value;
 use super::variable::Variable;
 use crate::s7::wire::replies::DataItems;
 
-/// How many updates wait for whoever listens; he misses further ones.
+/// The number of updates that are buffered for the receiver; further ones are dropped.
 const WAITING: usize = 64;
 
 /// When values are sent.
@@ -20,35 +20,36 @@ const WAITING: usize = 64;
 pub enum Mode {
     /// In each cycle.
     Cycle,
-    /// When one of them has changed.
+    /// When one of the values has changed.
     Change,
 }
 
-/// Values as they come, from whatever connection there is: a new connection is asked for them again.
+/// The updates of a subscription. After a reconnect it is renewed on the new connection.
 #[derive(Debug)]
 pub struct Subscription {
     variables: Vec<Variable>,
-    /// Several where the values need several PDUs.
+    /// Several groups if the values need several PDUs.
     groups: Vec<Vec<Part>>,
     updates: mpsc::Receiver<(usize, Result<Vec<u8>, Error>)>,
-    /// Keeps the connection.
+    /// Keeps the connection open.
     _client: Client,
 }
 
-/// Values that came together.
+/// Values that arrived together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Update {
-    /// Which of the variables that were subscribed, and its value.
+    /// The index of each subscribed variable, and its value.
     pub values: Vec<(usize, Result<Value, Error>)>,
 }
 
 impl Client {
-    /// Subscribes to variables; the first update has their values now. They come in as many groups as PDUs are needed.
+    /// Subscribes to variables; the first update has their current values. There is one group of updates per PDU that
+    /// is needed.
     ///
-    /// The interval is a multiple of 0.1 s, and from 25.6 s on of 1 s, from 256 s on of 10 s.
+    /// The interval is a multiple of 0.1 s; from 25.6 s on of 1 s; from 256 s on of 10 s.
     ///
     /// # Errors
-    /// One of them is too long for a PDU, or the module does not do that.
+    /// A variable is too long for a PDU, or the module does not support subscriptions.
     pub async fn subscribe(
         &self,
         variables: &[Variable],
@@ -61,8 +62,8 @@ impl Client {
         let Plan { requests: groups, too_long } = plan(parts, Purpose::Subscribe, Room { pdu, items: 255 });
         if let Some(part) = too_long.first() {
             return Err(Error::Input {
-                what: format!("expected what fits into a PDU of {pdu} bytes, found {}", variables[part.of]),
-                cure: "subscribe to parts of it".to_owned(),
+                what: format!("expected a variable that fits into a PDU of {pdu} bytes, found {}", variables[part.of]),
+                cure: "subscribe to parts of the variable".to_owned(),
             });
         }
         let (to, updates) = mpsc::channel(WAITING);
@@ -92,7 +93,7 @@ impl Client {
     }
 }
 
-/// Time base and factor; never less than asked for.
+/// Time base and factor; never less than the requested interval.
 fn interval_on_the_wire(interval: Duration) -> (u8, u8) {
     let tenths = interval.as_millis().div_ceil(100).max(1);
     for (base, unit) in [(0, 1), (1, 10), (2, 100)] {
@@ -104,10 +105,10 @@ fn interval_on_the_wire(interval: Duration) -> (u8, u8) {
 }
 
 impl Subscription {
-    /// Waits for the next values; none when the connection has ended for good.
+    /// Waits for the next update; `None` when the connection has ended for good.
     ///
     /// # Errors
-    /// The module refused the subscription on a new connection, or sent what does not fit.
+    /// The module refused the subscription on a new connection, or sent invalid data.
     pub async fn next(&mut self) -> Option<Result<Update, Error>> {
         let (group, payload) = self.updates.recv().await?;
         Some(payload.and_then(|payload| self.decode(group, &payload)))
@@ -115,7 +116,7 @@ impl Subscription {
 
     fn decode(&self, group: usize, payload: &[u8]) -> Result<Update, Error> {
         let unexpected = |found: &str| Error::Unexpected { what: "subscription".to_owned(), found: found.to_owned() };
-        let parts = self.groups.get(group).ok_or_else(|| unexpected("values of nobody"))?;
+        let parts = self.groups.get(group).ok_or_else(|| unexpected("values of an unknown group"))?;
         let items = payload.get(2..).ok_or_else(|| unexpected("no count of values"))?;
         let mut values = Vec::with_capacity(parts.len());
         for (part, item) in parts.iter().zip(DataItems::new(items)) {

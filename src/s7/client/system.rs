@@ -1,4 +1,4 @@
-//! The CPU: system state lists, what it is called, RUN and STOP, its clock, passwords.
+//! The CPU: system state lists, identification, RUN and STOP, clock, passwords.
 
 use super::error::Error;
 use super::{Client, Question};
@@ -10,23 +10,23 @@ use crate::s7::wire::replies::UserData;
 use crate::s7::wire::requests;
 use crate::s7::wire::user_data::group;
 
-/// The longest answer in parts that is put together.
+/// Maximum length of an answer in several parts.
 const LONGEST: usize = 1 << 20;
-/// How often a long answer is begun anew after the connection was lost in the middle of it.
+/// How often a long answer is requested again after the connection was lost in the middle of it.
 const ATTEMPTS: usize = 3;
 
 /// A system state list (SZL) with its records.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SystemStateList {
-    /// Which.
+    /// The SZL ID.
     pub list: u16,
-    /// Of what.
+    /// The SZL index.
     pub index: u16,
     /// Bytes of a record.
     pub record: u16,
-    /// How many the module says that there are.
+    /// The number of records reported by the module.
     pub count: u16,
-    /// The records; the last may be shorter where the module sent less than it said.
+    /// The records; the last one may be shorter if the module sent less than it reported.
     pub bytes: Vec<u8>,
 }
 
@@ -38,7 +38,7 @@ impl SystemStateList {
         Some(Self { list: word(a, b), index: word(c, d), record: word(e, f), count: word(g, h), bytes: bytes.to_vec() })
     }
 
-    /// Each record.
+    /// The records.
     pub fn records(&self) -> impl Iterator<Item = &[u8]> {
         self.bytes.chunks(usize::from(self.record).max(1))
     }
@@ -50,7 +50,7 @@ impl SystemStateList {
     }
 }
 
-/// What a module says of itself; empty where it says nothing.
+/// The identification of a module; fields that it does not report are empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Identification {
     /// Order number.
@@ -63,7 +63,7 @@ pub struct Identification {
     pub module_name: String,
     /// Plant identification.
     pub plant: String,
-    /// Whose it is.
+    /// Copyright entry.
     pub copyright: String,
     /// Serial number.
     pub serial_number: String,
@@ -71,7 +71,7 @@ pub struct Identification {
     pub module_type: String,
 }
 
-/// Printable text up to the first zero, without blanks around it.
+/// Printable text up to the first zero, without surrounding blanks.
 pub(super) fn text(bytes: &[u8]) -> String {
     let end = bytes.iter().position(|byte| *byte == 0).unwrap_or(bytes.len());
     let text: String = bytes[..end].iter().map(|byte| char::from(*byte)).filter(|c| !c.is_control()).collect();
@@ -79,10 +79,10 @@ pub(super) fn text(bytes: &[u8]) -> String {
 }
 
 impl Client {
-    /// A system state list, in as many parts as the module sends it.
+    /// A system state list, in as many parts as the module sends.
     ///
     /// # Errors
-    /// There is no such list or index, or no answer comes.
+    /// There is no such list or index, or no answer arrives.
     pub async fn list(&self, list: u16, index: u16) -> Result<SystemStateList, Error> {
         let [a, b] = list.to_be_bytes();
         let [c, d] = index.to_be_bytes();
@@ -93,10 +93,10 @@ impl Client {
             .ok_or_else(|| Error::Unexpected { what: name, found: format!("{} bytes", payload.len()) })
     }
 
-    /// What the module is called: lists 0011 and 001C. What it does not tell stays empty.
+    /// The identification of the module: lists 0011 and 001C. Fields that it does not report stay empty.
     ///
     /// # Errors
-    /// No answer comes.
+    /// No answer arrives.
     pub async fn identification(&self) -> Result<Identification, Error> {
         let mut identification = Identification::default();
         if let Some(list) = told(self.list(0x0011, 0).await)? {
@@ -121,10 +121,10 @@ impl Client {
         Ok(identification)
     }
 
-    /// RUN or STOP: list 0424. None where the module tells something else.
+    /// RUN or STOP: list 0424. `None` if the module reports another state.
     ///
     /// # Errors
-    /// It does not tell, or no answer comes.
+    /// The module does not report it, or no answer arrives.
     pub async fn cpu_state(&self) -> Result<Option<CpuState>, Error> {
         let list = self.list(0x0424, 0).await?;
         // The fourth byte is the operating state: 8 RUN, 3 and 4 STOP.
@@ -135,21 +135,21 @@ impl Client {
         })
     }
 
-    /// The protection level that is valid: list 0232, index 4. None where the module tells nothing of it.
+    /// The valid protection level: list 0232, index 4. `None` if the module does not report it.
     ///
     /// # Errors
-    /// No answer comes.
+    /// No answer arrives.
     pub async fn protection(&self) -> Result<Option<u16>, Error> {
         let list = told(self.list(0x0232, 4).await)?;
         let record = list.as_ref().and_then(|list| list.at(4));
-        // Index, mode selector's level, password's level, valid level.
+        // Index, level of the mode selector, level of the password, valid level.
         Ok(record.and_then(|record| record.get(6..8)).map(|level| u16::from_be_bytes([level[0], level[1]])))
     }
 
     /// The clock of the CPU.
     ///
     /// # Errors
-    /// It has none, or no answer comes.
+    /// The module has no clock, or no answer arrives.
     pub async fn clock(&self) -> Result<DateAndTime, Error> {
         let payload = self.short("clock", group::TIME, 1, &[], true).await?;
         payload
@@ -161,7 +161,7 @@ impl Client {
     /// Sets the clock of the CPU.
     ///
     /// # Errors
-    /// It is not permitted, or no answer comes.
+    /// It is not permitted, or no answer arrives.
     pub async fn set_clock(&self, time: DateAndTime) -> Result<(), Error> {
         let mut payload = [0; 10];
         payload[1] = if time.year < 2000 { 0x19 } else { 0x20 };
@@ -169,11 +169,11 @@ impl Client {
         self.short("setting the clock", group::TIME, 2, &payload, false).await.map(|_| ())
     }
 
-    /// Gives a password; it counts until it is taken back or the connection ends. For one that is given on each connection
-    /// there is [`Options::password`](super::Options::password).
+    /// Gives a password. It is valid until it is taken back or the connection ends. [`Options::password`](super::Options::password) gives a
+    /// password on each connection.
     ///
     /// # Errors
-    /// It is wrong, there is none to give, or no answer comes.
+    /// The password is wrong, the module has none, or no answer arrives.
     pub async fn give_password(&self, password: [u8; 8]) -> Result<(), Error> {
         self.short("password", group::SECURITY, 1, &requests::folded(password), false).await.map(|_| ())
     }
@@ -181,23 +181,23 @@ impl Client {
     /// Takes the password back.
     ///
     /// # Errors
-    /// There is none, or no answer comes.
+    /// There is none, or no answer arrives.
     pub async fn take_password_back(&self) -> Result<(), Error> {
         self.short("taking the password back", group::SECURITY, 2, &[], false).await.map(|_| ())
     }
 
-    /// Stops the PLC. Who stops what stands already has what he wants.
+    /// Stops the PLC. Stopping a PLC in STOP succeeds.
     ///
     /// # Errors
-    /// It is not permitted, or no answer comes.
+    /// It is not permitted, or no answer arrives.
     pub async fn stop_plc(&self) -> Result<(), Error> {
         self.control("PLC stop", &requests::stop(), 0x07).await
     }
 
-    /// Restarts the PLC. Who starts what runs already has what he wants.
+    /// Restarts the PLC. Starting a PLC in RUN succeeds.
     ///
     /// # Errors
-    /// It is not permitted, or no answer comes.
+    /// It is not permitted, or no answer arrives.
     pub async fn start_plc(&self, restart: Restart) -> Result<(), Error> {
         let arguments: &[u8] = match restart {
             Restart::Warm => &[],
@@ -230,7 +230,7 @@ impl Client {
         part(what, &reply.parameter, &reply.data).map(|part| part.payload.to_vec())
     }
 
-    /// User data that reads, with an answer in as many parts as it needs; one at a time, because a module keeps one.
+    /// User data that reads, with an answer in any number of parts. One request at a time, because a module keeps only one long answer.
     pub(super) async fn long(
         &self,
         what: &'static str,
@@ -264,7 +264,7 @@ impl Client {
                 return Ok(whole);
             }
             if whole.len() > LONGEST || part.payload.is_empty() {
-                let found = format!("an answer without end, {} bytes so far", whole.len());
+                let found = format!("the answer exceeds the maximum length, {} bytes so far", whole.len());
                 return Err(Error::Unexpected { what: what.to_owned(), found });
             }
             let parameter = requests::next_part(group, function, part.sequence, part.unit);
@@ -274,7 +274,7 @@ impl Client {
     }
 }
 
-/// An answer of user data that succeeded.
+/// A successful answer of user data.
 fn part<'a>(what: &str, parameter: &[u8], data: &'a [u8]) -> Result<UserData<'a>, Error> {
     let part = UserData::parse(parameter, data)
         .ok_or_else(|| Error::Unexpected { what: what.to_owned(), found: "no user data".to_owned() })?;
@@ -285,7 +285,7 @@ fn part<'a>(what: &str, parameter: &[u8], data: &'a [u8]) -> Result<UserData<'a>
     }
 }
 
-/// A list, or nothing where the module does not have it.
+/// A list, or `None` if the module does not have it.
 fn told(list: Result<SystemStateList, Error>) -> Result<Option<SystemStateList>, Error> {
     match list {
         Ok(list) => Ok(Some(list)),

@@ -1,4 +1,4 @@
-//! Values as they are in the address, and their bytes on the wire.
+//! Values in program form, and their bytes on the wire.
 
 use std::fmt::{self, Write};
 
@@ -8,24 +8,24 @@ use super::variable::{Memory, Variable};
 use crate::image::{Area, Format, Width};
 use crate::s7::wire::date_and_time::DateAndTime;
 
-/// What was read, or is to be written.
+/// A value that was read or is to be written.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// One bit.
     Bit(bool),
-    /// One byte, or neighbouring bits of one.
+    /// One byte, or adjacent bits of a byte.
     Byte(u8),
-    /// Two bytes; timers and counters as they are kept.
+    /// Two bytes; also the raw value of a timer or counter.
     Word(u16),
     /// Four bytes.
     DoubleWord(u32),
-    /// A whole number of two bytes.
+    /// A signed two-byte integer.
     Int(i16),
-    /// A whole number of four bytes.
+    /// A signed four-byte integer.
     DoubleInt(i32),
-    /// A floating point number of four bytes.
+    /// A four-byte floating-point number.
     Real(f32),
-    /// A floating point number of eight bytes.
+    /// An eight-byte floating-point number.
     Double(f64),
     /// A text.
     Text(String),
@@ -36,7 +36,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// As a number, where it is one.
+    /// The value as a number, if it is one.
     #[must_use]
     pub fn number(&self) -> Option<f64> {
         Some(match self {
@@ -52,7 +52,7 @@ impl Value {
         })
     }
 
-    /// The value of bytes that were read.
+    /// Decodes bytes that were read.
     pub(super) fn decode(variable: &Variable, bytes: &[u8]) -> Option<Self> {
         match variable {
             Variable::Memory(memory) => {
@@ -84,10 +84,10 @@ impl Value {
         }
     }
 
-    /// The bytes that write it; a group of bits gives a byte for each bit, lowest first.
+    /// The bytes that write the value. A group of bits gives one byte per bit, lowest bit first.
     ///
     /// # Errors
-    /// It does not fit.
+    /// The value does not fit the variable.
     pub fn encode(&self, variable: &Variable) -> Result<Vec<u8>, Error> {
         let mut bytes = Vec::new();
         let done = match (variable, self) {
@@ -117,13 +117,13 @@ impl Value {
             Some(()) => Ok(bytes),
             None => Err(Error::Input {
                 what: format!("expected a value that fits {variable}, found {self}"),
-                cure: "whole numbers must fit, only REAL takes fractions, several elements need as many values"
+                cure: "integers must be in range, only REAL accepts fractions, and each element needs one value"
                     .to_owned(),
             }),
         }
     }
 
-    /// A whole number, where it is one.
+    /// The value as an integer, if it is one.
     fn whole(&self) -> Option<i64> {
         Some(match self {
             Self::Bit(value) => i64::from(*value),
@@ -156,7 +156,7 @@ fn element(memory: &Memory, bytes: &[u8]) -> Option<Value> {
 fn row(kind: NcKind, is_big_endian: bool, bytes: &[u8]) -> Option<Value> {
     if let NcKind::Text(_) = kind {
         let end = bytes.iter().position(|byte| *byte == 0).unwrap_or(bytes.len());
-        // Controls write Latin-1 or UTF-8, as their language is.
+        // Controls send Latin-1 or UTF-8, depending on their language.
         let text = bytes.get(..end)?;
         let text = std::str::from_utf8(text)
             .map_or_else(|_| text.iter().map(|byte| char::from(*byte)).collect(), ToOwned::to_owned);
@@ -185,13 +185,13 @@ fn row(kind: NcKind, is_big_endian: bool, bytes: &[u8]) -> Option<Value> {
     })
 }
 
-/// `2026-11-22 05:06:07.089`.
+/// Formats `2026-11-22 05:06:07.089`.
 fn date(time: &DateAndTime) -> String {
     let DateAndTime { year, month, day, hour, minute, second, millisecond } = time;
     format!("{year:04}-{month:02}-{day:02} {hour:02}:{minute:02}:{second:02}.{millisecond:03}")
 }
 
-/// Negative numbers may go into unsigned places as two's complement, as everywhere in this project.
+/// Negative numbers may be written to unsigned locations as two's complement, as everywhere in this project.
 fn fits(number: i64, bits: u32, format: Format) -> bool {
     let half = 1_i64 << (bits - 1);
     match format {
@@ -223,11 +223,11 @@ fn put_element(memory: &Memory, value: &Value, into: &mut Vec<u8>) -> Option<()>
     Some(())
 }
 
-/// A number as a REAL; what does not fit is none.
-#[expect(clippy::cast_possible_truncation, reason = "what does not fit becomes infinite, and is refused")]
+/// The value as a REAL; `None` if it does not fit.
+#[expect(clippy::cast_possible_truncation, reason = "a value that does not fit becomes infinite and is refused")]
 fn real(value: &Value) -> Option<f32> {
     if let Value::Real(value) = value {
-        return Some(*value); // whatever it is
+        return Some(*value); // including infinity and NaN
     }
     let value = value.number()? as f32;
     value.is_finite().then_some(value)
@@ -246,7 +246,7 @@ fn put_row(kind: NcKind, variable: &Variable, value: &Value, into: &mut Vec<u8>)
             into.resize(start + length, 0);
             return Some(());
         }
-        NcKind::Date => return None, // the control alone knows when something happened
+        NcKind::Date => return None, // times of events are set by the control only
         NcKind::Byte | NcKind::Word | NcKind::Long | NcKind::UnsignedLong => {
             let bits = 8 * u32::try_from(kind.bytes()).ok()?;
             let number = value.whole().filter(|number| fits(*number, bits, Format::Unsigned))?;
@@ -272,7 +272,8 @@ impl fmt::Display for Value {
             Self::DoubleInt(value) => value.fmt(f),
             Self::Real(value) => value.fmt(f),
             Self::Double(value) => value.fmt(f),
-            // It is of the other side: what is printed gives no orders to a terminal.
+            // The text comes from the server: control characters are replaced, so that they cannot control the
+            // terminal.
             Self::Text(text) => text.chars().try_for_each(|c| f.write_char(if c.is_control() { '.' } else { c })),
             Self::Bytes(bytes) => {
                 let each: Vec<String> = bytes.iter().map(|byte| format!("{byte:02X}")).collect();
@@ -287,7 +288,7 @@ impl fmt::Display for Value {
 }
 
 impl Variable {
-    /// What its values are called: `BOOL`, `WORD`, `REAL`, `F64`.
+    /// The name of the type: `BOOL`, `WORD`, `REAL`, `F64`.
     #[must_use]
     pub fn type_name(&self) -> String {
         let (name, count) = match self {
@@ -358,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_that_is_shown_gives_no_orders_to_a_terminal() {
+    fn control_characters_in_a_printed_text_are_replaced() {
         let text = Value::Text("X\u{1b}[2J\u{9b}1m\nY".to_owned());
         assert_eq!(text.to_string(), "X.[2J.1m.Y");
         assert_eq!(Value::List(vec![text]).to_string(), "X.[2J.1m.Y");

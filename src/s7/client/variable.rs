@@ -1,13 +1,13 @@
-//! What a client reads and writes: memory of any PLC by address, and variables of the NCK by name.
+//! Variables that a client reads and writes: memory of any PLC by address, and variables of the NCK by name.
 //!
-//! | text | means |
+//! | text | meaning |
 //! |---|---|
-//! | `DB31.DBX101.4` `M10.3` `IB0` `QW4` `DB31.DBD78:REAL` `T5` `C3` | one element, as everywhere in this project |
-//! | `DB10.DBX100.0..4` | neighbouring bits of one byte |
-//! | `DB31.DBB0..10` `DB21.DBW4..8:INT` `T0..7` | elements from the first byte (or number) to that of the last one |
+//! | `DB31.DBX101.4` `M10.3` `IB0` `QW4` `DB31.DBD78:REAL` `T5` `C3` | one element, in the notation of this project |
+//! | `DB10.DBX100.0..4` | adjacent bits of one byte |
+//! | `DB31.DBB0..10` `DB21.DBW4..8:INT` `T0..7` | elements; the range ends with the byte (or number) of the last element |
 //! | `nck:C/MachineAxis/actToolBasePos[2]` | an NC variable; see [`NcVariable`] |
 //!
-//! Numbers of blocks and bytes are free: the host may be any PLC. Without a suffix a number is unsigned.
+//! All block and byte numbers are allowed, because the host may be any PLC. Without a suffix a number is unsigned.
 
 use std::fmt;
 use std::str::FromStr;
@@ -18,7 +18,7 @@ use crate::image::{Address, Area, Format, Width};
 use crate::s7::wire::data::Type;
 use crate::s7::wire::items::AnyItem;
 
-/// Something to read or write.
+/// A variable to read or write.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Variable {
     /// Memory of the PLC.
@@ -27,23 +27,23 @@ pub enum Variable {
     Nc(NcVariable),
 }
 
-/// Elements in the memory of a PLC, one behind another.
+/// Consecutive elements in the memory of a PLC.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Memory {
-    /// Where they are.
+    /// The area.
     pub area: Area,
     /// The first byte; the number of a timer or counter.
     pub byte: u32,
-    /// How much each takes; timers and counters are words.
+    /// The size of each element; timers and counters are words.
     pub width: Width,
-    /// How its bits make a number.
+    /// The number format.
     pub format: Format,
-    /// How many.
+    /// The number of elements.
     pub count: u32,
 }
 
 impl Memory {
-    /// One element; where the address says nothing of it, its number is unsigned.
+    /// One element. Without a suffix in the address its number is unsigned.
     #[must_use]
     pub fn of(address: &Address) -> Self {
         let &Address { area, byte, width, format } = address;
@@ -66,14 +66,14 @@ impl Memory {
         }
     }
 
-    /// Bytes of all.
+    /// Bytes of all elements.
     #[must_use]
     pub const fn length(&self) -> usize {
         self.element() * self.count as usize
     }
 
-    /// The item on the wire for some of its bytes. Everything but bits, timers and counters goes as bytes, which every server
-    /// knows; some count the elements of words and double words wrongly.
+    /// The wire item for some of its bytes. All types except bits, timers and counters are requested as bytes, which every server supports;
+    /// some servers count the elements of words and double words wrongly.
     pub(super) fn item(&self, offset: usize, length: usize) -> AnyItem {
         let small = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
         let count = |number: usize| u16::try_from(number).unwrap_or(u16::MAX);
@@ -91,32 +91,32 @@ impl Memory {
         AnyItem { kind, count, area: self.area, byte, bit }
     }
 
-    /// The first address behind the last element, as the wire counts it.
+    /// The first address after the last element, as counted on the wire.
     fn end(&self) -> u64 {
         let step = if matches!(self.area, Area::Timers | Area::Counters) { 1 } else { self.element() as u64 };
         u64::from(self.byte) + u64::from(self.count) * step
     }
 }
 
-/// The address space of the wire: three bytes, of which three bits are for bits.
+/// The address space of the protocol: three bytes, including three bits for the bit number.
 const ADDRESSES: u64 = 1 << 21;
 
 impl Variable {
-    /// What it takes to refuse before anything is sent.
+    /// Refuses an invalid variable before anything is sent.
     pub(super) fn check(&self) -> Result<(), Error> {
         let wrong =
             |what: &str, cure: &str| Err(Error::Input { what: format!("{what}, found {self}"), cure: cure.into() });
         match self {
-            Self::Memory(memory) if memory.count == 0 => wrong("expected at least one element", "ask for one"),
+            Self::Memory(memory) if memory.count == 0 => wrong("expected at least one element", "request one element"),
             Self::Memory(memory) if memory.end() > ADDRESSES => {
-                wrong("expected an address that the protocol has", "it ends at byte 2097151")
+                wrong("expected an address within the range of the protocol", "the last byte is 2097151")
             }
             Self::Memory(Memory { width: Width::Bit(_) | Width::Bits { .. }, count, .. }) if *count > 1 => {
-                wrong("expected one element where bits are meant", "read bytes (DBB)")
+                wrong("expected one element for an address of bits", "read bytes (DBB)")
             }
             Self::Memory(_) => Ok(()),
             Self::Nc(variable) if variable.item.count == 0 || variable.item.line == 0 => {
-                wrong("expected rows from 1 on", "rows are counted from 1")
+                wrong("expected rows from 1 on", "the first row is 1")
             }
             Self::Nc(_) => Ok(()),
         }
@@ -136,7 +136,7 @@ impl FromStr for Variable {
         };
         let address: Address = address.parse().map_err(|problem: <Address as FromStr>::Err| Error::Input {
             what: if problem.what.contains(text) { problem.what } else { format!("{} in `{text}`", problem.what) },
-            cure: problem.cure + "\n  several: DB31.DBB0..10; an NC variable: nck:C/MachineAxis/actToolBasePos[1]",
+            cure: problem.cure + "\n  a range: DB31.DBB0..10; an NC variable: nck:C/MachineAxis/actToolBasePos[1]",
         })?;
         let mut memory = Memory::of(&address);
         if let Some(last) = last {
@@ -148,8 +148,11 @@ impl FromStr for Variable {
                 }
                 _ => {
                     return Err(Error::Input {
-                        what: format!("expected the address of the last element behind `..`, found `{text}`"),
-                        cure: format!("it is the first one, {}, or whole elements behind it", memory.byte),
+                        what: format!("expected the byte of the last element after `..`, found `{text}`"),
+                        cure: format!(
+                            "use the first byte, {}, or a multiple of the element size after it",
+                            memory.byte
+                        ),
                     });
                 }
             }
@@ -160,7 +163,7 @@ impl FromStr for Variable {
     }
 }
 
-/// First address with its suffix, and the number of the last; bits of one byte (`DBX100.0..4`) are no range.
+/// The first address with its suffix, and the number after `..`. Bits of one byte (`DBX100.0..4`) are not a range.
 fn range(text: &str) -> Option<(String, u32)> {
     let (plain, suffix) = text.find(':').map_or((text, ""), |at| text.split_at(at));
     let (first, last) = plain.split_once("..")?;
@@ -272,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn a_misspelt_variable_is_told_the_nearest() {
+    fn a_misspelt_variable_gets_the_nearest_name() {
         let error = "nck:C/MachineAxis/actToolBasPos".parse::<Variable>().unwrap_err();
         assert_eq!(error.cure(), "did you mean `C/MachineAxis/actToolBasePos`?");
         for wrong in [

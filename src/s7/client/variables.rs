@@ -1,4 +1,4 @@
-//! Read and write: one variable or any number, each with its own result.
+//! Read and write requests: one or more variables, each with its own result.
 
 use super::error::Error;
 use super::job::{Failure, Negotiated, Reply};
@@ -12,7 +12,7 @@ use crate::s7::wire::header::{ErrorCode, function, kind};
 use crate::s7::wire::replies::DataItems;
 use crate::s7::wire::requests;
 
-/// What has become of each variable so far.
+/// The state of each variable during an exchange.
 struct Progress<'a> {
     variables: Vec<&'a Variable>,
     /// The bytes read or to be written.
@@ -39,13 +39,13 @@ impl Client {
     /// Reads a variable.
     ///
     /// # Errors
-    /// It is refused, or no answer comes.
+    /// The read is refused, or no answer arrives.
     pub async fn read(&self, variable: &Variable) -> Result<Value, Error> {
         only(self.read_all(std::slice::from_ref(variable)).await)
     }
 
-    /// Reads any number of variables, in as few requests as the negotiated PDU permits. What fits into one request is of one
-    /// cycle; what is longer than a PDU is not. Each has its own result.
+    /// Reads any number of variables, in as few requests as the negotiated PDU permits. Values in one request are of one cycle; a value
+    /// that is longer than a PDU is not. Each variable has its own result.
     pub async fn read_all(&self, variables: &[Variable]) -> Vec<Result<Value, Error>> {
         let progress = self.read_bytes_of(variables.iter().collect()).await;
         let each = variables.iter().zip(progress.bytes).zip(progress.errors);
@@ -59,10 +59,10 @@ impl Client {
         .collect()
     }
 
-    /// Reads bytes of an area, any number of them; timers and counters have two bytes each.
+    /// Reads any number of bytes of an area; timers and counters have two bytes each.
     ///
     /// # Errors
-    /// They are refused, or no answer comes.
+    /// The read is refused, or no answer arrives.
     pub async fn read_bytes(&self, area: Area, start: u32, length: u32) -> Result<Vec<u8>, Error> {
         let variable = Variable::Memory(bytes_of(area, start, length)?);
         let mut progress = self.read_bytes_of(vec![&variable]).await;
@@ -75,19 +75,19 @@ impl Client {
     /// Writes a variable.
     ///
     /// # Errors
-    /// The value does not fit, it is refused, or no answer comes; then the error says whether it was sent.
+    /// The value does not fit, the write is refused, or no answer arrives. In the last case the error reports whether the request was sent.
     pub async fn write(&self, variable: &Variable, value: &Value) -> Result<(), Error> {
         only(self.write_all(&[(variable.clone(), value.clone())]).await)
     }
 
-    /// Writes any number of variables, in order, in as few requests as the negotiated PDU permits; nothing at all if one of the
-    /// values does not fit its variable. Each has its own result.
+    /// Writes any number of variables, in order, in as few requests as the negotiated PDU permits. If one of the values does not fit its
+    /// variable, nothing is written. Each variable has its own result.
     pub async fn write_all(&self, writes: &[(Variable, Value)]) -> Vec<Result<(), Error>> {
         let encoded: Vec<_> = writes.iter().map(|(variable, value)| value.encode(variable)).collect();
         if encoded.iter().any(Result::is_err) {
             let other = || Error::Input {
                 what: "nothing was written, because another value does not fit".to_owned(),
-                cure: "correct that one".to_owned(),
+                cure: "correct the other value".to_owned(),
             };
             return encoded.into_iter().map(|bytes| bytes.and_then(|_| Err(other()))).collect();
         }
@@ -95,10 +95,10 @@ impl Client {
         self.write_encoded(writes.iter().map(|(variable, _)| variable).collect(), bytes).await
     }
 
-    /// Writes bytes to an area, any number of them; timers and counters have two bytes each.
+    /// Writes any number of bytes to an area; timers and counters have two bytes each.
     ///
     /// # Errors
-    /// They are refused, or no answer comes; then the error says whether they were sent.
+    /// The write is refused, or no answer arrives. In the second case the error reports whether the request was sent.
     pub async fn write_bytes(&self, area: Area, start: u32, bytes: &[u8]) -> Result<(), Error> {
         let length = u32::try_from(bytes.len()).unwrap_or(u32::MAX);
         let variable = Variable::Memory(bytes_of(area, start, length)?);
@@ -135,8 +135,8 @@ impl Client {
         progress.errors.into_iter().map(|error| error.map_or(Ok(()), Err)).collect()
     }
 
-    /// Plans, asks, and plans again what was left over: by a server that answers fewer items than it was asked for, that refuses
-    /// several at once, or by a new connection with a shorter PDU.
+    /// Plans the requests and sends them, and repeats this for parts that are left over: if a server answers fewer items than requested,
+    /// refuses a request with several items, or if a new connection has a shorter PDU.
     async fn exchange(&self, purpose: Purpose, mut parts: Vec<Part>, progress: &mut Progress<'_>) {
         let mut most = usize::from(self.options.items).max(1);
         while !parts.is_empty() {
@@ -147,8 +147,8 @@ impl Client {
             let Negotiated { pdu, .. } = negotiated;
             let Plan { requests, too_long } = plan(parts.drain(..), purpose, Room { pdu, items: most });
             for part in too_long {
-                let cure = format!("a PDU has {pdu} bytes; ask for fewer rows or a longer PDU");
-                progress.fail(&part, Error::Input { what: "it is too long for a PDU".to_owned(), cure });
+                let cure = format!("a PDU has {pdu} bytes; request fewer rows or a longer PDU");
+                progress.fail(&part, Error::Input { what: "the value is too long for a PDU".to_owned(), cure });
             }
             let mut waiting = Vec::with_capacity(requests.len());
             for request in requests {
@@ -177,7 +177,7 @@ impl Client {
                 };
                 match reply.error {
                     ErrorCode::NONE => parts.extend(take(purpose, &request, &reply, progress)),
-                    // Some refuse a request for the sake of one item. Whoever only reads may ask for each by itself.
+                    // Some servers refuse a whole request because of one item. A read can be repeated for each item separately.
                     _ if purpose == Purpose::Read && request.len() > 1 => {
                         most = if all == 1 { request.len().div_ceil(2) } else { 1 };
                         parts.extend(request);
@@ -189,7 +189,7 @@ impl Client {
     }
 }
 
-/// A server that answers half of the items is asked for the others; they stay.
+/// Returns the parts to request again: a server may answer only the first items.
 fn take(purpose: Purpose, request: &[Part], reply: &Reply, progress: &mut Progress<'_>) -> Vec<Part> {
     let taken = match purpose {
         Purpose::Read | Purpose::Subscribe => take_values(request, &reply.data, progress),
@@ -197,15 +197,15 @@ fn take(purpose: Purpose, request: &[Part], reply: &Reply, progress: &mut Progre
     };
     let rest = request.get(taken..).unwrap_or_default();
     match (purpose, taken) {
-        (_, 0) => progress.unexpected(rest, "it has no items"),
-        // What was written and not acknowledged is not written again.
-        (Purpose::Write, _) => progress.unexpected(rest, "it acknowledges fewer items than were written"),
+        (_, 0) => progress.unexpected(rest, "the answer has no items"),
+        // A write that was not acknowledged is not repeated.
+        (Purpose::Write, _) => progress.unexpected(rest, "the answer acknowledges fewer items than were written"),
         (Purpose::Read | Purpose::Subscribe, _) => return rest.to_vec(),
     }
     Vec::new()
 }
 
-/// Takes the values of an answer; how many there were.
+/// Takes the values of an answer; returns their number.
 fn take_values(request: &[Part], data: &[u8], progress: &mut Progress<'_>) -> usize {
     let mut taken = 0;
     for (part, value) in request.iter().zip(DataItems::new(data)) {
@@ -238,7 +238,7 @@ fn take_codes(request: &[Part], data: &[u8], progress: &mut Progress<'_>) -> usi
     request.len().min(data.len())
 }
 
-/// The parts of a variable whose bytes are known, so that those of unknown rows are known, too.
+/// The parts of a variable with these bytes. The length of the bytes also gives the length of rows of unknown type.
 fn parts_to_write(of: usize, variable: &Variable, length: usize) -> Vec<Part> {
     let mut parts = Part::all(of, variable, Purpose::Write);
     if let ([part], Variable::Nc(_)) = (parts.as_mut_slice(), variable) {
@@ -285,9 +285,9 @@ fn bytes_of(area: Area, start: u32, length: u32) -> Result<Memory, Error> {
     Ok(Memory { area, byte: start / 2, width, format, count: length / 2 })
 }
 
-/// The result of the one that was asked for.
+/// The result of a single variable.
 fn only<T>(mut results: Vec<Result<T, Error>>) -> Result<T, Error> {
     results.pop().unwrap_or_else(|| {
-        Err(Error::Input { what: "expected a variable, found none".to_owned(), cure: "name one".to_owned() })
+        Err(Error::Input { what: "expected a variable, found none".to_owned(), cure: "give a variable".to_owned() })
     })
 }

@@ -1,17 +1,17 @@
-//! The alarm lists: all alarms that are pending, in three orders.
+//! The alarm lists: all pending alarms in three orders.
 //!
 //! | module | order |
 //! |---|---|
-//! | SALA, SALAC | as they came |
-//! | SALAL | the last one first |
-//! | SALAP | whatever is the hardest to cancel first (POWER ON, RESET, cancel key, NC start, itself), and as they came |
+//! | SALA, SALAC | oldest first |
+//! | SALAL | newest first |
+//! | SALAP | by cancel condition, the strongest first (POWER ON, RESET, cancel key, NC start, automatic), then oldest first |
 //!
-//! `alarmNo` is the how many-th alarm since power on it is, `textIndex` the number that is shown; 0 stands at free places. A list has
-//! as many places as alarms may be pending, so that a client may look further than there are some.
+//! `alarmNo` is the sequence number since power on, `textIndex` is the alarm number that is shown; both are 0 in free rows. A list has as
+//! many rows as alarms may be pending, so a client may read beyond the pending alarms.
 //!
-//! A parameter is a text whose first character says what it is: `A` axis, `K` channel, `S` anything else.
+//! A parameter is a text whose first character gives its kind: `A` axis, `K` channel, `S` anything else.
 //!
-//! Choices: SALAC of a control keeps alarms that have gone, too, and what happened to each; here it is the same list as SALA.
+//! Choices: on a control, SALAC also keeps cancelled alarms and their history; here it is the same list as SALA.
 
 use arrayvec::ArrayVec;
 
@@ -19,7 +19,7 @@ use super::{Shown, View};
 use crate::s7::wire::date_and_time::DateAndTime;
 use crate::variables::{Alarms, Arrival, Parameter, RaisedAlarm};
 
-/// In which order a list is.
+/// The order of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
     /// SALA, SALAC.
@@ -30,7 +30,7 @@ pub(super) enum Order {
     Priority,
 }
 
-/// The alarm at a place, if there is one; nothing where the list has no such place.
+/// The alarm in a row, if there is one; the outer `None` means that the list has no such row.
 fn at<'a>(view: &View<'a>, order: Order, line: u16) -> Option<Option<(&'a RaisedAlarm, Arrival)>> {
     let place = usize::from(line.checked_sub(1)?);
     if place >= Alarms::CAPACITY {

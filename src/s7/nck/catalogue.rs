@@ -1,14 +1,13 @@
-//! The catalogue: which variable lies at which area, module and column, how it is written down, who says so, and where its
-//! value comes from.
+//! The catalogue: for each variable its area, module and column, its format, the sources of its address, and its value.
 //!
-//! It has what clients were seen to ask for and what this simulator knows; nothing is made up: a variable that is not here does not
-//! exist. Sources of an address: W Wireshark's dissector, D DotNetSiemensPLCToolBoxLibrary, F the datafeed edge connector's export of
-//! Siemens' NC-Var selector, T an NCK driver in TypeScript and C a collector in C that read controls, L the public lists of the
-//! columns of a module, which agree with the others wherever both name one.
+//! It contains the variables that clients were seen to request and that this simulator has. No address is invented: a variable that is not
+//! listed here does not exist. Sources of an address: W Wireshark's dissector, D DotNetSiemensPLCToolBoxLibrary, F the datafeed edge
+//! connector's export of Siemens' NC-Var selector, T an NCK driver in TypeScript and C a collector in C, both of which read controls, L the
+//! public lists of the columns of a module, which agree with the other sources wherever both name a column.
 //!
 //! Choices: texts of machine data and of alarm parameters have 32 bytes. `sysTimeUdword` counts seconds since 1970. MD18040 has this
 //! simulator and its version in the first of its four rows. `N/Y` has no `nckType` and `nckVersion`: their addresses (columns 001F and
-//! 0020) are known, but no source says which values are those of which control.
+//! 0020) are known, but no source lists the values of the controls.
 
 use super::alarms::{self, Order};
 use super::values::{
@@ -38,10 +37,10 @@ macro_rules! row {
     };
 }
 
-/// Every variable by name.
+/// All variables by name.
 #[rustfmt::skip]
 pub const CATALOGUE: &[Variable] = &[
-    // Axes; the row is the number of the axis. The NCK has the modules SMA and SEMA, too, with the same columns.
+    // Axes; the row is the axis number. The NCK has the modules SMA and SEMA as well, with the same columns.
     row!("C/MachineAxis/cmdToolBasePos",       Channel,   SMA,    0x0001, Length,    "L",       |v, c, l| axis(v, c, l, |a| a.setpoint.user())),
     row!("C/MachineAxis/actToolBasePos",       Channel,   SMA,    0x0002, Length,    "F C L",   |v, c, l| axis(v, c, l, |a| a.position.user())),
     row!("C/MachineAxis/toolBaseDistToGo",     Channel,   SMA,    0x0003, Length,    "C L",     |v, c, l| axis(v, c, l, |a| a.distance_to_go.user())),
@@ -62,13 +61,13 @@ pub const CATALOGUE: &[Variable] = &[
     row!("C/MachineAxisExt/encChoice",         Channel,   SEMA,   0x002A, Word,      "L",       |v, c, l| axis_signal(v, c, l, measuring_system)),
     row!("C/MachineAxisExt/driveActParamSet",  Channel,   SEMA,   0x002E, Word,      "L",       |v, c, l| axis_signal(v, c, l, |from| from.active_drive_data_set() + 1)),
     row!("C/MachineAxisExt/vaSyncDiff",        Channel,   SEMA,   0x00C1, Length,    "L",       |v, c, l| axis(v, c, l, |a| a.synchronism_difference.user())),
-    // Spindles: there are none, so there is no row.
+    // Spindles: none exist, so these variables have no rows.
     row!("C/Spindle/actSpeed",                 Channel,   SSP,    0x0002, Double,    "F C T L", |_, _, _| None),
     row!("C/Spindle/cmdSpeed",                 Channel,   SSP,    0x0003, Double,    "F C T L", |_, _, _| None),
     row!("C/Spindle/speedOvr",                 Channel,   SSP,    0x0004, Double,    "F C T L", |_, _, _| None),
     row!("C/Spindle/turnState",                Channel,   SSP,    0x0009, Word,      "F C T L", |_, _, _| None),
     row!("C/Spindle/spindleType",              Channel,   SSP,    0x000D, Word,      "F C T L", |_, _, _| None),
-    // Drives; the unit is the number of the drive.
+    // Drives; the unit is the drive number.
     row!("V/Drive/r0021 actual speed",         FeedDrive, DRIVE,  0x0015, DriveReal, "C",       |v, d, l| drives::speed(v, d, l)),
     row!("V/Drive/MD1707 actual speed",        FeedDrive, M,      0x06AB, DriveReal, "F",       |v, d, l| drives::speed(v, d, l)),
     // Names and numbers.
@@ -103,7 +102,7 @@ pub const CATALOGUE: &[Variable] = &[
     row!("C/State/oldProgNetTime",             Channel,   S,      0x012A, Double,    "T D C",   |v, c, l| zero(v, c, l)),
     row!("C/DIAGN/cycleTime",                  Channel,   DIAGN,  0x0009, Double,    "T D",     |v, c, l| zero(v, c, l)),
     row!("C/DIAGN/cuttingTime",                Channel,   DIAGN,  0x000A, Double,    "T D",     |v, c, l| zero(v, c, l)),
-    // R parameters; R0 is row 1. They alone of all rows can be written.
+    // R parameters; R0 is row 1. Only these rows can be written.
     row!("C/Parameter/rpa",                    Channel,   RP,     0x0001, Double,    "D C",     |v, c, l| r_parameter(v, c, l).ok().map(|(_, _, value)| Shown::Number(value))),
     // The program.
     row!("C/ProgramInfo/msg",                  Channel,   SPARP,  0x0001, Text(128), "T F",     |v, c, l| empty(v, c, l)),
@@ -121,7 +120,7 @@ pub const CATALOGUE: &[Variable] = &[
     // The time.
     row!("N/State/sysTimeBCD",                 Nck,       S,      0x0001, Date,      "L",       |v, _, l| only(l).map(|()| Shown::Date(Some(v.clock)))),
     row!("N/State/sysTimeUdword",              Nck,       S,      0x0121, UnsignedLong,"T C L",   |v, _, l| only(l).map(|()| seconds(v))),
-    // Alarms; the row is the place in the list.
+    // Alarms; the row is the position in the list.
     row!("N/State/numAlarms",                  Nck,       S,      0x0007, Word,      "T C L",   |v, _, l| only(l).map(|()| number(v.variables.alarms.count()))),
     row!("N/AlarmList/textIndex",              Nck,       SALA,   0x0001, Long,      "C L",     |v, _, l| alarms::text_index(v, Order::Time, l)),
     row!("N/AlarmList/alarmNo",                Nck,       SALA,   0x0002, Long,      "T L",     |v, _, l| alarms::ordinal(v, Order::Time, l)),

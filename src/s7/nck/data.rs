@@ -1,46 +1,46 @@
-//! What the catalogue shows beside memory and variables, as small traits: machine data, and what the control itself knows.
+//! Data for the catalogue besides memory and variables, as small traits: machine data, and values of the control.
 
 use crate::s7::wire::data::Refusal;
 use crate::units::{AxisNumber, ChannelNumber, Time};
 use crate::variables::{AlarmNumber, Place};
 
-/// Machine data, as the control keeps them.
+/// The machine data of the control.
 pub trait MachineData {
-    /// A machine datum by number, and by index from 0 where it is an array.
+    /// A machine datum by number, and by index from 0 if it is an array.
     fn datum(&self, place: Place, number: u16, index: u16) -> Option<Datum<'_>>;
 
-    /// Whether the control takes a value for a datum that there is.
+    /// Whether the control accepts a value for an existing datum.
     ///
     /// # Errors
-    /// Nobody may write it, or the value is out of its range.
+    /// The datum is read-only, or the value is out of range.
     fn may_store(&self, _place: Place, _number: u16, _index: u16, _value: f64) -> Result<(), Refusal> {
         Ok(())
     }
 }
 
-/// What the control knows that is no bit, no variable and no machine datum.
+/// Values of the control that are not signals, variables or machine data.
 pub trait ControlValues {
-    /// Simulated time, by which alarms have theirs.
+    /// Simulated time; alarms have their times in it.
     fn time(&self) -> Time;
 
-    /// The override of an axis that acts, in per cent.
+    /// The effective override of an axis, in per cent.
     fn axis_override(&self, axis: AxisNumber) -> f64;
 
-    /// Feed and rapid traverse override of a channel that act, in per cent.
+    /// The effective feed and rapid traverse overrides of a channel, in per cent.
     fn channel_overrides(&self, channel: ChannelNumber) -> [f64; 2];
 
-    /// The speed of the motor of an axis in rev/min.
+    /// The motor speed of an axis in rev/min.
     fn motor_speed(&self, axis: AxisNumber) -> f64;
 
-    /// `R number` of a channel.
+    /// An R parameter of a channel, by its number.
     fn r_parameter(&self, channel: ChannelNumber, number: u16) -> Option<f64>;
 
-    /// What cancels an alarm: 1 POWER ON, 2 RESET, 3 the cancel key, 4 the NCK by itself, 5 NC start, 6 RESET in all channels of the
-    /// mode group.
+    /// How an alarm is cancelled: 1 POWER ON, 2 RESET, 3 the cancel key, 4 automatically by the NCK, 5 NC start, 6 RESET in all channels of
+    /// the mode group.
     fn clear_info(&self, alarm: AlarmNumber) -> u8;
 }
 
-/// The value of a machine datum; each kind has its length on the wire.
+/// The value of a machine datum; its kind determines the length on the wire.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Datum<'a> {
     /// BOOLEAN: one byte.
@@ -72,7 +72,7 @@ impl Datum<'_> {
         }
     }
 
-    /// The value that bytes of the same kind stand for; texts cannot be written.
+    /// The value of bytes of the same kind; texts cannot be written.
     pub(super) fn parse(self, bytes: &[u8]) -> Option<f64> {
         match (self, bytes) {
             (Self::Boolean(_), [value @ (0 | 1)]) | (Self::Byte(_), [value]) => Some((*value).into()),
@@ -90,10 +90,10 @@ pub(super) fn number(bytes: &[u8]) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// Appends a text, cut or filled to its length.
+/// Appends a text, cut or padded to its length.
 pub(super) fn put_text(text: &str, length: usize, into: &mut Vec<u8>) {
     let end = into.len() + length;
-    // The last byte stays 0, so that whoever looks for an end finds one.
+    // The last byte stays 0, so that the text is always terminated.
     into.extend(text.bytes().take(length.saturating_sub(1)));
     into.resize(end, 0);
 }

@@ -1,14 +1,14 @@
-//! Values of drives. A simulated drive knows the actual speed of its motor; torque, current and temperatures are not modelled, so
-//! they do not exist. They are big-endian in all ways of asking.
+//! Drive values. A simulated drive has the actual speed of its motor. Torque, current and temperatures are not modelled, so these variables
+//! do not exist. Values are big-endian in all forms of request.
 //!
-//! | asked as | for |
+//! | request | value |
 //! |---|---|
 //! | area V, module `82`, column 21 | `r0021`, actual speed of a SINAMICS drive in rev/min |
 //! | area V, module `1A`, column `06AB` | MD1707, actual speed of a powerline drive in rev/min |
 //! | syntax `A2`, parameter 21 | `r0021` of a drive object |
 //!
-//! Choices: the number of a drive is that of its axis. Drive object 1 is the control unit and 2 the infeed; the drives follow
-//! from 3 on in the order of the axes. No drive is a main drive: there are no spindles.
+//! Choices: a drive has the number of its axis. Drive object 1 is the control unit and 2 is the infeed; the drives follow from 3 on in the
+//! order of the axes. There are no main drives, because there are no spindles.
 
 use super::{Shown, View, values};
 use crate::s7::wire::data::Refusal;
@@ -20,25 +20,25 @@ pub(super) const ACTUAL_SPEED: u16 = 21;
 
 /// The drive object of the first axis.
 const FIRST_DRIVE: u16 = 3;
-/// REAL among the types of a drive item.
+/// The code of REAL as the type of a drive item.
 const REAL: u8 = 8;
 
-/// The speed of the motor of a drive, which has one line.
+/// The motor speed of a drive; it has one line.
 pub(super) fn speed<'a>(view: &View<'a>, drive: u8, line: u16) -> Option<Shown<'a>> {
     let axis = values::axis_number(view, drive.into())?;
     (line == 1).then_some(Shown::Number(view.control?.motor_speed(axis)))
 }
 
-/// Four bytes.
-#[expect(clippy::cast_possible_truncation, reason = "a drive has no more digits")]
+/// Encodes a value in four bytes.
+#[expect(clippy::cast_possible_truncation, reason = "a drive value has single precision")]
 pub(super) fn real(value: f64) -> [u8; 4] {
     (value as f32).to_be_bytes()
 }
 
-/// Appends what an item of syntax `A2` asks for.
+/// Appends the value requested by an item of syntax `A2`.
 ///
 /// # Errors
-/// There is no such object or parameter, or it is of another type.
+/// There is no such object or parameter, or it has another type.
 pub(in crate::s7) fn read(view: &View<'_>, item: &DriveItem, into: &mut Vec<u8>) -> Result<(), Refusal> {
     let number = item.object.checked_sub(FIRST_DRIVE).and_then(|index| u8::try_from(index + 1).ok());
     let axis = number.and_then(AxisNumber::new).ok_or(Refusal::DoesNotExist)?;

@@ -1,12 +1,11 @@
 //! The variables of the NCK as clients of a SINUMERIK read them: by area, unit, module, column and line.
 //!
-//! [`CATALOGUE`] has the variables by name, [`MachineData`] stands for the machine data behind module `1A`, and R parameters are
-//! module `15`. Rows are counted from one, and an item may ask for several, which follow one another; `R5` is row 6. Values are
-//! little-endian, unlike everything else on this wire, but for those of drives; texts have a fixed length and are filled with
-//! zeros.
+//! [`CATALOGUE`] has the variables by name, [`MachineData`] provides the machine data of module `1A`, and R parameters are module `15`.
+//! Rows count from one. An item may request several consecutive rows; `R5` is row 6. Values are little-endian, unlike everything else on
+//! the wire, except those of drives. Texts have a fixed length and are padded with zeros.
 //!
-//! What is written is judged whole before anything is acknowledged: machine data by type, range and whether anybody may write
-//! them, R parameters by their length. What the control shows cannot be written.
+//! A write is checked completely before it is acknowledged: machine data by type, range and write permission, R parameters by their length.
+//! Displayed values of the control cannot be written.
 
 mod alarms;
 mod catalogue;
@@ -32,7 +31,7 @@ use data::put_text;
 use values::r_parameter;
 use variable::module;
 
-/// Appends the rows that an item asks for.
+/// Appends the rows that an item requests.
 ///
 /// # Errors
 /// There is no such variable, or no such row.
@@ -53,23 +52,23 @@ pub fn read(view: &View<'_>, item: &NckItem, into: &mut Vec<u8>) -> Result<(), R
     Ok(())
 }
 
-/// The rows from the first on; there is no row 0.
+/// The requested rows; there is no row 0.
 fn lines(item: &NckItem) -> Result<std::ops::Range<u16>, Refusal> {
     let end = item.line.checked_add(item.count.into()).ok_or(Refusal::OutOfRange)?;
     if item.line == 0 || item.count == 0 { Err(Refusal::OutOfRange) } else { Ok(item.line..end) }
 }
 
-/// Units count from 1; only the NCK itself, of which there is one, is 0 with some clients and 1 with others.
+/// Units count from 1. For the NCK, of which there is only one, some clients send 0 and others 1.
 fn unit(item: &NckItem) -> u8 {
     if item.area == NckArea::Nck.code() { item.unit.max(1) } else { item.unit }
 }
 
-/// The row of the catalogue. The NC variables are those of a SINUMERIK: another control has none of them.
+/// The row of the catalogue. The NC variables are those of a SINUMERIK; another control has none of them.
 fn find(view: &View<'_>, item: &NckItem) -> Option<&'static Variable> {
     if !Sinumerik::is_of(view.names.interface()) {
         return None;
     }
-    // The NCK has the axes of all channels; here that is the same.
+    // The NCK has the axes of all channels; here these are the same axes.
     let area = match (item.area, item.module) {
         (0, module::SMA | module::SEMA) => NckArea::Channel.code(),
         (area, _) => area,
@@ -106,7 +105,7 @@ fn put_variable(
         (Kind::Word, Shown::Number(value)) => into.extend_from_slice(&whole(value).to_le_bytes()[..2]),
         (Kind::Long, Shown::Number(value)) => into.extend_from_slice(&whole(value).to_le_bytes()[..4]),
         (Kind::UnsignedLong, Shown::Number(value)) => into.extend_from_slice(&whole(value).to_le_bytes()[..4]),
-        // No row of the catalogue is so.
+        // No row of the catalogue has this combination.
         (Kind::Text(_) | Kind::Date, _) | (_, Shown::Text(_) | Shown::Date(_)) => {
             return Err(Refusal::TypeInconsistent);
         }
@@ -114,12 +113,12 @@ fn put_variable(
     Ok(())
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "the rows of the catalogue give whole numbers that fit their kind")]
+#[expect(clippy::cast_possible_truncation, reason = "the rows of the catalogue return integers that fit their kind")]
 fn whole(value: f64) -> i64 {
     value as i64
 }
 
-/// Whose machine datum an item means: a channel or an axis that is not there has none.
+/// The owner of a machine datum; a channel or an axis that does not exist has none.
 fn owner(view: &View<'_>, item: &NckItem) -> Result<Place, Refusal> {
     let place = match item.area {
         0 => Some(Place::Nck),
@@ -143,14 +142,14 @@ fn datum<'a>(view: &View<'a>, item: &NckItem, line: u16) -> Result<(Place, Datum
     }
 }
 
-/// Appends what writing a variable asks of the machine, a command for each row.
+/// Appends the commands for writing a variable, one for each row.
 ///
 /// # Errors
-/// There is no such variable or row, it cannot be written, or a value does not fit; nothing was appended then.
+/// There is no such variable or row, it cannot be written, or a value does not fit; then nothing was appended.
 pub fn write(view: &View<'_>, item: &NckItem, bytes: &[u8], into: &mut Vec<Command>) -> Result<(), Refusal> {
     let lines = lines(item)?;
     if find(view, item).is_some_and(|variable| variable.module != module::RP) {
-        return Err(Refusal::NotAllowed); // the control shows it; nobody sets it
+        return Err(Refusal::NotAllowed); // a displayed value is read-only
     }
     let start = into.len();
     let size = bytes.len() / lines.len();

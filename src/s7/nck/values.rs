@@ -1,5 +1,5 @@
-//! Where the values of the catalogue come from. A control that runs no program shows no tool (T0), no program name and no
-//! program state; so does this one. A geometry axis is the machine axis of the same number.
+//! The values of the catalogue. A control without a running program shows no tool (T0), no program name and no program state; so does this
+//! one. A geometry axis is the machine axis with the same number.
 
 use super::{ControlValues, Datum, Shown, View};
 use crate::image::{AxisFromNck, Block, ChannelFromNck, ChannelToNck};
@@ -15,7 +15,7 @@ pub(super) fn flag(value: bool) -> Shown<'static> {
     Shown::Number(f64::from(u8::from(value)))
 }
 
-/// Whether a line is the only one.
+/// Whether a line is the first and only one.
 pub(super) fn only(line: u16) -> Option<()> {
     (line == 1).then_some(())
 }
@@ -24,7 +24,7 @@ pub(super) fn channel_exists(view: &View<'_>, unit: u8) -> Option<()> {
     channel_number(view, unit).map(|_| ())
 }
 
-/// A channel that has a name and a mode group (MD10010); the first one exists always.
+/// A channel that has a name and a mode group (MD10010); the first channel always exists.
 pub(super) fn channel_number(view: &View<'_>, unit: u8) -> Option<ChannelNumber> {
     let number = ChannelNumber::new(unit)?;
     let group = view.machine_data.and_then(|data| data.datum(Place::Nck, 10010, u16::from(unit) - 1));
@@ -43,7 +43,7 @@ pub(super) fn axis<'a>(view: &View<'a>, unit: u8, line: u16, get: fn(&AxisValues
     Some(Shown::Number(get(&view.variables.axes[axis_number(view, line)?])))
 }
 
-/// There are at most three of them.
+/// There are at most three geometry axes.
 pub(super) fn geometry_axis<'a>(
     view: &View<'a>,
     unit: u8,
@@ -54,7 +54,7 @@ pub(super) fn geometry_axis<'a>(
 }
 
 pub(super) fn axis_name<'a>(view: &View<'a>, line: u16) -> Option<Shown<'a>> {
-    // A table of names has a row for each axis that there could be; rows of others are empty.
+    // A table of names has a row for each possible axis; rows of axes that do not exist are empty.
     let number = AxisNumber::new(u8::try_from(line).ok()?)?;
     if number.number() > view.names.interface().count(Block::Axis) {
         return None;
@@ -67,7 +67,7 @@ pub(super) fn channel_name<'a>(view: &View<'a>, unit: u8) -> Option<Shown<'a>> {
     Some(Shown::Text(view.names.channels[number].as_deref().unwrap_or("").into()))
 }
 
-/// MD18040, four rows: what runs here, and nothing more.
+/// MD18040, four rows: this simulator and its version in the first row.
 pub(super) fn version<'a>(line: u16) -> Option<Shown<'a>> {
     match line {
         1 => Some(Shown::Text(concat!("OpenNCK ", env!("CARGO_PKG_VERSION")).into())),
@@ -86,7 +86,7 @@ pub(super) fn channel<'a>(view: &View<'a>, unit: u8, line: u16, get: fn(&Channel
     Some(Shown::Number(get(&view.memory.from_nck().channels[channel_number(view, unit)?])))
 }
 
-/// A function that the PLC asks for.
+/// A function requested by the PLC.
 pub(super) fn asked<'a>(view: &View<'a>, unit: u8, line: u16, get: fn(&ChannelToNck) -> bool) -> Option<Shown<'a>> {
     only(line)?;
     Some(flag(get(&view.memory.to_nck().channels[channel_number(view, unit)?])))
@@ -144,7 +144,7 @@ pub(super) fn program_status(from: &ChannelFromNck) -> f64 {
     state.map_or(5.0, |(_, number)| number)
 }
 
-/// What a signal of the axis says, as a number.
+/// A signal of the axis, as a number.
 pub(super) fn axis_signal<'a>(view: &View<'a>, unit: u8, line: u16, get: fn(&AxisFromNck) -> u8) -> Option<Shown<'a>> {
     channel_exists(view, unit)?;
     Some(Shown::Number(get(&view.memory.from_nck().axes[axis_number(view, line)?]).into()))
@@ -166,7 +166,7 @@ pub(super) fn feedrate<'a>(view: &View<'a>, unit: u8, line: u16) -> Option<Shown
     Some(Shown::Number(if is_rotary(view, line) { velocity * 360.0 } else { velocity }))
 }
 
-/// What the control knows of an axis.
+/// A value of the control for an axis.
 pub(super) fn of_axis<'a>(
     view: &View<'a>,
     unit: u8,
@@ -177,7 +177,7 @@ pub(super) fn of_axis<'a>(
     Some(Shown::Number(get(view.control?, axis_number(view, line)?)))
 }
 
-/// What the control knows of a channel.
+/// Values of the control for a channel.
 pub(super) fn of_channel<'a>(
     view: &View<'a>,
     unit: u8,
@@ -188,7 +188,7 @@ pub(super) fn of_channel<'a>(
     Some(Shown::Number(get(view.control?, channel_number(view, unit)?)))
 }
 
-/// Seconds since 1970, of the clock of the CPU.
+/// The clock of the CPU in seconds since 1970.
 pub(super) fn seconds(view: &View<'_>) -> Shown<'static> {
     /// Days from 1970 to 1990.
     const EARLIER: u32 = 7305;
@@ -197,7 +197,7 @@ pub(super) fn seconds(view: &View<'_>) -> Shown<'static> {
     Shown::Number(f64::from(EARLIER + clock.days()) * 86_400.0 + f64::from(of_day))
 }
 
-/// Whether the axis of a row turns (MD30300): degrees have no inches.
+/// Whether the axis of a row is a rotary axis (MD30300): degrees are not converted to inches.
 pub(super) fn is_rotary(view: &View<'_>, line: u16) -> bool {
     let axis = u8::try_from(line).ok().and_then(AxisNumber::new);
     let datum = axis.zip(view.machine_data).and_then(|(axis, data)| data.datum(Place::Axis(axis), 30300, 0));

@@ -1,4 +1,4 @@
-//! A variable of the NCK: its address by area, module and column, and how its value is written down.
+//! A variable of the NCK: its address by area, module and column, and the format of its value.
 
 use std::borrow::Cow;
 
@@ -11,15 +11,15 @@ pub(super) mod module {
     pub(in crate::s7::nck) const Y: u8 = 0x10;
     /// R parameters.
     pub(in crate::s7::nck) const RP: u8 = 0x15;
-    /// Machine data; of drives on the powerline.
+    /// Machine data; for drives: those of the powerline.
     pub(in crate::s7::nck) const M: u8 = 0x1A;
     /// Diagnosis.
     pub(in crate::s7::nck) const DIAGN: u8 = 0x3B;
-    /// Alarms by their time, as they come.
+    /// Alarms by time, oldest first.
     pub(in crate::s7::nck) const SALAC: u8 = 0x54;
-    /// Geometry axes, more of them.
+    /// Geometry axes, further variables.
     pub(in crate::s7::nck) const SEGA: u8 = 0x70;
-    /// Machine axes, more of them.
+    /// Machine axes, further variables.
     pub(in crate::s7::nck) const SEMA: u8 = 0x71;
     /// Spindles.
     pub(in crate::s7::nck) const SSP: u8 = 0x72;
@@ -27,17 +27,17 @@ pub(super) mod module {
     pub(in crate::s7::nck) const SGA: u8 = 0x73;
     /// Machine axes.
     pub(in crate::s7::nck) const SMA: u8 = 0x74;
-    /// Alarms, the last one first.
+    /// Alarms, newest first.
     pub(in crate::s7::nck) const SALAL: u8 = 0x75;
-    /// Alarms, that of the highest priority first.
+    /// Alarms, highest priority first.
     pub(in crate::s7::nck) const SALAP: u8 = 0x76;
-    /// Alarms by their time.
+    /// Alarms by time.
     pub(in crate::s7::nck) const SALA: u8 = 0x77;
     /// The program pointer.
     pub(in crate::s7::nck) const SPARPP: u8 = 0x7A;
     /// The program.
     pub(in crate::s7::nck) const SPARP: u8 = 0x7D;
-    /// How the program is influenced.
+    /// Program modification.
     pub(in crate::s7::nck) const SINF: u8 = 0x7E;
     /// States.
     pub(in crate::s7::nck) const S: u8 = 0x7F;
@@ -73,53 +73,53 @@ impl NckArea {
     }
 }
 
-/// How a value is written down.
+/// The format of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A word of two bytes.
+    /// A two-byte word.
     Word,
-    /// A whole number of four bytes.
+    /// A signed four-byte integer.
     Long,
-    /// A whole number of four bytes without a sign.
+    /// An unsigned four-byte integer.
     UnsignedLong,
-    /// A floating point number of eight bytes.
+    /// An eight-byte floating-point number.
     Double,
-    /// A length in millimetres or degrees of eight bytes, which the unit of the item changes.
+    /// A length of eight bytes in millimetres or degrees, converted to the unit of the item.
     Length,
-    /// A floating point number of four bytes, big-endian.
+    /// A four-byte floating-point number, big-endian.
     DriveReal,
     /// A `DATE_AND_TIME` of eight bytes.
     Date,
-    /// A text of so many bytes.
+    /// A text of this many bytes.
     Text(usize),
 }
 
-/// A value before it is written down.
+/// A value before encoding.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shown<'a> {
     /// A number.
     Number(f64),
     /// A text.
     Text(Cow<'a, str>),
-    /// A point in time; none is all zeros.
+    /// A point in time; `None` is encoded as zeros.
     Date(Option<DateAndTime>),
 }
 
 /// A row of the catalogue.
 #[derive(Clone, Copy, Debug)]
 pub struct Variable {
-    /// Area and name as the list of NC variables has them.
+    /// Area and name as in the list of NC variables.
     pub name: &'static str,
-    /// Whose it is.
+    /// The area.
     pub area: NckArea,
     /// The block type.
     pub module: u8,
     /// Its column.
     pub column: u16,
-    /// How it is written down.
+    /// Its format.
     pub kind: Kind,
-    /// Who confirms its address, as the head of the catalogue names them.
+    /// The sources of its address, by the letters in the module documentation of the catalogue.
     pub source: &'static str,
-    /// Its value for a unit and a line, both from one; none where there is no such row.
+    /// Its value for a unit and a line, both from one; `None` if there is no such row.
     pub(super) get: for<'a> fn(&View<'a>, u8, u16) -> Option<Shown<'a>>,
 }

@@ -1,22 +1,22 @@
-//! What the values of NC variables are taken from.
+//! The inputs of the NC variables.
 
 use super::{ControlValues, MachineData};
 use crate::image::{Memory, Names};
 use crate::s7::wire::date_and_time::DateAndTime;
 use crate::variables::Variables;
 
-/// What the values are taken from.
+/// The inputs of the NC variables.
 #[derive(Clone, Copy)]
 pub struct View<'a> {
     /// The memory after a step.
     pub memory: &'a Memory,
     /// The variables after a step.
     pub variables: &'a Variables,
-    /// What axes and channels are called.
+    /// The names of axes and channels.
     pub names: &'a Names,
     /// Machine data.
     pub machine_data: Option<&'a dyn MachineData>,
-    /// What else the control knows.
+    /// Further values of the control.
     pub control: Option<&'a dyn ControlValues>,
     /// The clock.
     pub clock: DateAndTime,

@@ -1,7 +1,7 @@
-//! Blocks: how many of each type there are, which, and what one is. There are data blocks and no others.
+//! Blocks: their number by type, a list, and the description of a block. Only data blocks exist.
 //!
-//! Choice: a type without blocks has an empty list, as in python-snap7's server, and not the error `D20E`, as in snap7's. A real CPU has
-//! blocks of all types, so clients that list one type after another (Node-RED) take a refusal for a failure of all.
+//! Choice: a type without blocks has an empty list, as in python-snap7's server, and not the error `D20E`, as in snap7's server. A real CPU
+//! has blocks of all types. Clients that list one type after another (Node-RED) therefore treat one refusal as a failure of all.
 
 use super::Session;
 use super::exchange::Exchange;
@@ -9,17 +9,17 @@ use crate::s7::station::{BlockInfo, Station};
 use crate::s7::wire::header::ErrorCode;
 use crate::s7::wire::user_data::{Head, Request};
 
-/// Types of block in the order of the answer: OB, DB, SDB, FC, SFC, FB, SFB.
+/// Block types in the order of the answer: OB, DB, SDB, FC, SFC, FB, SFB.
 const TYPES: [u8; 7] = *b"8ABCDEF";
 pub(super) const DATA_BLOCK: u8 = b'A';
 
 /// Language of a data block.
 const LANGUAGE: u8 = 5;
-/// Type of block inside a block's head.
+/// Block type inside the header of a block.
 const INNER_TYPE: u8 = 0x0A;
-/// The head of a block in load memory.
+/// Length of the header of a block in load memory.
 pub(super) const HEAD: usize = 36;
-/// What stands behind its bytes.
+/// Length of the trailer after its bytes.
 pub(super) const FOOT: usize = 36;
 
 impl Session {
@@ -44,7 +44,7 @@ impl Session {
         if !TYPES.contains(&kind) {
             return Err(ErrorCode::NO_BLOCK);
         }
-        // A type without blocks has an empty list: clients that list one type after another give up at the first refusal.
+        // A type without blocks has an empty list: clients that list one type after another stop at the first refusal.
         let blocks = if kind == DATA_BLOCK { blocks } else { &[] };
         let entry = |block: &BlockInfo| {
             let [high, low] = block.number.to_be_bytes();
@@ -73,7 +73,7 @@ impl Session {
     }
 }
 
-/// The block that is called `0A00031A`: type, number in five digits, file system.
+/// The block with a name such as `0A00031A`: type, number in five digits, file system.
 pub(super) fn named(name: &[u8], station: &dyn Station) -> Result<BlockInfo, ErrorCode> {
     let [b'0', kind, digits @ .., b'A' | b'B' | b'P'] = name else {
         return Err(ErrorCode::BLOCK_NAME);
@@ -90,7 +90,7 @@ pub(super) fn named(name: &[u8], station: &dyn Station) -> Result<BlockInfo, Err
     }
 }
 
-/// The head of a block, as load memory has it: `pp`, flags, language, type, number, lengths, and times that nobody keeps.
+/// The header of a block in load memory: `pp`, flags, language, type, number, lengths, and times (not modelled).
 pub(super) fn head(block: BlockInfo) -> [u8; HEAD] {
     let mut head = [0; HEAD];
     let in_load_memory = u32::try_from(HEAD + FOOT).unwrap_or(0) + u32::from(block.length);

@@ -1,4 +1,4 @@
-//! The clock of the CPU: read and set. The payload is a reserved byte, the century in BCD, which nobody looks at, and a
+//! The clock of the CPU: read and set. The payload is a reserved byte, the century in BCD (ignored), and a
 //! DATE_AND_TIME.
 
 use super::Session;
@@ -29,7 +29,7 @@ impl Session {
         Ok(())
     }
 
-    /// Says that it was done.
+    /// Acknowledges a request.
     pub(super) fn acknowledge(&mut self, request: &Request<'_>, exchange: &mut Exchange<'_>) {
         let head = Head::answer(request, self.next_sequence());
         head.send_empty(exchange.answers, exchange.reference, exchange.budget);

@@ -1,11 +1,10 @@
-//! PLC stop and start, and the services by name: `P_PROGRAM`, `_GARB` (compress), `_MODU` (copy RAM to ROM).
+//! PLC stop and start, and the named services: `P_PROGRAM`, `_GARB` (compress), `_MODU` (copy RAM to ROM).
 //!
 //! ```text
 //! 28  00 00 00 00 00 00 FD  LL LL arguments  NN name     start and services
 //! 29  00 00 00 00 00        NN name                      stop
 //! ```
-//! Whoever asks for the state that already is gets the acknowledgement with a second byte: `03` runs already, `07` stands
-//! already.
+//! A request for the current state is acknowledged with a second byte: `03` already in RUN, `07` already in STOP.
 
 use super::Session;
 use super::exchange::Exchange;
@@ -33,7 +32,7 @@ impl Session {
         let restart = match (name, arguments) {
             (PROGRAM, []) => Restart::Warm,
             (PROGRAM, COLD) => Restart::Cold,
-            // There is no load memory to tidy up or to copy into.
+            // There is no load memory to compress or to copy to.
             (COMPRESS | COPY_RAM_TO_ROM, _) => return acknowledge(exchange, &[function::START]),
             _ => return exchange.refuse(ErrorCode::FUNCTION_PARAMETERS),
         };
@@ -68,7 +67,7 @@ fn service(rest: &[u8]) -> Option<(&[u8], &[u8])> {
     rest.is_empty().then_some((arguments, name))
 }
 
-/// A text behind its length, and what follows it.
+/// A text preceded by its length, and the bytes after it.
 fn counted(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let (length, rest) = bytes.split_first()?;
     rest.split_at_checked(usize::from(*length))

@@ -1,4 +1,4 @@
-//! Data that the module sends by itself: in cycles, or when they change.
+//! Subscriptions: values that the module sends cyclically or when they change.
 //!
 //! ```text
 //! 2/1 and 2/5 request    count(2)  time base(1)  factor(1)  items          base 0 = 0.1 s, 1 = 1 s, 2 = 10 s
@@ -6,8 +6,7 @@
 //!             push       count(2)  values                                  with the number of the job
 //! 2/4 request            function(1)  number of the job(1), 0 = all
 //! ```
-//! A change is looked for as often as the interval says. Without an interval (factor 0) it is looked for as often as the server
-//! allows.
+//! Changes are checked once per interval. Without an interval (factor 0) they are checked as often as the server allows.
 
 use super::Session;
 use super::exchange::Exchange;
@@ -18,7 +17,7 @@ use crate::s7::wire::items::Items;
 use crate::s7::wire::user_data::Request;
 use crate::units::Time;
 
-/// How many jobs of this kind a client may have.
+/// Maximum number of subscriptions per client.
 const JOBS: usize = 32;
 
 const CYCLE: u8 = 1;
@@ -96,7 +95,7 @@ impl Session {
         Ok(())
     }
 
-    /// A number that no job has.
+    /// A number that no job uses.
     fn free_number(&mut self) -> u8 {
         loop {
             let number = self.next_sequence();

@@ -4,7 +4,7 @@ use crate::s7::station::Station;
 use crate::s7::wire::header::ErrorCode;
 use crate::s7::wire::pdu::{Answers, Budget, Pdu};
 
-/// What every answer needs.
+/// The data that every answer needs.
 pub(super) struct Exchange<'a> {
     pub(super) station: &'a mut dyn Station,
     pub(super) answers: &'a mut Answers,

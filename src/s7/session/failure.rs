@@ -1,21 +1,21 @@
-//! Requests to read or write that are refused on purpose, for tests of panels. Nothing of them is done.
+//! Injected refusals of read and write requests, for tests of operator panels. A refused request is not executed.
 
 use super::exchange::Exchange;
 use crate::s7::wire::data::TransportSize;
 use crate::s7::wire::header::{ErrorCode, function};
 use crate::s7::wire::pdu::Pdu;
 
-/// How a request is refused.
+/// The form of the refusal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Failure {
-    /// Each of its items has this return code.
+    /// Each item has this return code.
     Items(u8),
-    /// The whole has this error.
+    /// The whole request has this error.
     Request(ErrorCode),
 }
 
 impl Failure {
-    /// Answers a request to read or write whose parameters behind the function are these.
+    /// Answers a read or write request; `rest` are its parameters after the function.
     pub(super) fn answer(self, code: u8, rest: &[u8], exchange: &mut Exchange<'_>) {
         match (self, rest) {
             (Self::Items(failure), [count, ..]) if *count > 0 => {

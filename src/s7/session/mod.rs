@@ -1,15 +1,15 @@
-//! One client's conversation, without a socket: bytes in, answers out. It never is silent: a request that cannot be served
-//! is refused with the error that a module would give, and bytes that are no request end the connection.
+//! The conversation with one client, without a socket: bytes in, answers out. Every request gets an answer: a request that cannot be served
+//! is refused with the error that a module would return. Bytes that are not a request end the connection.
 //!
-//! | state | by | then |
+//! | state | event | then |
 //! |---|---|---|
 //! | new | connection request | connected |
 //! | connected | setup communication | variables, jobs and user data are served, within the negotiated PDU |
 //! | any | disconnect request, or bytes of another protocol | closed |
 //!
-//! Whom a client called decides what it may ask for: variables of the NCK have the NCK's TSAP, slot 3 (powerline) or 4 (solution
-//! line), and anywhere else the whole request is refused with `8104`, as a PLC does. Everything else is served at every TSAP:
-//! clients that keep one connection for all of it are many.
+//! The called TSAP determines which requests are allowed. Variables of the NCK are served at the TSAPs of the NCK, slot 3 (powerline) or 4
+//! (solution line); at any other TSAP the whole request is refused with `8104`, as by a PLC. Everything else is served at every TSAP,
+//! because many clients use one connection for all data.
 
 mod blocks;
 mod clock;
@@ -43,23 +43,23 @@ use subscriptions::Subscriptions;
 const SHORTEST_PDU: u16 = 240;
 /// The longest PDU that is agreed.
 const LONGEST_PDU: u16 = 960;
-/// The longest request that is put together before it is judged; whoever sends more is disconnected.
+/// The longest request that is reassembled. A client that sends more is disconnected.
 const LONGEST_REQUEST: usize = 4096;
-/// The longest packet that is waited for: a TPDU of 8192 bytes.
+/// The longest packet that is accepted: a TPDU of 8192 bytes.
 const LONGEST_PACKET: usize = 8192 + tpkt::HEADER;
 
-/// What a server offers each client.
+/// The settings of a connection.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Settings {
     /// The longest PDU that is agreed, 240 to 960.
     pub longest_pdu: u16,
-    /// How many requests of a client may be on their way at once.
+    /// Maximum number of parallel requests of a client.
     pub jobs: u16,
-    /// Our reference of the connection, not 0.
+    /// The server's reference of the connection, not 0.
     pub reference: u16,
-    /// The called TSAPs that are accepted; all where there is none.
+    /// The called TSAPs that are accepted; `None` accepts all.
     pub called: Option<Vec<[u8; 2]>>,
-    /// How often something is sent by itself at most, whatever the client asked for.
+    /// Minimum interval of updates, whatever the client requests.
     pub shortest_interval: Time,
 }
 
@@ -69,11 +69,11 @@ impl Default for Settings {
     }
 }
 
-/// Whether the connection goes on.
+/// Whether the connection continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[must_use]
 pub enum Connection {
-    /// It does.
+    /// It continues.
     Open,
     /// Send the answers, then close.
     Closed,
@@ -86,14 +86,14 @@ pub struct Session {
     connection: Connection,
     is_connected: bool,
     is_set_up: bool,
-    /// The slot of the module that was called: 2 PLC, 3 and 4 NCK.
+    /// The slot of the called module: 2 PLC, 3 and 4 NCK.
     slot: u8,
     budget: Budget,
-    /// A packet that is not whole yet.
+    /// Bytes of an incomplete packet.
     input: Vec<u8>,
-    /// The pieces of a PDU that is not whole yet.
+    /// Pieces of an incomplete PDU.
     pieces: Vec<u8>,
-    /// Space for NC variables.
+    /// Buffer for NC variables.
     scratch: Vec<u8>,
     knows_password: bool,
     sequence: u8,
@@ -101,12 +101,12 @@ pub struct Session {
     uploads: Uploads,
     subscriptions: Subscriptions,
     failure: Option<Failure>,
-    /// Requests to read or write so far, on this connection and those before it.
+    /// The number of read and write requests on this connection and those before it.
     requests: u64,
 }
 
 impl Session {
-    /// A session with a client that has just come.
+    /// A session with a new client.
     #[must_use]
     pub fn new(settings: Settings) -> Self {
         Self {
@@ -129,30 +129,30 @@ impl Session {
         }
     }
 
-    /// The negotiated length of a PDU.
+    /// The negotiated PDU size.
     #[must_use]
     pub fn pdu_length(&self) -> usize {
         self.budget.pdu
     }
 
-    /// Whether something is to be sent by itself, so that [`Session::tick`] is needed.
+    /// Whether there are subscriptions, so that [`Session::tick`] must be called.
     #[must_use]
     pub fn has_subscriptions(&self) -> bool {
         !self.subscriptions.is_empty()
     }
 
-    /// Refuses the next request to read or write; `None` takes that back.
+    /// Refuses the next read or write request; `None` cancels that.
     pub fn fail_next(&mut self, failure: Option<Failure>) {
         self.failure = failure;
     }
 
-    /// How many requests to read or write there were, refused on purpose or not; a request in several pieces is one.
+    /// The number of read and write requests, including injected refusals. A request in several pieces counts once.
     #[must_use]
     pub fn requests(&self) -> u64 {
         self.requests
     }
 
-    /// Takes bytes as they came from the socket, in whatever pieces, and appends the answers to whole requests, in order.
+    /// Takes received bytes in pieces of any size, and appends the answers to complete requests, in order.
     pub fn receive(&mut self, bytes: &[u8], station: &mut dyn Station, answers: &mut Answers) -> Connection {
         let mut input = std::mem::take(&mut self.input);
         let is_joined = !input.is_empty();
@@ -183,7 +183,7 @@ impl Session {
         self.connection
     }
 
-    /// Sends what is due by now: values in cycles and values that changed. Time is any time that does not go back.
+    /// Sends the updates that are due: cyclic values and changed values. `now` may have any origin but must not go back.
     pub fn tick(&mut self, now: Time, station: &mut dyn Station, answers: &mut Answers) {
         if self.connection == Connection::Open {
             let Self { subscriptions, scratch, budget, settings, .. } = self;
@@ -203,7 +203,7 @@ impl Session {
         }
     }
 
-    /// A second request on the same connection begins anew.
+    /// A second request on the same connection starts over.
     fn connect(&mut self, request: &ConnectionRequest<'_>, answers: &mut Answers) {
         let is_called = |known: &Vec<[u8; 2]>| known.iter().any(|tsap| request.called == Some(tsap.as_slice()));
         if self.settings.called.as_ref().is_some_and(|known| !is_called(known)) {
@@ -220,7 +220,7 @@ impl Session {
         answers.transport(|out| request.confirm(self.settings.reference, out));
     }
 
-    /// Puts a PDU together. A piece without bytes changes nothing: some clients send one behind every request.
+    /// Reassembles a PDU. A piece without bytes changes nothing: some clients send one after every request.
     fn piece(&mut self, piece: &[u8], last: bool, station: &mut dyn Station, answers: &mut Answers) {
         if piece.is_empty() && self.pieces.is_empty() {
             return;
@@ -235,7 +235,7 @@ impl Session {
         }
         self.pieces.extend_from_slice(piece);
         if last {
-            // Pieces are rare, and a client that sent some once keeps no space for more.
+            // Pieces are rare: the buffer is released after use.
             let whole = std::mem::take(&mut self.pieces);
             self.pdu(&whole, station, answers);
         }
@@ -258,7 +258,7 @@ impl Session {
         };
         let mut exchange = Exchange { station, answers, reference: message.reference, budget };
         match message.kind {
-            kind::ACK | kind::ACK_DATA => {} // an acknowledgement asks for nothing
+            kind::ACK | kind::ACK_DATA => {} // an acknowledgement needs no answer
             _ if pdu.len() > budget.pdu => exchange.refuse(ErrorCode::WRONG_FRAME),
             kind::JOB => self.job(&message, &mut exchange),
             kind::USER_DATA => match user_data::parse(message.parameter, message.data) {
@@ -294,7 +294,7 @@ impl Session {
             function::END_UPLOAD => self.end_upload(rest, exchange),
             function::START => self.start(rest, exchange),
             function::STOP => self.stop(rest, exchange),
-            // Blocks come from the PLC image; nobody may load others.
+            // Blocks come from the PLC image; clients cannot download others.
             function::REQUEST_DOWNLOAD | function::DOWNLOAD | function::END_DOWNLOAD => {
                 exchange.refuse(ErrorCode::PROTECTED);
             }
@@ -302,7 +302,7 @@ impl Session {
         }
     }
 
-    /// Setup communication: how many jobs at once, and how long a PDU may be. It may be said again at any time.
+    /// Setup communication: the number of parallel jobs, and the PDU size. It may be repeated at any time.
     fn set_up(&mut self, rest: &[u8], exchange: &mut Exchange<'_>) {
         let &[_, calling_high, calling_low, called_high, called_low, pdu_high, pdu_low] = rest else {
             return exchange.refuse(ErrorCode::WRONG_FRAME);
@@ -318,7 +318,7 @@ impl Session {
         answer.finish();
         self.budget.pdu = pdu.into();
         self.is_set_up = true;
-        // What was begun for another PDU might not fit this one.
+        // Subscriptions made for another PDU size may not fit this one.
         self.subscriptions = Subscriptions::default();
     }
 
@@ -355,14 +355,14 @@ impl Session {
         head.send_empty(exchange.answers, exchange.reference, exchange.budget);
     }
 
-    /// Numbers of sequences and of jobs, 1 to 255.
+    /// Numbers of sequences and jobs, 1 to 255.
     fn next_sequence(&mut self) -> u8 {
         self.sequence = self.sequence.checked_add(1).unwrap_or(1);
         self.sequence
     }
 }
 
-/// Whether what is begun here would become longer than any packet that is taken.
+/// Whether the packet that begins here would be longer than accepted.
 fn is_too_long(bytes: &[u8]) -> bool {
     matches!(bytes, [_, _, high, low, ..] if usize::from(u16::from_be_bytes([*high, *low])) > LONGEST_PACKET)
 }

@@ -1,5 +1,5 @@
-//! Long answers of user data, sent in parts: the first with the answer, each further one when the client asks for it. The
-//! last part says so. One answer is kept at a time; a new request forgets it.
+//! Long answers of user data, sent in parts: the first part with the answer, each further part when the client requests it. The last part
+//! is marked. Only one answer is kept at a time; a new request discards it.
 
 use super::Session;
 use super::exchange::Exchange;
@@ -8,14 +8,14 @@ use crate::s7::wire::header::ErrorCode;
 use crate::s7::wire::user_data::{Head, Request, payload_room};
 
 impl Session {
-    /// Sends an answer, in as many parts as it needs.
+    /// Sends an answer, in as many parts as needed.
     pub(super) fn send_in_parts(&mut self, request: &Request<'_>, exchange: &mut Exchange<'_>, payload: Vec<u8>) {
         let sequence = self.next_sequence();
         self.parts = Parts { payload, sent: 0, of: Some([request.group, request.function, sequence]) };
         self.send_part(request, exchange, sequence);
     }
 
-    /// The next part of a long answer.
+    /// Sends the next part of a long answer.
     pub(super) fn next_part(&mut self, request: &Request<'_>, exchange: &mut Exchange<'_>) {
         if self.parts.of == Some([request.group, request.function, request.sequence]) {
             self.send_part(request, exchange, request.sequence);
@@ -29,7 +29,7 @@ impl Session {
         let left = &payload[*sent..];
         let part = &left[..left.len().min(payload_room(exchange.budget))];
         let more = part.len() < left.len();
-        // An answer in one part has no data unit.
+        // An answer in one part has no data unit number.
         let unit = if more || *sent > 0 { sequence } else { 0 };
         let head = Head { unit, more, ..Head::answer(request, sequence) };
         head.send(exchange.answers, exchange.reference, exchange.budget, part);

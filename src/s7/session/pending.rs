@@ -1,15 +1,15 @@
-//! Answers that a client fetches piece by piece: long answers of user data, and blocks that it uploads.
+//! Answers that a client fetches in pieces: long answers of user data, and uploads of blocks.
 
-/// What has not been sent yet.
+/// The part that has not been sent yet.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Parts {
     pub(super) payload: Vec<u8>,
     pub(super) sent: usize,
-    /// Group, function and sequence of the answer; none when all is sent.
+    /// Group, function and sequence of the answer; `None` when all is sent.
     pub(super) of: Option<[u8; 3]>,
 }
 
-/// The uploads that are open.
+/// The open uploads.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Uploads {
     pub(super) open: Vec<Upload>,

@@ -1,6 +1,7 @@
-//! Passwords. A client gives one for its connection; it counts until it is taken back or the connection ends.
+//! Passwords. A client gives the password for its connection. It is valid until it is taken back or the connection ends.
 //!
-//! On the wire the eight characters are folded: the first two with `55`, each further one with `55` and the folded one two before.
+//! On the wire the eight characters are encoded: the first two are XORed with `55`, each further one with `55` and the encoded character
+//! two positions before.
 
 use super::Session;
 use super::exchange::Exchange;
@@ -8,7 +9,7 @@ use crate::s7::wire::header::ErrorCode;
 use crate::s7::wire::user_data::Request;
 
 impl Session {
-    /// Whether what needs this level is permitted to this client.
+    /// Whether this client may use functions of this protection level.
     pub(super) fn permit(&self, level: u8, exchange: &Exchange<'_>) -> Result<(), ErrorCode> {
         let is_protected = exchange.station.protection().level >= level;
         if is_protected && !self.knows_password { Err(ErrorCode::PROTECTED) } else { Ok(()) }

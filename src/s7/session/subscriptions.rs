@@ -1,4 +1,4 @@
-//! The jobs of a client whose values the module sends by itself.
+//! The subscriptions of a client.
 
 use super::values::{budget_of, put_values};
 use crate::s7::station::Station;
@@ -12,7 +12,7 @@ use crate::units::Time;
 /// Values are sent when they change.
 pub(super) const CHANGE: u8 = 5;
 
-/// The jobs of a client.
+/// The subscriptions of a client.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Subscriptions {
     pub(super) jobs: Vec<Job>,
@@ -21,14 +21,14 @@ pub(super) struct Subscriptions {
 #[derive(Clone, Debug)]
 pub(super) struct Job {
     pub(super) number: u8,
-    /// In cycles or on change.
+    /// Cyclic or on change.
     pub(super) function: u8,
     pub(super) interval: Time,
-    /// When it is due; not before the first tick, which only starts the interval.
+    /// When it is due; `None` before the first tick, which only starts the interval.
     pub(super) due: Option<Time>,
     pub(super) count: u16,
     pub(super) items: Vec<u8>,
-    /// What was sent last.
+    /// The values sent last.
     pub(super) last: Vec<u8>,
 }
 
@@ -52,7 +52,7 @@ impl Subscriptions {
             if now < due {
                 continue;
             }
-            // From now on, not from when it was due: who is late does not catch up in a burst.
+            // Counted from now, not from the due time: a delayed subscription must not send a burst.
             job.due = Some(now + interval);
             let items = Items::new(&job.items, job.count.into()).flatten();
             let mut pdu = job.head(ErrorCode::NONE).begin_push(answers, budget_of(items, budget));

@@ -1,22 +1,22 @@
-//! System state lists (SZL): what a module tells of itself, in lists of records. A list that is longer than the PDU goes in parts.
+//! System state lists (SZL): the properties of a module in lists of records. A list that is longer than the PDU is sent in parts.
 //!
-//! | list | record | index | of what |
+//! | list | record | index | content |
 //! |---|---|---|---|
 //! | `0000` | 2 | 0 | all lists |
 //! | `0011`, `0111` | 28 | 1, 6, 7 | order number, hardware, firmware |
 //! | `0012`, `0112` | 2 | | features of the CPU |
 //! | `0013`, `0113` | 36 | 1 | memories |
 //! | `0014` | 8 | | areas and their sizes |
-//! | `0015` | 10 | | types of block |
+//! | `0015` | 10 | | block types |
 //! | `0019`, `0119`, `0074`, `0174` | 4 | number of a lamp | lamps |
-//! | `001C`, `011C` | 34 | 1 to 11 | names, serial number, place |
+//! | `001C`, `011C` | 34 | 1 to 11 | names, serial number, location |
 //! | `0131` | 40 | 1, 3 | communication |
 //! | `0132`, `0232` | 40 | 4 | protection |
 //! | `0222` | 28 | 1, 100, 102 | the last start of an organization block |
-//! | `0424` | 20 | | operating state and the change into it |
-//! | `00A0`, `01A0` | 20 | how many | diagnostic buffer |
+//! | `0424` | 20 | | operating state and the last change |
+//! | `00A0`, `01A0` | 20 | number of entries | diagnostic buffer |
 //!
-//! The extract `0Fxx` of a list is its head alone, with the number of records that the list has.
+//! The extract `0Fxx` of a list is only its header, with the number of records of the list.
 
 use super::exchange::Exchange;
 use super::{LONGEST_PDU, SHORTEST_PDU, Session};
@@ -25,7 +25,7 @@ use crate::s7::station::{CpuState, Diagnosis, Station};
 use crate::s7::wire::header::ErrorCode;
 use crate::s7::wire::user_data::{Head, Request};
 
-/// All lists, ascending.
+/// All lists in ascending order.
 const LISTS: [u16; 34] = [
     0x0000, 0x0011, 0x0012, 0x0013, 0x0014, 0x0015, 0x0019, 0x001C, 0x0074, 0x00A0, 0x0111, 0x0112, 0x0113, 0x0119,
     0x011C, 0x0131, 0x0132, 0x0174, 0x01A0, 0x0222, 0x0232, 0x0424, 0x0F00, 0x0F11, 0x0F12, 0x0F13, 0x0F14, 0x0F15,
@@ -35,11 +35,11 @@ const LISTS: [u16; 34] = [
 /// Lamps of a CPU with two interfaces: SF, RUN, STOP, FRCE, bus faults 1 and 2, maintenance demand.
 const LAMPS: [u16; 7] = [1, 4, 5, 6, 0x0B, 0x0C, 0x15];
 
-/// Features by group, which is the first byte: MC7 interpreter; a clock in BCD with a resolution of 1 ms; restarts; floating point, its
-/// functions and four accumulators.
+/// Features by group, which is the first byte: MC7 interpreter; a clock in BCD with a resolution of 1 ms; restarts; floating-point
+/// arithmetic, its functions and four accumulators.
 const FEATURES: [u16; 8] = [0x0002, 0x0101, 0x0104, 0x0202, 0x0302, 0x0303, 0x0304, 0x0305];
 
-/// The most entries of the diagnostic buffer that are shown.
+/// Maximum number of entries shown of the diagnostic buffer.
 const ENTRIES: usize = 100;
 
 impl Session {
@@ -54,7 +54,7 @@ impl Session {
         Ok(())
     }
 
-    /// The message service. Nobody sends messages here; a client that logs on is told that it is, and hears of none.
+    /// The message service. This server sends no messages: logging on succeeds, but no message follows.
     pub(super) fn log_on_to_messages(
         &mut self,
         request: &Request<'_>,
@@ -73,7 +73,7 @@ impl Session {
     }
 }
 
-/// How long a PDU may be: of this module, and of this connection.
+/// PDU sizes: of this module, and of this connection.
 #[derive(Clone, Copy, Debug)]
 struct PduLengths {
     longest: u16,
@@ -85,10 +85,10 @@ fn two_words(payload: &[u8]) -> Option<(u16, u16)> {
     Some((u16::from_be_bytes([*a, *b]), u16::from_be_bytes([*c, *d])))
 }
 
-/// A list with its head: identifier, index, length and number of records.
+/// A list with its header: ID, index, record length and number of records.
 fn system_state_list(list: u16, index: u16, station: &dyn Station, pdu: PduLengths) -> Result<Vec<u8>, ErrorCode> {
     let is_head = list >> 8 == 0x0F;
-    // The head of 0Fxx tells of the whole list; some lists have no form without an extract.
+    // The header 0Fxx describes the whole list; some lists exist only as an extract.
     let whole = match list {
         0x0F31 => 0x0131,
         0x0F32 => 0x0132,
@@ -98,7 +98,7 @@ fn system_state_list(list: u16, index: u16, station: &dyn Station, pdu: PduLengt
     if LISTS.binary_search(&list).is_err() {
         return Err(ErrorCode::WRONG_LIST);
     }
-    // What has no choice of records ignores the index, and its head says 0.
+    // A list without a selection of records ignores the index; its header then has index 0.
     let has_index = !is_head && !matches!(list, 0x01A0 | 0x0424) && list > 0x00FF;
     let mut records = records(whole, if is_head { 0 } else { index }, station, pdu)?;
     let index = if has_index { index } else { 0 };
@@ -114,7 +114,7 @@ fn system_state_list(list: u16, index: u16, station: &dyn Station, pdu: PduLengt
     Ok(payload)
 }
 
-/// Records of one length.
+/// Records of the same length.
 #[derive(Debug)]
 struct Records {
     length: u16,
@@ -122,12 +122,12 @@ struct Records {
 }
 
 impl Records {
-    /// Records of so many bytes.
+    /// Records of this length.
     fn of(length: u16) -> Self {
         Self { length, bytes: Vec::new() }
     }
 
-    /// Appends a record; it is filled with zeros or cut to its length.
+    /// Appends a record, padded with zeros or cut to its length.
     fn add(&mut self, parts: &[&[u8]]) {
         let end = self.bytes.len() + usize::from(self.length);
         for part in parts {
@@ -154,7 +154,7 @@ impl Records {
     }
 }
 
-/// The records of a list. Where a list has one record, index 0 means it, too: several clients ask so.
+/// The records of a list. If a list has only one record, index 0 selects it as well: several clients use it.
 fn records(list: u16, index: u16, station: &dyn Station, pdu: PduLengths) -> Result<Records, ErrorCode> {
     match list {
         0x0000 => {
@@ -226,13 +226,14 @@ fn memories(station: &dyn Station) -> Records {
     let free = size.saturating_sub(used).to_be_bytes();
     let (size, used) = (size.to_be_bytes(), used.to_be_bytes());
     let mut records = Records::of(36);
-    // Work memory: RAM, its size, volatile; then size, what is used and the largest free piece of its one area.
+    // Work memory: RAM, its size, volatile; then size, used bytes, and the largest free part of its single area.
     records.add(&[&[0, 1, 0, 1], &size, &[0, 1, 0, 0], &size, &used, &free]);
     records
 }
 
-/// All nine of them. Index 3 counts the flags in bits and 8 in bytes; 7 counts local data in bytes and 9 in kilobytes. Choices: what can
-/// be addressed is what the process image has, as at a CPU 315, and local data there are none: the program is none of MC7.
+/// All nine areas. Index 3 counts the flags in bits and index 8 in bytes; index 7 counts local data in bytes and index 9 in kilobytes.
+/// Choices: the addressable inputs and outputs equal the process image, as on a CPU 315; there are no local data, because the program is
+/// not MC7 code.
 fn areas(station: &dyn Station) -> Records {
     let length = |area| station.area_length(area);
     let flags = length(Area::Flags);
@@ -256,7 +257,7 @@ fn areas(station: &dyn Station) -> Records {
 
 fn block_types() -> Records {
     let mut records = Records::of(10);
-    // DB: at most 65535 of 64 KB, and so many bytes of each in work memory.
+    // DB: at most 65535 of 64 KB, with at most that many bytes each in work memory.
     records.words(&[0x0A00, u16::MAX, 64, 0, u16::MAX]);
     records
 }
@@ -292,7 +293,8 @@ fn names(station: &dyn Station) -> Records {
     for (index, text) in texts {
         records.add(&[&index.to_be_bytes(), &field::<32>(text, 0)]);
     }
-    // Manufacturer Siemens, profile of a CPU, type, as a CPU 315 tells them: like the order number, what the control would say.
+    // Manufacturer Siemens, profile of a CPU, and the type as reported by a CPU 315: like the order number, these are values of a real
+    // control.
     records.add(&[&[0, 9, 0x00, 0x2A, 0xF6, 0x00, 0x00, 0x01]]);
     records.add(&[&[0, 10]]);
     records.add(&[&[0, 11], &field::<32>(identity.location, 0)]);
@@ -301,14 +303,14 @@ fn names(station: &dyn Station) -> Records {
 
 fn communication(station: &dyn Station, pdu: PduLengths) -> Records {
     let mut records = Records::of(40);
-    /// Connections that a CPU 317-2 has. This one may have more clients than that.
+    /// The connections of a CPU 317-2. This server may have more clients.
     const CONNECTIONS: u16 = 32;
-    // Longest PDU of the module, connections, and the rates of two buses that are not there.
+    // Longest PDU of the module, connections, and the data rates of two buses that do not exist.
     records.words(&[1, pdu.longest, station.connections().min(CONNECTIONS), 0, 0, 0, 0]);
-    // Operator interface: read once, write once, cycles that start at once and can be cleared; inputs, outputs and flags; data
+    // Operator interface: read once, write once, cyclic services that start immediately and can be deleted; inputs, outputs and flags; data
     // blocks and counters; timers.
     let served = [0b0100_0111, 0b1110_0000, 0b1000_0001, 0b0000_0001];
-    // 32 jobs in cycles of 0.1 s to 2550 s.
+    // 32 jobs with cycles of 0.1 s to 2550 s.
     records.add(&[&[0, 3], &served, &pdu.agreed.to_be_bytes(), &[0, 32, 0, 1], &25_500_u16.to_be_bytes()]);
     records
 }
@@ -316,21 +318,21 @@ fn communication(station: &dyn Station, pdu: PduLengths) -> Records {
 fn protection(station: &dyn Station) -> Records {
     let protection = station.protection();
     let parameter = if protection.password.is_some() { protection.level } else { 0 };
-    // The mode selector stands on RUN-P: nobody turns it, whoever stops the CPU.
+    // The mode selector is always at RUN-P, also when a client stops the CPU.
     const RUN_P: u16 = 2;
     let mut records = Records::of(40);
     records.words(&[4, 1, parameter.into(), protection.level.into(), RUN_P, 0]);
     records
 }
 
-/// The last start of an organization block: OB1, and the one that the last restart called, 100 or 102.
+/// The last start of an organization block: OB1, and the block called by the last restart, 100 or 102.
 fn start_of(index: u16, station: &dyn Station) -> Result<Records, ErrorCode> {
     let entries = station.diagnosis();
     let started = entries.iter().position(|entry| entry.event == Diagnosis::START_UP);
     let restart = started.map(|at| (entries.get(at + 1).map(|before| before.event), entries[at].time.bytes()));
     let is_cold = |before: Option<u16>| before == Some(Diagnosis::COLD_RESTART);
     let mut records = Records::of(28);
-    // Event class and what started it, priority class, number; eight bytes of its own; the time of the start.
+    // Event class and start event, priority class, number; eight bytes of its own; time of the start.
     match (index, restart) {
         (0 | 1, _) => records.add(&[&[0x11, 0x03, 0x01, 0x01], &[0; 8], &station.clock().bytes()]),
         (100, Some((before, time))) if !is_cold(before) => {
@@ -350,7 +352,7 @@ fn operating_state(station: &dyn Station) -> Records {
         CpuState::Stop => &[Diagnosis::STOP, Diagnosis::FAULT],
     };
     let change = station.diagnosis().iter().find(|entry| changes.contains(&entry.event));
-    // The event that led there, an identifier, the state (08 RUN, 04 STOP), and when that was.
+    // The event of the last change, an identifier, the state (08 RUN, 04 STOP), and the time of the change.
     let event = change.map_or(changes[0], |change| change.event);
     let time = change.map_or_else(|| station.clock(), |change| change.time);
     let state = match station.state() {

@@ -1,5 +1,5 @@
-//! Upload of data blocks, from the module to the client: start, as many pieces as needed, end. What is sent is the block as it
-//! was at the start: head, bytes, foot.
+//! Upload of data blocks, from the module to the client: start, as many pieces as needed, end. The upload contains the block as it was at
+//! the start: header, bytes, trailer.
 //!
 //! ```text
 //! 1D  00 00 00  00 00 00 00  09 _0A00031A     start     ->  1D  00 01 00  00 00 00 01  07 0000220
@@ -14,7 +14,7 @@ use super::pending::Upload;
 use crate::s7::wire::header::{ErrorCode, function};
 use crate::s7::wire::pdu::Pdu;
 
-/// How many blocks a client may upload at once.
+/// Maximum number of parallel uploads per client.
 const AT_ONCE: usize = 4;
 
 impl Session {
@@ -57,7 +57,7 @@ impl Session {
         };
         let left = &upload.content[upload.sent..];
         if left.is_empty() {
-            return exchange.refuse(ErrorCode::WRONG_SEQUENCE); // the last piece said that it was the last
+            return exchange.refuse(ErrorCode::WRONG_SEQUENCE); // the last piece was marked as the last
         }
         let mut pdu = Pdu::ack_data(exchange.answers, exchange.reference, exchange.budget);
         let piece = &left[..left.len().min(pdu.room().saturating_sub(6))];

@@ -1,27 +1,27 @@
-//! Values of variables in an answer: each item succeeds or is refused by itself.
+//! The values of variables in an answer. Each item succeeds or is refused separately.
 
 use crate::s7::station::Station;
 use crate::s7::wire::data::{Refusal, SUCCESS, TransportSize, Type};
 use crate::s7::wire::items::{AnyItem, Item};
 use crate::s7::wire::pdu::{Budget, Pdu};
 
-/// An answer with values of drives is never longer, whatever was agreed.
+/// Maximum length of an answer with drive values, whatever PDU size was negotiated.
 const DRIVE_PDU: usize = 240;
 
-/// How long an answer to these items may be.
+/// The maximum length of the answer to these items.
 pub(super) fn budget_of(mut items: impl Iterator<Item = Item>, budget: Budget) -> Budget {
     let is_of_drive = items.any(|item| matches!(item, Item::Nck(item) if item.is_of_drive()));
     if is_of_drive { Budget { pdu: budget.pdu.min(DRIVE_PDU), ..budget } } else { budget }
 }
 
-/// Appends the value of each item, or why there is none. Items that do not fit leave the PDU full.
+/// Appends the value of each item, or the code of its refusal. Items that do not fit mark the PDU as full.
 pub(super) fn put_values(
     pdu: &mut Pdu<'_>,
     items: impl Iterator<Item = Item>,
     scratch: &mut Vec<u8>,
     station: &dyn Station,
 ) {
-    // Values begin at even places: what stands before them in a data part, if anything, has an even length.
+    // Values begin at even offsets: the bytes before them in the data part, if any, have an even length.
     for item in items {
         if pdu.is_full() {
             return;
@@ -65,7 +65,7 @@ fn put_area(pdu: &mut Pdu<'_>, item: &AnyItem, station: &dyn Station) -> Result<
     }
     let length = item.length();
     if length + 4 > pdu.room() {
-        // Whether it is there at all comes first, and only then that it does not fit.
+        // First check whether the range exists, then whether it fits.
         station.may_read(item.area, item.byte, item.span())?;
     }
     put_head(pdu, item.kind.answered_as(), length);

@@ -1,6 +1,6 @@
-//! Read and write variables. Each item succeeds or is refused by itself; what a request writes is judged first and then
-//! handed over whole. An answer that would be longer than the negotiated PDU is refused as a wrong frame, as a module does; an item
-//! that reaches beyond its area makes no answer long, however much it asks for: as everywhere it is refused by itself, with `05`.
+//! Read and write variables. Each item succeeds or is refused separately. All items of a write request are checked first and then executed
+//! together. If the answer would be longer than the negotiated PDU, the request is refused as a wrong frame, as by a module. An item that
+//! reaches beyond its area does not count for that length: it is refused separately with `05`.
 
 use arrayvec::ArrayVec;
 
@@ -40,7 +40,7 @@ impl Session {
         pdu.finish();
     }
 
-    /// Whether the module that was called has the items: variables of the NCK are asked of the NCK.
+    /// Whether the called module has the items: variables of the NCK must be requested from the NCK.
     pub(super) fn may_ask_for(&self, mut items: impl Iterator<Item = Item>) -> Result<(), ErrorCode> {
         let is_of_nck = items.any(|item| matches!(item, Item::Nck(_)));
         if is_of_nck && !NCK_SLOTS.contains(&self.slot) { Err(ErrorCode::NOT_IMPLEMENTED) } else { Ok(()) }
@@ -82,7 +82,7 @@ impl Session {
     }
 }
 
-/// What an item writes, if it may.
+/// The write of an item, if it is allowed.
 fn accepted<'a>(
     item: &Item,
     size: TransportSize,
@@ -90,7 +90,7 @@ fn accepted<'a>(
     station: &dyn Station,
 ) -> Result<Write<'a>, Refusal> {
     let is_bit = matches!(item, Item::Any(AnyItem { kind: Type::Bit, .. }));
-    // Clients say 04 or 09 of all sorts of values, and only of a bit that it is one.
+    // Clients use 04 or 09 for values of many types, but 03 only for bits.
     if !matches!(size.0, 3..=7 | 9) || size == TransportSize::BIT && !is_bit {
         return Err(match item {
             Item::Refused(refusal) => *refusal,
@@ -116,7 +116,7 @@ fn accepted<'a>(
             station.may_write_variable(item, value)?;
             Ok(Write::Variable { item: *item, bytes: value })
         }
-        Item::Drive(_) => Err(Refusal::NotAllowed), // what is known of drives is measured
+        Item::Drive(_) => Err(Refusal::NotAllowed), // the known drive values are measured values
         Item::Refused(refusal) => Err(*refusal),
     }
 }

@@ -1,19 +1,19 @@
 //! COTP class 0 (ISO 8073): connection request and confirm, data, disconnect.
 //!
-//! | TPDU | code | here |
+//! | TPDU | code | use |
 //! |---|---|---|
 //! | connection request, CR | `E0` | size of a TPDU and the two TSAPs |
-//! | connection confirm, CC | `D0` | echoes the parameters of the CR in the order `C0 C1 C2`, so a usual client gets 22 bytes |
+//! | connection confirm, CC | `D0` | repeats the parameters of the CR in the order `C0 C1 C2`, so most clients get 22 bytes |
 //! | data, DT | `F0` | a piece of an S7 PDU; the last piece has the end-of-TSDU mark (EOT) |
 //! | disconnect request, DR, and confirm, DC | `80`, `C0` | ends the connection |
 //!
-//! The number of a TPDU is always 0 in class 0. A request for another class is answered with class 0.
+//! The TPDU number is always 0 in class 0. A request for another class is answered with class 0.
 
-/// What follows the length indicator of a DT: its code, and number 0 with the end mark.
+/// The bytes after the length indicator of a DT: its code, and number 0 with the end mark.
 pub const DATA_LAST: [u8; 3] = [2, 0xF0, 0x80];
 /// The same without the end mark.
 pub const DATA_MORE: [u8; 3] = [2, 0xF0, 0x00];
-/// Disconnect confirm is answered to a disconnect request.
+/// The answer to a disconnect request.
 const DISCONNECT_CONFIRM: u8 = 0xC0;
 const DISCONNECT_REQUEST: u8 = 0x80;
 const CONNECTION_CONFIRM: u8 = 0xD0;
@@ -43,27 +43,27 @@ pub enum Tpdu<'a> {
         /// Source reference.
         source: [u8; 2],
     },
-    /// Another TPDU that class 0 does not know.
+    /// Another TPDU, which class 0 does not use.
     Other(u8),
     /// Its length does not fit.
     Malformed,
 }
 
-/// What a client asks for when it connects.
+/// The request of a client that connects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ConnectionRequest<'a> {
     /// The client's reference.
     pub source: [u8; 2],
-    /// Binary logarithm of the largest TPDU in bytes; none is no limit.
+    /// Binary logarithm of the largest TPDU in bytes; `None` is no limit.
     pub size: Option<u8>,
-    /// Who calls: `01 00` of most clients.
+    /// The calling TSAP: `01 00` for most clients.
     pub calling: Option<&'a [u8]>,
-    /// Who is called: kind of connection, and rack and slot, `01 02`.
+    /// The called TSAP: connection type, and rack and slot, for example `01 02`.
     pub called: Option<&'a [u8]>,
 }
 
 impl<'a> Tpdu<'a> {
-    /// Reads the content of a TPKT.
+    /// Parses the content of a TPKT.
     #[must_use]
     pub fn parse(content: &'a [u8]) -> Self {
         let Some((&indicator, rest)) = content.split_first() else {
@@ -93,7 +93,7 @@ fn connection_request(source: [u8; 2], mut parameters: &[u8]) -> Option<Connecti
             (SIZE, [size]) => request.size = Some(*size),
             (CALLING_TSAP, tsap) => request.calling = Some(tsap),
             (CALLED_TSAP, tsap) => request.called = Some(tsap),
-            _ => {} // checksums, priorities and the like mean nothing in class 0
+            _ => {} // checksums, priorities and similar parameters have no meaning in class 0
         }
         parameters = rest;
     }
@@ -101,25 +101,25 @@ fn connection_request(source: [u8; 2], mut parameters: &[u8]) -> Option<Connecti
 }
 
 impl ConnectionRequest<'_> {
-    /// The size in the answer: what was asked for as far as class 0 has it.
+    /// The size in the answer: the requested size within the limits of class 0.
     #[must_use]
     pub fn agreed_size(&self) -> Option<u8> {
         self.size.map(|size| size.clamp(*SIZES.start(), *SIZES.end()))
     }
 
-    /// How many bytes of an S7 PDU fit into one DT.
+    /// The number of bytes of an S7 PDU that fit into one DT.
     #[must_use]
     pub fn piece(&self) -> usize {
-        // RFC 1006: without a parameter a TPDU may fill the packet; nothing of ours comes near 8192 bytes.
+        // RFC 1006: without the parameter a TPDU may fill the packet. PDUs of this server are much shorter than 8192 bytes.
         (1 << self.agreed_size().unwrap_or(*SIZES.end())) - DATA_LAST.len()
     }
 
-    /// Appends the packet of the connection confirm; `reference` is ours and not 0.
+    /// Appends the packet of the connection confirm; `reference` is the server's, not 0.
     pub fn confirm(&self, reference: u16, out: &mut Vec<u8>) {
         let [high, low] = reference.to_be_bytes();
         let [a, b] = self.source;
         let mut header = arrayvec::ArrayVec::<u8, 255>::new();
-        // The indicator is at most that of the request, whose parameters these are.
+        // The length indicator is at most that of the request, because the parameters are the same.
         header.extend([0, CONNECTION_CONFIRM, a, b, high, low, 0]);
         self.put_parameters(self.agreed_size(), &mut header);
         super::tpkt::put(out, [&header, &[]]);
@@ -141,19 +141,19 @@ impl ConnectionRequest<'_> {
     }
 }
 
-/// What a server agrees to.
+/// The answer of a server to a connection request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ConnectionConfirm {
-    /// The client's reference, as it came.
+    /// The client's reference, repeated.
     pub destination: [u8; 2],
     /// The server's reference.
     pub source: [u8; 2],
-    /// Binary logarithm of the largest TPDU in bytes; none is no limit.
+    /// Binary logarithm of the largest TPDU in bytes; `None` is no limit.
     pub size: Option<u8>,
 }
 
 impl ConnectionConfirm {
-    /// Reads the content of a TPKT; nothing if it is something else.
+    /// Parses the content of a TPKT; `None` if it is another TPDU.
     #[must_use]
     pub fn parse(content: &[u8]) -> Option<Self> {
         let (&indicator, rest) = content.split_first()?;
@@ -166,7 +166,8 @@ impl ConnectionConfirm {
         }
     }
 
-    /// How many bytes of an S7 PDU fit into one DT to the server, which may agree to less than what was asked for and not to more.
+    /// The number of bytes of an S7 PDU that fit into one DT to the server. The server may agree to a smaller size than requested, but not
+    /// to a larger one.
     #[must_use]
     pub fn piece(&self, asked: u8) -> usize {
         let size = self.size.unwrap_or(asked).min(asked);
@@ -175,7 +176,7 @@ impl ConnectionConfirm {
 }
 
 impl ConnectionRequest<'_> {
-    /// Appends the packet of the request, class 0, its parameters in the order `C0 C1 C2`.
+    /// Appends the packet of the request: class 0, parameters in the order `C0 C1 C2`.
     pub fn put(&self, out: &mut Vec<u8>) {
         let [a, b] = self.source;
         let mut header = arrayvec::ArrayVec::<u8, 255>::new();
@@ -185,7 +186,7 @@ impl ConnectionRequest<'_> {
     }
 }
 
-/// Reason of a disconnect request: nobody has the called TSAP.
+/// Reason of a disconnect request: the called TSAP does not exist.
 pub const UNKNOWN_ADDRESS: u8 = 3;
 
 /// Appends the refusal of a connection request: a disconnect request with a reason.

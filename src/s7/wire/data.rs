@@ -1,7 +1,6 @@
-//! Data items: return code, transport size, length, and the value; items of an odd length are followed by a fill byte,
-//! unless they are the last.
+//! Data items: return code, transport size, length and value. An item of odd length is followed by a fill byte, unless it is the last.
 
-/// What an element of an item is.
+/// The type of an element of an item.
 ///
 /// | type | code | bytes | answered as | length counts |
 /// |---|---|---|---|---|
@@ -21,13 +20,13 @@ pub enum Type {
     Char,
     /// Two bytes.
     Word,
-    /// A whole number of two bytes.
+    /// A signed two-byte integer.
     Int,
     /// Four bytes.
     DoubleWord,
-    /// A whole number of four bytes.
+    /// A signed four-byte integer.
     DoubleInt,
-    /// A floating point number of four bytes.
+    /// A four-byte floating-point number.
     Real,
     /// Days since 1990.
     Date,
@@ -80,7 +79,7 @@ impl Type {
         }
     }
 
-    /// How its value is answered.
+    /// The transport size of its answer.
     #[must_use]
     pub const fn answered_as(self) -> TransportSize {
         match self {
@@ -101,7 +100,7 @@ impl Type {
     }
 }
 
-/// How the length of a value is counted.
+/// The unit in which the length of a value is counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TransportSize(pub u8);
 
@@ -112,11 +111,11 @@ impl TransportSize {
     pub const BIT: Self = Self(3);
     /// Bytes and words, length in bits.
     pub const BYTES: Self = Self(4);
-    /// Whole numbers, length in bits.
+    /// Integers, length in bits.
     pub const INTEGER: Self = Self(5);
-    /// Floating point numbers, length in bytes.
+    /// Floating-point numbers, length in bytes.
     pub const REAL: Self = Self(7);
-    /// A string of octets, length in bytes.
+    /// Octet string, length in bytes.
     pub const OCTETS: Self = Self(9);
 
     /// The bytes of a length field.
@@ -128,7 +127,7 @@ impl TransportSize {
         }
     }
 
-    /// The length field of so many bytes.
+    /// The length field for this many bytes.
     #[must_use]
     pub fn field(self, bytes: usize) -> u16 {
         let length = match self {
@@ -140,13 +139,13 @@ impl TransportSize {
     }
 }
 
-/// Everything is well.
+/// Success.
 pub const SUCCESS: u8 = 0xFF;
 
-/// Why one item is refused; the others are not affected.
+/// The reason why an item is refused; other items are not affected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// `03`: access to the object is not allowed; it is not writable.
+    /// `03`: access to the object is not allowed, for example it is read-only.
     NotAllowed,
     /// `05`: the address is out of range.
     OutOfRange,
@@ -172,7 +171,7 @@ impl Refusal {
     }
 }
 
-/// The values of a write request, one for each item.
+/// The values of a write request, one per item.
 #[derive(Clone, Copy, Debug)]
 pub struct Values<'a> {
     rest: &'a [u8],
@@ -181,8 +180,8 @@ pub struct Values<'a> {
 }
 
 impl<'a> Values<'a> {
-    /// So many values, which must end with the data part. Some clients leave the fill bytes out; that is understood where the
-    /// lengths add up without them and not with them.
+    /// `count` values, which must end with the data part. Some clients omit the fill bytes; this is accepted if the lengths match only
+    /// without them.
     #[must_use]
     pub fn new(data: &'a [u8], count: usize) -> Option<Self> {
         let fits = |filled| {

@@ -1,7 +1,7 @@
-//! DATE_AND_TIME of SIMATIC: year, month, day, hour, minute and second in BCD, three digits of milliseconds, and the day
-//! of the week, Sunday as 1.
+//! DATE_AND_TIME of SIMATIC: year, month, day, hour, minute and second in BCD, three digits of milliseconds, and the
+//! day of the week, Sunday as 1.
 
-/// A point in time on a calendar, from 1990 to 2089.
+/// A calendar date and time, from 1990 to 2089.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct DateAndTime {
     /// 1990 to 2089.
@@ -21,7 +21,7 @@ pub struct DateAndTime {
 }
 
 impl DateAndTime {
-    /// The first one.
+    /// The earliest value.
     pub const FIRST: Self = Self { year: 1990, month: 1, day: 1, hour: 0, minute: 0, second: 0, millisecond: 0 };
 
     /// Its eight bytes.
@@ -35,7 +35,7 @@ impl DateAndTime {
         [a, b, c, d, e, f, g, last]
     }
 
-    /// Reads eight bytes; the day of the week is not looked at.
+    /// Parses eight bytes; the day of the week is ignored.
     #[must_use]
     pub fn parse(bytes: &[u8]) -> Option<Self> {
         let [year, month, day, hour, minute, second, hundreds, last] = *<&[u8; 8]>::try_from(bytes).ok()?;
@@ -74,20 +74,20 @@ impl DateAndTime {
         years + months + u32::from(self.day.saturating_sub(1))
     }
 
-    /// Milliseconds since the first one.
+    /// Milliseconds since the earliest value.
     #[must_use]
     pub fn milliseconds(&self) -> u64 {
         let seconds = u64::from(self.hour) * 3600 + u64::from(self.minute) * 60 + u64::from(self.second);
         u64::from(self.days()) * DAY + seconds * 1000 + u64::from(self.millisecond)
     }
 
-    /// So many milliseconds earlier, from 1990 on.
+    /// The time this many milliseconds earlier, but not before 1990.
     #[must_use]
     pub fn earlier(self, milliseconds: u64) -> Self {
         Self::FIRST.later(self.milliseconds().saturating_sub(milliseconds))
     }
 
-    /// So many milliseconds later. The two digits of a year say 1990 behind 2089, so that is what follows.
+    /// The time this many milliseconds later. 1990 follows 2089, because a year has only two digits.
     #[must_use]
     pub fn later(self, milliseconds: u64) -> Self {
         let total = self.milliseconds().saturating_add(milliseconds);
@@ -126,7 +126,7 @@ const FOUR_YEARS: u64 = 4 * 365 + 1;
 const CENTURY: u64 = 25 * FOUR_YEARS;
 
 fn is_leap(year: u16) -> bool {
-    year.is_multiple_of(4) // 2000 is one; 2100 is beyond the end
+    year.is_multiple_of(4) // 2000 is a leap year; 2100 is out of range
 }
 
 fn days_of(year: u16, month: u8) -> u8 {
@@ -151,7 +151,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn behind_2089_comes_1990() {
+    fn after_2089_comes_1990() {
         let last = DateAndTime { year: 2089, month: 12, day: 31, hour: 23, minute: 59, second: 59, millisecond: 999 };
         assert_eq!(last.bytes(), [0x89, 0x12, 0x31, 0x23, 0x59, 0x59, 0x99, 0x97]); // a Saturday
         assert_eq!(last.later(1), DateAndTime::FIRST);

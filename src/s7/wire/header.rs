@@ -1,5 +1,5 @@
 //! The header of an S7 PDU: `32`, its kind, a reference that the answer repeats, and the lengths of its two parts,
-//! parameter and data. An acknowledgement carries two more bytes: class and code of an error.
+//! parameter and data. An acknowledgement has two more bytes: error class and error code.
 
 use zerocopy::byteorder::big_endian::U16;
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
@@ -11,11 +11,11 @@ pub const PROTOCOL: u8 = 0x32;
 pub mod kind {
     /// A request.
     pub const JOB: u8 = 1;
-    /// An acknowledgement without data; here every refusal of a job.
+    /// An acknowledgement without data; here used for every refusal of a job.
     pub const ACK: u8 = 2;
     /// An acknowledgement with data.
     pub const ACK_DATA: u8 = 3;
-    /// Everything that is no variable and no job.
+    /// All services except variables and jobs.
     pub const USER_DATA: u8 = 7;
 }
 
@@ -39,7 +39,7 @@ pub mod function {
     pub const UPLOAD: u8 = 0x1E;
     /// End upload.
     pub const END_UPLOAD: u8 = 0x1F;
-    /// Program invocation: start, and services by name.
+    /// Program invocation: start, and named services.
     pub const START: u8 = 0x28;
     /// PLC stop.
     pub const STOP: u8 = 0x29;
@@ -63,7 +63,7 @@ pub struct Header {
     pub data_length: U16,
 }
 
-/// Class and code of an error, as one number.
+/// Error class and error code, as one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ErrorCode(pub u16);
 
@@ -74,11 +74,11 @@ impl ErrorCode {
     pub const NOT_IMPLEMENTED: Self = Self(0x8104);
     /// No further upload at the same time.
     pub const NO_FURTHER_UPLOAD: Self = Self(0x8304);
-    /// Invalid sequence of services: an upload that nobody started, or of which nothing is left.
+    /// Invalid sequence of services: an upload that was not started, or that has no data left.
     pub const WRONG_SEQUENCE: Self = Self(0x8401);
     /// The function cannot be performed now.
     pub const CANNOT_BE_PERFORMED: Self = Self(0x8404);
-    /// Wrong frame: lengths that do not fit, or an answer that would be longer than the negotiated PDU.
+    /// Wrong frame: lengths that do not match, or an answer that would be longer than the negotiated PDU.
     pub const WRONG_FRAME: Self = Self(0x8500);
     /// Syntax error in the name of a block.
     pub const BLOCK_NAME: Self = Self(0xD201);
@@ -94,7 +94,7 @@ impl ErrorCode {
     pub const WRONG_LIST: Self = Self(0xD401);
     /// No such index of the list.
     pub const WRONG_INDEX: Self = Self(0xD402);
-    /// Too many are logged on.
+    /// Too many logged-on clients.
     pub const TOO_MANY: Self = Self(0xD404);
     /// The service is not supported, or its parameters have a wrong syntax.
     pub const NOT_SUPPORTED: Self = Self(0xD405);
@@ -106,40 +106,40 @@ impl ErrorCode {
     pub const WRONG_TIME: Self = Self(0xDC01);
 }
 
-/// A PDU as it was received.
+/// A received PDU.
 #[derive(Clone, Copy, Debug)]
 pub struct Message<'a> {
     /// [`kind`].
     pub kind: u8,
     /// The client's number for its request.
     pub reference: u16,
-    /// What an acknowledgement says of the whole request; of other kinds no error.
+    /// The error of the whole request in an acknowledgement; no error in other kinds.
     pub error: ErrorCode,
-    /// What is to be done.
+    /// The parameter part.
     pub parameter: &'a [u8],
-    /// With what.
+    /// The data part.
     pub data: &'a [u8],
 }
 
-/// Why a PDU cannot be read.
+/// The reason why a PDU cannot be parsed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unreadable {
-    /// It is none of this protocol; there is not even a reference to answer to.
+    /// Another protocol; there is no reference for an answer.
     Foreign,
-    /// Its lengths do not fit its bytes.
+    /// Its lengths do not match its bytes.
     Lengths {
-        /// The reference to answer to.
+        /// The reference for the answer.
         reference: u16,
-        /// The kind that it says to be.
+        /// The kind in its header.
         kind: u8,
     },
 }
 
 impl<'a> Message<'a> {
-    /// Reads a PDU; bytes behind its declared end are left alone.
+    /// Parses a PDU; bytes after its declared end are ignored.
     ///
     /// # Errors
-    /// It is no S7 PDU, or it ends before its declared end.
+    /// It is not an S7 PDU, or it ends before its declared end.
     pub fn parse(pdu: &'a [u8]) -> Result<Self, Unreadable> {
         let Ok((header, rest)) = Header::ref_from_prefix(pdu) else {
             return Err(Unreadable::Foreign);

@@ -1,12 +1,12 @@
-//! Items: what a client means. Each begins with `12`, the length of the rest and a syntax identifier, and items of an odd
-//! length are followed by a fill byte.
+//! Items: the addresses in a request. Each begins with `12`, the length of the rest and a syntax identifier. An item of odd length is
+//! followed by a fill byte.
 //!
-//! | syntax | here |
+//! | syntax | support |
 //! |---|---|
 //! | `10` any-type: area, byte and bit, type, count | served |
 //! | `82` `83` `84` NCK variable, in the current unit, metric, in inches | served |
 //! | `A2` parameter of a drive object | served |
-//! | `B0` areas of data blocks, `B2` symbolic | told apart, each refused by itself |
+//! | `B0` areas of data blocks, `B2` symbolic | recognised, each refused separately |
 
 use zerocopy::byteorder::big_endian::U16;
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
@@ -28,39 +28,39 @@ struct AnyBytes {
     address: [u8; 3],
 }
 
-/// An item of syntax `10`, as far as its codes are known.
+/// An item of syntax `10` with known codes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AnyItem {
-    /// What each element is.
+    /// The type of each element.
     pub kind: Type,
-    /// How many elements.
+    /// The number of elements.
     pub count: u16,
-    /// Where.
+    /// The area.
     pub area: Area,
-    /// The first byte; for timers and counters two bytes each.
+    /// The first byte; timers and counters have two bytes each.
     pub byte: u32,
     /// The bit in the byte; 0 unless the type is a bit.
     pub bit: u8,
 }
 
 impl AnyItem {
-    /// How many bytes its value has.
+    /// The number of bytes of its value.
     #[must_use]
     pub fn length(&self) -> usize {
         usize::from(self.count) * self.kind.bytes()
     }
 
-    /// How many bytes of memory it touches.
+    /// The number of bytes of memory that it covers.
     #[must_use]
     pub fn span(&self) -> u32 {
         u32::try_from(self.length()).unwrap_or(u32::MAX)
     }
 }
 
-/// The unit in which an NCK variable is wanted.
+/// The requested unit of an NCK variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeasuringSystem {
-    /// As the control shows it.
+    /// As displayed by the control.
     Current,
     /// Millimetres.
     Metric,
@@ -71,19 +71,19 @@ pub enum MeasuringSystem {
 /// An item of syntax `82`, `83`, `84`: NCK variables by area, module, column and line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NckItem {
-    /// The unit wanted.
+    /// The requested unit.
     pub system: MeasuringSystem,
     /// 0 NCK, 1 mode group, 2 channel, 3 axis, 4 tool, 5 feed drive, 6 main drive, 7 MMC.
     pub area: u8,
-    /// Which of them, from 1.
+    /// The number of the channel, axis or other unit, from 1.
     pub unit: u8,
-    /// The variable in its module; the number of a machine datum.
+    /// The column in its module; the number of a machine datum.
     pub column: u16,
     /// The first row, from 1: axis, alarm, index of an array.
     pub line: u16,
-    /// The block type, `74` machine axes.
+    /// The block type, for example `74` machine axes.
     pub module: u8,
-    /// How many rows.
+    /// The number of rows.
     pub count: u8,
 }
 
@@ -91,7 +91,7 @@ pub struct NckItem {
 const DRIVE_AREAS: [u8; 2] = [5, 6];
 
 impl NckItem {
-    /// Whether it is a value of a drive.
+    /// Whether it is a drive value.
     #[must_use]
     pub fn is_of_drive(&self) -> bool {
         DRIVE_AREAS.contains(&self.area)
@@ -101,9 +101,9 @@ impl NckItem {
 /// An item of syntax `A2`: a parameter of a drive object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DriveItem {
-    /// What each element is, as in syntax `10`.
+    /// The type of each element, as in syntax `10`.
     pub kind: u8,
-    /// How many elements.
+    /// The number of elements.
     pub count: u16,
     /// The drive object.
     pub object: u16,
@@ -122,7 +122,7 @@ pub enum Item {
     Nck(NckItem),
     /// Syntax `A2`.
     Drive(DriveItem),
-    /// An item that cannot be served, and why.
+    /// An item that cannot be served, and the reason.
     Refused(Refusal),
 }
 
@@ -134,14 +134,14 @@ pub struct Items<'a> {
 }
 
 impl<'a> Items<'a> {
-    /// So many items.
+    /// The first `count` items.
     #[must_use]
     pub fn new(bytes: &'a [u8], count: usize) -> Self {
         Self { rest: bytes, left: count }
     }
 }
 
-/// The bytes end before the last item does.
+/// The bytes end before the last item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Truncated;
 
@@ -194,7 +194,7 @@ fn item(specification: u8, body: &[u8]) -> Item {
             parameter: u16::from_be_bytes([*p1, *p0]),
             index: u16::from_be_bytes([*i1, *i0]),
         }),
-        // Symbols are objects that this module does not have; the others a type it does not know.
+        // Symbols are objects that this module does not have; other syntaxes are unsupported types.
         [0xA2 | 0xB2, ..] => Item::Refused(Refusal::DoesNotExist),
         _ => Item::Refused(Refusal::TypeNotSupported),
     }
@@ -220,8 +220,8 @@ fn any(rest: &[u8]) -> Item {
     };
     let is_timer = matches!(kind, Type::Timer | Type::Counter);
     if is_numbered {
-        // The address is a number of two bytes each; clients send a plain word as well as the type of the area. Who sends another
-        // type of two bytes counts in other units, and would get another timer without a word.
+        // The address is a number of two-byte elements. Clients send WORD as well as the type of the area. Another two-byte type counts in
+        // other units: it is refused, because it would silently read another timer.
         let own = if area == Area::Timers { [Type::Timer, Type::S5Time] } else { [Type::Counter; 2] };
         if !matches!(kind, Type::Word | Type::Int) && !own.contains(&kind) {
             return Item::Refused(Refusal::TypeInconsistent);

@@ -1,15 +1,14 @@
-//! Answers being built: an S7 PDU with a budget, and its way into packets.
+//! Builds answers: an S7 PDU with a budget, and its packets.
 //!
-//! A PDU never grows beyond its budget, the negotiated length: what does not fit is not taken, and [`Pdu::finish`] sends
-//! a refusal in its place. An answer is one piece of bytes for one write to the socket, even where the agreed TPDU is so small
-//! that it becomes several packets.
+//! A PDU never exceeds its budget, the negotiated length: bytes that do not fit are not appended, and [`Pdu::finish`] then sends a refusal.
+//! An answer is one sequence of bytes for one write to the socket, even if the agreed TPDU is so small that it needs several packets.
 
 use zerocopy::IntoBytes;
 
 use super::header::{ErrorCode, Header, PROTOCOL, kind};
 use super::{cotp, tpkt};
 
-/// Answers, one after another; each is written at once.
+/// Answers in order; each is written to the socket in one write.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Answers {
     bytes: Vec<u8>,
@@ -23,12 +22,12 @@ impl Answers {
         &self.bytes
     }
 
-    /// One answer after another.
+    /// The answers in order.
     pub fn iter(&self) -> impl Iterator<Item = &[u8]> {
         self.since(0)
     }
 
-    /// Those behind the first `known`.
+    /// The answers after the first `known`.
     pub fn since(&self, known: usize) -> impl Iterator<Item = &[u8]> {
         let known = known.min(self.ends.len());
         let start = known.checked_sub(1).map_or(0, |last| self.ends[last]);
@@ -36,41 +35,41 @@ impl Answers {
         starts.zip(&self.ends[known..]).map(|(start, end)| &self.bytes[start..*end])
     }
 
-    /// How many there are.
+    /// The number of answers.
     #[must_use]
     pub fn count(&self) -> usize {
         self.ends.len()
     }
 
-    /// Whether nothing is to be sent.
+    /// Whether there is nothing to send.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
 
-    /// Forgets what was sent and keeps the space.
+    /// Removes the answers and keeps the buffer.
     pub fn clear(&mut self) {
         self.bytes.clear();
         self.ends.clear();
     }
 
-    /// Appends one answer of transport: connection or disconnect confirm.
+    /// Appends a transport answer: connection confirm or disconnect confirm.
     pub fn transport(&mut self, put: impl FnOnce(&mut Vec<u8>)) {
         put(&mut self.bytes);
         self.ends.push(self.bytes.len());
     }
 }
 
-/// How far an answer may go.
+/// The maximum size of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
     /// Bytes of an S7 PDU, as negotiated.
     pub pdu: usize,
-    /// Bytes of an S7 PDU in one packet, as the size of a TPDU says.
+    /// Bytes of an S7 PDU in one packet, according to the TPDU size.
     pub piece: usize,
 }
 
-/// The longest PDU that is built, whatever the budget says.
+/// The longest PDU that is built, whatever the budget is.
 const LONGEST: usize = 4096;
 
 /// Packet and TPDU headers before the PDU.
@@ -80,13 +79,13 @@ const TRANSPORT: usize = tpkt::HEADER + cotp::DATA_LAST.len();
 #[derive(Debug)]
 pub struct Pdu<'a> {
     answers: &'a mut Answers,
-    /// Where its packet begins.
+    /// Offset of its packet.
     start: usize,
     budget: Budget,
     kind: u8,
     reference: u16,
     error: ErrorCode,
-    /// Where the data part begins, once it has.
+    /// Offset of the data part, once it has begun.
     data: Option<usize>,
     full: bool,
 }
@@ -102,7 +101,7 @@ impl<'a> Pdu<'a> {
         Self::begin(answers, kind::USER_DATA, reference, budget)
     }
 
-    /// Begins a request, as a client does.
+    /// Begins a request of a client.
     pub fn job(answers: &'a mut Answers, reference: u16, budget: Budget) -> Self {
         Self::begin(answers, kind::JOB, reference, budget)
     }
@@ -114,33 +113,33 @@ impl<'a> Pdu<'a> {
         Self { answers, start, budget, kind, reference, error, data: None, full: false }
     }
 
-    /// The refusal of a job: an acknowledgement with an error and nothing else.
+    /// The refusal of a job: an acknowledgement with an error and no data.
     pub fn refuse(answers: &'a mut Answers, reference: u16, budget: Budget, error: ErrorCode) {
         let mut pdu = Self::begin(answers, kind::ACK, reference, budget);
         pdu.error = error;
         pdu.finish();
     }
 
-    /// How many bytes it has.
+    /// Its length in bytes.
     #[must_use]
     pub fn length(&self) -> usize {
         self.answers.bytes.len() - self.start - TRANSPORT
     }
 
-    /// How many more fit.
+    /// The number of bytes that still fit.
     #[must_use]
     pub fn room(&self) -> usize {
         self.budget.pdu.min(LONGEST).saturating_sub(self.length())
     }
 
-    /// Appends bytes to the current part; nothing if they do not fit.
+    /// Appends bytes to the current part; appends nothing if they do not fit.
     pub fn put(&mut self, bytes: &[u8]) {
         if let Some(space) = self.space(bytes.len()) {
             space.copy_from_slice(bytes);
         }
     }
 
-    /// Appends zeros to the current part, to be filled in; none if they do not fit.
+    /// Appends zeros to the current part, to be filled in; `None` if they do not fit.
     pub fn space(&mut self, length: usize) -> Option<&mut [u8]> {
         if self.full || length > self.room() {
             self.full = true;
@@ -151,42 +150,42 @@ impl<'a> Pdu<'a> {
         self.answers.bytes.get_mut(at..)
     }
 
-    /// Ends the parameter part; what follows is data.
+    /// Ends the parameter part; the data part follows.
     pub fn data(&mut self) {
         self.data = Some(self.answers.bytes.len());
     }
 
-    /// The bytes of the data part so far.
+    /// The length of the data part so far.
     #[must_use]
     pub fn data_length(&self) -> usize {
         self.data.map_or(0, |start| self.answers.bytes.len() - start)
     }
 
-    /// The data part, to be looked at or patched.
+    /// The data part, for reading or patching.
     pub fn data_mut(&mut self) -> &mut [u8] {
         let end = self.answers.bytes.len();
         &mut self.answers.bytes[self.data.unwrap_or(end)..]
     }
 
-    /// Takes back what was appended to the data part behind its first `length` bytes.
+    /// Removes everything after the first `length` bytes of the data part.
     pub fn truncate_data(&mut self, length: usize) {
         if let Some(start) = self.data {
             self.answers.bytes.truncate(start + length);
         }
     }
 
-    /// Takes all of it back, as if nothing was to be said.
+    /// Removes the whole PDU; nothing is sent.
     pub fn discard(self) {
         self.answers.bytes.truncate(self.start);
     }
 
-    /// Whether something did not fit.
+    /// Whether some bytes did not fit.
     #[must_use]
     pub fn is_full(&self) -> bool {
         self.full
     }
 
-    /// Closes it: an answer that did not fit becomes the refusal "wrong frame".
+    /// Closes the PDU. An answer that did not fit becomes the refusal "wrong frame".
     pub fn finish(self) {
         let Self { answers, start, budget, kind, reference, error, data, full } = self;
         if full {
@@ -196,7 +195,7 @@ impl<'a> Pdu<'a> {
         let end = answers.bytes.len();
         let parameter = start + TRANSPORT + header_length(kind);
         let data = data.unwrap_or(end);
-        let length = |bytes: usize| u16::try_from(bytes).unwrap_or(u16::MAX).into(); // it has at most LONGEST
+        let length = |bytes: usize| u16::try_from(bytes).unwrap_or(u16::MAX).into(); // at most LONGEST
         let header = Header {
             protocol: PROTOCOL,
             kind,

@@ -1,20 +1,20 @@
-//! What a client is answered: total views of acknowledgements, data items and user data. Whatever came gives a value or nothing,
-//! and nothing is read beyond the bytes that came.
+//! The answers to a client: total views of acknowledgements, data items and user data. Any input gives a value or `None`, and nothing is
+//! read beyond the received bytes.
 
 use super::data::{SUCCESS, TransportSize};
 use super::header::{ErrorCode, function};
 
-/// What was agreed on.
+/// The result of setup communication.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setup {
-    /// How many requests may be on their way at once.
+    /// Maximum number of parallel requests.
     pub jobs: u16,
     /// Bytes of a PDU.
     pub pdu: u16,
 }
 
 impl Setup {
-    /// Reads the parameter part of the answer.
+    /// Parses the parameter part of the answer.
     #[must_use]
     pub fn parse(parameter: &[u8]) -> Option<Self> {
         let &[function::SETUP, _, j1, j0, _, _, p1, p0] = parameter else {
@@ -24,7 +24,7 @@ impl Setup {
     }
 }
 
-/// The data items of an answer to a read request, in order: return code, and the value where there is one.
+/// The data items of an answer to a read request, in order: return code, and the value if there is one.
 #[derive(Clone, Copy, Debug)]
 pub struct DataItems<'a> {
     rest: &'a [u8],
@@ -42,28 +42,28 @@ impl<'a> Iterator for DataItems<'a> {
     /// The value, or the return code of a refusal.
     type Item = Result<&'a [u8], u8>;
 
-    /// Ends where the next item is not whole.
+    /// Ends at the first incomplete item.
     fn next(&mut self) -> Option<Self::Item> {
         let [code, size, high, low, rest @ ..] = self.rest else {
             return None;
         };
         if *code != SUCCESS {
-            // A refusal has no value, whatever its length field says; one server says 4 there.
+            // A refusal has no value, whatever its length field is; one server sends length 4.
             self.rest = rest;
             return Some(Err(*code));
         }
         let length = TransportSize(*size).bytes(u16::from_be_bytes([*high, *low]));
         let (value, rest) = rest.split_at_checked(length)?;
-        // A fill byte follows an odd value, unless it is the last.
+        // A fill byte follows a value of odd length, unless it is the last.
         self.rest = if length % 2 == 1 { rest.get(1..).unwrap_or(&[]) } else { rest };
         Some(Ok(value))
     }
 }
 
-/// A user data PDU of a module: an answer, or something that it sends by itself.
+/// A user data PDU of a module: an answer or a push.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UserData<'a> {
-    /// Whether nobody asked for it.
+    /// Whether it is a push.
     pub is_push: bool,
     /// Group of functions.
     pub group: u8,
@@ -75,16 +75,16 @@ pub struct UserData<'a> {
     pub unit: u8,
     /// Whether more parts follow.
     pub more: bool,
-    /// What went wrong.
+    /// The error code.
     pub error: ErrorCode,
     /// Return code of the data item.
     pub code: u8,
-    /// What it holds.
+    /// The payload.
     pub payload: &'a [u8],
 }
 
 impl<'a> UserData<'a> {
-    /// Reads parameter and data part.
+    /// Parses parameter and data part.
     #[must_use]
     pub fn parse(parameter: &[u8], data: &'a [u8]) -> Option<Self> {
         let &[0, 1, 0x12, length, 0x12, kind_group, function, sequence, unit, more, e1, e0] = parameter else {
@@ -102,7 +102,7 @@ impl<'a> UserData<'a> {
             [] => (0x0A, &[][..]),
             [code, size, high, low, rest @ ..] => {
                 let length = TransportSize(*size).bytes(u16::from_be_bytes([*high, *low]));
-                // Without success there is no value, whatever the length field says.
+                // Without success there is no value, whatever the length field is.
                 (*code, if *code == SUCCESS { rest.get(..length)? } else { &[] })
             }
             _ => return None,
@@ -113,7 +113,7 @@ impl<'a> UserData<'a> {
     }
 }
 
-/// What an upload has become: its number and how many bytes there will be.
+/// The number of a started upload, and its total length.
 #[must_use]
 pub fn upload_begun(parameter: &[u8]) -> Option<([u8; 4], usize)> {
     let [function::START_UPLOAD, _, _, _, number @ ..] = parameter else {
@@ -125,7 +125,7 @@ pub fn upload_begun(parameter: &[u8]) -> Option<([u8; 4], usize)> {
     Some((*number, digits.parse().ok()?))
 }
 
-/// A piece of an upload, and whether another follows.
+/// A piece of an upload, and whether another one follows.
 #[must_use]
 pub fn upload_piece<'a>(parameter: &[u8], data: &'a [u8]) -> Option<(&'a [u8], bool)> {
     let ([function::UPLOAD, status, ..], [high, low, _, _, piece @ ..]) = (parameter, data) else {
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn refused_items_have_no_value_whatever_their_length_says() {
-        // snap7's server says a length of 4 behind the code of a refusal.
+        // snap7's server sends a length of 4 after the code of a refusal.
         let data = [0x0A, 0, 0, 4, 0xFF, 4, 0, 8, 0x11, 0, 5, 0, 0, 0, 0xFF, 9, 0, 1, 0x22];
         let items: Vec<_> = DataItems::new(&data).collect();
         assert_eq!(items, [Err(0x0A), Ok(&[0x11][..]), Err(5), Ok(&[0x22])]);

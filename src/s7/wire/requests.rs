@@ -1,12 +1,12 @@
-//! What a client asks: the parameter and data parts of its requests. The server's direction of the same formats is in `items`,
-//! `data` and `user_data`; what stands here is its reverse, byte for byte as most clients send it.
+//! The requests of a client: their parameter and data parts. The server's direction of the same formats is in `items`, `data` and
+//! `user_data`; this module is the reverse, byte for byte as most clients send it.
 //!
 //! | request | parameter part | data part |
 //! |---|---|---|
-//! | setup | `F0 00`, jobs each way, length of a PDU | |
+//! | setup | `F0 00`, jobs in each direction, PDU size | |
 //! | read | `04`, count, items | |
 //! | write | `05`, count, items | values |
-//! | start and services by name | `28 00 00 00 00 00 00 FD`, arguments, name | |
+//! | start and named services | `28 00 00 00 00 00 00 FD`, arguments, name | |
 //! | stop | `29 00 00 00 00 00`, name | |
 //! | upload: start, piece, end | `1D` `1E` `1F` | |
 //! | user data | `00 01 12`, group, function, sequence | payload |
@@ -94,7 +94,7 @@ pub fn setup(jobs: u16, pdu: u16) -> [u8; 8] {
     [function::SETUP, 0, j1, j0, j1, j0, p1, p0]
 }
 
-/// Appends one value of a write request. Fill bytes before it are the business of whoever puts several together.
+/// Appends one value of a write request. The caller adds fill bytes between values.
 pub fn put_value(size: TransportSize, bytes: &[u8], out: &mut Vec<u8>) {
     let [high, low] = size.field(bytes.len()).to_be_bytes();
     out.extend_from_slice(&[0, size.0, high, low]);
@@ -114,7 +114,7 @@ pub fn start(arguments: &[u8]) -> Vec<u8> {
     [&[function::START, 0, 0, 0, 0, 0, 0, 0xFD, high, low], arguments, &[9], PROGRAM].concat()
 }
 
-/// The beginning of an upload of a block, from the module to the client: `0A00031A` for DB31 as it works (passive: `P`).
+/// The start of an upload of a block, from the module to the client: `0A00031A` for DB31 in the active file system (passive: `P`).
 #[must_use]
 pub fn start_upload(name: [u8; 8]) -> Vec<u8> {
     [&[function::START_UPLOAD, 0, 0, 0, 0, 0, 0, 0, 9, b'_'], &name[..]].concat()
@@ -139,13 +139,13 @@ pub fn block_name(kind: u8, number: u16) -> [u8; 8] {
     name
 }
 
-/// The parameter part of user data that asks something.
+/// The parameter part of a user data request.
 #[must_use]
 pub fn user_data(group: u8, function: u8) -> [u8; 8] {
     [0, 1, 0x12, 4, 0x11, 0x40 | group, function, 0]
 }
 
-/// The parameter part of user data that asks for the next part of a long answer.
+/// The parameter part of the request for the next part of a long answer.
 #[must_use]
 pub fn next_part(group: u8, function: u8, sequence: u8, unit: u8) -> [u8; 12] {
     [0, 1, 0x12, 8, 0x12, 0x40 | group, function, sequence, unit, 0, 0, 0]
@@ -161,7 +161,8 @@ pub fn payload(bytes: &[u8]) -> Vec<u8> {
     [&[SUCCESS, TransportSize::OCTETS.0, high, low], bytes].concat()
 }
 
-/// Folds a password of eight characters: the first two with `55`, each further one with `55` and the folded one two before.
+/// Encodes a password of eight characters: the first two are XORed with `55`, each further one with `55` and the encoded character two
+/// positions before.
 #[must_use]
 pub fn folded(password: [u8; 8]) -> [u8; 8] {
     let mut folded = password;

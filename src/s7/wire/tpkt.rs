@@ -1,28 +1,28 @@
-//! TPKT (RFC 1006): how packets are told apart in a stream of TCP. `03`, a reserved byte, and the length of the whole packet.
+//! TPKT (RFC 1006): the framing of packets in a TCP stream: `03`, a reserved byte, and the length of the whole packet.
 
-/// Bytes before the packet's content.
+/// Bytes before the content of a packet.
 pub const HEADER: usize = 4;
 
-/// The shortest packet: its header, and a TPDU of COTP with its fixed part.
+/// The shortest packet: its header, and a COTP TPDU with its fixed part.
 const SHORTEST: usize = HEADER + 2;
 
-/// What stands at the beginning of the bytes received.
+/// The beginning of the received bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Packet<'a> {
-    /// A whole packet: its content, and how many bytes it took.
+    /// A complete packet: its content, and its length.
     Whole {
         /// The TPDU.
         content: &'a [u8],
-        /// With the header.
+        /// Including the header.
         length: usize,
     },
-    /// More bytes must come.
+    /// More bytes are needed.
     Incomplete,
-    /// This is no TPKT; the stream cannot be followed any more.
+    /// Not a TPKT; the stream cannot be decoded any further.
     Wrong,
 }
 
-/// Takes the first packet off.
+/// Splits off the first packet.
 #[must_use]
 pub fn split(bytes: &[u8]) -> Packet<'_> {
     match bytes {

@@ -1,12 +1,13 @@
-//! User data: everything that is no variable. Its parameter part says group and function, its data part has one item.
+//! User data: all services except variables and jobs. The parameter part has group and function, the data part has one
+//! item.
 //!
 //! ```text
 //! 00 01 12  04  11  4G FF SS                     request: type 4, group G, function FF, sequence SS
 //! 00 01 12  08  12  4G FF SS  UU LL 00 00        request for the next part of a long answer
 //! 00 01 12  08  12  8G FF SS  UU LL EE EE        answer: data unit UU, LL 0 = last part, error EEEE
-//! 00 01 12  08  12  0G FF SS  UU LL 00 00        push, which nobody acknowledges
+//! 00 01 12  08  12  0G FF SS  UU LL 00 00        push, which is not acknowledged
 //! ```
-//! Some clients leave the type of a request 0; it is taken as 4.
+//! Some clients send type 0 in a request; it is treated as 4.
 
 use super::data::{SUCCESS, TransportSize};
 use super::header::ErrorCode;
@@ -16,7 +17,7 @@ use super::pdu::{Answers, Budget, Pdu};
 pub mod group {
     /// Tests of the programming device.
     pub const PROGRAMMER: u8 = 1;
-    /// Data that the module sends by itself, in cycles or when they change.
+    /// Values that the module sends cyclically or when they change.
     pub const CYCLIC: u8 = 2;
     /// Blocks.
     pub const BLOCKS: u8 = 3;
@@ -32,10 +33,10 @@ pub mod group {
 const PARAMETER: usize = 12;
 const ITEM: usize = 4;
 
-/// How many bytes of payload an answer has room for.
+/// The number of payload bytes that fit into an answer.
 #[must_use]
 pub const fn payload_room(budget: Budget) -> usize {
-    // An even number, so that no word of a list is torn apart.
+    // An even number, so that no word of a list is split.
     budget.pdu.saturating_sub(10 + PARAMETER + ITEM) / 2 * 2
 }
 
@@ -48,24 +49,24 @@ pub struct Request<'a> {
     pub function: u8,
     /// Its number in a sequence of requests.
     pub sequence: u8,
-    /// Whether the next part of a long answer is wanted.
+    /// Whether it requests the next part of a long answer.
     pub goes_on: bool,
-    /// What the data item holds.
+    /// The payload of the data item.
     pub payload: &'a [u8],
 }
 
-/// What a user data PDU is.
+/// The kind of a user data PDU.
 #[derive(Clone, Copy, Debug)]
 pub enum Received<'a> {
     /// A request.
     Request(Request<'a>),
-    /// An answer or a push of the client, to which there is nothing to say.
+    /// An answer or a push of the client; it needs no answer.
     Answer,
-    /// Nothing of that.
+    /// Invalid.
     Malformed,
 }
 
-/// Reads parameter and data part.
+/// Parses parameter and data part.
 #[must_use]
 pub fn parse<'a>(parameter: &'a [u8], data: &'a [u8]) -> Received<'a> {
     let [0, 1, 0x12, length, method, kind_group, function, sequence, rest @ ..] = parameter else {
@@ -94,7 +95,7 @@ pub fn parse<'a>(parameter: &'a [u8], data: &'a [u8]) -> Received<'a> {
     Received::Request(Request { group, function, sequence, goes_on: *method == 0x12, payload })
 }
 
-/// The parameter part of what the module sends.
+/// The parameter part of an answer or a push.
 #[derive(Clone, Copy, Debug)]
 pub struct Head {
     /// [`group`].
@@ -103,16 +104,16 @@ pub struct Head {
     pub function: u8,
     /// Its number in a sequence, or of a job.
     pub sequence: u8,
-    /// The number of the data unit where an answer has several parts.
+    /// The number of the data unit, if an answer has several parts.
     pub unit: u8,
     /// Whether more parts follow.
     pub more: bool,
-    /// What went wrong.
+    /// The error code.
     pub error: ErrorCode,
 }
 
 impl Head {
-    /// The head of an answer to a request.
+    /// The header of an answer to a request.
     #[must_use]
     pub fn answer(request: &Request<'_>, sequence: u8) -> Self {
         let (group, function) = (request.group, request.function);
@@ -147,7 +148,7 @@ impl Head {
         pdu.finish();
     }
 
-    /// Sends an answer that says only that it was done, or that it was not.
+    /// Sends an answer without payload: done, or an error.
     pub fn send_empty(self, answers: &mut Answers, reference: u16, budget: Budget) {
         let mut pdu = self.begin(answers, reference, budget);
         pdu.put(&[0x0A, 0, 0, 0]);
