@@ -125,7 +125,7 @@ mod tests {
             ("DB31.DBB0..400", "148 bytes"),
             ("DB31.DBB9..4", "last byte"),
             ("DB31.DBW4..9", "begin with a byte"),
-            ("M..9", "one of areas"),
+            ("M..9", "range of areas"),
             ("everything", "expected an address"),
         ] {
             let problem = read(wrong).unwrap_err().to_string();

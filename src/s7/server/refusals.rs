@@ -199,7 +199,7 @@ mod tests {
         assert_eq!(found(&[0x32, 2, 0, 0, 0, 1, 0, 0, 0, 0, 0x81, 4]), [(0, Refused::Request(0x8104))]);
         let list = [0x32, 7, 0, 0, 0, 1, 0, 12, 0, 4, 0, 1, 0x12, 8, 0x12, 0x84, 1, 1, 0, 0, 0xD4, 1, 0x0A, 0, 0, 0];
         assert_eq!(found(&list), [(0, Refused::Request(0xD401))]);
-        assert_eq!(Refused::Request(0xD401).meaning(), "there is no such list");
+        assert_eq!(Refused::Request(0xD401).meaning(), "the list does not exist");
     }
 
     #[test]

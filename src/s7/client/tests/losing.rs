@@ -48,7 +48,7 @@ async fn what_was_written_is_never_written_again() {
     let asking = async {
         let error = client.write(&memory, &Value::Byte(1)).await.unwrap_err();
         assert!(matches!(&error, Error::Lost { what, sent: true, .. } if what == "MB1"), "{error:?}");
-        assert!(error.cure().contains("may have been done"));
+        assert!(error.cure().contains("may have been executed"));
         assert_eq!(client.read(&memory).await, Ok(Value::Byte(0)));
     };
     tokio::join!(asking, script);
