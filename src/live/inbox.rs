@@ -173,7 +173,7 @@ mod tests {
 
     /// 1,000 and 24 doubles are the 4,096 bytes of the first step. The next order is for the second step, and the last one for the third.
     #[test]
-    fn an_edge_takes_whole_orders_as_far_as_it_has_time() {
+    fn a_step_takes_whole_orders_up_to_its_limit() {
         let inbox = Inbox::new();
         let steps: Vec<_> = [1000, 24, 1, 1023, 1].into_iter().map(|count| inbox.add(order(count))).collect();
         assert_eq!(steps, [1, 1, 2, 2, 3]);
@@ -186,7 +186,7 @@ mod tests {
 
     /// Each byte that changes takes a row, and each write that the program overwrites takes another one.
     #[test]
-    fn the_record_of_a_step_has_room_for_an_edge() {
+    fn the_record_of_a_step_holds_the_writes_of_one_step() {
         const { assert!(Recorder::ROWS >= 2 * 2 * EDGE) };
     }
 }

@@ -367,7 +367,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_happens_all_the_time_is_said_ever_more_rarely_and_with_how_often() {
+    fn repeated_events_are_logged_at_growing_intervals_with_their_number() {
         let begin = Instant::now();
         let mut said = Said::default();
         let lines: Vec<_> = (0..=700_u64)

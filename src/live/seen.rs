@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_are_shown_for_a_while_after_somebody_has_looked() {
+    fn steps_are_copied_for_a_while_after_a_read() {
         let view = View::new(seen(0));
         assert!(!view.is_looked_at());
         view.look(|| unreachable!("the copy is of the last step"), |_| ());
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_that_was_shown_is_not_copied_again() {
+    fn a_step_is_copied_only_once() {
         let view = View::new(seen(0));
         view.over(1, Some(seen(1)));
         assert_eq!(view.look(|| unreachable!("the copy exists already"), |seen| seen.step), 1);

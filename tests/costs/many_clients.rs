@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use opennck::live::{Live, Speed};
 use opennck::machine::Machine;
-use opennck::s7::live::Window;
+use opennck::s7::live::LiveServer;
 use opennck::s7::server::Limits;
 
 use crate::clients::{CONNECT, bare, packet, setup};
@@ -30,10 +30,10 @@ fn write(reference: u16, value: u8) -> Vec<u8> {
     [&head[..], &[5, 1, 0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 0, 0, 4, 0, 8, value]].concat()
 }
 
-fn served(speed: &str) -> (Live, Window, SocketAddr) {
+fn served(speed: &str) -> (Live, LiveServer, SocketAddr) {
     let speed: Speed = speed.parse().expect("it is one");
     let live = Live::start(Machine::open("g1_example").expect("it is built in"), speed);
-    let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default()).expect("some port is free");
+    let window = LiveServer::open(&live, &["127.0.0.1:0"], false, Limits::default()).expect("some port is free");
     let address = window.addresses()[0];
     (live, window, address)
 }

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use opennck::image::Preset;
 use opennck::live::Live;
 use opennck::machine::{Machine, OpenOptions};
-use opennck::s7::live::Window;
+use opennck::s7::live::LiveServer;
 use opennck::s7::server::Limits;
 use rust7::{S7_AREA_DB, S7Client};
 
@@ -24,7 +24,7 @@ use crate::oracle::{Expected, Listener, packet_length};
 const PROBE: [u8; 18] = [3, 0, 0, 18, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0xBE, 0xEF, 0, 1, 0, 0, 0x77];
 
 #[test]
-fn there_are_more_than_three_hundred_of_them_and_no_two_are_called_alike() {
+fn there_are_more_than_900_conversations_with_different_names() {
     let mut names: Vec<_> = conversations().into_iter().map(|conversation| conversation.name).collect();
     let count = names.len();
     names.sort();
@@ -33,7 +33,7 @@ fn there_are_more_than_three_hundred_of_them_and_no_two_are_called_alike() {
 }
 
 #[test]
-fn a_session_answers_each_or_ends_it() {
+fn a_session_answers_every_conversation_or_ends_it() {
     for conversation in conversations() {
         let mut input = vec![0];
         for act in &conversation.acts {
@@ -73,7 +73,7 @@ fn a_good_client_is_served_after_each() {
 
 /// All of them from sixteen sides at once, and connections on which nobody says anything.
 #[test]
-fn a_good_client_is_served_amid_all_of_them() {
+fn a_good_client_is_served_during_all_conversations() {
     let (live, window) = open();
     let address = window.addresses()[0];
     let all = conversations();
@@ -99,12 +99,12 @@ fn a_good_client_is_served_amid_all_of_them() {
 }
 
 /// A live machine with the image `recipes`, five times as fast as real time, and its server.
-fn open() -> (Live, Window) {
+fn open() -> (Live, LiveServer) {
     let preset = Preset::read(Path::new("plc_images/recipes.toml")).expect("it is there");
     let options = OpenOptions { preset: Some(preset), ..OpenOptions::default() };
     let machine = Machine::open_with("g1_example", options).expect("it is built in");
     let live = Live::start(machine, "5".parse().expect("a speed"));
-    let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default()).expect("some port is free");
+    let window = LiveServer::open(&live, &["127.0.0.1:0"], false, Limits::default()).expect("some port is free");
     (live, window)
 }
 

@@ -31,23 +31,23 @@ fn tell<R>(target: &str, judge: impl Fn(&[u8]) -> R + std::panic::RefUnwindSafe)
 }
 
 #[test]
-fn streams_end_as_they_have_to() {
+fn streams_of_the_corpus_pass() {
     tell("session", conversation::judge);
 }
 
 #[test]
-fn requests_end_as_they_have_to() {
+fn requests_of_the_corpus_pass() {
     tell("requests", |input| conversation::judge(&grammar::stream(input)));
 }
 
 #[test]
-fn a_client_hears_them_to_the_end() {
+fn the_client_corpus_passes() {
     tell("client", client::judge);
 }
 
 /// The answers are understood: their conversations are named for what is asked.
 #[test]
-fn a_client_has_the_values_of_right_answers() {
+fn a_client_gets_the_values_of_valid_answers() {
     for (name, input) in corpus("client") {
         let expected = match name.as_str() {
             "read_memory" | "fragments" => 5, // of six values

@@ -17,7 +17,7 @@ use opennck::live::{Live, Speed};
 use opennck::machine::{Command, DatumValue, Machine, OpenOptions};
 use opennck::plc::{Programs, enable_all, program_for};
 use opennck::s7::client::{Client, Options};
-use opennck::s7::live::Window;
+use opennck::s7::live::LiveServer;
 use opennck::s7::server::Limits;
 use opennck::scenario::Session;
 use opennck::sinumerik::Nck;
@@ -222,7 +222,7 @@ fn its_memory_is_mapped_and_a_plc_beside_it_writes_its_half() {
 #[test]
 fn s7_clients_read_and_write_its_blocks_and_nc_variables_of_another_control_are_refused() {
     let live = Live::start(machine(), Speed::default());
-    let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default()).unwrap();
+    let window = LiveServer::open(&live, &["127.0.0.1:0"], false, Limits::default()).unwrap();
     let mut client = rust7::S7Client::new();
     let address = window.addresses()[0];
     client.set_connection_port(address.port()).unwrap();

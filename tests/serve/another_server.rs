@@ -13,7 +13,7 @@ use std::time::{Duration, SystemTime};
 use opennck::live::{Event, Handle, Live, LiveOptions, Order, Recording, Speed};
 use opennck::machine::{Command, Machine};
 use opennck::plc::Programs;
-use opennck::s7::live::Window;
+use opennck::s7::live::LiveServer;
 use opennck::s7::server::Limits;
 use opennck::scenario::{Heading, Scenario};
 use opennck::trace::Watch;
@@ -140,7 +140,7 @@ impl Client {
 #[test]
 fn a_second_server_reads_writes_and_counts_steps_beside_the_first() {
     let live = Live::start(Machine::open("g1_example").unwrap(), Speed::default());
-    let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default()).unwrap();
+    let window = LiveServer::open(&live, &["127.0.0.1:0"], false, Limits::default()).unwrap();
     let lines = Lines::open(live.handle());
     let mut client = lines.client();
     assert_eq!(client.ask("read M100.3")[1], 0);
@@ -193,7 +193,7 @@ fn a_second_server_stops_the_plc_and_sets_its_clock() {
 }
 
 #[test]
-fn a_server_learns_that_the_machine_has_ended_before_it() {
+fn a_server_detects_that_the_machine_has_ended() {
     let live = Live::start(Machine::open("g1_example").unwrap(), Speed::default());
     let handle = live.handle();
     let lines = Lines::open(live.handle());

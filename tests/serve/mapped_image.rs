@@ -152,7 +152,7 @@ fn hammer(file: &File, answers: u64, start: impl FnOnce()) {
 }
 
 #[test]
-fn nobody_takes_half_a_step_or_half_an_answer() {
+fn no_step_and_no_answer_is_torn() {
     let file = File::new("torn");
     let mut plc = None;
     hammer(&file, 5000, || {

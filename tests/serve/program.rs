@@ -51,7 +51,7 @@ impl Served {
 
 #[test]
 #[cfg(unix)]
-fn it_serves_until_it_is_asked_to_end() {
+fn it_serves_until_it_is_stopped() {
     for signal in ["-INT", "-TERM"] {
         let served = Served::start(&["g1_example", "--plc", "enable_all", "--plc-image", "recipes", "--speed", "2"]);
         assert!(served.head[0].contains("axes X, Y, XF") && served.head[0].contains("enable_all"), "{:?}", served.head);
@@ -65,7 +65,7 @@ fn it_serves_until_it_is_asked_to_end() {
 }
 
 #[test]
-fn a_closed_door_ends_it_with_cause_and_cure() {
+fn an_unusable_argument_ends_it_with_cause_and_remedy() {
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let taken = taken.local_addr().unwrap().to_string();
     let metrics = format!("--metrics={taken}");
@@ -97,7 +97,7 @@ fn a_closed_door_ends_it_with_cause_and_cure() {
 
 #[test]
 #[cfg(unix)]
-fn its_log_says_who_wrote_and_what_was_refused() {
+fn the_log_shows_writes_and_refusals() {
     let served = Served::start(&["g1_example", "--log-writes", "--protect", "MB10..19", "--metrics", "0"]);
     assert!(served.head.iter().any(|line| line.contains("metrics on http://127.0.0.1:")), "{:?}", served.head);
     let mut client = served.client();
@@ -116,7 +116,7 @@ fn its_log_says_who_wrote_and_what_was_refused() {
 
 #[test]
 #[cfg(unix)]
-fn who_lets_everybody_write_is_warned() {
+fn an_open_server_prints_a_warning() {
     let open = ["g1_example", "--s7", "0.0.0.0:0"];
     for (more, is_warned) in [(&[][..], true), (&["--read-only"], false), (&["--allow", "127.0.0.1"], false)] {
         let served = Served::start(&[&open[..], more].concat());
@@ -139,7 +139,7 @@ fn a_password_comes_from_the_environment() {
 /// Whoever looks at the log of a control after `opennck s7` finds nothing that was not asked for.
 #[test]
 #[cfg(unix)]
-fn the_own_client_asks_nothing_that_is_refused() {
+fn the_client_of_this_project_sends_no_request_that_is_refused() {
     let served = Served::start(&["g1_example"]);
     let host = format!("127.0.0.1:{}", served.port);
     let s7 = |command, more: &[&str]| {
@@ -157,7 +157,7 @@ fn the_own_client_asks_nothing_that_is_refused() {
 /// Who called a slot that is not there is not told to have asked for the end.
 #[test]
 #[cfg(unix)]
-fn the_log_tells_a_refused_slot_from_who_sends_something_else() {
+fn the_log_distinguishes_a_refused_slot_from_another_protocol() {
     let served = Served::start(&["g1_example", "--strict-slots"]);
     let call = |bytes: &[u8]| {
         let mut stream = TcpStream::connect(("127.0.0.1", served.port)).unwrap();
@@ -177,7 +177,7 @@ fn the_log_tells_a_refused_slot_from_who_sends_something_else() {
 
 #[test]
 #[cfg(unix)]
-fn it_says_what_it_serves_and_on_which_terms() {
+fn the_banner_shows_the_machine_and_the_terms() {
     let served = Served::start(&["g1_example", "--profile=828d", "--password=abc", "--pdu=480", "--protect=MB0"]);
     let head = served.head.join("\n");
     for said in

@@ -7,13 +7,13 @@ use opennck::image::{Area, Format, Preset, Width};
 use opennck::live::{Live, Speed};
 use opennck::machine::{Machine, OpenOptions};
 use opennck::s7::client::{BlockKind, Client, Error, Memory, Mode, Options, Value, Variable};
-use opennck::s7::live::Window;
+use opennck::s7::live::LiveServer;
 use opennck::s7::server::Limits;
 use opennck::s7::{CpuState, DateAndTime, Restart};
 
 /// A machine that runs, and its window.
 struct Served {
-    window: Option<Window>,
+    window: Option<LiveServer>,
     live: Live,
     address: SocketAddr,
 }
@@ -25,7 +25,7 @@ impl Served {
 
     fn with(machine: Machine) -> Self {
         let live = Live::start(machine, Speed::default());
-        let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default()).expect("some port is free");
+        let window = LiveServer::open(&live, &["127.0.0.1:0"], false, Limits::default()).expect("some port is free");
         let address = window.addresses()[0];
         Self { window: Some(window), live, address }
     }
@@ -38,7 +38,7 @@ impl Served {
     fn restart(&mut self) {
         self.window = None;
         let address = self.address.to_string();
-        let window = Window::open(&self.live, &[&address], false, Limits::default());
+        let window = LiveServer::open(&self.live, &[&address], false, Limits::default());
         self.window = Some(window.expect("the port is free again"));
     }
 }
@@ -104,7 +104,7 @@ async fn any_number_of_items_goes_through_the_shortest_pdu() {
 }
 
 #[tokio::test]
-async fn a_module_tells_what_it_is() {
+async fn a_module_is_identified() {
     let served = Served::start();
     let plc = served.client(Options { pdu: 240, ..Options::default() }).await;
     let all = plc.list(0, 0).await.unwrap();
@@ -181,7 +181,7 @@ async fn variables_of_the_nck_are_read_by_name() {
 
 /// The server ends and comes again: who reads goes on, who subscribed gets values again.
 #[tokio::test]
-async fn a_server_that_comes_again_is_found_again() {
+async fn a_client_reconnects_to_a_restarted_server() {
     let mut served = Served::start();
     let plc = served.client(Options::default()).await;
     plc.write(&variable("MB1"), &Value::Byte(7)).await.unwrap();

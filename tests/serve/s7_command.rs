@@ -78,7 +78,7 @@ fn it_reads_addresses_symbols_and_nc_variables() {
 }
 
 #[test]
-fn what_is_refused_ends_with_1_and_the_others_are_shown() {
+fn a_refusal_ends_with_1_and_the_other_values_are_shown() {
     let served = Served::start();
     let output = served.s7("read", &["DB1000.DBW2", "DB999.DBB0"]);
     let (out, error) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
@@ -114,7 +114,7 @@ fn addresses_have_the_names_and_the_meaning_that_the_control_gives_them() {
 
 /// What is said of a refusal helps with this refusal: where the NCK is, how many rows there are.
 #[test]
-fn a_refused_nc_variable_is_told_what_to_do() {
+fn a_refused_nc_variable_has_a_remedy() {
     let served = Served::start();
     let at_the_plc = &["--nck-tsap", "0100:0102", "nck:C/MachineAxis/actToolBasePos[1]"][..];
     for (arguments, said) in [
@@ -139,7 +139,7 @@ fn a_refused_nc_variable_is_told_what_to_do() {
 }
 
 #[test]
-fn a_wrong_password_ends_with_1_and_says_where_it_came_from() {
+fn a_wrong_password_ends_with_1_and_names_its_sources() {
     let served = Served::with(&["--password", "right"]);
     let output = served.s7("read", &["MB0", "--password", "wrong"]);
     let error = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -203,7 +203,7 @@ fn unusable_input_ends_with_2_and_writes_nothing() {
 }
 
 #[test]
-fn nobody_there_ends_with_2_and_says_what_to_check() {
+fn an_unreachable_host_ends_with_2_and_a_remedy() {
     let free = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().to_string();
     for command in ["read", "watch"] {
         let output = program(&["s7", command, &free, "MB0"]).output().unwrap();
@@ -214,7 +214,7 @@ fn nobody_there_ends_with_2_and_says_what_to_check() {
 }
 
 #[test]
-fn it_tells_what_a_module_is() {
+fn info_identifies_a_module() {
     let served = Served::start();
     let info = served.text("info", &[]);
     for said in ["PLC 317-2 PN/DP", "RUN", "148 bytes", "X at ", "JOG", "6ES7 317-2EK14-0AB0"] {
@@ -253,7 +253,7 @@ fn watching_prints_a_line_for_each_change_and_ends_with_0() {
 /// As behind `| head -1`: nothing changes, nothing is printed, and it ends when nobody reads.
 #[test]
 #[cfg(target_os = "linux")]
-fn watching_ends_when_nobody_reads() {
+fn watching_ends_when_its_output_is_closed() {
     let served = Served::start();
     let mut child = program(&["s7", "watch", &served.host, "MB1"]).stdout(Stdio::piped()).spawn().unwrap();
     let mut first = String::new();

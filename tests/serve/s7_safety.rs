@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use opennck::image::{Area, Profile};
 use opennck::live::{Live, Speed};
 use opennck::machine::{Machine, OpenOptions};
-use opennck::s7::live::{Terms, Window, WindowOptions};
+use opennck::s7::live::{LiveServer, LiveServerOptions, Terms};
 use opennck::s7::{Protected, Protection, Settings};
 use prometheus_parse::{Scrape, Value};
 use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE};
@@ -39,18 +39,18 @@ fn live() -> Live {
     Live::start(Machine::open("g1_example").expect("it is built in"), Speed::default())
 }
 
-fn window(live: &Live, options: WindowOptions) -> (Window, SocketAddr) {
-    let window = Window::open_with(live, &["127.0.0.1:0"], options).expect("some port is free");
+fn window(live: &Live, options: LiveServerOptions) -> (LiveServer, SocketAddr) {
+    let window = LiveServer::open_with(live, &["127.0.0.1:0"], options).expect("some port is free");
     let address = window.addresses()[0];
     (window, address)
 }
 
-fn faults(text: &str) -> WindowOptions {
-    WindowOptions { faults: Some(text.parse().expect("they are faults")), ..WindowOptions::default() }
+fn faults(text: &str) -> LiveServerOptions {
+    LiveServerOptions { faults: Some(text.parse().expect("they are faults")), ..LiveServerOptions::default() }
 }
 
-fn terms(terms: Terms) -> WindowOptions {
-    WindowOptions { terms, ..WindowOptions::default() }
+fn terms(terms: Terms) -> LiveServerOptions {
+    LiveServerOptions { terms, ..LiveServerOptions::default() }
 }
 
 /// A new file in the target directory.
@@ -89,7 +89,7 @@ fn answered(address: SocketAddr) -> Vec<u8> {
 }
 
 #[test]
-fn the_same_seed_swallows_the_same_answers() {
+fn the_same_seed_drops_the_same_answers() {
     let live = live();
     let found = ["drop=20%,seed=5", "drop=20%,seed=5", "drop=20%,seed=6"].map(|said| {
         let (window, address) = window(&live, faults(said));
@@ -105,7 +105,7 @@ fn the_same_seed_swallows_the_same_answers() {
 }
 
 #[test]
-fn a_request_that_fails_on_purpose_is_not_done() {
+fn a_request_with_an_injected_error_is_not_executed() {
     let live = live();
     for (said, answers) in [
         ("error=100%", [vec![0x0A, 0, 0, 0], vec![0x0A]]),
@@ -134,7 +134,7 @@ fn in_pieces(packet: &[u8]) -> Vec<u8> {
 }
 
 #[test]
-fn a_request_in_pieces_meets_the_fault_that_it_meets_in_one() {
+fn a_request_in_pieces_gets_the_same_fault_as_in_one_packet() {
     let live = live();
     let refused = |split: bool| {
         let (_window, address) = window(&live, faults("error=25%,seed=3"));
@@ -151,7 +151,7 @@ fn a_request_in_pieces_meets_the_fault_that_it_meets_in_one() {
 }
 
 #[test]
-fn a_connection_breaks_on_purpose() {
+fn a_connection_is_closed_by_an_injected_fault() {
     let live = live();
     let (window, address) = window(&live, faults("close=100%"));
     let mut stream = bare(address);
@@ -173,9 +173,10 @@ fn tshark(file: &Path, arguments: &[&str]) -> Option<Vec<String>> {
 }
 
 #[test]
-fn wireshark_reads_a_capture_without_being_told() {
+fn wireshark_recognises_a_capture() {
     let (live, file) = (live(), new_file("session.pcap"));
-    let (window, address) = window(&live, WindowOptions { capture: Some(file.clone()), ..WindowOptions::default() });
+    let (window, address) =
+        window(&live, LiveServerOptions { capture: Some(file.clone()), ..LiveServerOptions::default() });
     let mut client = client(address);
     client.write_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &[1, 2, 3]).unwrap();
     client.read_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &mut [0; 100]).unwrap();
@@ -207,18 +208,18 @@ fn wireshark_reads_a_capture_without_being_told() {
 }
 
 #[test]
-fn a_capture_takes_no_file_that_is_there() {
+fn a_capture_refuses_an_existing_file() {
     let (live, file) = (live(), new_file("taken.pcap"));
     std::fs::write(&file, "mine").unwrap();
-    let options = WindowOptions { capture: Some(file.clone()), ..WindowOptions::default() };
-    let problem = Window::open_with(&live, &["127.0.0.1:0"], options).unwrap_err().to_string();
+    let options = LiveServerOptions { capture: Some(file.clone()), ..LiveServerOptions::default() };
+    let problem = LiveServer::open_with(&live, &["127.0.0.1:0"], options).unwrap_err().to_string();
     assert!(problem.contains("taken.pcap") && problem.contains("not there yet"), "{problem}");
     assert_eq!(std::fs::read(&file).unwrap(), b"mine");
 }
 
 /// Three items in one request: the protected one is refused, the others are written.
 #[test]
-fn what_is_protected_is_not_written_and_the_rest_is() {
+fn protected_items_are_refused_and_the_others_are_written() {
     let live = live();
     let bytes = Protected::Bytes { area: Area::Flags, bytes: 10..=19 };
     let protected = vec![bytes, Protected::Blocks(31..=32)];
@@ -291,7 +292,7 @@ fn the_plc_is_stopped_only_with_the_password() {
 }
 
 #[test]
-fn the_cpu_says_what_a_file_says() {
+fn the_cpu_has_the_identity_of_the_file() {
     let (live, file) = (live(), new_file("identity.toml"));
     std::fs::write(&file, "plant = \"Hall 2\"\norder_number = \"6ES7 999-9ZZ99-9ZZ9\"").unwrap();
     let identity = opennck::s7::live::OwnIdentity::read(&file).unwrap();
@@ -313,7 +314,7 @@ fn the_cpu_says_what_a_file_says() {
 fn strict_slots_and_a_short_pdu_are_kept() {
     let live = live();
     let settings = Settings { longest_pdu: 240, called: Some(vec![[1, 2], [2, 2]]), ..Settings::default() };
-    let (_window, address) = window(&live, WindowOptions { settings, ..WindowOptions::default() });
+    let (_window, address) = window(&live, LiveServerOptions { settings, ..LiveServerOptions::default() });
     let mut stream = bare(address);
     stream.write_all(&[&CONNECT[..], &SETUP].concat()).unwrap();
     next(&mut stream).unwrap();
@@ -327,10 +328,10 @@ fn strict_slots_and_a_short_pdu_are_kept() {
 }
 
 #[test]
-fn an_828d_is_served_under_its_numbers() {
+fn an_828d_is_served_with_its_block_numbers() {
     let options = OpenOptions { profile: Profile::SINUMERIK_828D, ..OpenOptions::default() };
     let live = Live::start(Machine::open_with("g1_example", options).unwrap(), Speed::default());
-    let (_window, address) = window(&live, WindowOptions::default());
+    let (_window, address) = window(&live, LiveServerOptions::default());
     let mut client = client(address);
     assert!(client.read_db(3900, 0, &mut [0; 4]).is_ok());
     assert!(client.read_db(31, 60, &mut [0; 4]).is_err());
@@ -347,9 +348,9 @@ fn http(address: SocketAddr, request: &str) -> (String, String) {
 }
 
 #[test]
-fn prometheus_reads_what_happened() {
+fn prometheus_reads_the_counters() {
     let live = live();
-    let options = WindowOptions { metrics: Some("127.0.0.1:0".to_owned()), ..WindowOptions::default() };
+    let options = LiveServerOptions { metrics: Some("127.0.0.1:0".to_owned()), ..LiveServerOptions::default() };
     let (window, address) = window(&live, options);
     let mut client = client(address);
     client.write_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &[1]).unwrap();
@@ -390,9 +391,9 @@ fn prometheus_reads_what_happened() {
 
 /// 16 places, and a scrape takes one of them at once.
 #[test]
-fn who_asks_for_metrics_and_says_nothing_delays_nobody() {
+fn idle_metrics_connections_do_not_block_a_scrape() {
     let live = live();
-    let options = WindowOptions { metrics: Some("127.0.0.1:0".to_owned()), ..WindowOptions::default() };
+    let options = LiveServerOptions { metrics: Some("127.0.0.1:0".to_owned()), ..LiveServerOptions::default() };
     let (window, _) = window(&live, options);
     let metrics = window.metrics_addresses()[0];
     let silent: Vec<_> = (0..40).map(|_| bare(metrics)).collect();

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use opennck::live::{Live, LiveOptions, Speed};
 use opennck::machine::Machine;
 use opennck::plc::{self, PlcIo, Programs};
-use opennck::s7::live::Window;
+use opennck::s7::live::LiveServer;
 use opennck::s7::server::Limits;
 use opennck::sinumerik::Nck;
 use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE};
@@ -33,8 +33,8 @@ fn live() -> Live {
     live
 }
 
-fn window(live: &Live, limits: Limits) -> (Window, SocketAddr) {
-    let window = Window::open(live, &["127.0.0.1:0"], false, limits).expect("some port is free");
+fn window(live: &Live, limits: Limits) -> (LiveServer, SocketAddr) {
+    let window = LiveServer::open(live, &["127.0.0.1:0"], false, limits).expect("some port is free");
     let address = window.addresses()[0];
     (window, address)
 }
@@ -75,7 +75,7 @@ fn a_foreign_client_reads_interface_blocks_and_flags() {
 }
 
 #[test]
-fn who_writes_and_then_reads_finds_what_was_written() {
+fn a_client_that_writes_and_then_reads_gets_what_it_wrote() {
     let live = live();
     let (_window, address) = window(&live, Limits::default());
     let mut client = client(address);
@@ -90,7 +90,7 @@ fn who_writes_and_then_reads_finds_what_was_written() {
 
 /// The program of another process may let a scan wait: a panel reads on meanwhile, and what it writes acts afterwards.
 #[test]
-fn a_scan_that_lasts_holds_up_nobody_who_reads() {
+fn a_long_scan_does_not_hold_up_reads() {
     static IS_HELD: AtomicBool = AtomicBool::new(false);
     let mut machine = Machine::open("g1_example").expect("it is built in");
     machine.load_program(Box::new(plc::program("holds", (), |(), io: &mut PlcIo<'_>| {
@@ -188,7 +188,7 @@ fn eight_clients_at_once_see_whole_requests() {
 }
 
 #[test]
-fn who_never_says_anything_is_left_when_any_other_idle_client_would_be() {
+fn a_client_without_a_request_is_closed_at_the_idle_timeout() {
     let live = live();
     let limits = Limits { idle: Duration::from_millis(300), ..Limits::default() };
     assert!(limits.greeting > Duration::from_secs(5));
@@ -202,7 +202,7 @@ fn who_never_says_anything_is_left_when_any_other_idle_client_would_be() {
 }
 
 #[test]
-fn who_has_said_nothing_gives_way_to_who_comes_and_clients_do_not() {
+fn a_new_client_replaces_one_without_a_request_but_no_other() {
     let live = live();
     let (window, address) = window(&live, Limits { clients: 3, ..Limits::default() });
     let mut first = client(address);
@@ -226,7 +226,7 @@ fn who_has_said_nothing_gives_way_to_who_comes_and_clients_do_not() {
 }
 
 #[test]
-fn garbage_and_half_packets_hold_up_nobody() {
+fn garbage_and_incomplete_packets_do_not_hold_up_other_clients() {
     let live = live();
     let limits = Limits { greeting: Duration::from_millis(300), ..Limits::default() };
     let (window, address) = window(&live, limits);
@@ -268,7 +268,7 @@ fn garbage_and_half_packets_hold_up_nobody() {
 
 /// It asks again and again and never reads: the server stops reading it, others are answered all the time.
 #[test]
-fn a_client_that_takes_no_answers_is_left() {
+fn a_client_that_does_not_read_its_answers_is_closed() {
     let live = live();
     let limits = Limits { writing: Duration::from_millis(300), ..Limits::default() };
     let (window, address) = window(&live, limits);
@@ -284,7 +284,7 @@ fn a_client_that_takes_no_answers_is_left() {
 }
 
 #[test]
-fn one_client_too_many_is_sent_away_and_a_free_place_is_given_again() {
+fn a_client_beyond_the_limit_is_rejected_and_a_free_place_is_reused() {
     let live = live();
     let (window, address) = window(&live, Limits { clients: 2, ..Limits::default() });
     let (mut first, mut second) = (bare(address), client(address));
@@ -300,7 +300,7 @@ fn one_client_too_many_is_sent_away_and_a_free_place_is_given_again() {
 }
 
 #[test]
-fn only_allowed_networks_may_come() {
+fn only_clients_of_allowed_networks_are_accepted() {
     let live = live();
     let networks = |networks: &[&str]| Limits {
         networks: networks.iter().map(|network| network.parse().unwrap()).collect(),
@@ -313,9 +313,9 @@ fn only_allowed_networks_may_come() {
 }
 
 #[test]
-fn nothing_is_written_where_clients_may_only_read() {
+fn a_read_only_server_refuses_writes() {
     let live = live();
-    let window = Window::open(&live, &["127.0.0.1:0"], true, Limits::default()).unwrap();
+    let window = LiveServer::open(&live, &["127.0.0.1:0"], true, Limits::default()).unwrap();
     let mut client = client(window.addresses()[0]);
     assert!(client.write_bit(S7_AREA_MK, 0, 0, 0, true).is_err());
     assert!(!client.read_bit(S7_AREA_MK, 0, 0, 0).unwrap());
@@ -351,7 +351,7 @@ fn the_plc_is_stopped_and_started_by_a_client() {
 
 /// Nothing is taken up yet, and the start finds the stop all the same: it is not told that the PLC runs already.
 #[test]
-fn who_stops_and_starts_the_plc_of_a_held_machine_finds_it_running() {
+fn the_plc_of_a_held_machine_runs_after_a_stop_and_a_start() {
     let machine = Machine::open("g1_example").unwrap();
     let options = LiveOptions { is_held: true, ..LiveOptions::default() };
     let live = Live::start_with(machine, Speed::default(), options);
@@ -373,7 +373,7 @@ fn who_stops_and_starts_the_plc_of_a_held_machine_finds_it_running() {
 
 /// MB0 every 100 ms: subscribed by the bytes of a panel (user data, group 2, function 1), and the writes of another client arrive.
 #[test]
-fn values_come_in_cycles() {
+fn values_are_sent_cyclically() {
     let live = live();
     let (_window, address) = window(&live, Limits { idle: Duration::from_millis(300), ..Limits::default() });
     let mut panel = bare(address);
@@ -399,7 +399,7 @@ fn values_come_in_cycles() {
 
 /// Who asks nothing for too long loses its place, even one that sends bytes that ask nothing.
 #[test]
-fn silence_is_not_served_for_ever() {
+fn idle_clients_are_closed() {
     let live = live();
     let (window, address) = window(&live, Limits { idle: Duration::from_millis(200), ..Limits::default() });
     let mut stream = bare(address);
@@ -422,13 +422,13 @@ fn the_end_is_graceful() {
     assert!(begin.elapsed() < Duration::from_secs(1), "{:?}", begin.elapsed());
     assert_eq!(idle.read(&mut [0; 10]).unwrap(), 0, "the end of the stream, no reset");
     assert!(TcpStream::connect(address).is_err());
-    let again = Window::open(&live, &[&address.to_string()], false, Limits::default()).unwrap();
+    let again = LiveServer::open(&live, &[&address.to_string()], false, Limits::default()).unwrap();
     assert!(client(again.addresses()[0]).read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
 }
 
 /// Bytes that nobody takes reset a connection that is closed, and with it go the answers that are still on their way.
 #[test]
-fn who_is_disconnected_in_the_middle_still_gets_what_was_answered_before() {
+fn a_client_that_is_disconnected_still_gets_its_last_answers() {
     let live = live();
     let (_window, address) = window(&live, Limits::default());
     let mut stream = bare(address);
@@ -444,7 +444,7 @@ fn who_is_disconnected_in_the_middle_still_gets_what_was_answered_before() {
 #[test]
 fn ipv6_is_served_too() {
     let live = live();
-    let Ok(window) = Window::open(&live, &["[::1]:0"], false, Limits::default()) else {
+    let Ok(window) = LiveServer::open(&live, &["[::1]:0"], false, Limits::default()) else {
         return; // a computer without IPv6
     };
     let mut stream = bare(window.addresses()[0]);
@@ -464,7 +464,7 @@ fn the_schedule_does_not_drift() {
 }
 
 #[test]
-fn a_closed_door_says_why() {
+fn an_address_that_cannot_be_opened_is_reported() {
     let live = live();
     let (window, address) = window(&live, Limits::default());
     for (address, cause) in [
@@ -472,7 +472,7 @@ fn a_closed_door_says_why() {
         ("127.0.0.1", "127.0.0.1:10102"),
         ("198.51.100.1:10102", "of this computer"),
     ] {
-        let problem = Window::open(&live, &[address], false, Limits::default()).unwrap_err().to_string();
+        let problem = LiveServer::open(&live, &[address], false, Limits::default()).unwrap_err().to_string();
         assert!(problem.contains(cause) && problem.contains(address), "{problem}");
     }
     drop(window);
@@ -500,7 +500,7 @@ fn collector(address: SocketAddr) -> TcpStream {
 /// MD32000 of X, and R5; a velocity below zero is out of range, and is said to be before anything happens. MD37100 takes any byte: it
 /// is at power on that the control looks at it and raises 10650.
 #[test]
-fn a_collector_writes_machine_data_and_r_parameters_and_is_told_what_is_not_taken() {
+fn a_collector_writes_machine_data_and_r_parameters_within_their_limits() {
     let live = live();
     let (_window, address) = window(&live, Limits::default());
     let mut stream = collector(address);
@@ -529,7 +529,7 @@ fn a_collector_writes_machine_data_and_r_parameters_and_is_told_what_is_not_take
 
 /// SZL 00A0, newest first: RUN, START-UP, cold restart by hand, STOP by a programming device, and what power on left.
 #[test]
-fn stop_and_cold_restart_stand_in_the_diagnostic_buffer_and_flags_begin_anew() {
+fn stop_and_cold_restart_are_in_the_diagnostic_buffer_and_flags_are_cleared() {
     let live = live();
     let (_window, address) = window(&live, Limits::default());
     let mut stream = collector(address);

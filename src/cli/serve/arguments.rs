@@ -10,7 +10,7 @@ use crate::live::{Opened, Opening, Speed};
 use crate::machine::Machine;
 use crate::plc::Programs;
 use crate::s7::Settings;
-use crate::s7::live::{OwnIdentity, Terms, WindowOptions, protected, protection};
+use crate::s7::live::{LiveServerOptions, OwnIdentity, Terms, protected, protection};
 use crate::s7::server::{Faults, Limits, Network};
 use crate::source::Problem;
 use crate::units::Time;
@@ -140,13 +140,13 @@ impl Arguments {
     }
 
     /// The options of the S7 server.
-    pub(super) fn window(&self, machine: &Machine) -> Result<WindowOptions, Problem> {
+    pub(super) fn window(&self, machine: &Machine) -> Result<LiveServerOptions, Problem> {
         let protected = self.protect.iter().map(|text| protected(text, machine)).collect::<Result<_, _>>()?;
         let identity = self.identity.as_deref().map(OwnIdentity::read).transpose()?.unwrap_or_default();
         let protection = protection(self.password.as_deref().filter(|text| !text.is_empty()), self.protection_level)?;
         // The connection type, then rack and slot.
         let slots = || (0..=u8::MAX).flat_map(|kind| [[kind, 2], [kind, 3], [kind, 4]]).collect();
-        Ok(WindowOptions {
+        Ok(LiveServerOptions {
             is_read_only: self.read_only,
             limits: Limits {
                 clients: self.clients,

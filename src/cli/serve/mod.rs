@@ -21,7 +21,7 @@ use super::log::Log;
 use super::output::{Kept, Output};
 use crate::live::{Exchange, Keeper, Live, LiveOptions, MappedPlc, Opened};
 use crate::plc::Programs;
-use crate::s7::live::Window;
+use crate::s7::live::LiveServer;
 use crate::source::Problem;
 use status::{Status, status_line};
 
@@ -46,7 +46,7 @@ pub(super) fn serve(arguments: &Arguments, programs: &Programs, output: &mut Out
 /// Everything that is open while the machine is served.
 struct Served {
     /// Closed before the machine ends.
-    window: Window,
+    window: LiveServer,
     /// Also ended before the machine.
     keeper: Option<Keeper>,
     live: Live,
@@ -126,7 +126,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
         output.warning(warning);
     }
     let addresses: Vec<_> = arguments.s7.iter().map(String::as_str).collect();
-    let window = match Window::open_with(&live, &addresses, window) {
+    let window = match LiveServer::open_with(&live, &addresses, window) {
         Ok(window) => window,
         Err(problem) => {
             // No client could connect. Remove the new recording: it would block the next attempt.

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::live::{Live, Speed};
-use crate::s7::live::Window;
+use crate::s7::live::LiveServer;
 use crate::scenario::State;
 use crate::variables::Describe;
 
@@ -27,7 +27,7 @@ pub(super) fn status_line() -> ProgressBar {
 /// The status line.
 pub(super) struct Status<'a> {
     live: &'a Live,
-    window: &'a Window,
+    window: &'a LiveServer,
     /// The last measurement of the rates: real time, machine time, number of answers.
     last: (Instant, f64, u64),
     speed: Option<f64>,
@@ -35,7 +35,7 @@ pub(super) struct Status<'a> {
 }
 
 impl<'a> Status<'a> {
-    pub(super) fn new(live: &'a Live, window: &'a Window) -> Self {
+    pub(super) fn new(live: &'a Live, window: &'a LiveServer) -> Self {
         let time = live.with(|machine| machine.time().seconds());
         Self { live, window, last: (Instant::now(), time, window.answers()), speed: None, rate: 0 }
     }

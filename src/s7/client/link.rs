@@ -23,9 +23,9 @@ use tokio::sync::{mpsc, watch};
 use tokio::time::{Instant, sleep, sleep_until, timeout};
 
 use super::conversation::Event;
-use super::door::{Door, open};
 use super::error::Error;
 use super::job::{Failure, InFlight, Job, LinkCommand, Negotiated, Reply, ReplyTo, Subscribed};
+use super::opening::{Opened, open};
 use super::options::Options;
 use crate::s7::wire::header::{ErrorCode, Message, Unreadable, kind};
 use crate::s7::wire::pdu::{Answers, Budget, Pdu};
@@ -92,7 +92,7 @@ impl Link {
         let (queue, in_flight, subscriptions) = (VecDeque::new(), BTreeMap::new(), Vec::new());
         let heard = Instant::now();
         // The handshake uses the numbers before.
-        let reference = super::door::REFERENCES;
+        let reference = super::opening::REFERENCES;
         Self {
             address,
             options,
@@ -115,22 +115,22 @@ impl Link {
     }
 
     /// Runs until all clients are dropped, or the connection is lost for good.
-    pub(super) async fn run(mut self, mut door: Door) {
+    pub(super) async fn run(mut self, mut opened: Opened) {
         loop {
-            self.state.send_replace(State::Connected(door.negotiated));
+            self.state.send_replace(State::Connected(opened.negotiated));
             self.heard = Instant::now();
             self.silences = 0;
-            let cause = match self.attend(&mut door).await {
+            let cause = match self.attend(&mut opened).await {
                 End::Left => {
-                    let _ = timeout(self.options.timeout, door.stream.shutdown()).await;
+                    let _ = timeout(self.options.timeout, opened.stream.shutdown()).await;
                     return;
                 }
                 End::Lost(cause) => cause,
             };
-            drop(door);
+            drop(opened);
             self.take_back(&cause);
             match self.reconnect(&cause).await {
-                Some(again) => door = again,
+                Some(again) => opened = again,
                 None => return,
             }
             for at in 0..self.subscriptions.len() {
@@ -139,14 +139,14 @@ impl Link {
         }
     }
 
-    async fn attend(&mut self, door: &mut Door) -> End {
+    async fn attend(&mut self, opened: &mut Opened) -> End {
         let mut input = vec![0; 16 * 1024];
         let mut out = Answers::default();
         loop {
             out.clear();
-            self.emit(door, &mut out);
+            self.emit(opened, &mut out);
             if !out.is_empty() {
-                match timeout(self.options.timeout, door.stream.write_all(out.bytes())).await {
+                match timeout(self.options.timeout, opened.stream.write_all(out.bytes())).await {
                     Ok(Ok(())) => {}
                     Ok(Err(error)) => return End::Lost(error.to_string()),
                     Err(_) => return End::Lost("the server does not accept requests".to_owned()),
@@ -155,13 +155,13 @@ impl Link {
             let deadline = self.deadline();
             // Events take turns: a server that floods the client must not block requests or time limits.
             tokio::select! {
-                read = door.stream.read(&mut input) => match read {
+                read = opened.stream.read(&mut input) => match read {
                     Ok(0) => return End::Lost("the server closed the connection".to_owned()),
                     Err(error) => return End::Lost(error.to_string()),
                     Ok(count) => {
                         self.heard = Instant::now();
                         self.silences = 0;
-                        let received = door.conversation.receive(&input[..count], |event| {
+                        let received = opened.conversation.receive(&input[..count], |event| {
                             if let Event::Pdu(pdu) = event {
                                 self.pdu(pdu);
                             }
@@ -198,9 +198,9 @@ impl Link {
     }
 
     /// Sends the requests that may be sent.
-    fn emit(&mut self, door: &Door, out: &mut Answers) {
-        let Negotiated { pdu, jobs } = door.negotiated;
-        let budget = Budget { pdu, piece: door.piece };
+    fn emit(&mut self, opened: &Opened, out: &mut Answers) {
+        let Negotiated { pdu, jobs } = opened.negotiated;
+        let budget = Budget { pdu, piece: opened.piece };
         while self.in_flight.len() < jobs {
             let Some(job) = self.queue.pop_front() else { return };
             if matches!(&job.reply, ReplyTo::Caller(reply) if reply.is_closed()) {
@@ -323,7 +323,7 @@ impl Link {
     }
 
     /// Reopens the connection; `None` when all clients are dropped or reconnecting is disabled.
-    async fn reconnect(&mut self, cause: &str) -> Option<Door> {
+    async fn reconnect(&mut self, cause: &str) -> Option<Opened> {
         let Some(backoff) = self.options.reconnect else {
             self.state.send_replace(State::Ended { cause: cause.to_owned() });
             self.commands.close();
@@ -359,7 +359,7 @@ impl Link {
                 }
             };
             match opened {
-                Ok(door) => return Some(door),
+                Ok(opened) => return Some(opened),
                 Err(error) => cause = error.to_string(),
             }
             attempts += 1;

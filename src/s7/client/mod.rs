@@ -31,17 +31,17 @@
 //! | `variable`, `nc`, `value` | variables, values, and their bytes |
 //! | `plan` | the distribution of items over requests |
 //! | `conversation` | the transport without a socket |
-//! | `door`, `link`, `listeners` | opening the connection, and the task that owns the socket |
+//! | `opening`, `link`, `listeners` | opening the connection, and the task that owns the socket |
 //! | `variables`, `subscription`, `system`, `blocks` | the requests of a client |
 
 mod blocks;
 mod conversation;
-mod door;
 mod error;
 mod job;
 mod link;
 mod listeners;
 mod nc;
+mod opening;
 mod options;
 mod plan;
 mod subscription;
@@ -106,8 +106,8 @@ impl Client {
     /// # Errors
     /// The host cannot be reached, or does not accept the connection or the password.
     pub async fn connect(address: &str, options: Options) -> Result<Self, Error> {
-        let door = door::open(address, &options).await?;
-        Ok(Self::behind(door, address, options))
+        let opened = opening::open(address, &options).await?;
+        Ok(Self::behind(opened, address, options))
     }
 
     /// Connects over a stream that is already open: a tunnel, or a test's stream. It is not reopened when it is lost, whatever the options
@@ -120,16 +120,16 @@ impl Client {
         options: Options,
     ) -> Result<Self, Error> {
         let (options, name) = (Options { reconnect: None, ..options }, "the other end");
-        let door = door::greet(Box::new(stream), name, &options, Instant::now() + options.timeout).await?;
-        Ok(Self::behind(door, name, options))
+        let opened = opening::greet(Box::new(stream), name, &options, Instant::now() + options.timeout).await?;
+        Ok(Self::behind(opened, name, options))
     }
 
-    fn behind(door: door::Door, address: &str, options: Options) -> Self {
+    fn behind(opened: opening::Opened, address: &str, options: Options) -> Self {
         let (commands, receiver) = mpsc::channel(COMMANDS);
-        let (sender, state) = watch::channel(State::Connected(door.negotiated));
+        let (sender, state) = watch::channel(State::Connected(opened.negotiated));
         let options = Arc::new(options);
         let link = Link::new(address.into(), Arc::clone(&options), receiver, sender);
-        tokio::spawn(link.run(door));
+        tokio::spawn(link.run(opened));
         Self { commands, state, options, long: Arc::default() }
     }
 

@@ -98,7 +98,7 @@ mod tests {
     use crate::s7::Machinery;
 
     #[test]
-    fn what_a_file_says_stands_over_the_usual() {
+    fn values_of_a_file_replace_the_defaults() {
         let own = OwnIdentity::parse("order_number = \"6ES7 1\"\nversion = \"2.10.255\"\nplant = \"Hall 2\"", "a.toml");
         let base = Machinery::default().identity;
         let own = own.unwrap();
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_told_with_its_line() {
+    fn errors_have_their_line() {
         for (text, said) in [
             ("plant = 7", "a.toml:1: expected a text"),
             ("\norder_number = \"123456789012345678901\"", "a.toml:2: expected at most 20 characters"),

@@ -6,12 +6,12 @@
 //! ```
 //! use opennck::live::{Live, Speed};
 //! use opennck::machine::Machine;
-//! use opennck::s7::live::Window;
+//! use opennck::s7::live::LiveServer;
 //! use opennck::s7::server::Limits;
 //!
 //! let live = Live::start(Machine::open("g1_example")?, Speed::default());
-//! let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default())?;
-//! let port = window.addresses()[0].port(); // for the client
+//! let server = LiveServer::open(&live, &["127.0.0.1:0"], false, Limits::default())?;
+//! let port = server.addresses()[0].port(); // for the client
 //! assert!(port > 0 && live.with(|machine| machine.axis("X").is_some()));
 //! # Ok::<(), opennck::source::Problem>(())
 //! ```
@@ -19,13 +19,13 @@
 mod clock;
 mod identity;
 mod lender;
+mod live_server;
 mod metrics;
 mod panel;
 mod protect;
 mod terms;
-mod window;
 
 pub use identity::OwnIdentity;
+pub use live_server::{LiveServer, LiveServerOptions};
 pub use protect::{protected, protection};
 pub use terms::Terms;
-pub use window::{Window, WindowOptions};

@@ -264,7 +264,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_wrong_is_told_with_what_is_expected() {
+    fn errors_name_what_is_expected() {
         let seconds = |text: &str| text.parse::<Faults>().map(|faults| faults.delay);
         assert_eq!(seconds("delay=10ms..1.5s").unwrap(), Duration::from_millis(10)..=Duration::from_millis(1500));
         let faults: Faults = "drop=1/4,error=5%,code=8104,seed=7".parse().unwrap();
@@ -294,14 +294,14 @@ mod tests {
 
     /// The numbers of the authors' generator for seed 1234567.
     #[test]
-    fn chance_is_what_its_authors_wrote() {
+    fn the_generator_matches_the_reference_numbers() {
         let mut chance = Chance(1_234_567);
         assert_eq!(chance.next(), 6_457_827_717_110_365_317);
         assert_eq!(chance.next(), 3_203_168_211_198_807_973);
     }
 
     #[test]
-    fn the_same_seed_and_connection_meet_the_same_faults() {
+    fn the_same_seed_and_connection_give_the_same_faults() {
         let fates = |seed: u64, number| {
             let faults = format!("drop=10%,close=10%,seed={seed}").parse().unwrap();
             let mut faulty = Faulty::new(&faults, number);

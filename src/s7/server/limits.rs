@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_network_is_refused() {
+    fn invalid_networks_are_refused() {
         for text in ["", "192.168.0.0/33", "fd00::/129", "192.168.0/24", "host", "192.168.0.0/-1"] {
             assert!(text.parse::<Network>().is_err(), "{text}");
         }

@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn a_request_is_said_in_addresses() {
+    fn a_request_is_described_by_addresses() {
         let item = |kind, count, block, area, bits: u32| {
             let [_, high, middle, low] = bits.to_be_bytes();
             [0x12, 10, 0x10, kind, 0, count, 0, block, area, high, middle, low]

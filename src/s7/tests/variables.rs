@@ -232,7 +232,7 @@ fn a_request_to_write_whose_values_do_not_add_up_writes_nothing() {
 }
 
 #[test]
-fn nothing_is_written_where_clients_may_only_read() {
+fn a_read_only_server_refuses_writes() {
     let mut client = Client::ready(240);
     client.is_read_only = true;
     let item = "02 00 01 03 E8 84 00 00 00";

@@ -49,7 +49,7 @@ mod tests {
     use crate::s7::wire::data::Refusal;
 
     #[test]
-    fn what_this_server_refuses_has_words() {
+    fn every_refusal_of_this_server_has_a_text() {
         let refusals = [
             Refusal::NotAllowed,
             Refusal::OutOfRange,

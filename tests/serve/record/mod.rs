@@ -18,7 +18,7 @@ use opennck::image::AsBytes;
 use opennck::live::{Live, LiveOptions, Recording};
 use opennck::machine::Machine;
 use opennck::plc::{PlcFault, PlcIo, PlcProgram, Programs};
-use opennck::s7::live::Window;
+use opennck::s7::live::LiveServer;
 use opennck::s7::server::Limits;
 use opennck::scenario::{Heading, Scenario};
 use opennck::source::Problem;
@@ -30,7 +30,7 @@ use panel::{Bare, DB, FLAGS, Item};
 /// A live machine that is recorded, with its clients.
 struct Recorded {
     live: Live,
-    window: Window,
+    window: LiveServer,
     path: PathBuf,
 }
 
@@ -49,7 +49,7 @@ impl Recorded {
             speed.parse().expect("a speed"),
             LiveOptions { recording, trace: Some(Watch::default()), ..LiveOptions::default() },
         );
-        let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default()).expect("some port is free");
+        let window = LiveServer::open(&live, &["127.0.0.1:0"], false, Limits::default()).expect("some port is free");
         Self { live, window, path }
     }
 
@@ -225,7 +225,7 @@ impl Chance {
 }
 
 #[test]
-fn whatever_is_written_runs_again() {
+fn any_writes_are_recorded_and_repeated() {
     for (number, speed, plc) in
         [(1, "1", None), (2, "100", Some("enable_all")), (3, "1000", None), (4, "100", Some("machine_control_panel"))]
     {
@@ -250,7 +250,7 @@ fn whatever_is_written_runs_again() {
 }
 
 #[test]
-fn a_recording_replaces_nothing_and_begins_before_the_first_step() {
+fn a_recording_overwrites_no_file_and_begins_before_the_first_step() {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("exists.toml");
     fs::write(&path, "mine").unwrap();
     let heading = Heading { title: "No", machine: "g1_example", ..Heading::default() };
@@ -325,12 +325,12 @@ impl PlcProgram for Witness {
 }
 
 #[test]
-fn two_writers_at_speed_1000_and_nobody_ever_sees_half_a_request() {
+fn two_writers_at_speed_1000_and_no_request_is_torn() {
     let (torn, scans) = (Arc::new(AtomicU64::new(0)), Arc::new(AtomicU64::new(0)));
     let mut machine = Machine::open("g1_example").unwrap();
     machine.load_program(Box::new(Witness { torn: Arc::clone(&torn), scans: Arc::clone(&scans) }));
     let live = Live::start(machine, "1000".parse().unwrap());
-    let window = Window::open(&live, &["127.0.0.1:0"], false, Limits::default()).unwrap();
+    let window = LiveServer::open(&live, &["127.0.0.1:0"], false, Limits::default()).unwrap();
     let address = window.addresses()[0];
     let block = |value: u8| Item::bytes((DB, 2), 0, &[value; 200]);
     let flags = |value: u8| Item::words((FLAGS, 0), 0, &[value; 100]);
@@ -361,7 +361,7 @@ fn two_writers_at_speed_1000_and_nobody_ever_sees_half_a_request() {
 
 /// 40 writes of 200 bytes in one go are 8,000 bytes, and an edge takes 4,096: some act a cycle later, and so they do again.
 #[test]
-fn what_is_too_much_for_one_edge_acts_in_order_and_runs_again() {
+fn writes_beyond_the_limit_of_one_step_take_effect_in_order_and_are_repeated() {
     const BYTES: u8 = 200;
     let recorded = Recorded::start("too_much_for_one_edge", "1", None);
     let mut stream = TcpStream::connect(recorded.address()).expect("the server is there");

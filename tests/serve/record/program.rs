@@ -127,7 +127,7 @@ fn a_scenario_brings_its_plant_profile_and_image_into_the_recording() {
 
 #[test]
 #[cfg(unix)]
-fn an_end_without_warning_loses_a_second_at_most() {
+fn a_crash_loses_at_most_one_second() {
     let folder = folder("killed");
     let mut program = Program::start(&folder, &["g1_example", "--record", "killed.toml"]);
     let mut client = Bare::connect(program.address());
@@ -171,7 +171,7 @@ fn a_full_disk_ends_the_recording_and_not_the_machine() {
 }
 
 #[test]
-fn the_doors_of_a_recording_say_what_is_wrong() {
+fn errors_of_a_recording_name_the_cause() {
     let folder = folder("doors");
     fs::write(folder.join("old.toml"), "mine").unwrap();
     fs::write(folder.join("wrong.toml"), "machine = \"g1_example\"\n[[step]]\nsett = { \"M0.0\" = 1 }\n").unwrap();

@@ -75,7 +75,7 @@ proptest! {
                 let _ = peer.stream.write_all(&answers.concat()).await;
                 peer
             };
-            let asking = async {
+            let client_side = async {
                 match question {
                     0 => drop(client.read_all(&variables(&["MB1", "nck:C/SMA/1:LONG"])).await),
                     1 => drop(client.write(&variable("MB1"), &Value::Byte(1)).await),
@@ -91,7 +91,7 @@ proptest! {
                     }
                 }
             };
-            let ((), _peer) = tokio::join!(asking, script);
+            let ((), _peer) = tokio::join!(client_side, script);
         });
     }
 }

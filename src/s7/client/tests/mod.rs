@@ -1,9 +1,9 @@
 //! Tests of the client against servers that do what a test tells them, byte by byte. Requests are compared with those of snap7's
 //! client, python-snap7 and nmap, as captured; a true server is in `tests/serve/s7_client.rs`.
 
+mod answers;
 mod any_bytes;
-mod asking;
-mod losing;
+mod reconnecting;
 mod requests;
 
 use std::time::Duration;

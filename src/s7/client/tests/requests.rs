@@ -99,7 +99,7 @@ fn passwords_are_folded() {
 }
 
 #[test]
-fn values_are_put_down_with_their_length() {
+fn values_are_sent_with_their_length() {
     let mut out = Vec::new();
     requests::put_value(TransportSize::BYTES, &[1, 2], &mut out);
     requests::put_value(TransportSize::OCTETS, &[1, 2], &mut out);

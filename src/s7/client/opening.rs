@@ -33,7 +33,7 @@ impl<T: AsyncRead + AsyncWrite + std::fmt::Debug + Send + Unpin> Stream for T {}
 
 /// An open connection.
 #[derive(Debug)]
-pub(super) struct Door {
+pub(super) struct Opened {
     pub(super) stream: Box<dyn Stream>,
     pub(super) conversation: Conversation,
     pub(super) negotiated: Negotiated,
@@ -42,12 +42,12 @@ pub(super) struct Door {
 }
 
 /// A message received while opening.
-enum Came {
+enum Received {
     Confirm(ConnectionConfirm),
     Pdu(Vec<u8>),
 }
 
-pub(super) async fn open(address: &str, options: &Options) -> Result<Door, Error> {
+pub(super) async fn open(address: &str, options: &Options) -> Result<Opened, Error> {
     let deadline = Instant::now() + options.timeout;
     let unreachable = |cause: String| Error::Unreachable { host: address.to_owned(), cause };
     let none = || unreachable(format!("no answer within {} s", options.timeout.as_secs_f64()));
@@ -66,7 +66,7 @@ pub(super) async fn greet(
     address: &str,
     options: &Options,
     deadline: Instant,
-) -> Result<Door, Error> {
+) -> Result<Opened, Error> {
     let conversation = Conversation::default();
     let mut opening = Opening { stream, conversation, address, options, deadline };
     let confirm = opening.connect().await?;
@@ -77,7 +77,7 @@ pub(super) async fn greet(
         opening.give(password, piece).await?;
     }
     let Opening { stream, conversation, .. } = opening;
-    Ok(Door { stream, conversation, negotiated, piece })
+    Ok(Opened { stream, conversation, negotiated, piece })
 }
 
 struct Opening<'a> {
@@ -100,8 +100,8 @@ impl Opening<'_> {
         let mut out = Vec::new();
         ConnectionRequest { source: [0, 1], size: Some(TPDU), calling, called }.put(&mut out);
         match self.exchange(&out).await? {
-            Came::Confirm(confirm) => Ok(confirm),
-            Came::Pdu(_) => Err(self.refused("the answer to the connection request is data")),
+            Received::Confirm(confirm) => Ok(confirm),
+            Received::Pdu(_) => Err(self.refused("the answer to the connection request is data")),
         }
     }
 
@@ -160,13 +160,13 @@ impl Opening<'_> {
         pdu.put(data);
         pdu.finish();
         match self.exchange(out.bytes()).await? {
-            Came::Pdu(pdu) => Ok(pdu),
-            Came::Confirm(_) => Err(self.refused("the connection is confirmed twice")),
+            Received::Pdu(pdu) => Ok(pdu),
+            Received::Confirm(_) => Err(self.refused("the connection is confirmed twice")),
         }
     }
 
     /// Sends bytes and waits for a message.
-    async fn exchange(&mut self, bytes: &[u8]) -> Result<Came, Error> {
+    async fn exchange(&mut self, bytes: &[u8]) -> Result<Received, Error> {
         let late = || format!("no answer within {} s", self.options.timeout.as_secs_f64());
         match by(self.deadline, self.stream.write_all(bytes)).await {
             Some(Ok(())) => {}
@@ -184,8 +184,8 @@ impl Opening<'_> {
             };
             let received = self.conversation.receive(&input[..count], |event| {
                 came.get_or_insert_with(|| match event {
-                    Event::Confirmed(confirm) => Came::Confirm(confirm),
-                    Event::Pdu(pdu) => Came::Pdu(pdu.to_vec()),
+                    Event::Confirmed(confirm) => Received::Confirm(confirm),
+                    Event::Pdu(pdu) => Received::Pdu(pdu.to_vec()),
                 });
             });
             if let Err(broken) = received {

@@ -5,7 +5,7 @@ use crate::s7::client::{Error, Mode, Value};
 use crate::s7::wire::header::ErrorCode;
 
 #[tokio::test]
-async fn an_answer_that_comes_too_late_goes_to_nobody() {
+async fn a_late_answer_is_dropped() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(240, 1, quick()).await;
     let script = async {
@@ -14,16 +14,16 @@ async fn an_answer_that_comes_too_late_goes_to_nobody() {
         peer.values(first, &[&[1]]).await;
         peer.values(second, &[&[2]]).await;
     };
-    let asking = async {
+    let client_side = async {
         let late = client.read(&variable("MB1")).await;
         assert!(matches!(late, Err(Error::TimedOut { sent: true, .. })), "{late:?}");
         assert_eq!(client.read(&variable("MB2")).await, Ok(Value::Byte(2)));
     };
-    tokio::join!(asking, script);
+    tokio::join!(client_side, script);
 }
 
 #[tokio::test]
-async fn an_answer_to_another_function_goes_to_nobody() {
+async fn an_answer_to_another_function_is_dropped() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(240, 1, quick()).await;
     let script = async {
@@ -38,7 +38,7 @@ async fn an_answer_to_another_function_goes_to_nobody() {
 }
 
 #[tokio::test]
-async fn answers_may_come_in_any_order_and_no_more_are_asked_than_agreed() {
+async fn answers_may_arrive_in_any_order_and_the_number_of_jobs_is_kept() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(240, 2, quick()).await;
     let script = async {
@@ -76,7 +76,7 @@ async fn one_refused_item_fails_alone() {
 
 /// snap7's server answers 20 of 25 items.
 #[tokio::test]
-async fn who_answers_fewer_items_is_asked_for_the_rest() {
+async fn a_server_that_answers_fewer_items_is_asked_for_the_rest() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(960, 1, quick()).await;
     let script = async {
@@ -93,7 +93,7 @@ async fn who_answers_fewer_items_is_asked_for_the_rest() {
 }
 
 #[tokio::test]
-async fn who_refuses_several_items_is_asked_for_fewer() {
+async fn a_server_that_refuses_several_items_is_asked_for_fewer() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(960, 1, quick()).await;
     let script = async {
@@ -112,7 +112,7 @@ async fn who_refuses_several_items_is_asked_for_fewer() {
 }
 
 #[tokio::test]
-async fn a_value_of_another_length_is_no_value() {
+async fn a_value_of_another_length_is_rejected() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(240, 1, quick()).await;
     let script = async {
@@ -122,13 +122,13 @@ async fn a_value_of_another_length_is_no_value() {
         peer.answer(reference, &[4, 1], &[0xFF, 4, 0xFF, 0xFF, 1]).await;
     };
     let word = variable("MW0");
-    let asking = async { [client.read(&word).await, client.read(&word).await] };
-    let (values, ()) = tokio::join!(asking, script);
+    let client_side = async { [client.read(&word).await, client.read(&word).await] };
+    let (values, ()) = tokio::join!(client_side, script);
     assert!(values.iter().all(|value| matches!(value, Err(Error::Unexpected { .. }))), "{values:?}");
 }
 
 #[tokio::test]
-async fn nothing_is_sent_where_one_value_does_not_fit() {
+async fn nothing_is_sent_if_one_value_does_not_fit() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(240, 1, quick()).await;
     let writes = [(variable("MB1"), Value::Byte(1)), (variable("MB2"), Value::Word(256))];
@@ -159,7 +159,7 @@ async fn long_lists_come_in_parts() {
 }
 
 #[tokio::test]
-async fn a_list_without_end_is_ended() {
+async fn an_endless_list_is_aborted() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(240, 1, quick()).await;
     let script = async {
@@ -172,7 +172,7 @@ async fn a_list_without_end_is_ended() {
 }
 
 #[tokio::test]
-async fn what_a_module_sends_by_itself_goes_to_whoever_subscribed() {
+async fn pushes_go_to_their_subscribers() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(240, 1, quick()).await;
     let one = |value: u8| [0, 1, 0xFF, 4, 0, 8, value];

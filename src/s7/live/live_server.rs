@@ -20,7 +20,7 @@ use crate::source::Problem;
 
 /// An S7 server of a live machine; it runs until it is dropped.
 #[derive(Debug)]
-pub struct Window {
+pub struct LiveServer {
     server: Arc<Server<Lender>>,
     addresses: Vec<SocketAddr>,
     metrics_addresses: Vec<SocketAddr>,
@@ -30,7 +30,7 @@ pub struct Window {
 
 /// Options of the server.
 #[derive(Debug, Default)]
-pub struct WindowOptions {
+pub struct LiveServerOptions {
     /// Clients may not change anything.
     pub is_read_only: bool,
     /// The number of clients, their networks, and time limits.
@@ -47,21 +47,21 @@ pub struct WindowOptions {
     pub metrics: Option<String>,
 }
 
-impl Window {
+impl LiveServer {
     /// Opens a server on addresses such as `127.0.0.1:10102`, `[::1]:10102` or `localhost:10102`. Port 0 selects a free
     /// port.
     ///
     /// # Errors
     /// An address is invalid, does not belong to this computer, may not be used, or is in use.
     pub fn open(live: &Live, addresses: &[&str], is_read_only: bool, limits: Limits) -> Result<Self, Problem> {
-        Self::open_with(live, addresses, WindowOptions { is_read_only, limits, ..WindowOptions::default() })
+        Self::open_with(live, addresses, LiveServerOptions { is_read_only, limits, ..LiveServerOptions::default() })
     }
 
     /// Opens a server with options.
     ///
     /// # Errors
-    /// As [`Window::open`].
-    pub fn open_with(live: &Live, addresses: &[&str], options: WindowOptions) -> Result<Self, Problem> {
+    /// As [`LiveServer::open`].
+    pub fn open_with(live: &Live, addresses: &[&str], options: LiveServerOptions) -> Result<Self, Problem> {
         // In a separate thread: a runtime cannot be entered from within another one, and tests of clients have one.
         std::thread::scope(|scope| {
             let opening = scope.spawn(|| Self::open_here(&live.handle(), addresses, options));
@@ -69,8 +69,8 @@ impl Window {
         })
     }
 
-    fn open_here(live: &Handle, addresses: &[&str], options: WindowOptions) -> Result<Self, Problem> {
-        let WindowOptions { is_read_only, mut limits, settings, faults, capture, terms, metrics } = options;
+    fn open_here(live: &Handle, addresses: &[&str], options: LiveServerOptions) -> Result<Self, Problem> {
+        let LiveServerOptions { is_read_only, mut limits, settings, faults, capture, terms, metrics } = options;
         // At low speed a step takes long, and so does the acknowledgement of a write.
         limits.step = limits.step.max(2 * live.cycle());
         let connections = u16::try_from(limits.clients).unwrap_or(u16::MAX);
@@ -82,13 +82,13 @@ impl Window {
         })?;
         let mut listeners = Vec::new();
         for address in addresses {
-            let opened = runtime.block_on(listen(address)).map_err(|error| closed_door("--s7", address, &error))?;
+            let opened = runtime.block_on(listen(address)).map_err(|error| cannot_listen("--s7", address, &error))?;
             listeners.extend(opened);
         }
         let addresses = listeners.iter().filter_map(|listener| listener.local_addr().ok()).collect();
         let for_metrics = match &metrics {
             Some(address) => {
-                runtime.block_on(listen(address)).map_err(|error| closed_door("--metrics", address, &error))?
+                runtime.block_on(listen(address)).map_err(|error| cannot_listen("--metrics", address, &error))?
             }
             None => Vec::new(),
         };
@@ -139,7 +139,7 @@ impl Window {
     }
 }
 
-impl Drop for Window {
+impl Drop for LiveServer {
     fn drop(&mut self) {
         self.end.send_replace(true);
         if let Some(thread) = self.thread.take() {
@@ -177,7 +177,7 @@ fn captured(path: &Path) -> Result<Capture, Problem> {
     })
 }
 
-fn closed_door(option: &str, address: &str, error: &io::Error) -> Problem {
+fn cannot_listen(option: &str, address: &str, error: &io::Error) -> Problem {
     let (what, cure) = match error.kind() {
         io::ErrorKind::AddrInUse => (
             "the port is in use".to_owned(),

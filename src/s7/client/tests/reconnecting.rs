@@ -15,7 +15,7 @@ async fn first_three(client: &Client) -> Vec<Result<Value, Error>> {
 }
 
 #[tokio::test]
-async fn what_only_reads_is_asked_again_on_the_next_connection() {
+async fn reads_are_repeated_on_the_next_connection() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(240, 1, quick()).await;
     let script = async {
@@ -32,7 +32,7 @@ async fn what_only_reads_is_asked_again_on_the_next_connection() {
 }
 
 #[tokio::test]
-async fn what_was_written_is_never_written_again() {
+async fn writes_are_never_repeated() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(240, 1, quick()).await;
     let script = async {
@@ -45,17 +45,17 @@ async fn what_was_written_is_never_written_again() {
         peer.values(reference, &[&[0]]).await;
     };
     let memory = variable("MB1");
-    let asking = async {
+    let client_side = async {
         let error = client.write(&memory, &Value::Byte(1)).await.unwrap_err();
         assert!(matches!(&error, Error::Lost { what, sent: true, .. } if what == "MB1"), "{error:?}");
         assert!(error.cure().contains("may have been executed"));
         assert_eq!(client.read(&memory).await, Ok(Value::Byte(0)));
     };
-    tokio::join!(asking, script);
+    tokio::join!(client_side, script);
 }
 
 #[tokio::test]
-async fn what_was_not_sent_waits_for_the_next_connection_and_is_sent_once() {
+async fn an_unsent_request_waits_for_the_next_connection_and_is_sent_once() {
     let place = Place::open().await;
     let (client, peer) = place.meet(240, 1, quick()).await;
     let mut changes = client.changes();
@@ -73,7 +73,7 @@ async fn what_was_not_sent_waits_for_the_next_connection_and_is_sent_once() {
 }
 
 #[tokio::test]
-async fn who_waits_too_long_is_told_that_nothing_was_sent() {
+async fn a_request_that_waits_too_long_reports_that_it_was_not_sent() {
     let place = Place::open().await;
     let options = Options { patience: Duration::from_millis(100), ..quick() };
     let (client, peer) = place.meet(240, 1, options).await;
@@ -100,7 +100,7 @@ async fn without_reconnection_a_lost_connection_stays_lost() {
 }
 
 #[tokio::test]
-async fn a_server_that_says_nothing_any_more_is_left() {
+async fn a_silent_server_counts_as_lost() {
     let place = Place::open().await;
     let options = Options { timeout: Duration::from_millis(50), ..quick() };
     let (client, _silent) = place.meet(240, 2, options).await;
@@ -117,7 +117,7 @@ async fn a_server_that_says_nothing_any_more_is_left() {
 }
 
 #[tokio::test]
-async fn what_was_planned_for_a_longer_pdu_is_planned_again() {
+async fn requests_are_planned_again_for_a_shorter_pdu() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(480, 1, quick()).await;
     let script = async {
@@ -137,7 +137,7 @@ async fn what_was_planned_for_a_longer_pdu_is_planned_again() {
 }
 
 #[tokio::test]
-async fn subscriptions_are_asked_for_again() {
+async fn subscriptions_are_renewed() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(240, 1, quick()).await;
     let one = |value: u8| [0, 1, 0xFF, 4, 0, 8, value];
@@ -184,7 +184,7 @@ async fn a_renewed_subscription_whose_answer_is_lost_is_asked_for_again_and_the_
 }
 
 #[tokio::test]
-async fn who_closes_on_each_request_is_called_after_longer_and_longer_pauses() {
+async fn reconnect_delays_grow_if_the_server_closes_on_each_request() {
     let place = Place::open().await;
     let backoff = Backoff { first: Duration::from_millis(40), most: Duration::from_secs(1) };
     let (client, mut peer) = place.meet(240, 1, Options { reconnect: Some(backoff), ..quick() }).await;
@@ -206,7 +206,7 @@ async fn who_closes_on_each_request_is_called_after_longer_and_longer_pauses() {
 }
 
 #[tokio::test]
-async fn a_server_that_floods_keeps_no_time_from_running_out() {
+async fn a_flood_does_not_block_time_limits() {
     let place = Place::open().await;
     let (client, mut peer) = place.meet(240, 1, quick()).await;
     let flood = tokio::spawn(async move {
@@ -240,7 +240,7 @@ async fn an_upload_that_fails_is_ended() {
 }
 
 #[tokio::test]
-async fn who_cannot_be_reached_is_named_with_what_to_check() {
+async fn an_unreachable_host_is_named_with_a_remedy() {
     let place = Place::open().await;
     let address = place.address();
     drop(place);
