@@ -209,7 +209,7 @@ fn an_unreachable_host_ends_with_2_and_a_remedy() {
         let output = program(&["s7", command, &free, "MB0"]).output().unwrap();
         let error = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(2), "{error}");
-        assert!(error.contains(&free) && error.contains("check address and port"), "{error}");
+        assert!(error.contains(&free) && error.contains("check the address, the port"), "{error}");
     }
 }
 

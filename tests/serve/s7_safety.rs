@@ -213,7 +213,7 @@ fn a_capture_refuses_an_existing_file() {
     std::fs::write(&file, "mine").unwrap();
     let options = LiveServerOptions { capture: Some(file.clone()), ..LiveServerOptions::default() };
     let problem = LiveServer::open_with(&live, &["127.0.0.1:0"], options).unwrap_err().to_string();
-    assert!(problem.contains("taken.pcap") && problem.contains("not there yet"), "{problem}");
+    assert!(problem.contains("taken.pcap") && problem.contains("does not exist yet"), "{problem}");
     assert_eq!(std::fs::read(&file).unwrap(), b"mine");
 }
 

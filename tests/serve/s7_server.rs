@@ -470,7 +470,7 @@ fn an_address_that_cannot_be_opened_is_reported() {
     for (address, cause) in [
         (address.to_string().as_str(), "in use"),
         ("127.0.0.1", "127.0.0.1:10102"),
-        ("198.51.100.1:10102", "of this computer"),
+        ("198.51.100.1:10102", "to this computer"),
     ] {
         let problem = LiveServer::open(&live, &[address], false, Limits::default()).unwrap_err().to_string();
         assert!(problem.contains(cause) && problem.contains(address), "{problem}");

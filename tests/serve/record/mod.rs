@@ -256,11 +256,11 @@ fn a_recording_overwrites_no_file_and_begins_before_the_first_step() {
     let heading = Heading { title: "No", machine: "g1_example", ..Heading::default() };
     let mut machine = Machine::open("g1_example").unwrap();
     let problem = Recording::begin(&path, &heading, &machine).unwrap_err();
-    assert!(problem.what.contains("one that exists") && problem.to_string().contains("exists.toml"), "{problem}");
+    assert!(problem.what.contains("exists already") && problem.to_string().contains("exists.toml"), "{problem}");
     assert_eq!(fs::read(&path).unwrap(), b"mine");
     machine.step();
     let problem = Recording::begin(&path.with_file_name("late.toml"), &heading, &machine).unwrap_err();
-    assert!(problem.what.contains("just switched on"), "{problem}");
+    assert!(problem.what.contains("has not run yet"), "{problem}");
 }
 
 #[test]

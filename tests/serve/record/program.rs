@@ -178,7 +178,7 @@ fn errors_of_a_recording_name_the_cause() {
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let taken = taken.local_addr().unwrap().to_string();
     for (arguments, said) in [
-        (vec!["g1_example", "--record", "old.toml"], ["old.toml: expected a new file", "replaces nothing"]),
+        (vec!["g1_example", "--record", "old.toml"], ["old.toml: the file exists already", "does not overwrite"]),
         (vec!["g1_example", "--record", "none/new.toml"], ["none/new.toml", "check the path"]),
         (vec!["g1_example", "--record", "new.toml", "--s7", &taken], ["the port is in use", "--s7"]),
         (vec!["--scenario", "wrong.toml"], ["wrong.toml:3", "`sett`"]),
@@ -192,7 +192,7 @@ fn errors_of_a_recording_name_the_cause() {
         assert!(said.iter().all(|said| error.contains(said)), "{arguments:?}: {error}");
     }
     assert_eq!(fs::read(folder.join("old.toml")).unwrap(), b"mine");
-    assert!(!folder.join("new.toml").exists(), "it is in the way of the next try");
+    assert!(!folder.join("new.toml").exists(), "it would block the next attempt");
 }
 
 /// The commands of the README, as they stand there.
