@@ -1,4 +1,4 @@
-//! The program `opennck` with one more PLC program: every command knows `plc = "drives_on_from_input"`.
+//! The program `opennck` with an additional PLC program: every command accepts `plc = "drives_on_from_input"`.
 //!
 //! `cargo run --example own_binary -- run my_scenario.toml`
 

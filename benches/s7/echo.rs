@@ -1,5 +1,5 @@
-//! The bare echo: one thread, one epoll, and an answer of fixed length for each request of fixed length. It knows no protocol; what
-//! it costs is what the system takes for moving the bytes.
+//! The bare echo: one thread, one epoll, and an answer of fixed length for each request of fixed length. It knows no protocol; its cost is
+//! the cost of moving the bytes by the system.
 
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, Read, Write};
@@ -11,7 +11,7 @@ use crate::load::{ANSWER, REQUEST};
 
 const LISTENER: Token = Token(0);
 
-/// One client, and how many bytes of a request it has begun.
+/// One client, and the number of received bytes of its current request.
 struct Client {
     stream: TcpStream,
     begun: usize,
@@ -46,7 +46,7 @@ pub(crate) fn serve() -> io::Result<()> {
     }
 }
 
-/// Answers what has come, in one write; gives whether the client is still there.
+/// Answers all received requests in one write; returns whether the client is still connected.
 fn answer(client: &mut Client, space: &mut [u8], answers: &[u8]) -> bool {
     loop {
         let count = match client.stream.read(space) {
@@ -65,7 +65,7 @@ fn answer(client: &mut Client, space: &mut [u8], answers: &[u8]) -> bool {
             }
         }
         if count < space.len() {
-            return true; // all was read, so the next bytes make an event of their own
+            return true; // all bytes were read, so the next ones cause a new event
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The load: connections that ask again as soon as they are answered, with a number of requests on their way each. One thread, one
+//! The load: connections that send the next request as soon as they are answered, with several requests in flight each. One thread, one
 //! epoll, the same for every server.
 
 use std::io::{self, ErrorKind, Read, Write};
@@ -8,13 +8,13 @@ use std::time::{Duration, Instant};
 use mio::net::TcpStream;
 use mio::{Events, Interest, Poll, Token};
 
-/// The block that is read, and how much of it.
+/// The block that is read, and the number of bytes.
 pub(crate) const BLOCK: u16 = 1000;
 pub(crate) const BYTES: usize = 222;
 /// Bytes of a request and of its answer: TPKT 4, COTP 3, and 10 + 14 of the job; 12 + 2 + 4 before the values.
 pub(crate) const REQUEST: usize = 31;
 pub(crate) const ANSWER: usize = 25 + BYTES;
-/// What stands before the values in an answer, from the function on: read, one item, good, in bits, 222 · 8.
+/// The bytes before the values in an answer, from the function on: read, one item, success, in bits, 222 · 8.
 const HEAD: [u8; 6] = [4, 1, 0xFF, 4, 0x06, 0xF0];
 
 /// The connection request of most clients, to rack 0 slot 2; its confirm is as long.
@@ -36,18 +36,18 @@ pub(crate) fn request() -> [u8; REQUEST] {
     ]
 }
 
-/// What one round gave.
+/// The result of one round.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Figures {
     pub(crate) per_second: f64,
-    /// How long answers took in µs: the median, of a hundred the longest, of a thousand the longest.
+    /// Latency of the answers in µs: median, 99th and 99.9th percentile.
     pub(crate) p50: f64,
     pub(crate) p99: f64,
     pub(crate) p999: f64,
     pub(crate) answers: u64,
 }
 
-/// A client that has been set up, where the server knows what that is.
+/// A connected client, with setup communication if the server uses S7.
 pub(crate) fn connect(address: SocketAddr, knows_s7: bool) -> io::Result<std::net::TcpStream> {
     let mut stream = std::net::TcpStream::connect(address)?;
     stream.set_nodelay(true)?;
@@ -69,14 +69,14 @@ pub(crate) fn connect(address: SocketAddr, knows_s7: bool) -> io::Result<std::ne
 /// One connection of the load.
 struct Client {
     stream: TcpStream,
-    /// When those on their way were sent, in nanoseconds of the round: a ring.
+    /// When the requests in flight were sent, in nanoseconds of the round: a ring.
     sent: Vec<u64>,
     first: usize,
-    /// Bytes of an answer that is not whole yet.
+    /// Received bytes of an incomplete answer.
     begun: usize,
 }
 
-/// Asks for a while, with so many connections and so many requests of each on their way.
+/// Sends requests for a while, with this many connections and requests in flight on each.
 pub(crate) fn run(
     address: SocketAddr,
     knows_s7: bool,
@@ -109,7 +109,7 @@ pub(crate) fn run(
             let client = &mut clients[event.token().0];
             loop {
                 let count = match client.stream.read(&mut space) {
-                    Ok(0) => return Err(io::Error::other("the server has left")),
+                    Ok(0) => return Err(io::Error::other("the server closed the connection")),
                     Ok(count) => count,
                     Err(error) if error.kind() == ErrorKind::WouldBlock => break,
                     Err(error) => return Err(error),

@@ -1,5 +1,5 @@
-//! What an S7 request costs: `opennck serve` beside snap7's native server and a bare echo, in one run. `benches/README.md` says how
-//! to run it and what it gave.
+//! The cost of an S7 request: `opennck serve` compared with snap7's native server and a bare echo, in one run. `benches/README.md`
+//! describes how to run it and its results.
 
 #![expect(
     clippy::disallowed_methods,
@@ -24,40 +24,40 @@ use load::Figures;
 use servers::Server;
 use timer::{Lateness, Timer};
 
-/// What is measured.
+/// The measurements.
 #[derive(Debug, Parser)]
 struct Arguments {
     /// Rounds of each row; medians are shown.
     #[arg(long, default_value_t = 4)]
     rounds: usize,
-    /// Seconds of a round.
+    /// Seconds per round.
     #[arg(long, default_value_t = 1.5)]
     seconds: f64,
-    /// Connections, one table row each with every number in flight.
+    /// Numbers of connections; one table row each for every number in flight.
     #[arg(long, value_delimiter = ',', default_value = "1,8,32")]
     connections: Vec<usize>,
-    /// Requests on their way on each connection.
+    /// Numbers of requests in flight on each connection.
     #[arg(long, value_delimiter = ',', default_value = "1,8")]
     in_flight: Vec<usize>,
-    /// Idle connections that are held, to see what one costs.
+    /// Number of idle connections, to measure the memory of one.
     #[arg(long, default_value_t = 1000)]
     held: usize,
-    /// Instead of all that: 32 clients of all kinds for so many seconds, and whether memory and handles stay what they were.
+    /// Runs only the soak: 32 clients of all kinds for this many seconds; checks that memory and handles do not grow.
     #[arg(long, value_name = "SECONDS")]
     soak: Option<u64>,
     /// Requests per second of the soak.
     #[arg(long, default_value_t = 2000.0)]
     rate: f64,
-    /// Only the load, on a server that is there already and has the block.
+    /// Runs only the load, on a running server that has the block.
     #[arg(long, value_name = "ADDR:PORT")]
     only: Option<std::net::SocketAddr>,
     /// The server of `--only` is an echo.
     #[arg(long, requires = "only")]
     bare: bool,
-    /// Be the echo.
+    /// Runs as the echo.
     #[arg(long, hide = true)]
     echo: bool,
-    /// What cargo says to every bench.
+    /// Passed by cargo to every bench.
     #[arg(long, hide = true)]
     bench: bool,
 }
@@ -96,7 +96,7 @@ fn main() -> io::Result<()> {
     let mut servers = vec![Server::opennck()?, Server::echo()?];
     match Server::snap7() {
         Ok(server) => servers.insert(1, server),
-        Err(error) => println!("snap7 is NOT measured, so its ratios are missing: {error}\n"),
+        Err(error) => println!("snap7 was NOT measured, so its ratios are missing: {error}\n"),
     }
     let timer = Timer::start();
     let mut misses = 0;
@@ -141,7 +141,7 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// Ends a server and shows what it said, without those who came and went.
+/// Ends a server and shows its output, without the lines about connections.
 fn show_log(server: Server) {
     let name = server.name;
     let said = server.end();
@@ -153,7 +153,7 @@ fn show_log(server: Server) {
     }
 }
 
-/// The servers one after another, round by round.
+/// Measures the servers alternately, round by round.
 fn rows(servers: &[Server], connections: usize, in_flight: usize, arguments: &Arguments) -> io::Result<Vec<Row>> {
     let mut rounds: Vec<Vec<(Figures, f64)>> = servers.iter().map(|_| Vec::new()).collect();
     for _ in 0..arguments.rounds {
@@ -186,7 +186,7 @@ fn middle(name: &'static str, rounds: &[(Figures, f64)]) -> Row {
     Row { name, figures, processor: of(|round| round.1) }
 }
 
-/// What a connection costs that says nothing after its first requests.
+/// Measures the memory of a connection that is idle after its first requests.
 fn held(server: &Server, count: usize) -> io::Result<()> {
     use io::{Read, Write};
     let before = server.memory();

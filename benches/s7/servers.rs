@@ -1,4 +1,4 @@
-//! The servers that are measured, each a process of its own.
+//! The measured servers, each a separate process.
 
 use std::io::{self, BufRead, BufReader, Read};
 use std::net::{SocketAddr, TcpListener};
@@ -9,12 +9,12 @@ use std::time::Duration;
 
 use crate::load::{BLOCK, BYTES};
 
-/// The version of python-snap7 that holds the native library; later ones are Python.
+/// The version of python-snap7 with the native library; later versions are written in Python.
 const SNAP7: &str = "python-snap7==2.1.0";
-/// Which Python has it.
+/// The variable that names a Python with this package.
 const SNAP7_PYTHON: &str = "OPENNCK_SNAP7_PYTHON";
 
-/// A server in a process of its own.
+/// A server in a separate process.
 pub(crate) struct Server {
     pub(crate) name: &'static str,
     pub(crate) address: SocketAddr,
@@ -25,7 +25,7 @@ pub(crate) struct Server {
 }
 
 impl Server {
-    /// This simulator, as its users start it: a machine in real time, a PLC program, blocks beside the interface.
+    /// This simulator as users start it: a machine in real time, a PLC program, user data blocks.
     pub(crate) fn opennck() -> io::Result<Self> {
         let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
         command.args(["serve", "g1_example", "--plc", "enable_all", "--plc-image", "recipes", "--s7", "127.0.0.1:0"]);
@@ -69,28 +69,28 @@ impl Server {
         std::fs::read_to_string(format!("/proc/{}/{name}", self.child.id())).unwrap_or_default()
     }
 
-    /// How much processor time it has had: all its threads, in user and in kernel mode.
+    /// The processor time so far: all threads, user mode and kernel mode.
     pub(crate) fn processor(&self) -> Duration {
         let stat = self.file("stat");
         let fields: Vec<_> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
-        // The fields 14 and 15, counted from 1 and with two before the bracket; in ticks, of which Linux tells 100 a second.
+        // Fields 14 and 15, counted from 1 with two before the bracket, in ticks of 1/100 s on Linux.
         let ticks = |at: usize| fields.get(at).and_then(|field| field.parse().ok()).unwrap_or(0_u64);
         Duration::from_millis(10 * (ticks(11) + ticks(12)))
     }
 
-    /// Bytes that it has in memory.
+    /// Its resident memory in bytes.
     pub(crate) fn memory(&self) -> u64 {
         let status = self.file("status");
         let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).unwrap_or_default();
         1024 * line.split_whitespace().next().and_then(|number| number.parse::<u64>().ok()).unwrap_or(0)
     }
 
-    /// Files and sockets that it has open.
+    /// Its number of open files and sockets.
     pub(crate) fn handles(&self) -> usize {
         std::fs::read_dir(format!("/proc/{}/fd", self.child.id())).map_or(0, Iterator::count)
     }
 
-    /// Ends it; gives what it said meanwhile.
+    /// Ends it; returns its output.
     pub(crate) fn end(mut self) -> String {
         let id = self.child.id().to_string();
         let asked = Command::new("kill").args(["-INT", &id]).status();
@@ -109,7 +109,7 @@ impl Drop for Server {
     }
 }
 
-/// Starts a process, and waits until a line of it names its port.
+/// Starts a process, and waits for the line of output with its port.
 fn start(command: &mut Command, port: impl Fn(&str) -> Option<u16>) -> io::Result<(Child, Option<ChildStdin>, u16)> {
     let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
     let output = child.stdout.take().map(BufReader::new);
@@ -123,7 +123,7 @@ fn start(command: &mut Command, port: impl Fn(&str) -> Option<u16>) -> io::Resul
     Err(io::Error::other(format!("it ended: {}", String::from_utf8_lossy(&said.stderr).trim())))
 }
 
-/// A Python with snap7's library: the one that is named, else one of our own beside what was built.
+/// A Python with snap7's library: the one named by the variable, else one installed below the target folder.
 fn python() -> io::Result<PathBuf> {
     if let Some(python) = std::env::var_os(SNAP7_PYTHON) {
         return Ok(python.into());
@@ -135,7 +135,7 @@ fn python() -> io::Result<PathBuf> {
         check.is_ok_and(|status| status.success())
     };
     if !is_there(&python) {
-        eprintln!("installing {SNAP7} beside what was built; {SNAP7_PYTHON} names a Python that has it already");
+        eprintln!("installing {SNAP7} below the target folder; set {SNAP7_PYTHON} to use a Python that has it already");
         run(Command::new("python3").args(["-m", "venv"]).arg(&own))?;
         run(Command::new(&python).args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", SNAP7]))?;
     }

@@ -1,8 +1,8 @@
-"""snap7's native server, from the library inside python-snap7 2.x: a data block and nothing else. `benches/s7` starts it.
+"""snap7's native server, from the library inside python-snap7 2.x, with a single data block. `benches/s7` starts it.
 
     python snap7_server.py PORT BLOCK BYTES
 
-Prints "ready" when clients may come, and ends when its input ends. Python only waits: clients are served by threads of the library.
+Prints "ready" when clients can connect, and ends when its input ends. Python only waits: threads of the library serve the clients.
 """
 
 import contextlib
@@ -35,7 +35,7 @@ def main():
     data = (ctypes.c_uint8 * size)()
     number = ctypes.c_uint16(port)
     done = [
-        # Nobody asks for its events, so it need not keep them.
+        # Its events are not used.
         snap7.Srv_SetMask(server, 0, 0),
         snap7.Srv_SetMask(server, 1, 0),
         snap7.Srv_SetParam(server, LOCAL_PORT, ctypes.byref(number)),

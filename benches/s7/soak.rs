@@ -1,5 +1,5 @@
-//! The soak: clients of all kinds at a modest rate for a long time, and whether the server's memory and handles stay what they were.
-//! Every answer is checked: its reference, that nothing was refused, and that who writes finds it again.
+//! The soak: clients of all kinds at a moderate rate for a long time; the server's memory and handles must not grow. Every answer is
+//! checked: its reference, that nothing was refused, and that written values are read back.
 
 use std::io::{self, Read, Write};
 use std::net::{SocketAddr, TcpStream};
@@ -9,15 +9,15 @@ use std::time::{Duration, Instant};
 use crate::load::{BLOCK, CONNECT, setup};
 use crate::servers::Server;
 
-/// Where the part of the block begins in which each client has bytes of its own, and how many.
+/// The offset of the clients' own bytes in the block, and their number.
 const OWN: u16 = 1024;
 const OWN_BYTES: u16 = 32;
-/// How often the server is looked at.
+/// Interval of the measurements.
 const LOOK: Duration = Duration::from_secs(10);
-/// What is looked at is shown so often.
+/// One of this many measurements is printed.
 const SHOWN: u32 = 6;
 
-/// What all clients did.
+/// The sum of all clients' activity.
 #[derive(Default)]
 struct Done {
     requests: AtomicU64,
@@ -26,14 +26,14 @@ struct Done {
     failures: AtomicU64,
 }
 
-/// One look at the server.
+/// One measurement of the server.
 #[derive(Clone, Copy)]
 struct Look {
     memory: u64,
     handles: usize,
 }
 
-/// Runs it; gives whether the server stayed what it was.
+/// Runs the soak; returns whether the server did not grow.
 pub(crate) fn run(server: &Server, clients: u16, time: Duration, rate: f64) -> bool {
     let (done, ended) = (Done::default(), AtomicBool::new(false));
     let pause = Duration::from_secs_f64(f64::from(clients) / rate);
@@ -80,7 +80,7 @@ fn show(elapsed: Duration, look: &Look, done: &Done) {
     );
 }
 
-/// The last quarter must not need more than the second: what grows for ever grows from the one to the other.
+/// The last quarter must not need more than the second: continuous growth would show between them.
 fn judge(looks: &[Look], done: &Done) -> bool {
     let quarter = looks.len() / 4;
     if quarter == 0 {
@@ -93,7 +93,7 @@ fn judge(looks: &[Look], done: &Done) -> bool {
     };
     let (early, late) = (most(&looks[quarter..2 * quarter]), most(&looks[looks.len() - quarter..]));
     let failures = done.failures.load(Ordering::Relaxed);
-    // Pages of an allocator come and go; a leak of one byte per request would be some 3 MiB in a quarter of an hour.
+    // The memory of an allocator varies by some pages; a leak of one byte per request would be about 3 MiB in a quarter of an hour.
     let is_good = late.0 <= early.0 + 512 && late.1 <= early.1 + 8 && failures == 0;
     println!(
         "soak: most memory in the second quarter {} KiB, in the last {} KiB; most handles {} and {}; {failures} failures: {}",
@@ -106,7 +106,7 @@ fn judge(looks: &[Look], done: &Done) -> bool {
     is_good
 }
 
-/// Numbers that look like chance, the same in every run.
+/// Pseudo-random numbers, the same in every run.
 struct Chance(u64);
 
 impl Chance {
@@ -157,7 +157,7 @@ fn converse(
                 let length = 2 + 2 * u16::try_from(chance.below(14)).unwrap_or(0);
                 client.write(own, &vec![value; length.into()])?;
                 if client.read(own, length)?.iter().any(|found| *found != value) {
-                    return Err(io::Error::other("what was written was not found again"));
+                    return Err(io::Error::other("a written value was not read back"));
                 }
             }
             14 => client.user_data(4, 1, &[0, 0x11, 0, 0])?,
@@ -173,7 +173,7 @@ fn converse(
                 client.user_data(2, 4, &[0, 0])?;
                 is_subscribed = false;
             }
-            // Somebody who has half a request and goes.
+            // A client that sends an incomplete request and closes.
             _ => TcpStream::connect(address)?.write_all(&CONNECT[..usize::from(number % 20) + 1])?,
         }
         std::thread::sleep(pause);
@@ -182,14 +182,14 @@ fn converse(
 }
 
 impl Client<'_> {
-    /// The next packet that is no push.
+    /// The next packet that is not a push.
     fn packet(&mut self) -> io::Result<Vec<u8>> {
         loop {
             let mut packet = vec![0; 4];
             self.stream.read_exact(&mut packet)?;
             packet.resize(usize::from(u16::from_be_bytes([packet[2], packet[3]])).max(4), 0);
             self.stream.read_exact(&mut packet[4..])?;
-            // User data of the group "cyclic" that no request asked for: a push, type 0.
+            // User data of the group "cyclic" without a request: a push, type 0.
             if packet.get(8) == Some(&7) && packet.get(22) == Some(&0x02) {
                 self.done.pushes.fetch_add(1, Ordering::Relaxed);
                 continue;
@@ -198,7 +198,7 @@ impl Client<'_> {
         }
     }
 
-    /// Asks, and gives the PDU of the answer.
+    /// Sends a request, and returns the PDU of the answer.
     fn ask(&mut self, kind: u8, parameter: &[u8], data: &[u8]) -> io::Result<Vec<u8>> {
         self.reference = self.reference.wrapping_add(1);
         let length = |bytes: usize| u16::try_from(bytes).unwrap_or(0).to_be_bytes();

@@ -1,5 +1,5 @@
-//! A bare timer beside the load: a thread that does nothing but wake every 2 ms, as urgent as the one that steps the machine where
-//! the system allows it. What comes late here comes from the system and the computer.
+//! A bare timer beside the load: a thread that only wakes every 2 ms, with the same priority as the stepping thread where the system allows
+//! it. Delays measured here come from the system and the computer.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,17 +8,17 @@ use std::time::{Duration, Instant};
 
 const CYCLE: Duration = Duration::from_millis(2);
 
-/// A timer that runs until it is asked.
+/// A timer that runs until its result is requested.
 pub(crate) struct Timer {
     is_over: Arc<AtomicBool>,
     thread: JoinHandle<Lateness>,
 }
 
-/// How late it was.
+/// The measured delays.
 #[derive(Default)]
 pub(crate) struct Lateness {
     pub(crate) cycles: u32,
-    /// Those that began later than the next one was due.
+    /// Wake-ups after the next one was already due.
     pub(crate) late: u32,
     pub(crate) worst: Duration,
 }
@@ -49,7 +49,7 @@ impl Timer {
     }
 }
 
-/// As the stepping thread does (`src/live/urgency.rs`); who may not, goes on as all programs run.
+/// As the stepping thread does (`src/live/urgency.rs`); without permission it runs with normal priority.
 #[cfg(unix)]
 fn hurry() {
     use thread_priority::unix::{

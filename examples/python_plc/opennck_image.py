@@ -9,12 +9,12 @@
                 step["DB31.DBX29.4"] = 1
             image.answer(step)
 
-The layout of the file stands byte by byte in the README of OpenNCK. Two rules make it right in Python:
+The README of OpenNCK has the layout of the file byte by byte. Two rules apply in Python:
 
-* A word that somebody else waits for is loaded and stored as one aligned word of 64 bits: through a memoryview cast to "Q", never
+* A word that the other side waits for is loaded and stored as one aligned word of 64 bits: through a memoryview cast to "Q", never
   byte by byte.
-* Python has no memory barriers. On x86-64 stores become visible in their order anyway; elsewhere (ARM) they need not, so every slot
-  ends with a checksum, and a reader whose checksum does not fit reads again.
+* Python has no memory barriers. On x86-64 stores become visible in order; elsewhere (ARM) this is not guaranteed. Every slot therefore
+  ends with a checksum, and a reader repeats a read with a wrong checksum.
 """
 
 import mmap
@@ -51,7 +51,7 @@ POWER = 536
 # STATE.
 ENDED, RUN, STOP = 0, 1, 2
 
-# The header has one page; a slot begins with 64 bytes of its own, and the image follows.
+# The header has one page. A slot begins with its own 64 bytes, followed by the image.
 PAGE, HEAD = 4096, 64
 
 WRITERS = {1: "PLC", 2: "NCK", 3: "HMI", 4: "machine"}
@@ -60,11 +60,11 @@ ADDRESS = re.compile(r"(?:DB(\d+)\.DB([XBWD])|([IQMTC])([BWD]?))(\d+)(?:\.([0-7]
 
 
 class NotYet(Exception):
-    """Why there is nothing to begin with yet."""
+    """The reason why the image cannot be used yet."""
 
 
 class Section:
-    """Bytes of one area or data block that have one writer."""
+    """Consecutive bytes of one area or data block with one writer."""
 
     def __init__(self, entry):
         kind, self.number, self.first, self.length, self.offset, writer, name = struct.unpack_from("<8s5Q32s", entry)
@@ -72,11 +72,11 @@ class Section:
         self.writer = WRITERS.get(writer)
         self.name = name.rstrip(b"\0").decode(errors="replace")
         if self.kind not in ("DB", "I", "Q", "M", "T", "C") or self.writer is None:
-            raise NotYet(f"its table of sections is not whole: {self.kind!r} {self.number}, writer {writer}")
+            raise NotYet(f"its section table is invalid: {self.kind!r} {self.number}, writer {writer}")
 
 
 class Step:
-    """One step of the NC: the image as it was, and as the PLC changes it."""
+    """One step of the NC: the published image, and the image changed by the PLC."""
 
     def __init__(self, image, slot):
         self.number, self.cycle, nanoseconds, since_last, self.starts, self.taken = struct.unpack_from("<6Q", slot)
@@ -103,14 +103,14 @@ class Step:
 
 
 def following(number):
-    """The number after one, whatever the file says; 0 is none."""
+    """The next number. It wraps around and skips 0, which means "none"."""
     return number + 1 & 0xFFFF_FFFF_FFFF_FFFF or 1
 
 
 class Image:
-    """The file. `wait` is how many seconds to wait for an NC that serves it.
+    """The file. `wait` is the time in seconds to wait for an NC that serves it.
 
-    Make it when the program is ready: an NC in lock-step waits for the first answer from then on, as long as for any other.
+    Create it when the program is ready: from then on an NC in lock-step waits for the first answer, with the same time-out as for any other.
     """
 
     def __init__(self, path, wait=10.0):
@@ -135,10 +135,10 @@ class Image:
             with open(path, "r+b") as file:
                 size = os.fstat(file.fileno()).st_size
                 if size < PAGE:
-                    raise NotYet(f"it has {size} bytes, and an image has more")
+                    raise NotYet(f"its size of {size} bytes is too small for an image")
                 self.map = mmap.mmap(file.fileno(), size // PAGE * PAGE)
         except FileNotFoundError:
-            raise NotYet("there is no such file") from None
+            raise NotYet("the file does not exist") from None
         self.bytes = memoryview(self.map)
         self.words = self.bytes.cast("Q")
         try:
@@ -148,15 +148,15 @@ class Image:
             raise
 
     def _begin(self, path):
-        """Reads the header. What an NC has not written to its end, or another one begins to write meanwhile, counts as not there."""
+        """Reads the header. A header that is incomplete, or that another NC starts to write meanwhile, counts as missing."""
         self.generation = self.word(GENERATION)
         head = bytes(self.bytes[:16])
         if head[:8] != MAGIC:
-            raise NotYet("it is no image of the interface")
+            raise NotYet("it is not an image of the interface")
         if head[8:16] != struct.pack("<Q", VERSION):
-            raise ValueError(f"{path} has another version than {VERSION}")
+            raise ValueError(f"{path} does not have version {VERSION}")
         if self.word(STATE) == ENDED:
-            raise NotYet("its NC has ended, or is about to begin")
+            raise NotYet("its NC has ended or is about to start")
         self.image_bytes, self._slots = self.word(IMAGE_BYTES), self.word(SLOTS)
         self._nc_slots, self._nc_slot_bytes = self.word(NC_SLOTS), self.word(NC_SLOT_BYTES)
         self._plc_slots, self._plc_slot_bytes = self.word(PLC_SLOTS), self.word(PLC_SLOT_BYTES)
@@ -173,16 +173,16 @@ class Image:
             and self._plc_slots + self._slots * self._plc_slot_bytes <= self.word(FILE_BYTES) <= len(self.bytes)
         )
         if not places:
-            raise NotYet("its header is not whole")
+            raise NotYet("its header is invalid")
         entries = bytes(self.bytes[table : table + size * count])
         self.sections = [Section(entries[size * n : size * (n + 1)]) for n in range(count)]
         if any(section.offset + section.length > self.image_bytes for section in self.sections):
-            raise NotYet("its table of sections is not whole: one ends beyond the image")
+            raise NotYet("its section table is invalid: a section ends beyond the image")
         self._places = {}
         self._newest = 0
         self._starts = self._answered = None
         if not self.is_served():
-            raise NotYet("another NC begins with it")
+            raise NotYet("another NC starts to serve it")
         self.store(PLC_STARTS, following(self.word(PLC_STARTS)))
 
     def close(self):
@@ -205,7 +205,7 @@ class Image:
         self.words[offset // 8] = value
 
     def is_served(self):
-        """Whether the NC that this began with is still there."""
+        """Whether the NC of this session still serves the file."""
         return self.word(STATE) != ENDED and self.word(GENERATION) == self.generation
 
     def find(self, address):
@@ -223,24 +223,24 @@ class Image:
         kind, number, width = (area, 0, area_width) if area else ("DB", int(db), db_width)
         byte, bit = int(byte), bit and int(bit)
         if (bit is None) == (width in ("X", "") and kind not in "TC"):
-            raise LookupError(f"{address}: a bit has a number from 0 to 7 behind a point, and nothing else has")
+            raise LookupError(f"{address}: only a bit address has a point and a number from 0 to 7")
         size = {"B": 1, "W": 2, "D": 4}.get(width, 1)
         if kind in "TC":
             byte, size = 2 * byte, 2
-        if size > 1:  # all of it, whoever writes it
+        if size > 1:  # all bytes, for every writer
             first, last = self._offset(kind, number, byte, address), self._offset(kind, number, byte + size - 1, address)
             if last - first != size - 1:
-                raise LookupError(f"{address}: its bytes do not lie together")
+                raise LookupError(f"{address}: its bytes are not consecutive in the image")
         return self._offset(kind, number, byte, address), size, bit
 
     def _offset(self, kind, number, byte, address):
         for section in self.sections:
             if (section.kind, section.number) == (kind, number) and 0 <= byte - section.first < section.length:
                 return section.offset + byte - section.first
-        raise LookupError(f"{address}: the image has no such byte")
+        raise LookupError(f"{address}: the image does not have this byte")
 
     def newest(self):
-        """The newest step, if it is newer than the last, and the last answer is in it; else None."""
+        """The newest step, if it is newer than the last one and contains the last answer; else None."""
         number = self.word(NEWEST_STEP)
         if number in (0, self._newest):
             return None
@@ -260,9 +260,9 @@ class Image:
         return step
 
     def steps(self, nap=0.00005):
-        """The steps of the NC as they come, while it is there and the PLC is in RUN; a slow program misses some.
+        """The steps of the NC, while it serves the file and the PLC is in RUN; a slow program misses some.
 
-        Who opened the file of an NC that had ended without a word has seen none of its steps, and begins with the next NC.
+        If the file was left by an NC that crashed, no step of it is returned: the steps begin with the next NC.
         """
         while True:
             while self.is_served():
@@ -277,7 +277,7 @@ class Image:
             self._open_soon()
 
     def _has_another_nc(self):
-        """Whether another NC begins with the file; it says first that the old one has ended."""
+        """Whether another NC starts to serve the file. It first marks the old one as ended."""
         end = time.monotonic() + 1
         while self.word(GENERATION) == self.generation:
             if time.monotonic() > end:
@@ -286,7 +286,7 @@ class Image:
         return True
 
     def answer(self, step):
-        """Publishes what the PLC made of a step. Whoever changed a bit wins it; what stayed as it was is nobody's write."""
+        """Publishes the answer of the PLC to a step. Only changed bits count as writes of the PLC; unchanged bits leave other writers' changes intact."""
         if not self.is_served():
             return  # the slots may be another NC's
         number = following(self.word(NEWEST_ANSWER))
@@ -303,5 +303,5 @@ class Image:
         self._answered = number
 
     def power_off_and_on(self):
-        """Switches the control off and on, which is what alarm 2000 asks for."""
+        """Switches the control off and on, which cancels alarm 2000."""
         self.store(POWER, following(self.word(POWER)))

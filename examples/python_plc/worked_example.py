@@ -1,9 +1,9 @@
-"""The worked example of the gantry manual with a PLC in Python: a gantry references, waits for its start, and synchronises.
+"""The worked example of the gantry manual with a PLC in Python: a gantry is referenced, waits for the start, and synchronises.
 
     opennck serve g1_example --image nck.image --lock-step
     python3 examples/python_plc/worked_example.py nck.image
 
-X is axis 1 (DB31), the leading axis; XF is axis 3 (DB33). It ends with 0 when the grouping is synchronised, else with 1.
+X is axis 1 (DB31), the leading axis; XF is axis 3 (DB33). The exit code is 0 when the grouping is synchronised, else 1.
 """
 
 import sys
@@ -14,7 +14,7 @@ LONGEST = 120.0  # seconds of the NC
 
 
 def enable(step):
-    """What every PLC program does in every scan."""
+    """The enables that every PLC program sets in every scan."""
     for db in (31, 32, 33):
         step[f"DB{db}.DBX1.5"] = 1  # position measuring system 1
         step[f"DB{db}.DBX2.1"] = 1  # controller enable
@@ -22,7 +22,7 @@ def enable(step):
 
 
 def sequence():
-    """The operator and the PLC of the example, as a list of what to do until when."""
+    """The actions of the operator and the PLC of the example, each up to a condition."""
     step = yield
     step["DB31.DBX29.5"] = 1  # no automatic synchronization
     while not (step["DB31.DBX61.5"] and step["DB33.DBX61.5"]):  # position controller active
@@ -63,7 +63,7 @@ def main():
                 return 0
             if step.time - begin > LONGEST:
                 break
-        print(f"it did not synchronise: the program {state}", file=sys.stderr)
+        print(f"the gantry did not synchronise; the last state is: {state}", file=sys.stderr)
         return 1
 
 

@@ -1,4 +1,4 @@
-//! Any bytes as a server's answers to a client.
+//! Arbitrary bytes as a server's answers to a client.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|input: &[u8]| {

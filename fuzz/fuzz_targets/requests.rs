@@ -1,4 +1,4 @@
-//! Any bytes as choices of a grammar, so that nearly every request is understood.
+//! Arbitrary bytes as choices of a grammar, so that almost every request is valid.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|input: &[u8]| {

@@ -1,4 +1,4 @@
-//! Any bytes as the stream of a client.
+//! Arbitrary bytes as the stream of a client.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|input: &[u8]| {

@@ -1,4 +1,4 @@
-//! A client of S7 communication whose server says any bytes, without a socket and without a clock.
+//! A client of S7 communication whose server sends arbitrary bytes, without a socket and without a clock.
 //!
 //! ```text
 //! first byte          bits 0 to 3 what is asked, bit 4 whether the opening is in the input, too, bit 5 whether with a password
@@ -22,17 +22,17 @@ use tokio::task::yield_now;
 
 use super::conversation::PAUSE;
 
-/// Memory of a client that hears nothing: its task, its room for what comes, and what is asked.
+/// Memory of an idle client: its task, its input buffer, and its requests.
 const MEMORY: u64 = 160 * 1024;
-/// And for each byte that came: kept in a list as it came, put together, and grown by doubling.
+/// Memory for each received byte: kept in a list, reassembled, and grown by doubling.
 const FOR_EACH_BYTE: u64 = 48;
-/// How many packets a client may send for each that the server sent, and without any.
+/// Maximum number of packets from a client, per packet from the server, and without any.
 const PACKETS: (usize, usize) = (16, 64);
-/// A value of so many bytes is asked for whole, whatever PDU was agreed.
+/// A value of this many bytes is requested at once, whatever PDU was negotiated.
 const WHOLE: usize = 32;
-/// So often others have their turn before the server goes on.
+/// How often other tasks get their turn before the server continues.
 const TURNS: usize = 24;
-/// What was agreed, where the opening is not in the input: two jobs, a PDU of 240 bytes.
+/// The negotiated values if the opening is not in the input: two jobs, a PDU of 240 bytes.
 const OPENING: [&[u8]; 2] = [
     &[3, 0, 0, 22, 17, 0xD0, 0, 1, 0, 7, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2],
     &[3, 0, 0, 27, 2, 0xF0, 0x80, 0x32, 3, 0, 0, 0, 1, 0, 8, 0, 0, 0, 0, 0xF0, 0, 0, 2, 0, 2, 0, 0xF0],
@@ -43,7 +43,7 @@ thread_local! {
     static HAS_PANICKED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// A task that panics does so in silence: whoever has started it is told.
+/// A panic in a task is not reported to its creator: a hook records it.
 fn listen_for_panics() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
@@ -55,10 +55,10 @@ fn listen_for_panics() {
     });
 }
 
-/// Asks, hears what the input says, and judges; how many questions had another answer than an error.
+/// Sends requests, receives the answers of the input, and judges; returns the number of requests without an error.
 ///
 /// # Panics
-/// The client did what a client does not do.
+/// The client violated the rules.
 pub fn judge(input: &[u8]) -> usize {
     let &[first, second, ref said @ ..] = input else { return 0 };
     listen_for_panics();
@@ -84,15 +84,15 @@ pub fn judge(input: &[u8]) -> usize {
 
 struct Server<'a> {
     stream: DuplexStream,
-    /// What has come from the client and is not a whole packet yet.
+    /// Bytes of an incomplete packet from the client.
     requests: Vec<u8>,
     packets: usize,
-    /// Everything that was said.
+    /// Everything that was sent.
     heard: &'a RefCell<Vec<u8>>,
 }
 
 impl Server<'_> {
-    /// Says everything and goes.
+    /// Sends everything and closes.
     async fn say(mut self, said: &[u8], is_opened: bool) {
         let opening = if is_opened { &[][..] } else { &OPENING[..] };
         for part in opening {
@@ -105,7 +105,7 @@ impl Server<'_> {
         while !rest.is_empty() {
             let end = rest.windows(2).position(|bytes| bytes == PAUSE).unwrap_or(rest.len());
             let mut part = rest[..end].to_vec();
-            // Behind TPKT, DT and the first four bytes of the header.
+            // After TPKT, DT and the first four bytes of the header.
             for at in 0..part.len() {
                 if part[at..].starts_with(&[3, 0]) && part.get(at + 11..at + 13) == Some(&[0xFF, 0xFF]) {
                     part[at + 11..at + 13].copy_from_slice(&reference);
@@ -122,10 +122,10 @@ impl Server<'_> {
 
     async fn send(&mut self, bytes: &[u8]) {
         self.heard.borrow_mut().extend_from_slice(bytes);
-        let _ = self.stream.write_all(bytes).await; // who does not listen any more may
+        let _ = self.stream.write_all(bytes).await; // the client may have closed
     }
 
-    /// Waits until the client does nothing more, and takes what it has said; the reference of its last request.
+    /// Waits until the client is idle, and takes its requests; returns the reference of the last request.
     async fn wait(&mut self) -> [u8; 2] {
         let mut reference = [0, 0];
         let mut turns = 0;
@@ -170,7 +170,7 @@ async fn ask(stream: DuplexStream, questions: [u8; 2], heard: &RefCell<Vec<u8>>)
     first + second
 }
 
-/// Asks one thing.
+/// Sends one request.
 async fn question(client: &Client, number: u8, heard: &RefCell<Vec<u8>>) -> usize {
     fn count<T>(result: &Result<T, Error>) -> usize {
         usize::from(result.is_ok())
@@ -220,7 +220,7 @@ async fn listen(client: &Client, texts: &[&str], mode: Mode) -> usize {
     good
 }
 
-/// The pieces of S7 PDUs in a stream, one behind the other.
+/// The pieces of S7 PDUs in a stream, one after another.
 fn pieces(mut stream: &[u8]) -> Vec<u8> {
     let mut pieces = Vec::new();
     while let &[3, _, high, low, indicator, ..] = stream {
@@ -231,7 +231,7 @@ fn pieces(mut stream: &[u8]) -> Vec<u8> {
     pieces
 }
 
-/// Bytes of a value came one behind the other, or backwards; those of long ones may have been put together from several answers.
+/// The bytes of a value must appear consecutively, forward or reversed; long values may have been assembled from several answers.
 fn judge_value(value: &Value, came: &[u8]) {
     let judge = |bytes: &[u8]| {
         let backwards: Vec<u8> = bytes.iter().rev().copied().collect();

@@ -5,8 +5,8 @@
 //! FE ED nn            nn hundredths of a second pass, then a step takes up what was written
 //! everything else     bytes from the client
 //! ```
-//! The same bytes are said three times: packet by packet, where each answer is judged; everything at once between two steps; and in
-//! small pieces. All three must get the same bytes and write the same.
+//! The same bytes are processed three times: packet by packet, with each answer judged; everything at once between two steps; and in small
+//! pieces. All three runs must give the same answers and the same writes.
 
 use std::borrow::Cow;
 
@@ -21,16 +21,16 @@ use opennck::variables::{Place, Variables};
 
 use super::oracle::{Expected, Listener, Shadow, packet_length};
 
-/// Before a pause.
+/// Marks a pause.
 pub const PAUSE: [u8; 2] = [0xFE, 0xED];
-/// What a session may hold at its end, and what it may need to answer one packet.
+/// Memory limit of a session at its end, and for the answer to one packet.
 const MEMORY: u64 = 192 * 1024;
-/// How often it may ask for memory for one packet: what is slow mostly does so often, and the machine stands meanwhile.
+/// Maximum number of allocations for one packet: slow code usually allocates often, and the machine waits meanwhile.
 const ALLOCATIONS: u64 = 4000;
-/// How often a session may say something by itself at once.
+/// Maximum number of pushes of a session at once.
 const PUSHES: usize = 32;
 
-/// Everything that a session talks to.
+/// The environment of a session.
 struct World {
     memory: Memory,
     names: Names,
@@ -39,7 +39,7 @@ struct World {
     diagnosis: Vec<Diagnosis>,
 }
 
-/// What a client may do.
+/// The rights of a client.
 #[derive(Clone, Copy)]
 struct Rights {
     is_read_only: bool,
@@ -89,7 +89,7 @@ impl MachineData for Data {
     }
 }
 
-/// What a conversation left behind: of each time between two steps what was answered and asked for.
+/// The result of a conversation: answers and commands between every two steps.
 #[derive(Debug, Default, PartialEq)]
 struct Record {
     answers: Vec<Vec<u8>>,
@@ -97,7 +97,7 @@ struct Record {
     ended: Option<usize>,
 }
 
-/// One telling of it.
+/// One run of a conversation.
 struct Telling<'a> {
     world: &'a World,
     rights: Rights,
@@ -145,7 +145,7 @@ impl<'a> Telling<'a> {
         self.with(|session, bridge| session.receive(bytes, bridge, answers))
     }
 
-    /// Time passes, and the machine does what was asked for.
+    /// Advances time, and the machine executes the commands.
     fn step(&mut self, hundredths: u8, answers: &mut Answers) -> Vec<Command> {
         let commands = std::mem::take(&mut self.commands);
         for command in &commands {
@@ -164,7 +164,7 @@ impl<'a> Telling<'a> {
     }
 }
 
-/// Bytes of the client between two steps, and the hundredths of a second behind them.
+/// Bytes of the client between two steps, and the hundredths of a second after them.
 fn parts(input: &[u8]) -> Vec<(&[u8], u8)> {
     let (mut parts, mut rest) = (Vec::new(), input);
     while let Some(at) = rest.windows(3).position(|bytes| bytes[..2] == PAUSE) {
@@ -175,10 +175,10 @@ fn parts(input: &[u8]) -> Vec<(&[u8], u8)> {
     parts
 }
 
-/// Tells the conversation and judges every answer.
+/// Runs the conversation and judges every answer.
 ///
 /// # Panics
-/// The session did what a module does not do.
+/// The session violated the rules.
 pub fn judge(input: &[u8]) {
     let Some((machine, stream)) = input.split_first() else { return };
     let level = (machine >> 2 & 3) % 3 + 1;
@@ -199,7 +199,7 @@ pub fn judge(input: &[u8]) {
     });
 }
 
-/// In pieces as long as `cut` says.
+/// Runs it in pieces whose lengths `cut` returns.
 fn told(world: &World, rights: Rights, parts: &[(&[u8], u8)], mut cut: impl FnMut(usize) -> usize) -> Record {
     let (mut telling, mut record) = (Telling::new(world, rights), Record::default());
     for (index, &(bytes, hundredths)) in parts.iter().enumerate() {
@@ -219,11 +219,11 @@ fn told(world: &World, rights: Rights, parts: &[(&[u8], u8)], mut cut: impl FnMu
     record
 }
 
-/// Packet by packet, each answer judged.
+/// Runs it packet by packet and judges each answer.
 fn judged(world: &World, rights: Rights, parts: &[(&[u8], u8)]) -> Record {
     let (mut telling, mut record) = (Telling::new(world, rights), Record::default());
     let mut listener = Listener::new(shadow(&world.memory));
-    // What has come of a packet that is not whole.
+    // Bytes of an incomplete packet.
     let mut begun = Vec::new();
     for (index, &(bytes, hundredths)) in parts.iter().enumerate() {
         let mut rest = bytes;

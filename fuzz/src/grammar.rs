@@ -1,9 +1,9 @@
-//! A grammar: any bytes are choices, and out of them comes the stream of a client whose requests are nearly all understood. It ends
-//! where the choices end.
+//! A grammar: arbitrary bytes select alternatives and produce the stream of a client whose requests are almost all valid. The stream ends
+//! when the bytes are used up.
 
 use super::conversation::PAUSE;
 
-/// Choices, taken one after another; 0 when there is none left.
+/// Choices, taken in order; 0 when none is left.
 struct Choices<'a>(&'a [u8]);
 
 impl Choices<'_> {
@@ -123,7 +123,7 @@ fn request(stream: &mut Vec<u8>, choices: &mut Choices<'_>) {
             }
         },
         _ => {
-            // Whatever it is: function or group, with some bytes.
+            // Any function or group, with some bytes.
             let (parameter, data) = (choices.byte() % 32, choices.byte() % 32);
             let parameter = choices.bytes(parameter.into());
             let data = choices.bytes(data.into());
@@ -137,7 +137,7 @@ fn name(choices: &mut Choices<'_>) -> String {
     format!("{:05}", choices.of(&[1000_u16, 1001, 10, 11, 31, 2, 9, 0, 3800]))
 }
 
-/// Items with their count before them, and values that fit.
+/// Items preceded by their count, and matching values.
 fn items(choices: &mut Choices<'_>, is_write: bool) -> (Vec<u8>, Vec<u8>) {
     let count = choices.byte() % 24 + 1;
     let (mut items, mut values) = (vec![count], Vec::new());
@@ -239,7 +239,7 @@ fn user_data(stream: &mut Vec<u8>, choices: &mut Choices<'_>, group: u8, functio
     let kind = choices.of(&[0x40, 0x00]) | group;
     let sequence = choices.byte();
     let parameter = if sequence % 4 == 3 {
-        // The next part of what came before.
+        // The next part of the last long answer.
         vec![0, 1, 0x12, 8, 0x12, kind, function, sequence / 4, 0, 0, 0, 0]
     } else {
         vec![0, 1, 0x12, 4, 0x11, kind, function, 0]

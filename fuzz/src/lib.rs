@@ -1,5 +1,5 @@
-//! What the fuzz targets and `tests/hostile/corpus.rs` share: a conversation with a session of S7 communication, an oracle that judges
-//! its answers, and a grammar of requests.
+//! Shared by the fuzz targets and `tests/hostile/corpus.rs`: a conversation with a session of S7 communication, an oracle that judges its
+//! answers, and a grammar of requests.
 
 pub mod client;
 pub mod conversation;

@@ -1,29 +1,29 @@
-//! The oracle: it reads what a client sent and what was answered with readers of its own, by RFC 1006, ISO 8073 and the layout of
-//! the dissector of Wireshark, and says where an answer is not one that a module gives. No line of the server is used.
+//! The oracle: it decodes the requests and answers with its own readers, according to RFC 1006, ISO 8073 and the dissector of Wireshark,
+//! and rejects an answer that a module would not give. It shares no code with the server.
 //!
-//! | rule | what it says |
+//! | rule | meaning |
 //! |---|---|
-//! | framing | answers are whole packets: number 0, one end mark, no piece longer than the agreed TPDU |
+//! | framing | answers are complete packets: number 0, one end mark, no piece longer than the agreed TPDU |
 //! | budget | no PDU is longer than negotiated |
-//! | one for one | each request has one answer with its reference, its function, its count of items; nothing else is answered |
-//! | items | values lie at even places, end with the PDU, and are as long as was asked for |
-//! | memory | flags and own blocks are read as they are at this step, and written as asked, at the next |
+//! | one for one | each request has one answer with its reference, its function, its count of items; there are no other answers |
+//! | items | values begin at even offsets, end with the PDU, and have the requested length |
+//! | memory | flags and user blocks are read as they are at this step, and written as requested, at the next |
 //! | refusals | a refused request changes nothing |
 
 use std::collections::VecDeque;
 
-/// The longest request that a server puts together.
+/// The longest request that a server reassembles.
 const LONGEST_REQUEST: usize = 4096;
 
-/// What the memory holds that the oracle knows: flags and some data blocks, by number; flags are block 0.
+/// The memory that the oracle knows: flags and some data blocks, by number; flags are block 0.
 pub type Shadow = Vec<(u16, Vec<u8>)>;
 
-/// What has to follow a packet.
+/// The expected reaction to a packet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Expected {
-    /// Nothing, and the connection goes on.
+    /// No answer, and the connection continues.
     Silence,
-    /// The end of the connection without a word.
+    /// The end of the connection without an answer.
     End,
     /// A connection confirm with this destination reference, or the end.
     Confirm([u8; 2]),
@@ -40,11 +40,11 @@ pub struct Request {
     reference: u16,
     parameter: Vec<u8>,
     data: Vec<u8>,
-    /// Whether it is what its kind has to be.
+    /// Whether it is valid for its kind.
     is_readable: bool,
 }
 
-/// What a client has said so far.
+/// The state of a conversation.
 #[derive(Clone, Debug)]
 pub struct Listener {
     is_connected: bool,
@@ -54,7 +54,7 @@ pub struct Listener {
     piece: usize,
     /// The memory of this step.
     seen: Shadow,
-    /// With what was written and waits for the next step.
+    /// With the writes that are executed at the next step.
     written: Shadow,
 }
 
@@ -62,7 +62,7 @@ fn word(bytes: &[u8], at: usize) -> u16 {
     u16::from_be_bytes([bytes[at], bytes[at + 1]])
 }
 
-/// The length of the first packet of a stream: none yet, or none ever.
+/// The length of the first packet of a stream: `None` while unknown, an error if it is invalid.
 pub fn packet_length(stream: &[u8]) -> Result<Option<usize>, ()> {
     match stream {
         [] => Ok(None),
@@ -77,26 +77,26 @@ pub fn packet_length(stream: &[u8]) -> Result<Option<usize>, ()> {
 }
 
 impl Listener {
-    /// Before the first byte.
+    /// The state before the first byte.
     #[must_use]
     pub fn new(seen: Shadow) -> Self {
         let written = seen.clone();
         Self { is_connected: false, is_set_up: false, pieces: Vec::new(), pdu: 240, piece: 8189, seen, written }
     }
 
-    /// The edge of a step: what was written is there now.
+    /// Begins a step: the writes take effect.
     pub fn step(&mut self) -> &Shadow {
         self.seen.clone_from(&self.written);
         &self.seen
     }
 
-    /// Whether a conversation has been set up.
+    /// Whether setup communication has succeeded.
     #[must_use]
     pub fn is_set_up(&self) -> bool {
         self.is_set_up
     }
 
-    /// What has to follow a whole packet.
+    /// The expected reaction to a complete packet.
     pub fn hear(&mut self, packet: &[u8]) -> Expected {
         let indicator = usize::from(packet[4]);
         let Some((header, user_data)) = packet[5..].split_at_checked(indicator) else { return Expected::End };
@@ -127,7 +127,7 @@ impl Listener {
         if self.pieces.len() > LONGEST_REQUEST {
             return Expected::End;
         }
-        // Data without data is no request.
+        // An empty DT is not a request.
         if !is_last || self.pieces.is_empty() {
             return Expected::Silence;
         }
@@ -162,10 +162,10 @@ impl Listener {
         Expected::Answer(request)
     }
 
-    /// Judges what followed a packet: the answers, each as it was given, and whether the connection has ended.
+    /// Judges the reaction to a packet: the answers, and whether the connection has ended.
     ///
     /// # Panics
-    /// It is not what had to follow.
+    /// The reaction is not the expected one.
     pub fn judge(&mut self, expected: &Expected, answers: &[&[u8]], has_ended: bool) {
         match expected {
             Expected::Silence => assert!(answers.is_empty() && !has_ended, "silence was due: {answers:02X?}"),
@@ -272,13 +272,13 @@ impl Listener {
                 assert!(*more <= 1 && data.len() >= 4 && data[2..4] == [0, 0xFB]);
                 assert_eq!(usize::from(word(data, 0)), data.len() - 4);
             }
-            // A start of what runs and a stop of what stands are acknowledged with 3 and 7.
+            // A start in RUN and a stop in STOP are acknowledged with 3 and 7.
             [0x1F | 0x28 | 0x29] | [0x28, 3] | [0x29, 7] => assert!(data.is_empty()),
             _ => panic!("an answer that nobody knows: {parameter:02X?}"),
         }
     }
 
-    /// Judges values at even places, one for each item, to the last byte.
+    /// Judges values at even offsets, one for each item, up to the last byte.
     fn judge_values(&self, items: &[Item], mut data: &[u8]) {
         let mut place = 0;
         for item in items {
@@ -306,10 +306,10 @@ impl Listener {
         assert!(data.is_empty(), "nothing behind the last value: {data:02X?}");
     }
 
-    /// Judges what was sent by itself.
+    /// Judges a push.
     ///
     /// # Panics
-    /// It is nothing that a module sends by itself.
+    /// It is not a valid push.
     pub fn judge_push(&self, answer: &[u8]) {
         let pdu = self.unpacked(answer);
         assert!(self.is_set_up && pdu[1] == 7, "{pdu:02X?}");
@@ -319,7 +319,7 @@ impl Listener {
 }
 
 impl Request {
-    /// Whether user data are a request; none if they are nothing at all.
+    /// Whether user data are a request; `None` if they are invalid.
     fn user_data(&self) -> Option<bool> {
         let [0, 1, 0x12, length, _method, kind, _function, _sequence, rest @ ..] = self.parameter.as_slice() else {
             return None;
@@ -345,7 +345,7 @@ impl Request {
     }
 }
 
-/// Judges the two parts of user data, and gives its error.
+/// Judges the two parts of user data, and returns its error.
 fn judge_user_data(parts: &[u8], kind_group: u8, function: u8) -> u16 {
     let (parameter, data) = parts.split_at(12);
     assert_eq!(parameter[..5], [0, 1, 0x12, 8, 0x12], "{parts:02X?}");
@@ -361,7 +361,7 @@ fn is_refusal(code: u8) -> bool {
     matches!(code, 3 | 5 | 6 | 7 | 0x0A)
 }
 
-/// An item of a request, as its bytes behind the length.
+/// An item of a request, as its bytes after the length.
 struct Item(Vec<u8>);
 
 fn items(bytes: &[u8], count: usize) -> Vec<Item> {
@@ -375,7 +375,7 @@ fn items(bytes: &[u8], count: usize) -> Vec<Item> {
     items
 }
 
-/// The values of a write, of clients that fill to even places and of those that do not.
+/// The values of a write, with or without fill bytes.
 fn values(data: &[u8], count: usize) -> Vec<Vec<u8>> {
     let read = |fills: bool| -> Option<Vec<Vec<u8>>> {
         let (mut rest, mut values) = (VecDeque::from(data.to_vec()), Vec::new());
@@ -398,7 +398,7 @@ fn values(data: &[u8], count: usize) -> Vec<Vec<u8>> {
 }
 
 impl Item {
-    /// Block (flags are 0), address, type code and count of what the oracle knows.
+    /// Block (flags are 0), address, type code and count, if the oracle knows the memory.
     fn known(&self) -> Option<(u16, usize, u8, usize)> {
         let [0x10, kind, c1, c0, d1, d0, area, a2, a1, a0] = *self.0.as_slice() else { return None };
         let block = match area {
@@ -410,7 +410,7 @@ impl Item {
         Some((block, address, kind, u16::from_be_bytes([c1, c0]).into()))
     }
 
-    /// Bytes of what syntax 10 asks for.
+    /// Length of the value of an item of syntax 10.
     fn length(&self) -> Option<usize> {
         let [0x10, kind, c1, c0, ..] = *self.0.as_slice() else { return None };
         let each = match kind {

@@ -1,4 +1,4 @@
-// What the clients in JavaScript share: checks that are counted, and the end.
+// Shared by the clients in JavaScript: counted checks, and the summary.
 'use strict';
 const { isDeepStrictEqual, inspect } = require('node:util');
 

@@ -1,4 +1,4 @@
-"""What the Python clients share: checks that are counted, and the end."""
+"""Shared by the Python clients: counted checks, and the summary."""
 
 import os
 import sys
@@ -9,12 +9,12 @@ done, failed = 0, []
 
 
 def equal(what, found, expected):
-    """Both are the same."""
+    """Checks that both values are equal."""
     holds(what, found == expected, f"expected {expected!r}, found {found!r}")
 
 
 def holds(what, is_true, why=""):
-    """It is true."""
+    """Checks that a condition is true."""
     global done
     done += 1
     if not is_true:
@@ -23,16 +23,16 @@ def holds(what, is_true, why=""):
 
 
 def fails(what, action, *arguments):
-    """It raises an error."""
+    """Checks that a call raises an error."""
     try:
         found = action(*arguments)
     except Exception:
         return holds(what, True)
-    holds(what, False, f"an error was due, found {found!r}")
+    holds(what, False, f"expected an error, found {found!r}")
 
 
 def becomes(what, read, expected):
-    """It is so within three seconds."""
+    """Checks that a value is reached within three seconds."""
     end = time.monotonic() + 3
     found = read()
     while found != expected and time.monotonic() < end:
@@ -42,6 +42,6 @@ def becomes(what, read, expected):
 
 
 def close():
-    """The last line of every client's script."""
+    """Prints the summary, which is the last line of every client's script."""
     print(f"checks {done} failed {len(failed)}", flush=True)
     sys.exit(1 if failed else 0)

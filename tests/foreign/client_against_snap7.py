@@ -28,7 +28,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SIZE = 60000
 
-# A server whose memory is asked for on standard input: offset and length, in decimal.
+# A server whose memory can be queried on standard input: offset and length, in decimal.
 SERVER = """
 import ctypes, sys
 import snap7
@@ -53,7 +53,7 @@ for line in sys.stdin:
 
 
 class Served:
-    """A server in its own process."""
+    """A server in a separate process."""
 
     def __init__(self, python):
         with socket.socket() as free:
@@ -105,7 +105,7 @@ def pattern(offset, length):
 
 def check(checks, items_written):
     plain = ("--profile", "none")
-    # One value of each kind, at addresses whose bytes are known.
+    # One value of each type, at addresses with known bytes.
     read = checks.rows("read", "DB1.DBB10", "DB1.DBW10", "DB1.DBD10", "DB1.DBB20..23", *plain)
     ten = pattern(10, 4)
     whole = [int.from_bytes(ten[:length], "big") for length in (1, 2, 4)]
@@ -113,11 +113,11 @@ def check(checks, items_written):
     # Longer than any PDU.
     [row] = checks.rows("read", f"DB1.DBB0..{SIZE - 1}", *plain)
     checks.holds(f"{SIZE} bytes", row["value"] == list(pattern(0, SIZE)), True)
-    # More items than one request takes.
+    # More items than fit in one request.
     addresses = [f"DB1.DBB{at}" for at in range(100)]
     read = checks.rows("read", *addresses, "--items", "20", *plain)
     checks.holds("100 items, 20 each", [row["value"] for row in read], list(pattern(0, 100)))
-    # Writing, and what has become of the server's memory.
+    # Writes, and the resulting memory of the server.
     writes = [f"DB1.DBB{1000 + at}={at}" for at in range(60)]
     written = checks.s7("write", *writes, "--items", items_written, *plain)
     checks.holds("60 writes", written.returncode, 0)
@@ -127,7 +127,7 @@ def check(checks, items_written):
     checks.holds("a long write", written.returncode, 0)
     checks.holds("its memory", checks.served.memory("DB", 2000, 1000), bytes(at % 256 for at in range(1000)))
     checks.holds("a REAL in its place", checks.served.memory("DB", 4000, 4).hex(), "3fc00000")
-    # What does not exist fails alone.
+    # An item that does not exist is refused alone.
     done = checks.s7("read", "DB99.DBB0", *plain)
     checks.holds("a block that is not there", (done.returncode, "refused" in done.stdout), (1, True))
 
@@ -141,7 +141,7 @@ def check_snap7(checks):
     values = [row["value"] for row in read]
     values[2] = str(values[2])[:7]
     checks.holds("one refused item among others", values, [True, False, "refused", 24])
-    # It answers 20 of 30 items, and the rest is asked for.
+    # The server answers 20 of 30 items; the client requests the rest.
     addresses = [f"DB1.DBB{at}" for at in range(30)]
     read = checks.rows("read", *addresses, *plain)
     checks.holds("30 items at once", [row["value"] for row in read], list(pattern(0, 30)))
@@ -159,7 +159,7 @@ def check_python(checks):
 
 
 def interpreter(version, named, folder):
-    """An interpreter that has the package, or why there is none."""
+    """An interpreter that has the package, or the reason why there is none."""
     if named:
         return named, None
     python = pathlib.Path(folder) / version / "bin" / "python"
@@ -180,14 +180,14 @@ def main():
     parser.add_argument("--python-3.3", dest="new", help="an interpreter that has python-snap7 3.3.0")
     options = parser.parse_args()
     if not pathlib.Path(options.program).exists():
-        print(f"there is no {options.program}: build it with `cargo build`, or give --program")
+        print(f"{options.program} not found: build it with `cargo build`, or give --program")
         return 3
     failed, missing = 0, 0
     with tempfile.TemporaryDirectory() as folder:
         for version, named, each in (("2.1.0", options.old, check_snap7), ("3.3.0", options.new, check_python)):
             python, why = interpreter(version, named, folder)
             if python is None:
-                print(f"python-snap7 {version}: NOT RUN, it cannot be installed: {why}")
+                print(f"python-snap7 {version}: NOT RUN, cannot be installed: {why}")
                 missing += 1
                 continue
             served = Served(python)
@@ -197,7 +197,7 @@ def main():
                 failed += checks.failed
             finally:
                 served.end()
-    print(f"{failed} did not hold" + (f", {missing} servers could not be run" if missing else ""))
+    print(f"{failed} checks failed" + (f", {missing} servers could not be run" if missing else ""))
     return 1 if failed else 3 if missing else 0
 
 

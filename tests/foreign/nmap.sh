@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# nmap's s7-info, with which many look for controls: list 0011 and list 001C.
+# nmap's s7-info, a common way to search for controls: list 0011 and list 001C.
 set -euo pipefail
 report=$(nmap -Pn -n -p "$S7_PORT" --script +s7-info 127.0.0.1)
 failed=0 done=0

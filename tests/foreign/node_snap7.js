@@ -1,4 +1,4 @@
-// node-snap7: snap7's client in C++ under JavaScript, on which FUXA and ioBroker stand.
+// node-snap7: snap7's client in C++ for JavaScript, used by FUXA and ioBroker.
 'use strict';
 const { S7Client } = require('node-snap7');
 const { becomes, equal, holds, pattern, port, run } = require('./checks.js');

@@ -1,4 +1,4 @@
-// nodes7, on which many tools stand: everything as bytes, more than fifty items in a request, several requests at once.
+// nodes7, used by many tools: everything as bytes, more than fifty items per request, several requests in parallel.
 'use strict';
 const NodeS7 = require('nodes7');
 const { becomes, equal, holds, pattern, port, run } = require('./checks.js');
@@ -39,7 +39,7 @@ run(async () => {
   equal('an array', (await read('DB1001,BYTE0.9')).values, [[...pattern, ...pattern, ...pattern]]);
   equal('500 bytes', (await read('DB1001,BYTE0.500')).values[0].length, 500);
 
-  // So far apart that each is an item of its own, and all of them in one request.
+  // Far enough apart that each is a separate item, and all of them in one request.
   connection.doNotOptimize = true;
   const far = Array.from({ length: 60 }, (_, index) => `DB1001,BYTE${index * 8}`);
   equal('sixty items', (await read(...far)).values, far.map((_, index) => pattern[(index * 8) % 3]));

@@ -1,4 +1,4 @@
-"""pyS7: a client of its own in Python; typed tags, up to 20 in a request, PDU 960."""
+"""pyS7: an independent client in Python; typed tags, up to 20 per request, PDU 960."""
 
 import pyS7
 from checks import PORT, becomes, close, equal, fails, holds
@@ -34,7 +34,7 @@ equal("scattered tags", c.read(scattered, optimize=False), [pattern[byte % 3] fo
 becomes("DB31.DBX101.6 and DB33.DBX101.6", lambda: c.read(["DB31,X101.6", "DB33,X101.6"]), [True, False])
 becomes("DB11.DBX6.2, JOG is active", lambda: c.read(["DB11,X6.2"]), [True])
 
-# What is written is found.
+# Written values are read back.
 values = {
     "M10.3": True,
     "MB12": 77,
@@ -64,9 +64,9 @@ big = tuple((index * 3) & 0xFF for index in range(800))
 c.write([array(1002, 400, 800)], [big])
 equal("800 bytes written", tuple(c.read([array(1002, 400, 800)])[0]), big)
 
-# What does not exist; the others are not affected.
+# Addresses that do not exist; the other items are not affected.
 fails("DB 99", c.read, ["DB99,B0"])
-# The bad one is the last: behind one, pyS7 takes two bytes of its four for the next item.
+# The invalid item is last: after one, pyS7 takes two of its four bytes for the next item.
 results = c.read_detailed(["DB1000,INT2", "DB1001,B0", "DB99,B0"], optimize=False)
 equal("the good ones beside the bad", [result.success for result in results], [True, True, False])
 equal("and their values", [results[0].value, results[1].value], [-12345, 0x8C])

@@ -1,4 +1,4 @@
-"""python-snap7: version 2 is snap7's own client in C++, version 3 is written anew in Python."""
+"""python-snap7: version 2 is snap7's own client in C++, version 3 is a new implementation in Python."""
 
 import ctypes
 import datetime
@@ -35,13 +35,13 @@ equal("DWORD, WORD, BYTE", struct.unpack(">IHB", types[12:19]), (0xDEADBEEF, 0xC
 equal("STRING", types[20:27], b"\x0a\x05HELLO")
 equal("a read of several parts", bytes(c.db_read(1001, 0, 512)), (b"\x8c\x00\xff" * 171)[:512])
 
-# Interface: X is the leading axis of a gantry, XF is not; both are enabled by the program.
+# Interface: X is the leading axis of a gantry, XF is not; the program enables both.
 becomes("DB31.DBX101.6, X is the leading axis", lambda: c.db_read(31, 101, 1)[0] >> 6 & 1, 1)
 equal("DB33.DBX101.6, XF is not", c.db_read(33, 101, 1)[0] >> 6 & 1, 0)
 becomes("DB31.DBX61.5, position controller active", lambda: c.db_read(31, 61, 1)[0] >> 5 & 1, 1)
 becomes("DB11.DBX6.2, JOG is active", lambda: c.db_read(11, 6, 1)[0] >> 2 & 1, 1)
 
-# What is written is found.
+# Written values are read back.
 for start, length in ((0, 1), (10, 2), (100, 222), (500, 1000)):
     sent = bytearray((start + at * 7) & 0xFF for at in range(length))
     c.db_write(1002, start, sent)
@@ -54,7 +54,7 @@ equal("MD20", bytes(c.mb_read(20, 4)), b"\xde\xad\xbe\xef")
 equal("timers", len(bytes(c.read_area(Area.TM, 0, 0, 3))), 6)
 equal("counters", len(bytes(c.read_area(Area.CT, 0, 2, 4))), 8)
 
-# Several at once, more than twenty are refused by the client itself.
+# Several items at once; the client itself refuses more than twenty.
 def items(count):
     found, buffers = (S7DataItem * count)(), []
     for index in range(count):
@@ -83,7 +83,7 @@ try:
 except Exception as error:  # version 3 answers one error for all
     holds("item 1 of 20 is refused", not IS_NATIVE, f"{error}")
 
-# What does not exist.
+# Addresses that do not exist.
 fails("DB 99 does not exist", c.db_read, 99, 0, 1)
 fails("DB 1000 ends at 512", c.db_read, 1000, 500, 20)
 fails("a write behind the end", c.db_write, 1000, 511, bytearray(2))
@@ -104,7 +104,7 @@ fails("a download is refused", c.download, bytearray(block), 1003)
 
 # System state lists.
 def runs():
-    """The operating state in list 0424: 08 is RUN. Version 3 asks for the state with a read of no item and takes any answer for RUN."""
+    """The operating state in list 0424: 08 is RUN. Version 3 requests the state with a read of no item and takes any answer for RUN."""
     return b"\xff\x08" in bytes(c.read_szl(0x0424, 0).Data)[:8]
 
 
@@ -138,7 +138,7 @@ if IS_NATIVE:
     holds("compress", c.compress(1000) in (0, None))
     holds("copy RAM to ROM", c.copy_ram_to_rom(1000) in (0, None))
 
-# Stop and start; the NC reacts to the missing PLC, as a control does.
+# Stop and start; the NC reacts to the missing PLC as a control does.
 c.plc_stop()
 becomes("the CPU stops", runs, False)
 c.plc_hot_start()
@@ -147,13 +147,13 @@ c.plc_stop()
 c.plc_cold_start()
 becomes("and after a cold start", runs, True)
 
-# Cyclic data of MW20, every 100 ms. No client here has a function for it; the transport of version 3 carries what it is given, and
-# tshark looks at what the server sends by itself.
+# Cyclic data of MW20, every 100 ms. No client here has a function for it. The transport of version 3 sends arbitrary
+# requests, and tshark checks the pushes of the server.
 if not IS_NATIVE:
     request = "32 07 0000 0009 0008 {:04x} 000112 04 11 42 {:02x} 00 ff 09 {:04x} {}"
 
     def user_data(function, payload):
-        """An answer; what comes by itself before it is left out."""
+        """An answer; pushes before it are skipped."""
         text = request.format(len(payload) + 4, function, len(payload), payload.hex())
         answer = bytes(c.iso_exchange_buffer(bytearray.fromhex(text)))
         while answer[15] >> 4 != 8:
@@ -169,7 +169,7 @@ if not IS_NATIVE:
     other.mb_write(20, 2, bytearray(b"\x56\x78"))
 
     def push():
-        """What comes next by itself: group, function, job, value."""
+        """The next push: group, function, job, value."""
         came = bytes(c.connection.receive_data())
         return came[15], came[16], came[17], came[-2:]
 

@@ -1,4 +1,4 @@
-"""A proxy that records what passes through it as a capture for Wireshark. It needs no rights: it writes the packets of TCP itself.
+"""A proxy that records the traffic as a capture for Wireshark. It needs no special rights: it writes the TCP packets itself.
 
 In the capture the server has port 102, so that every dissector knows what it sees.
 """
@@ -19,7 +19,7 @@ def checksum(header):
 
 
 class Recorder:
-    """Listens on a free port, and passes everything on to another one."""
+    """Listens on a free port, and forwards everything to another port."""
 
     def __init__(self, server_port, path):
         self.server_port = server_port
@@ -58,12 +58,12 @@ class Recorder:
 
 
 class Connection:
-    """One client: each direction has a thread; what they record goes through one lock, so that the order is right."""
+    """One client: each direction has a thread; both record through one lock, so that the order is correct."""
 
     def __init__(self, recorder, client, server, port):
         self.recorder = recorder
         self.port = port
-        # What comes next from the client and from the server.
+        # The next sequence numbers of the client and of the server.
         self.next = {CLIENT: 1000, SERVER: 2000}
         with recorder.lock:
             self.record(CLIENT, SYN)

@@ -1,4 +1,4 @@
-// @st-one-io/nodes7, on which node-red-contrib-s7 stands: typed items, no fill bytes in writes, blocks, clock and lists.
+// @st-one-io/nodes7, used by node-red-contrib-s7: typed items, no fill bytes in writes, blocks, clock and lists.
 'use strict';
 const { S7Endpoint, S7ItemGroup } = require('@st-one-io/nodes7');
 const { becomes, equal, fails, holds, pattern, port, run } = require('./checks.js');
@@ -51,7 +51,7 @@ run(async () => {
   const names = Object.keys(written);
   await write(names, Object.values(written));
   equal('what was written is found', await read(...names), Object.values(written));
-  // As long as one request: it cuts longer ones into a first piece and empty ones.
+  // As long as one request: it splits longer ones into a first piece and empty ones.
   const big = Buffer.from(Array.from({ length: 900 }, (_, index) => (index * 3) & 0xff));
   await plc.writeDB(1002, 520, big);
   equal('900 bytes written', Buffer.compare(await plc.readDB(1002, 520, 900), big), 0);

@@ -1,6 +1,6 @@
-//! Hostile conversations: what no proper client sends. Each is told to a session (whole, packet by packet, in small pieces) and to
-//! the server over TCP; each request is answered as it has to be, or the connection ends; and a good client is served after each.
-#![expect(clippy::disallowed_methods, reason = "a live machine is watched in real time")]
+//! Hostile conversations, as no regular client has them. Each is passed to a session (at once, packet by packet, in small pieces) and to
+//! the server over TCP. Each request must be answered correctly, or the connection must end; a regular client must be served after each.
+#![expect(clippy::disallowed_methods, reason = "a live machine runs in real time")]
 
 use std::io::{Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -20,7 +20,7 @@ use crate::conversation;
 use crate::conversations::{Act, Conversation, conversations};
 use crate::oracle::{Expected, Listener, packet_length};
 
-/// A job that no function has, and its reference.
+/// A job with an unknown function, and its reference.
 const PROBE: [u8; 18] = [3, 0, 0, 18, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0xBE, 0xEF, 0, 1, 0, 0, 0x77];
 
 #[test]
@@ -71,7 +71,7 @@ fn a_good_client_is_served_after_each() {
     }
 }
 
-/// All of them from sixteen sides at once, and connections on which nobody says anything.
+/// All conversations from sixteen threads at once, and connections that send nothing.
 #[test]
 fn a_good_client_is_served_during_all_conversations() {
     let (live, window) = open();
@@ -98,7 +98,7 @@ fn a_good_client_is_served_during_all_conversations() {
     assert!(live.is_running());
 }
 
-/// A live machine with the image `recipes`, five times as fast as real time, and its server.
+/// A live machine with the image `recipes` at five times real time, and its server.
 fn open() -> (Live, LiveServer) {
     let preset = Preset::read(Path::new("plc_images/recipes.toml")).expect("it is there");
     let options = OpenOptions { preset: Some(preset), ..OpenOptions::default() };
@@ -108,7 +108,7 @@ fn open() -> (Live, LiveServer) {
     (live, window)
 }
 
-/// DB 1001 of the image `recipes`, which nobody writes: `8C 00 FF` again and again.
+/// DB 1001 of the image `recipes`, which is never written: `8C 00 FF` repeated.
 fn serve(client: &mut S7Client, after: &str) {
     let mut found = [0; 30];
     let read = client.read_db(1001, 3, &mut found);
@@ -116,7 +116,8 @@ fn serve(client: &mut S7Client, after: &str) {
     assert!(client.read_bit(S7_AREA_DB, 1001, 0, 7).expect("it is there"));
 }
 
-/// The packets that a client sends, and whether all of its bytes are packets. A stream that is none any more ends with an empty one.
+/// The packets sent by a client, and whether all of its bytes form packets. An empty packet marks the position where the stream becomes
+/// invalid.
 fn packets(conversation: &Conversation) -> (Vec<Vec<u8>>, bool) {
     let sent = conversation.acts.iter().filter_map(|act| if let Act::Send(bytes) = act { Some(bytes) } else { None });
     let stream: Vec<u8> = sent.flatten().copied().collect();
@@ -145,7 +146,7 @@ fn tell(conversation: &Conversation, address: SocketAddr) {
         let listening = scope.spawn(|| listen(conversation, reader));
         for act in &conversation.acts {
             match act {
-                // The server may have ended it; the listener knows whether that was due.
+                // The server may have closed the connection; the listener checks whether that was correct.
                 Act::Send(bytes) => drop(stream.write_all(bytes)),
                 Act::Pause(time) => std::thread::sleep(Duration::from_millis(*time)),
             }
@@ -156,17 +157,17 @@ fn tell(conversation: &Conversation, address: SocketAddr) {
     let _ = stream.shutdown(Shutdown::Both);
 }
 
-/// Takes the answers as they come and judges each.
+/// Receives the answers and judges each.
 fn listen(conversation: &Conversation, stream: TcpStream) {
     let (mut packets, is_whole) = packets(conversation);
     if is_whole {
-        // The next answer is the one to this: nothing was answered that was not asked for.
+        // The next answer must be the one to this probe: there must be no answer without a request.
         packets.push(PROBE.to_vec());
     }
     let mut incoming = Incoming { stream, bytes: Vec::new() };
     incoming.stream.set_read_timeout(Some(Duration::from_secs(5))).expect("it is a time");
     let mut listener = Listener::new(Vec::new());
-    // Where something is wrong later on, bytes that nobody reads any more may end it before the answers have come through.
+    // If a later packet is invalid, the connection may be reset before all answers have arrived.
     let mut later = listener.clone();
     let ends = |packet: &Vec<u8>| packet.is_empty() || matches!(later.hear(packet), Expected::End | Expected::Goodbye);
     let must_end = packets.iter().any(ends);
@@ -187,14 +188,14 @@ fn listen(conversation: &Conversation, stream: TcpStream) {
     }
 }
 
-/// Answers as they come.
+/// Answers in the order of arrival.
 struct Incoming {
     stream: TcpStream,
     bytes: Vec<u8>,
 }
 
 impl Incoming {
-    /// The next answer, which may be of several packets; none at the end. What is sent by itself is judged and left out.
+    /// The next answer, which may have several packets; `None` at the end. Pushes are judged and skipped.
     fn answer(&mut self, listener: &Listener, name: &str) -> Option<Vec<u8>> {
         let mut answer = Vec::new();
         loop {

@@ -1,12 +1,11 @@
-//! The corpus of the fuzz targets, told again: what once led somewhere new still ends as it has to. And the oracle itself, which
-//! finds what it is for.
+//! Runs the corpus of the fuzz targets again, and tests that the oracle detects errors.
 
 use std::path::Path;
 
 use crate::oracle::Listener;
 use crate::{client, conversation, grammar};
 
-/// The files of a folder of the corpus, by name.
+/// The files of a corpus folder, by name.
 fn corpus(target: &str) -> Vec<(String, Vec<u8>)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(target);
     let files = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
@@ -45,7 +44,7 @@ fn the_client_corpus_passes() {
     tell("client", client::judge);
 }
 
-/// The answers are understood: their conversations are named for what is asked.
+/// The answers are decoded; the names of the conversations give the request.
 #[test]
 fn a_client_gets_the_values_of_valid_answers() {
     for (name, input) in corpus("client") {
@@ -70,16 +69,16 @@ fn the_corpus_is_small() {
     }
 }
 
-/// A read of MB0 and MB1, of which the oracle knows that they are 05 and 06.
+/// A read of MB0 and MB1; the oracle knows that they are 05 and 06.
 const READ: [u8; 43] = [
     3, 0, 0, 43, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 7, 0, 26, 0, 0, 4, 2, 0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 0,
     0x12, 10, 0x10, 2, 0, 1, 0, 0, 0x83, 0, 0, 8,
 ];
-/// The right answer.
+/// The correct answer.
 const ANSWER: [u8; 32] =
     [3, 0, 0, 32, 2, 0xF0, 0x80, 0x32, 3, 0, 0, 0, 7, 0, 2, 0, 11, 0, 0, 4, 2, 0xFF, 4, 0, 8, 5, 0, 0xFF, 4, 0, 8, 6];
 
-/// What a listener says who has heard the setup of a conversation and this request.
+/// The verdict of a listener that has seen the setup of a conversation and this request.
 fn is_right(request: &[u8], answers: &[&[u8]], has_ended: bool) -> bool {
     let mut listener = Listener::new(vec![(0, vec![5, 6])]);
     let connect = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
@@ -101,7 +100,7 @@ fn the_oracle_finds_what_is_wrong() {
     assert!(!is_right(&READ, &[], true), "the end");
     assert!(!is_right(&READ, &[&ANSWER], true), "an answer, and the end");
     assert!(!is_right(&READ, &[&ANSWER, &ANSWER], false), "two answers");
-    // Each byte matters, but for the reserved one of the TPKT.
+    // Each byte matters, except the reserved one of the TPKT.
     for at in (0..ANSWER.len()).filter(|at| *at != 1) {
         for change in [1, 0x80] {
             let mut answer = ANSWER;
@@ -118,10 +117,10 @@ fn the_oracle_finds_what_is_wrong() {
         assert!(!is_right(&READ, &[&answer], false), "a packet of {end} bytes");
     }
     assert!(!is_right(&[3, 0, 0, 7, 2, 0xF0, 0x80], &[&ANSWER], false), "an answer to nothing");
-    // A refusal is an answer, too.
+    // A refusal is an answer as well.
     let refusal = [3, 0, 0, 19, 2, 0xF0, 0x80, 0x32, 2, 0, 0, 0, 7, 0, 0, 0, 0, 0x85, 0];
     assert!(is_right(&READ, &[&refusal], false));
-    // 241 bytes where 240 are agreed.
+    // 241 bytes although 240 are negotiated.
     let item = [0x12, 10, 0x10, 2, 0, 223, 0, 1, 0x84, 0, 0, 0];
     let read = [&[3, 0, 0, 31, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 7, 0, 14, 0, 0, 4, 1], &item[..]].concat();
     let head = [3, 0, 0, 248, 2, 0xF0, 0x80, 0x32, 3, 0, 0, 0, 7, 0, 2, 0, 227, 0, 0, 4, 1, 0xFF, 4, 6, 0xF8];

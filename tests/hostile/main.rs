@@ -1,6 +1,7 @@
-//! Tests of the S7 server with what no proper client sends: the corpus of the fuzz targets, and conversations made by hand and by rule.
+//! Tests of the S7 server with input that no regular client sends: the corpus of the fuzz targets, and hostile conversations, written by
+//! hand or generated.
 //!
-//! A binary of its own because it uses sources of `fuzz`, which is not in the published package.
+//! A separate test binary, because it uses sources of `fuzz`, which is not in the published package.
 #![cfg(all(feature = "cli", feature = "s7"))]
 
 mod answers;

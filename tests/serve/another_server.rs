@@ -1,4 +1,4 @@
-//! A second server, plugged into a live machine by its handle and nothing else. It speaks lines of text on TCP.
+//! A second server that connects to a live machine only through its handle. Its protocol is lines of text on TCP.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::fs;
@@ -19,7 +19,7 @@ use opennck::scenario::{Heading, Scenario};
 use opennck::trace::Watch;
 use tokio::runtime::{Builder, Runtime};
 
-/// A server of lines for one client, until it is dropped or the machine ends.
+/// A line server for one client; it runs until it is dropped or the machine ends.
 struct Lines {
     address: SocketAddr,
     ends: Arc<AtomicBool>,
@@ -64,7 +64,7 @@ fn serve(live: &Handle, listener: &TcpListener, ends: &AtomicBool) {
                 writeln!(stream, "{answer}").unwrap();
                 line.clear();
             }
-            Err(_) => {} // nothing came: the part of a line that did stays
+            Err(_) => {} // no data: an incomplete line is kept
         }
     }
     if live.has_ended() {
@@ -72,8 +72,8 @@ fn serve(live: &Handle, listener: &TcpListener, ends: &AtomicBool) {
     }
 }
 
-/// `read ADDRESS` gives `STEP VALUE`; `write ADDRESS VALUE`, `clock SECONDS` and `stop` give `done STEP`; `follow COUNT` gives the
-/// numbers of so many steps that it saw one after another. `ended` where the machine ended before.
+/// `read ADDRESS` returns `STEP VALUE`; `write ADDRESS VALUE`, `clock SECONDS` and `stop` return `done STEP`; `follow COUNT` returns the
+/// numbers of this many consecutive steps that it saw. `ended` if the machine ended first.
 fn answer(live: &Handle, client: SocketAddr, line: &str, runtime: &Runtime) -> String {
     let words: Vec<_> = line.split(' ').collect();
     let locate = |address: &str| {
@@ -130,7 +130,7 @@ impl Client {
         answer.trim().to_owned()
     }
 
-    /// The answer to a line, its words as numbers where they are.
+    /// The answer to a line; its words as numbers where possible.
     fn ask(&mut self, line: &str) -> Vec<u64> {
         self.send(line);
         self.receive().split(' ').filter_map(|word| word.parse().ok()).collect()
@@ -147,7 +147,7 @@ fn a_second_server_reads_writes_and_counts_steps_beside_the_first() {
     let done = client.ask("write M100.3 1")[0];
     let read = client.ask("read M100.3");
     assert!(read[0] >= done && read[1] == 1, "{read:?} after step {done}");
-    // 31 axes have this byte; the leading axis of the example shows that it is one.
+    // All 31 axes have this byte; in the example it marks the leading axis.
     assert_eq!(client.ask("read DB31.DBX101.6")[1], 1);
     let steps = client.ask("follow 5");
     assert!(steps.len() == 5 && steps.is_sorted_by(|one, next| one < next), "{steps:?}");

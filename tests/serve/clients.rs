@@ -1,4 +1,4 @@
-//! What the tests of the served machine share: the first words of a client, rust7 as a client, and bare sockets.
+//! Shared by the tests of the served machine: the first packets of a client, rust7 as a client, and bare sockets.
 #![allow(dead_code, reason = "each test takes what it needs")]
 
 use std::io::Read;
@@ -10,7 +10,7 @@ use rust7::S7Client;
 /// The connection request of most clients.
 pub(super) const CONNECT: [u8; 22] = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
 
-/// Setup communication: one job, a PDU of so many bytes.
+/// Setup communication: one job, a PDU of this size.
 pub(super) const fn setup(pdu: u16) -> [u8; 25] {
     let [high, low] = pdu.to_be_bytes();
     [3, 0, 0, 25, 2, 0xF0, 0x80, 0x32, 1, 0, 0, 0, 1, 0, 8, 0, 0, 0xF0, 0, 0, 1, 0, 1, high, low]
@@ -25,14 +25,14 @@ pub(super) fn client(address: SocketAddr) -> S7Client {
     client
 }
 
-/// A socket that has said nothing yet.
+/// A socket that has sent nothing yet.
 pub(super) fn bare(address: SocketAddr) -> TcpStream {
     let stream = TcpStream::connect(address).expect("the server is there");
     stream.set_read_timeout(Some(Duration::from_secs(20))).expect("it is a time");
     stream
 }
 
-/// The next packet; nothing when the connection has ended.
+/// The next packet; `None` when the connection has ended.
 pub(super) fn next(stream: &mut TcpStream) -> Option<Vec<u8>> {
     let mut packet = vec![0; 4];
     stream.read_exact(&mut packet).ok()?;
@@ -41,7 +41,7 @@ pub(super) fn next(stream: &mut TcpStream) -> Option<Vec<u8>> {
     Some(packet)
 }
 
-/// The next packet, which is due.
+/// The next packet, which must arrive.
 #[track_caller]
 pub(super) fn packet(stream: &mut TcpStream) -> Vec<u8> {
     next(stream).expect("a packet comes")

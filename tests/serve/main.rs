@@ -1,6 +1,6 @@
 //! Tests of a machine in real time, `opennck serve`: its clients over TCP, a PLC in another process, recordings.
 //!
-//! Apart from `tests/machine`, whose tests keep every processor busy: tests here wait for real time.
+//! Separate from `tests/machine`, which keeps all processors busy: the tests here wait for real time.
 #![cfg(all(feature = "cli", feature = "s7"))]
 
 mod another_server;

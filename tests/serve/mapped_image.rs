@@ -1,4 +1,4 @@
-//! A PLC in another process, by the mapped image: the same bits as a built-in program, nothing torn, alarm 2000 where it is silent.
+//! A PLC in another process with the mapped image: the same signals as a built-in program, no torn data, alarm 2000 when it is silent.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![expect(clippy::disallowed_methods, reason = "another process works in real time")]
 
@@ -22,10 +22,10 @@ use opennck::units::Time;
 use opennck::variables::AlarmNumber;
 use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE, S7Client};
 
-/// Longer than any computer sleeps in between.
+/// Longer than a computer is ever suspended during a test.
 const LONG: Duration = Duration::from_secs(60);
 
-/// A file of its own for one test.
+/// A separate file for one test.
 struct File(PathBuf);
 
 impl File {
@@ -50,7 +50,7 @@ impl Drop for File {
     }
 }
 
-/// Python with the module of the example; where there is none, it says so.
+/// Python with the module of the example; `None`, with a message, if it is not installed.
 fn python() -> Option<Command> {
     if Command::new("python3").arg("--version").output().is_err() {
         eprintln!("NOT TESTED: there is no python3 here, so no PLC in Python has run");
@@ -62,7 +62,7 @@ fn python() -> Option<Command> {
     Some(command)
 }
 
-/// A soft PLC on the other side of a file: scans until the NC has ended, or `scan` says that it is enough.
+/// A soft PLC on the other side of a file: it scans until the NC has ended or `scan` returns false.
 fn soft_plc(path: &Path, mut scan: impl FnMut(&mut PlcImage) -> bool + Send + 'static) -> JoinHandle<()> {
     let mut plc = PlcImage::open(path).expect("the NC has created it");
     std::thread::spawn(move || {
@@ -86,7 +86,7 @@ fn set(plc: &mut PlcImage, db: u16, byte: u32, bit: u8, value: bool) {
     *byte = *byte & !(1 << bit) | u8::from(value) << bit;
 }
 
-/// What the ready program `gantry_start` does, by addresses.
+/// The behaviour of the built-in program `gantry_start`, by addresses.
 fn start_gantry(plc: &mut PlcImage) -> bool {
     for db in 31..=33 {
         set(plc, db, 1, 5, true);
@@ -112,7 +112,7 @@ fn in_lock_step_the_trace_is_that_of_the_same_program_built_in() -> Result<(), F
     let file = File::new("same");
     let machine = Machine::open("g1_example")?;
     let mut mapped = MappedPlc::create(&file.0, &machine, Exchange { lock_step: true, time_out: LONG })?;
-    // It comes before the first scan, so that it sees every one.
+    // It starts before the first scan, so that it sees every scan.
     let path = file.0.clone();
     let plc = std::thread::spawn(move || soft_plc(&path, start_gantry).join());
     mapped.wait_for_plc(LONG)?;
@@ -123,8 +123,8 @@ fn in_lock_step_the_trace_is_that_of_the_same_program_built_in() -> Result<(), F
     Ok(())
 }
 
-/// Publishes steps as fast as it can, each with one byte value in all own blocks, until so many answers have come; the other side
-/// inverts every bit of them. No answer is half.
+/// Publishes steps as fast as possible, each with one byte value in all user blocks, until this many answers have arrived. The other side
+/// inverts every bit. No answer may be torn.
 fn hammer(file: &File, answers: u64, start: impl FnOnce()) {
     let mut memory = Memory::new();
     let rules = Rules { lock_step: false, time_out: Time::ZERO };
@@ -143,8 +143,8 @@ fn hammer(file: &File, answers: u64, start: impl FnOnce()) {
             let mut answered = memory.clone();
             nc.take(&mut answered);
             let bytes: Vec<u8> = answered.blocks.iter().flat_map(|block| block.bytes.to_vec()).collect();
-            assert!(bytes.iter().all(|byte| *byte == bytes[0]), "half an answer");
-            // The first step, which creating the file has published, has 0 in it; the others have their cycle.
+            assert!(bytes.iter().all(|byte| *byte == bytes[0]), "a torn answer");
+            // The first step, published when the file was created, has the value 0; the others have their cycle.
             assert_eq!(bytes[0], !u8::try_from((number - 1) % 251).unwrap(), "every bit of step {number} is another");
             taken += 1;
         }
@@ -162,13 +162,13 @@ fn no_step_and_no_answer_is_torn() {
             for db in SINUMERIK.tables().standard_blocks.iter().copied() {
                 let start = start(plc, db);
                 let block = &mut plc.image_mut()[start..start + Memory::STANDARD_LENGTH];
-                assert!(block.iter().all(|byte| *byte == value), "half a step");
+                assert!(block.iter().all(|byte| *byte == value), "a torn step");
                 block.fill(!value);
             }
             true
         }));
     });
-    plc.unwrap().join().expect("it saw no half step");
+    plc.unwrap().join().expect("it saw no torn step");
 }
 
 #[test]
@@ -193,7 +193,7 @@ with Image(sys.argv[1]) as image:
     let file = File::new("hammer");
     let mut other = None;
     hammer(&file, 500, || other = Some(python.args(["-c", SCRIPT, file.text()]).spawn().unwrap()));
-    assert!(other.unwrap().wait().unwrap().success(), "it saw half a step");
+    assert!(other.unwrap().wait().unwrap().success(), "it saw a torn step");
 }
 
 #[test]
@@ -218,17 +218,17 @@ for line in sys.stdin:
     let mut child = python.spawn().unwrap();
     let mut stdin = child.stdin.take().unwrap();
     let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
-    // A table of sections that ends after its third entry, one with writer 9, one of a larger image; sizes that do not fit.
+    // A section table that ends after its third entry, one with writer 9, one of a larger image; invalid sizes.
     for (place, content, said) in [
-        (4096 + 3 * 80, &[0; 800][..], "its table of sections is not whole"),
-        (4096 + 40, &[9], "its table of sections is not whole"),
-        (4096 + 24, &[0xFF; 4], "its table of sections is not whole"),
-        (4096, &[0xFF; 8], "its table of sections is not whole"),
-        (24, &[0xFF; 6], "its header is not whole"),
-        (40, &[0xFF; 8], "its header is not whole"),
-        (72, &[0], "its header is not whole"),
-        (0, &[0; 8], "it is no image"),
-        (256, &[0], "its NC has ended, or is about to begin"),
+        (4096 + 3 * 80, &[0; 800][..], "its section table is invalid"),
+        (4096 + 40, &[9], "its section table is invalid"),
+        (4096 + 24, &[0xFF; 4], "its section table is invalid"),
+        (4096, &[0xFF; 8], "its section table is invalid"),
+        (24, &[0xFF; 6], "its header is invalid"),
+        (40, &[0xFF; 8], "its header is invalid"),
+        (72, &[0], "its header is invalid"),
+        (0, &[0; 8], "it is not an image"),
+        (256, &[0], "its NC has ended or is about to start"),
     ] {
         let write = |bytes: &[u8]| {
             let mut file = fs::File::options().write(true).open(&file.0).unwrap();
@@ -268,7 +268,7 @@ impl Served {
         Self { child, head }
     }
 
-    /// The port that a line of its head names.
+    /// The port in a line of the banner.
     fn port(&self, of: &str) -> u16 {
         let line = self.head.iter().find_map(|line| line.strip_prefix(of)).expect("it says its port");
         let port = line.strip_prefix("127.0.0.1:").and_then(|rest| rest.split([':', '/']).next());
@@ -290,7 +290,7 @@ impl Served {
         text
     }
 
-    /// Ends it by a signal; it has ended well, and soon.
+    /// Stops it by a signal; it must end with 0, and soon.
     #[track_caller]
     fn end(mut self) {
         let killed = Command::new("kill").arg(self.child.id().to_string()).status().expect("there is a kill");
@@ -308,15 +308,15 @@ impl Drop for Served {
     }
 }
 
-/// When the PLC process comes.
+/// When the PLC process starts.
 enum Comes {
-    /// Before there is a file.
+    /// Before the file exists.
     Before,
-    /// So long after the server.
+    /// This long after the server.
     After(Duration),
-    /// It is there already, with another server that served the file.
+    /// It is running already, with another server that served the file.
     WithAnother,
-    /// Before the server, but behind another one that has gone without a word: the file says that it is served.
+    /// Before the server, after another server that crashed: the file is still marked as served.
     BehindAnother,
 }
 
@@ -334,7 +334,7 @@ wait = "X.gantry_grouping_is_synchronized"
 within = "100s"
 "#;
 
-/// The worked example with a PLC in Python in lock-step, while a scripted operator writes; gives the trace.
+/// The worked example with a PLC in Python in lock-step while a scripted operator writes; returns the trace.
 fn traced_worked_example(mut python: Command, name: &str, comes: &Comes) -> String {
     const AGAIN: &str = "import worked_example\nwhile worked_example.main(): pass";
     const ONCE: &str = "import sys, worked_example\nsys.exit(worked_example.main())";
@@ -353,7 +353,7 @@ fn traced_worked_example(mut python: Command, name: &str, comes: &Comes) -> Stri
             there = Some(plc.spawn().unwrap());
             let newest_answer = || fs::read(&file.0).is_ok_and(|bytes| bytes[520] > 3);
             wait("the process answers the other server", newest_answer);
-            other.child.kill().unwrap(); // without a farewell: its file still says that it runs
+            other.child.kill().unwrap(); // a crash: its file is still marked as running
             other.child.wait().unwrap();
         }
     }
@@ -429,7 +429,7 @@ fn a_signal_ends_it_while_it_waits_for_a_process_and_its_trace_has_no_cycle() {
     assert_eq!(fs::read_to_string(&trace.0).unwrap(), "");
 }
 
-/// Waits until something is so.
+/// Waits until a condition is true.
 fn wait(what: &str, mut is_so: impl FnMut() -> bool) {
     let start = Instant::now();
     while !is_so() {
@@ -443,7 +443,7 @@ fn a_silent_plc_raises_2000_and_another_one_restarts_the_plc() {
     for lock_step in [false, true] {
         let file = File::new(if lock_step { "silent-lock" } else { "silent" });
         let machine = Machine::open("g1_example").unwrap();
-        // Long enough for a busy computer, so that only the silent one is silent.
+        // Long enough for a busy computer, so that only the silent process times out.
         let exchange = Exchange { lock_step, time_out: Duration::from_secs(2) };
         let mapped = MappedPlc::create(&file.0, &machine, exchange).unwrap();
         let (live, _keeper) = Keeper::start(machine, mapped, |machine| Live::start(machine, Speed::default()));
@@ -467,7 +467,7 @@ fn a_silent_plc_raises_2000_and_another_one_restarts_the_plc() {
     }
 }
 
-/// The machine is in the middle of a scan then.
+/// The machine is in the middle of a scan.
 #[cfg(unix)]
 #[test]
 fn while_a_scan_waits_for_a_process_that_has_gone_clients_are_served_and_a_signal_ends_it() {

@@ -1,4 +1,4 @@
-//! `opennck serve` as its users call it: it says where it can be reached, and ends with 0 when it is asked to.
+//! `opennck serve` as users call it: it prints its address, and ends with exit code 0 on a signal.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
@@ -41,7 +41,7 @@ impl Served {
         client
     }
 
-    /// What it says after a signal.
+    /// Its output after a signal.
     fn end(self, signal: &str) -> Output {
         let id = self.child.id().to_string();
         assert!(Command::new("kill").args([signal, &id]).status().expect("there is a kill").success());
@@ -56,7 +56,7 @@ fn it_serves_until_it_is_stopped() {
         let served = Served::start(&["g1_example", "--plc", "enable_all", "--plc-image", "recipes", "--speed", "2"]);
         assert!(served.head[0].contains("axes X, Y, XF") && served.head[0].contains("enable_all"), "{:?}", served.head);
         let mut client = served.client();
-        while !client.read_bit(S7_AREA_DB, 31, 101, 6).unwrap() {} // X is the leading axis, when the control has run up
+        while !client.read_bit(S7_AREA_DB, 31, 101, 6).unwrap() {} // X is the leading axis, after the start-up of the control
         let output = served.end(signal);
         let log = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(0), "{log}");
@@ -125,7 +125,7 @@ fn an_open_server_prints_a_warning() {
     }
 }
 
-/// The password is not in the list of processes, and not in the help.
+/// The password does not appear in the process list or in the help.
 #[test]
 #[cfg(unix)]
 fn a_password_comes_from_the_environment() {
@@ -136,7 +136,7 @@ fn a_password_comes_from_the_environment() {
     assert!(String::from_utf8(output.stderr).unwrap().contains("1 to 8 characters"));
 }
 
-/// Whoever looks at the log of a control after `opennck s7` finds nothing that was not asked for.
+/// The requests of `opennck s7` leave no refusal in the log of a control.
 #[test]
 #[cfg(unix)]
 fn the_client_of_this_project_sends_no_request_that_is_refused() {
@@ -146,7 +146,7 @@ fn the_client_of_this_project_sends_no_request_that_is_refused() {
         let mut program = Command::new(env!("CARGO_BIN_EXE_opennck"));
         program.args(["s7", command, &host]).args(more).output().expect("it was built")
     };
-    // XF, axis 3, is no name that everybody has: the NCK tells it.
+    // XF, axis 3, is not a standard name: it is read from the NCK.
     let read = String::from_utf8(s7("read", &["XF.feed_override"]).stdout).unwrap();
     assert!(read.contains("DB33.DBB0") && read.contains("XF.feed_override"), "{read}");
     assert_eq!(s7("info", &[]).status.code(), Some(0));
@@ -154,7 +154,7 @@ fn the_client_of_this_project_sends_no_request_that_is_refused() {
     assert!(log.contains(" connected") && !log.contains("refused"), "{log}");
 }
 
-/// Who called a slot that is not there is not told to have asked for the end.
+/// A client that called a missing slot is not logged as one that disconnected.
 #[test]
 #[cfg(unix)]
 fn the_log_distinguishes_a_refused_slot_from_another_protocol() {

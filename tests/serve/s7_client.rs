@@ -1,4 +1,4 @@
-//! The client of this project against its server: a live machine, everything that a client can ask.
+//! The client of this project against its server: a live machine, and every request of the client.
 
 use std::net::SocketAddr;
 use std::time::Duration;
@@ -11,7 +11,7 @@ use opennck::s7::live::LiveServer;
 use opennck::s7::server::Limits;
 use opennck::s7::{CpuState, DateAndTime, Restart};
 
-/// A machine that runs, and its window.
+/// A running machine and its server.
 struct Served {
     window: Option<LiveServer>,
     live: Live,
@@ -34,7 +34,7 @@ impl Served {
         Client::connect(&self.address.to_string(), options).await.expect("the server is there")
     }
 
-    /// The server ends, and begins again at the same address.
+    /// Restarts the server at the same address.
     fn restart(&mut self) {
         self.window = None;
         let address = self.address.to_string();
@@ -67,7 +67,7 @@ async fn values_are_written_and_read_by_address() {
     let (variables, values): (Vec<_>, Vec<_>) = writes.into_iter().unzip();
     let found: Vec<_> = plc.read_all(&variables).await.into_iter().collect::<Result<_, _>>().unwrap();
     assert_eq!(found, values);
-    // Bits of one byte, of which the others stay.
+    // Bits of one byte; the other bits stay unchanged.
     plc.write(&variable("MB60"), &Value::Byte(0b1000_0001)).await.unwrap();
     let group = Variable::Memory(Memory {
         area: Area::Flags,
@@ -81,7 +81,7 @@ async fn values_are_written_and_read_by_address() {
     assert_eq!(plc.read(&group).await, Ok(Value::Byte(0b110)));
 }
 
-/// 1000 items over a PDU of 240 bytes, some of which do not exist.
+/// 1000 items over a PDU of 240 bytes; some of them do not exist.
 #[tokio::test]
 async fn any_number_of_items_goes_through_the_shortest_pdu() {
     let served = Served::start();
@@ -135,7 +135,7 @@ async fn the_plc_is_stopped_and_started() {
         panic!("it never was in {state:?}");
     };
     until(CpuState::Run).await;
-    plc.start_plc(Restart::Warm).await.unwrap(); // it runs already
+    plc.start_plc(Restart::Warm).await.unwrap(); // it is already in RUN
     plc.stop_plc().await.unwrap();
     until(CpuState::Stop).await;
     plc.stop_plc().await.unwrap();
@@ -174,12 +174,12 @@ async fn variables_of_the_nck_are_read_by_name() {
     assert!(matches!(&values[0], Ok(Value::List(positions)) if positions.len() == 3), "{values:?}");
     assert_eq!(values[1], Ok(Value::Word(0))); // JOG
     assert_eq!(values[2], Ok(text("XF")));
-    // Nobody sets a position.
+    // No position was written.
     let error = nck.write(&variable("nck:C/MachineAxis/actToolBasePos"), &Value::Double(1.0)).await.unwrap_err();
     assert!(matches!(error, Error::Refused { code: 3, .. }), "{error}");
 }
 
-/// The server ends and comes again: who reads goes on, who subscribed gets values again.
+/// The server restarts: reads continue, subscriptions are renewed.
 #[tokio::test]
 async fn a_client_reconnects_to_a_restarted_server() {
     let mut served = Served::start();
@@ -197,7 +197,7 @@ async fn a_client_reconnects_to_a_restarted_server() {
     tokio::time::timeout(Duration::from_secs(10), again).await.expect("values come again");
 }
 
-/// A block of a PLC image as long as a block can be: 65535 / 942 = 70 requests, eight of them on their way at once.
+/// A block of a PLC image with the maximum length: 65535 / 942 = 70 requests, eight in parallel.
 #[tokio::test]
 async fn the_longest_block_is_read_in_parts() {
     let preset = Preset::parse("[[db]]\nnumber = 2000\nsize = 65535\nfill = \"01 02 03\"\n", "long.toml").unwrap();

@@ -1,4 +1,4 @@
-//! `opennck s7` as its users call it, against `opennck serve`; and the commands that the README shows.
+//! `opennck s7` as users call it, against `opennck serve`; and the commands of the README.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -54,7 +54,7 @@ impl Drop for Served {
     }
 }
 
-/// The words of each line behind its head.
+/// The words of each line after its heading.
 fn rows(text: &str) -> Vec<Vec<&str>> {
     text.lines().skip(1).map(|line| line.split_whitespace().collect()).collect()
 }
@@ -87,7 +87,7 @@ fn a_refusal_ends_with_1_and_the_other_values_are_shown() {
     assert!(error.contains("DB999.DBB0: the object does not exist"), "{error}");
 }
 
-/// Numbers are numbers and bits are true or false; whoever has text in a number compares it wrongly.
+/// Numbers are JSON numbers and bits are booleans: text would be compared wrongly.
 #[test]
 fn json_has_numbers_and_booleans() {
     let served = Served::start();
@@ -100,7 +100,7 @@ fn json_has_numbers_and_booleans() {
     assert!(values[4].is_u64(), "{values:?}");
 }
 
-/// DB31 is of the axis that the machine calls X; 26 is position 19 in Gray code, 100 % (MD12010).
+/// DB31 is the block of axis X on this machine; 26 is position 19 in Gray code, 100 % (MD12010).
 #[test]
 fn addresses_have_the_names_and_the_meaning_that_the_control_gives_them() {
     let served = Served::start();
@@ -109,10 +109,10 @@ fn addresses_have_the_names_and_the_meaning_that_the_control_gives_them() {
     assert!(lines[0].contains(" X.feed_override ") && lines[0].contains("  100 %. Feed override: "), "{text}");
     assert!(lines[1].contains(" XF.gantry_leading_axis ") && lines[1].contains("Gantry leading axis: 1 on"), "{text}");
     let text = served.text("read", &["AX1.feed_override"]);
-    assert!(text.contains("AX1.feed_override"), "{text}"); // who writes AX1 is shown AX1
+    assert!(text.contains("AX1.feed_override"), "{text}"); // AX1 on the command line is shown as AX1
 }
 
-/// What is said of a refusal helps with this refusal: where the NCK is, how many rows there are.
+/// The remedy is specific to the refusal: the TSAP of the NCK, the number of rows.
 #[test]
 fn a_refused_nc_variable_has_a_remedy() {
     let served = Served::start();
@@ -250,7 +250,7 @@ fn watching_prints_a_line_for_each_change_and_ends_with_0() {
     }
 }
 
-/// As behind `| head -1`: nothing changes, nothing is printed, and it ends when nobody reads.
+/// As with `| head -1`: no value changes, nothing is printed, and the command ends when its output is closed.
 #[test]
 #[cfg(target_os = "linux")]
 fn watching_ends_when_its_output_is_closed() {
@@ -264,7 +264,7 @@ fn watching_ends_when_its_output_is_closed() {
     assert_eq!(child.wait().unwrap().code(), Some(0));
 }
 
-/// The recipe of the README for a gantry, at twenty times real time; where it watches, the test waits.
+/// The gantry recipe of the README at twenty times real time; the test waits where the recipe watches.
 #[test]
 fn the_readme_references_a_gantry() {
     let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
@@ -274,7 +274,7 @@ fn the_readme_references_a_gantry() {
         let is_there = || rows(&served.text("read", &[symbol]))[0].contains(&"1");
         assert!((0..5000).any(|_| is_there()), "{symbol} does not come");
     };
-    wait("X.gantry_leading_axis"); // the control has run up
+    wait("X.gantry_leading_axis"); // the control has started up
     let mut done = 0;
     for line in recipe.lines().filter(|line| line.starts_with("opennck s7 ")) {
         let words: Vec<&str> = line.split(" #").next().unwrap().split_whitespace().skip(2).collect();

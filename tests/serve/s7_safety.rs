@@ -1,5 +1,5 @@
-//! What keeps a served machine safe, and what makes panels testable: faults on purpose, captures as Wireshark's tshark reads them,
-//! write protection, passwords. Bare sockets where no proper client does such a thing.
+//! Safety and test functions of a served machine: injected faults, captures as read by Wireshark's tshark, write protection, passwords.
+//! Bare sockets are used for what no regular client does.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![expect(clippy::disallowed_methods, reason = "a live machine is watched in real time")]
 
@@ -74,11 +74,11 @@ fn answers_come_late_and_in_order() {
     assert!(begin.elapsed() >= Duration::from_millis(100));
     let references: Vec<u8> = (0..10).map(|_| next(&mut stream).unwrap()[12]).collect();
     assert_eq!(references, (0..10).collect::<Vec<_>>());
-    // Those that came together wait together; two reads of the server at most tear them apart.
+    // Requests that arrive together are delayed together; the server needs at most two reads for them.
     assert!(begin.elapsed() < Duration::from_secs(2), "{:?}", begin.elapsed());
 }
 
-/// The references of the answers that came to 200 reads; what the client says last is that it says no more.
+/// The references of the answers to 200 reads; the client ends with a shutdown of its side.
 fn answered(address: SocketAddr) -> Vec<u8> {
     let mut stream = bare(address);
     let reads: Vec<u8> = (0..200).flat_map(read).collect();
@@ -123,7 +123,7 @@ fn a_request_with_an_injected_error_is_not_executed() {
     }
 }
 
-/// A packet, and the same in three packets with pieces of its PDU and an empty one behind them, as some clients send.
+/// A packet, and the same in three packets with pieces of its PDU and an empty piece at the end, as some clients send.
 fn in_pieces(packet: &[u8]) -> Vec<u8> {
     let (pdu, mut all) = (&packet[7..], Vec::new());
     for (piece, end) in [(&pdu[..5], 0), (&pdu[5..20], 0), (&pdu[20..], 0x80), (&[], 0x80)] {
@@ -161,7 +161,7 @@ fn a_connection_is_closed_by_an_injected_fault() {
     assert!(window.counters().ends().any(|end| end == ("fault", 1)));
 }
 
-/// What tshark says of a capture, one packet a line; nothing, and a word on standard error, where it is not there.
+/// The output of tshark for a capture, one packet per line; `None`, with a message on standard error, if it is not installed.
 fn tshark(file: &Path, arguments: &[&str]) -> Option<Vec<String>> {
     let Ok(output) = Command::new("tshark").arg("-r").arg(file).args(arguments).output() else {
         std::io::stderr().write_all(b"\nNOT CHECKED: tshark is not there\n").expect("standard error");
@@ -187,7 +187,7 @@ fn wireshark_recognises_a_capture() {
         slow.write_all(&[byte]).unwrap();
     }
     next(&mut slow).unwrap();
-    drop(window); // the server ends first
+    drop(window); // the server stops first
     let Some(jobs) = tshark(&file, &["-Y", "s7comm.header.rosctr == 1", "-T", "fields", "-e", "s7comm.param.func"])
     else {
         return;
@@ -195,7 +195,7 @@ fn wireshark_recognises_a_capture() {
     assert_eq!(jobs, ["0xf0", "0x05", "0x04", "0x04"], "setup, write, two reads");
     let codes = ["-Y", "s7comm.header.rosctr == 3", "-T", "fields", "-e", "s7comm.data.returncode"];
     assert_eq!(tshark(&file, &codes).unwrap(), ["", "0xff", "0xff", "0x0a"]);
-    // Both connections: begin, end, and nothing strange in between; checksums are right.
+    // Both connections: begin, end, and no anomaly in between; checksums are correct.
     let count = |filter: &str| tshark(&file, &["-Y", filter]).unwrap().len();
     assert_eq!(count("tcp.flags.syn == 1"), 4);
     assert_eq!(count("tcp.flags.fin == 1"), 4);
@@ -217,7 +217,7 @@ fn a_capture_refuses_an_existing_file() {
     assert_eq!(std::fs::read(&file).unwrap(), b"mine");
 }
 
-/// Three items in one request: the protected one is refused, the others are written.
+/// Three items in one request: the protected item is refused, the others are written.
 #[test]
 fn protected_items_are_refused_and_the_others_are_written() {
     let live = live();
@@ -251,7 +251,7 @@ fn packet(pdu: &[u8]) -> Vec<u8> {
     [&[3, 0, 0, length, 2, 0xF0, 0x80], pdu].concat()
 }
 
-/// User data: group, function, and what its data item holds.
+/// User data: group, function, and the payload of its data item.
 fn user_data(group: u8, function: u8, payload: &[u8]) -> Vec<u8> {
     let length = u8::try_from(payload.len()).unwrap();
     let head =
@@ -259,7 +259,7 @@ fn user_data(group: u8, function: u8, payload: &[u8]) -> Vec<u8> {
     packet(&[&head, payload].concat())
 }
 
-/// The bytes of a password as programming devices fold it.
+/// The bytes of a password as encoded by programming devices.
 fn folded(password: &[u8; 8]) -> [u8; 8] {
     let mut folded = [0; 8];
     for at in 0..8 {
@@ -337,7 +337,7 @@ fn an_828d_is_served_with_its_block_numbers() {
     assert!(client.read_db(31, 60, &mut [0; 4]).is_err());
 }
 
-/// Head and body of an answer.
+/// Header and body of an answer.
 fn http(address: SocketAddr, request: &str) -> (String, String) {
     let mut stream = bare(address);
     stream.write_all(request.as_bytes()).unwrap();
@@ -382,14 +382,14 @@ fn prometheus_reads_the_counters() {
     ] {
         assert!((value(name, label) - expected).abs() < 0.1, "{name}: {}", value(name, label));
     }
-    // 22 + 25 + 36 + 31 bytes came from the client; every sample has its help.
+    // 22 + 25 + 36 + 31 bytes were received from the client; every sample has its help text.
     assert!((value("opennck_s7_received_bytes_total", None) - 114.0).abs() < 0.1);
     assert!(scrape.samples.iter().all(|sample| scrape.docs.contains_key(&sample.metric)));
     assert!(http(metrics, "GET / HTTP/1.1\r\n\r\n").0.starts_with("HTTP/1.1 404 "));
     assert!(http(metrics, "POST /metrics HTTP/1.1\r\n\r\n").0.starts_with("HTTP/1.1 405 "));
 }
 
-/// 16 places, and a scrape takes one of them at once.
+/// 16 connections are allowed, and a scrape must get one of them at once.
 #[test]
 fn idle_metrics_connections_do_not_block_a_scrape() {
     let live = live();

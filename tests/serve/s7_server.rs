@@ -1,5 +1,5 @@
-//! A live machine and clients of S7 communication over TCP: rust7, by the author of snap7, which shares no line with this project;
-//! and bare sockets, for what no proper client does.
+//! A live machine and clients of S7 communication over TCP: rust7, by the author of snap7, which shares no code with this project; and bare
+//! sockets for what no regular client does.
 #![expect(clippy::disallowed_methods, reason = "a live machine is watched in real time")]
 
 use std::io::{Read, Write};
@@ -39,7 +39,7 @@ fn window(live: &Live, limits: Limits) -> (LiveServer, SocketAddr) {
     (window, address)
 }
 
-/// Waits until something is true, at most ten seconds.
+/// Waits until a condition is true, at most ten seconds.
 #[track_caller]
 fn wait(what: &str, mut is_true: impl FnMut() -> bool) {
     let begin = Instant::now();
@@ -58,7 +58,7 @@ fn a_foreign_client_reads_interface_blocks_and_flags() {
     let live = live();
     let (_window, address) = window(&live, Limits::default());
     let mut client = client(address);
-    // X is the leading axis of the gantry, XF is none: DB31.DBX101.6, DB33.DBX101.6; axes stand: DBX61.4.
+    // X is the leading axis of the gantry, XF is not: DB31.DBX101.6, DB33.DBX101.6; the axes stand still: DBX61.4.
     wait("the axes at rest", || client.read_bit(S7_AREA_DB, 31, 61, 4).unwrap());
     assert!(client.read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
     assert!(!client.read_bit(S7_AREA_DB, 33, 101, 6).unwrap());
@@ -69,7 +69,7 @@ fn a_foreign_client_reads_interface_blocks_and_flags() {
     client.read_area(S7_AREA_MK, 0, 0, S7_WL_BYTE, &mut flags).unwrap();
     assert!(is_any_set(&axis) && !is_any_set(&flags));
     assert!(mode_group[6] & 0b100 != 0, "JOG is active after power on: {mode_group:?}"); // DB11.DBX6.2
-    // What is not there is refused, and the conversation goes on.
+    // An address that does not exist is refused, and the conversation continues.
     assert!(client.read_db(99, 0, &mut axis).is_err());
     assert!(client.read_db(31, 60, &mut axis).is_ok());
 }
@@ -88,7 +88,7 @@ fn a_client_that_writes_and_then_reads_gets_what_it_wrote() {
     assert_eq!(live.with(|machine| machine.memory().flags[100]), 19);
 }
 
-/// The program of another process may let a scan wait: a panel reads on meanwhile, and what it writes acts afterwards.
+/// A scan of a program in another process may take long: a panel continues to read, and its writes take effect afterwards.
 #[test]
 fn a_long_scan_does_not_hold_up_reads() {
     static IS_HELD: AtomicBool = AtomicBool::new(false);
@@ -115,7 +115,7 @@ fn a_long_scan_does_not_hold_up_reads() {
     wait("what was written", || live.with(|machine| machine.memory().flags[100..102] == [0, 7]));
 }
 
-/// A cycle lasts two microseconds here, so that the reads would see many.
+/// A cycle takes two microseconds here, so the reads would see several cycles.
 #[test]
 fn reads_that_came_together_see_one_step() {
     let mut machine = Machine::open("g1_example").expect("it is built in");
@@ -135,7 +135,7 @@ fn reads_that_came_together_see_one_step() {
     }
 }
 
-/// Everything by S7: enables, the mode, the key.
+/// Everything through S7: enables, mode, traversing key.
 #[test]
 fn an_axis_is_moved_through_s7_only() {
     let live = live();
@@ -161,7 +161,7 @@ fn an_axis_is_moved_through_s7_only() {
     });
 }
 
-/// Each writes its own four flags, and nobody ever finds four that differ.
+/// Each client writes its own four flags, and no read ever finds four different values.
 #[test]
 fn eight_clients_at_once_see_whole_requests() {
     let live = live();
@@ -208,14 +208,14 @@ fn a_new_client_replaces_one_without_a_request_but_no_other() {
     let mut first = client(address);
     let mut silent = [bare(address), bare(address)];
     wait("three clients", || window.clients() == 3);
-    // The oldest silent one goes, and then the other one: half a packet is no request.
+    // The oldest silent connection is closed, then the next one: an incomplete packet is not a request.
     silent[1].write_all(&CONNECT[..11]).unwrap();
     let mut others = Vec::new();
     for stream in &mut silent {
         others.push(client(address));
         assert_eq!(stream.read(&mut [0; 100]).unwrap_or(0), 0);
     }
-    // Clients stay.
+    // Clients with requests stay.
     assert_eq!(bare(address).read(&mut [0; 100]).unwrap_or(0), 0);
     assert!(first.read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
     for other in &mut others {
@@ -235,16 +235,16 @@ fn garbage_and_incomplete_packets_do_not_hold_up_other_clients() {
     let mut stream = bare(address);
     stream.write_all(b"GET / HTTP/1.1\r\n\r\n").unwrap();
     assert_eq!(stream.read(&mut [0; 100]).unwrap_or(0), 0);
-    // A packet that says it is longer than any: disconnected at once.
+    // A packet with an invalid length: disconnected at once.
     let mut stream = bare(address);
     stream.write_all(&[3, 0, 0xFF, 0xFF]).unwrap();
     assert_eq!(stream.read(&mut [0; 100]).unwrap_or(0), 0);
-    // Half packets that never become whole: after the time for the first request.
+    // Packets that stay incomplete: closed after the time limit of the first request.
     let mut halves: Vec<_> = (0..20).map(|_| bare(address)).collect();
     for stream in &mut halves {
         stream.write_all(&CONNECT[..11]).unwrap();
     }
-    // Half a packet, and gone.
+    // An incomplete packet, then the client closes.
     for length in 1..CONNECT.len() {
         bare(address).write_all(&CONNECT[..length]).unwrap();
     }
@@ -252,7 +252,7 @@ fn garbage_and_incomplete_packets_do_not_hold_up_other_clients() {
     for stream in &mut halves {
         assert_eq!(stream.read(&mut [0; 100]).unwrap_or(0), 0);
     }
-    // Byte by byte is slow, and right.
+    // One byte at a time is slow but valid.
     let mut stream = bare(address);
     stream.set_nodelay(true).unwrap();
     for byte in CONNECT {
@@ -266,7 +266,7 @@ fn garbage_and_incomplete_packets_do_not_hold_up_other_clients() {
     wait("the others' leave", || window.clients() == 1);
 }
 
-/// It asks again and again and never reads: the server stops reading it, others are answered all the time.
+/// The client sends requests without end and never reads: the server stops reading from it, and other clients are always answered.
 #[test]
 fn a_client_that_does_not_read_its_answers_is_closed() {
     let live = live();
@@ -321,7 +321,7 @@ fn a_read_only_server_refuses_writes() {
     assert!(!client.read_bit(S7_AREA_MK, 0, 0, 0).unwrap());
 }
 
-/// Stop, state and start by the bytes that snap7's client sends.
+/// Stop, state and start with the bytes of snap7's client.
 #[test]
 fn the_plc_is_stopped_and_started_by_a_client() {
     let mut machine = Machine::open("g1_example").unwrap();
@@ -349,7 +349,7 @@ fn the_plc_is_stopped_and_started_by_a_client() {
     assert!(!live.with(|machine| machine.is_plc_stopped()));
 }
 
-/// Nothing is taken up yet, and the start finds the stop all the same: it is not told that the PLC runs already.
+/// No step has executed the stop yet, but the start takes it into account and is not answered with "already in RUN".
 #[test]
 fn the_plc_of_a_held_machine_runs_after_a_stop_and_a_start() {
     let machine = Machine::open("g1_example").unwrap();
@@ -361,7 +361,7 @@ fn the_plc_of_a_held_machine_runs_after_a_stop_and_a_start() {
     let _answers = (packet(&mut stream), packet(&mut stream));
     let stop = [&[0x29, 0, 0, 0, 0, 0, 9], &b"P_PROGRAM"[..]].concat();
     let start = [&[0x28, 0, 0, 0, 0, 0, 0, 0xFD, 0, 0, 9], &b"P_PROGRAM"[..]].concat();
-    // Behind the error: the function, and what is said beside it.
+    // After the error: the function and the additional byte.
     assert_eq!(ask(&mut stream, &start, &[])[2..], [0x28, 3], "it runs already");
     assert_eq!(ask(&mut stream, &stop, &[])[2..], [0x29]);
     assert_eq!(ask(&mut stream, &stop, &[])[2..], [0x29, 7], "it stands already");
@@ -371,7 +371,7 @@ fn the_plc_of_a_held_machine_runs_after_a_stop_and_a_start() {
     assert!(!live.with(|machine| machine.is_plc_stopped()));
 }
 
-/// MB0 every 100 ms: subscribed by the bytes of a panel (user data, group 2, function 1), and the writes of another client arrive.
+/// MB0 every 100 ms: subscribed with the bytes of a panel (user data, group 2, function 1); the writes of another client arrive.
 #[test]
 fn values_are_sent_cyclically() {
     let live = live();
@@ -397,7 +397,7 @@ fn values_are_sent_cyclically() {
     }
 }
 
-/// Who asks nothing for too long loses its place, even one that sends bytes that ask nothing.
+/// A client without requests is closed, even if it sends bytes that are not requests.
 #[test]
 fn idle_clients_are_closed() {
     let live = live();
@@ -405,11 +405,11 @@ fn idle_clients_are_closed() {
     let mut stream = bare(address);
     stream.write_all(&CONNECT).unwrap();
     packet(&mut stream);
-    let empty = [3, 0, 0, 7, 2, 0xF0, 0]; // data without data, which collectors send
+    let empty = [3, 0, 0, 7, 2, 0xF0, 0]; // an empty DT, which collectors send
     wait("the end", || stream.write_all(&empty).is_err() || window.clients() == 0);
 }
 
-/// A request on its way is answered; then the connection ends properly, and the port is free.
+/// A request in progress is answered; then the connection ends in order, and the port is free.
 #[test]
 fn the_end_is_graceful() {
     let live = live();
@@ -426,7 +426,7 @@ fn the_end_is_graceful() {
     assert!(client(again.addresses()[0]).read_bit(S7_AREA_DB, 31, 101, 6).unwrap());
 }
 
-/// Bytes that nobody takes reset a connection that is closed, and with it go the answers that are still on their way.
+/// Closing a socket with unread bytes resets the connection, and answers in transit are lost with it.
 #[test]
 fn a_client_that_is_disconnected_still_gets_its_last_answers() {
     let live = live();
@@ -445,7 +445,7 @@ fn a_client_that_is_disconnected_still_gets_its_last_answers() {
 fn ipv6_is_served_too() {
     let live = live();
     let Ok(window) = LiveServer::open(&live, &["[::1]:0"], false, Limits::default()) else {
-        return; // a computer without IPv6
+        return; // this computer has no IPv6
     };
     let mut stream = bare(window.addresses()[0]);
     stream.write_all(&CONNECT).unwrap();
@@ -497,8 +497,8 @@ fn collector(address: SocketAddr) -> TcpStream {
     stream
 }
 
-/// MD32000 of X, and R5; a velocity below zero is out of range, and is said to be before anything happens. MD37100 takes any byte: it
-/// is at power on that the control looks at it and raises 10650.
+/// MD32000 of X, and R5. A negative velocity is out of range and is refused before anything is written. MD37100 accepts any byte: the
+/// control checks it at power on and raises 10650.
 #[test]
 fn a_collector_writes_machine_data_and_r_parameters_within_their_limits() {
     let live = live();
@@ -527,7 +527,7 @@ fn a_collector_writes_machine_data_and_r_parameters_within_their_limits() {
     });
 }
 
-/// SZL 00A0, newest first: RUN, START-UP, cold restart by hand, STOP by a programming device, and what power on left.
+/// SZL 00A0, newest entry first: RUN, START-UP, manual cold restart, STOP by a programming device, then the entries of power on.
 #[test]
 fn stop_and_cold_restart_are_in_the_diagnostic_buffer_and_flags_are_cleared() {
     let live = live();

@@ -1,4 +1,4 @@
-//! A PLC program synchronises a gantry; then one side is jammed.
+//! A PLC program synchronises a gantry; then one side is blocked.
 
 use opennck::machine::FaultKind;
 use opennck::plc::{OnDelay, program};
@@ -28,7 +28,7 @@ fn the_gantry_synchronises_and_a_jammed_side_stops_it() -> Result<(), Failure> {
     gantry.wait("X.gantry_grouping_is_synchronized", "60s")?;
 
     jammed.fault("XF", FaultKind::Block)?;
-    jammed.wait("X.gantry_grouping_is_synchronized", "60s")?; // X alone moves for that
+    jammed.wait("X.gantry_grouping_is_synchronized", "60s")?; // only X moves
     jammed.set("DB11.DBX1.2", 0)?; // JOG without REF
     jammed.set("X.traversing_key_plus", 1)?;
     jammed.wait("alarm(10653, XF)", "60s")?;

@@ -1,4 +1,4 @@
-//! Any bytes: no panic, no answer longer than the PDU, nothing changed by what was refused.
+//! Arbitrary input: no panic, no answer longer than the PDU, no change by a refused request.
 
 use proptest::prelude::*;
 
@@ -11,7 +11,7 @@ use crate::s7::wire::items::Items;
 use crate::s7::wire::tpkt;
 use crate::s7::wire::user_data;
 
-/// Every PDU in these answers is whole and within the negotiated length.
+/// Every PDU in these answers is complete and within the negotiated length.
 fn check(client: &Client, answers: &[Vec<u8>]) {
     for answer in answers {
         let mut rest = answer.as_slice();
@@ -32,7 +32,7 @@ fn check(client: &Client, answers: &[Vec<u8>]) {
     }
 }
 
-/// Requests that are nearly right: true functions and items, with some of their bytes changed.
+/// Almost correct requests: real functions and items with some bytes changed.
 fn nearly_right() -> impl Strategy<Value = Vec<u8>> {
     let templates = [
         "32 01 00 00 00 01 00 08 00 00 F0 00 00 01 00 01 01 E0",
@@ -107,7 +107,7 @@ proptest! {
             let before = client.memory.clone();
             let answers = client.send(&packet(&pdu));
             check(&client, &answers);
-            prop_assert_eq!(&client.memory, &before); // before the step nothing is written
+            prop_assert_eq!(&client.memory, &before); // nothing is written before the step
             let is_refused = answers.iter().all(|answer| !answer.contains(&0xFF));
             if is_refused && pdu.get(10) == Some(&5) {
                 prop_assert!(client.commands.is_empty());

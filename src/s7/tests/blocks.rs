@@ -1,14 +1,14 @@
-//! Lists of blocks, information on one, and upload.
+//! Lists of blocks, information about a block, and upload.
 
 use super::{Client, bytes, hex};
 
 #[test]
 fn blocks_are_counted_by_type() {
     let mut client = Client::ready(240);
-    // DB10, DB11, DB21 to DB61, ten standard blocks and two own ones: 55.
+    // DB10, DB11, DB21 to DB61, ten standard blocks and two user blocks: 55.
     let counts = "30 38 00 00 30 41 00 37 30 42 00 00 30 43 00 00 30 44 00 00 30 45 00 00 30 46 00 00";
     assert_eq!(client.user_data(3, 1, ""), ("00 00".to_owned(), format!("FF 09 00 1C {counts}")));
-    // 828D: DB1800, DB2600, DB2700, DB3000, DB3100, DB3200, DB3300 and two times eight, and the same others: 35.
+    // 828D: DB1800, DB2600, DB2700, DB3000, DB3100, DB3200, DB3300 and two times eight, and the same other blocks: 35.
     let answer = Client::ready(240).on_828d().user_data(3, 1, "").1;
     assert!(answer.contains("30 41 00 23"), "{answer}");
 }
@@ -32,7 +32,7 @@ fn data_blocks_are_listed_in_order_and_other_types_have_none() {
     assert_eq!(client.user_data(3, 2, "41").0, "D2 02");
 }
 
-/// The client asks for the next part with the sequence number of the answer, method 12.
+/// The client requests the next part with the sequence number of the answer, method 12.
 #[test]
 fn a_list_longer_than_the_pdu_comes_in_parts() {
     let mut client = Client::ready(240);
@@ -107,7 +107,7 @@ fn a_data_block_is_uploaded_as_it_was_at_the_start() {
     assert_eq!(hex(&block[..12]), "70 70 01 01 05 0A 03 E8 00 00 08 48");
     assert_eq!(hex(&block[34..36]), "08 00");
     assert!(block[36..36 + 2048].iter().all(|byte| *byte == 0xA5));
-    // There is no piece behind the last one, and asking for it does not end the upload.
+    // There is no piece after the last one. Requesting it does not end the upload.
     assert_eq!(client.job("1E 00 00 00 00 00 00 01", ""), "00 00 00 00 84 01");
     assert_eq!(client.job("1F 00 00 00 00 00 00 01", ""), "00 01 00 00 00 00 1F");
     assert_eq!(client.job("1F 00 00 00 00 00 00 01", ""), "00 00 00 00 84 01");

@@ -4,7 +4,7 @@ use super::{Client, bytes, hex};
 use crate::s7::station::{Diagnosis, Protection};
 use crate::s7::{Command, CpuState, DateAndTime, Restart};
 
-/// A list with a PDU that holds it whole: length and number of its records, and the records.
+/// A list with a PDU that holds all of it: length and number of its records, and the records.
 fn list(client: &mut Client, list: &str, index: &str) -> (u16, u16, Vec<u8>) {
     let (error, answer) = client.user_data(4, 1, &format!("{list} {index}"));
     assert_eq!(error, "00 00", "{list} {index}");
@@ -13,7 +13,7 @@ fn list(client: &mut Client, list: &str, index: &str) -> (u16, u16, Vec<u8>) {
     assert_eq!(usize::from(u16::from_be_bytes([answer[2], answer[3]])), answer.len() - 4);
     assert_eq!(hex(&answer[4..6]), list);
     let (length, count) = (u16::from_be_bytes([answer[8], answer[9]]), u16::from_be_bytes([answer[10], answer[11]]));
-    // The extract 0Fxx is a head without its records.
+    // The extract 0Fxx is a header without records.
     let sent = if list.starts_with("0F") { 0 } else { usize::from(count) };
     assert_eq!(answer.len() - 12, usize::from(length) * sent, "{list}");
     (length, count, answer[12..].to_vec())
@@ -43,8 +43,8 @@ fn every_list_that_is_listed_can_be_read() {
     }
 }
 
-/// System Software for S7-300/400, 33.2: the fourth word of the head is the number of records, and `0Fxx` is the head alone. snap7
-/// has `0F 14 00 00 00 08 00 09` and the like, captured at a CPU 315.
+/// System Software for S7-300/400, 33.2: the fourth word of the header is the number of records, and `0Fxx` is only the header. snap7 has
+/// `0F 14 00 00 00 08 00 09` and others, captured at a CPU 315.
 #[test]
 fn the_head_of_a_list_tells_how_many_records_the_list_has() {
     let mut client = Client::ready(960);
@@ -65,7 +65,7 @@ fn the_head_of_a_list_tells_how_many_records_the_list_has() {
     ] {
         let (length, count, _) = list(&mut client, whole, index);
         assert!(count > 0, "{whole}");
-        // FF, an octet string of the eight bytes of a head, and nothing behind it.
+        // FF, an octet string of the eight bytes of a header, and nothing after it.
         let alone = format!("FF 09 00 08 {head} 00 00 {length:04X} {count:04X}");
         assert_eq!(client.user_data(4, 1, &format!("{head} 00 00")).1.replace(' ', ""), alone.replace(' ', ""));
     }
@@ -90,7 +90,7 @@ fn a_list_or_an_index_that_does_not_exist_is_refused() {
     }
 }
 
-/// conpot issue 586: nmap and plcscan want at least 125 bytes and records of 28; the last three bytes are the version.
+/// conpot issue 586: nmap and plcscan need at least 125 bytes and records of 28; the last three bytes are the version.
 #[test]
 fn the_order_number_lies_where_nmap_looks_for_it() {
     let mut client = Client::ready(480);
@@ -106,7 +106,7 @@ fn the_order_number_lies_where_nmap_looks_for_it() {
     assert_eq!((count, &one[..3]), (1, &[0, 6, b'6'][..]));
 }
 
-/// python-snap7 finds each name at its offset behind length and number of the records.
+/// python-snap7 expects each name at its offset after length and number of the records.
 #[test]
 fn the_names_lie_where_clients_look_for_them() {
     let mut client = Client::ready(480);
@@ -134,7 +134,7 @@ fn the_operating_state_is_live() {
     assert_eq!(list(&mut client, "01 19", "00 05").2, [0, 5, 1, 0]);
 }
 
-/// 0222 tells when an organization block was started last, 0424 when the operating state changed, both from the diagnostic buffer.
+/// 0222 has the last start of an organization block, 0424 the last change of the operating state; both come from the diagnostic buffer.
 #[test]
 fn restarts_and_changes_of_the_state_have_their_time() {
     let mut client = Client::ready(480);
@@ -146,7 +146,7 @@ fn restarts_and_changes_of_the_state_have_their_time() {
     let (length, count, start) = list(&mut client, "02 22", "00 66"); // OB102
     assert_eq!((length, count), (28, 1));
     assert_eq!(hex(&start[..20]), "13 85 1B 66 00 00 00 00 00 00 00 00 26 11 22 02 04 05 67 81");
-    assert_eq!(client.user_data(4, 1, "02 22 00 64").0, "D4 02"); // it was no OB100
+    assert_eq!(client.user_data(4, 1, "02 22 00 64").0, "D4 02"); // OB100 was not started
     assert_eq!(hex(&list(&mut client, "02 22", "00 01").2[..4]), "11 03 01 01");
     let state = list(&mut client, "04 24", "00 00").2;
     assert_eq!(hex(&state), "43 02 FF 08 00 00 00 00 00 00 00 00 26 11 22 02 04 05 67 81");
@@ -155,13 +155,13 @@ fn restarts_and_changes_of_the_state_have_their_time() {
     let state = list(&mut client, "04 24", "00 00").2;
     assert_eq!(hex(&state), "43 04 FF 04 00 00 00 00 00 00 00 00 26 11 22 01 04 05 67 81");
     assert_eq!(hex(&list(&mut client, "02 22", "00 64").2[..4]), "13 81 1B 64");
-    // SF is for a program that failed.
+    // SF indicates a failed program.
     assert_eq!(list(&mut client, "01 74", "00 01").2, [0, 1, 0, 0]);
     client.diagnosis.insert(0, entry((0x4562, 3)));
     assert_eq!(list(&mut client, "01 74", "00 01").2, [0, 1, 1, 0]);
 }
 
-/// The longest PDU is that of the module, 960 here, though 480 were agreed; connections are at most the 32 of a CPU 317-2.
+/// The longest PDU is that of the module, 960 here, although 480 was negotiated; connections are limited to the 32 of a CPU 317-2.
 #[test]
 fn communication_and_protection_have_records_of_40_bytes() {
     let mut client = Client::ready(480);
@@ -175,7 +175,7 @@ fn communication_and_protection_have_records_of_40_bytes() {
         assert_eq!((length, count), (40, 1));
         assert!(hex(&record).starts_with(start), "{asked}: {}", hex(&record));
     }
-    // 33.19: bart_sch, the fifth word, is where the mode selector stands; a client that stops the CPU does not turn it.
+    // 33.19: bart_sch, the fifth word, is the position of the mode selector; stopping the CPU does not change it.
     client.job(STOP, "");
     client.step();
     assert_eq!(client.state, CpuState::Stop);
@@ -200,7 +200,7 @@ fn the_lamps_are_those_of_a_cpu_with_two_interfaces() {
     }
 }
 
-/// snap7 has these bytes of a CPU 315: manufacturer 002A, which PROFIBUS and PROFINET gave to Siemens, profile F600, type 1.
+/// snap7 has these bytes of a CPU 315: manufacturer 002A, which PROFIBUS and PROFINET assigned to Siemens, profile F600, type 1.
 #[test]
 fn the_manufacturer_is_that_of_the_order_number() {
     let mut client = Client::ready(240);
@@ -209,7 +209,7 @@ fn the_manufacturer_is_that_of_the_order_number() {
     assert!(record[8..].iter().all(|byte| *byte == 0));
 }
 
-/// snap7 answers lists that have no choice of records with index 0000, whatever was asked.
+/// snap7 answers lists without a selection of records with index 0000, whatever index was requested.
 #[test]
 fn a_list_without_a_choice_of_records_has_index_0_in_its_head() {
     let mut client = Client::ready(960);
@@ -240,7 +240,7 @@ fn the_diagnostic_buffer_shows_the_newest_entries_first() {
     assert_eq!((last[19], hex(&last[22..26])), (0, "FF 09 00 C2".to_owned()));
 }
 
-/// pyS7 leaves the type of its requests 0.
+/// pyS7 sends type 0 in its requests.
 #[test]
 fn a_request_without_a_type_is_a_request() {
     let mut client = Client::ready(480);
@@ -267,12 +267,12 @@ fn the_clock_is_set_with_the_next_step_if_the_time_exists() {
     assert_eq!(client.commands, [Command::SetClock(time)]);
     client.commands.clear();
     for wrong in [
-        "00 20 27 02 29 00 00 00 00 00", // no leap year
+        "00 20 27 02 29 00 00 00 00 00", // not a leap year
         "00 20 27 13 01 00 00 00 00 00",
         "00 20 27 00 01 00 00 00 00 00",
         "00 20 27 01 01 24 00 00 00 00",
         "00 20 27 01 01 00 60 00 00 00",
-        "00 20 2A 01 01 00 00 00 00 00", // no BCD
+        "00 20 2A 01 01 00 00 00 00 00", // not BCD
         "00 20 27 01",
         "",
     ] {
@@ -310,11 +310,11 @@ const COLD: &str = "28 00 00 00 00 00 00 FD 00 02 43 20 09 50 5F 50 52 4F 47 52 
 #[test]
 fn the_plc_is_stopped_and_started_by_request() {
     let mut client = Client::ready(240);
-    assert_eq!(client.job(WARM, ""), "00 02 00 00 00 00 28 03"); // runs already
+    assert_eq!(client.job(WARM, ""), "00 02 00 00 00 00 28 03"); // already in RUN
     assert_eq!(client.job(STOP, ""), "00 01 00 00 00 00 29");
     assert_eq!(client.commands, [Command::PlcStop]);
     client.step();
-    assert_eq!(client.job(STOP, ""), "00 02 00 00 00 00 29 07"); // stands already
+    assert_eq!(client.job(STOP, ""), "00 02 00 00 00 00 29 07"); // already in STOP
     assert_eq!(client.job(COLD, ""), "00 01 00 00 00 00 28");
     assert_eq!(client.commands, [Command::PlcStart(Restart::Cold)]);
     client.commands.clear();
@@ -352,7 +352,7 @@ fn a_protected_module_wants_its_password_first() {
         assert_eq!(client.job(job, ""), "00 00 00 00 D2 41");
     }
     assert_eq!(client.user_data(7, 2, "00 20 28 02 29 23 59 59 99 93").0, "D2 41");
-    // "geheim  " folded: 67^55=32, 65^55=30, 68^55^32=0F, 65^55^30=00, 69^55^0F=33, 6D^55^00=38, 20^55^33=46, 20^55^38=4D.
+    // "geheim  " encoded: 67^55=32, 65^55=30, 68^55^32=0F, 65^55^30=00, 69^55^0F=33, 6D^55^00=38, 20^55^33=46, 20^55^38=4D.
     assert_eq!(client.user_data(5, 1, "32 30 0F 00 33 38 46 4C").0, "D6 02");
     assert_eq!(client.job(STOP, ""), "00 00 00 00 D2 41");
     assert_eq!(client.user_data(5, 1, "32 30 0F 00 33 38 46 4D").0, "00 00");
@@ -360,7 +360,7 @@ fn a_protected_module_wants_its_password_first() {
     assert!(client.job(upload, "").starts_with("00 10"));
     assert_eq!(client.user_data(5, 2, "").0, "00 00");
     assert_eq!(client.job(STOP, ""), "00 00 00 00 D2 41");
-    // Variables are not what this protects.
+    // The password does not protect variables.
     assert!(client.read(&["02 00 01 03 E8 84 00 00 00"]).ends_with("FF 04 00 08 A5"));
     client.protection.level = 2;
     assert_eq!(client.job(STOP, ""), "00 00 00 00 D2 41");
@@ -375,7 +375,7 @@ fn a_module_without_a_password_says_so() {
     assert_eq!(client.user_data(5, 1, "32 30").0, "D4 05");
 }
 
-/// The PLC of an 828D is another one.
+/// The PLC of an 828D has another identification.
 #[test]
 fn each_control_has_its_own_plc() {
     use crate::s7::Identity;
@@ -386,8 +386,8 @@ fn each_control_has_its_own_plc() {
     assert_ne!(Identity::SINUMERIK_840D_SL.order_number, Identity::SINUMERIK_828D.order_number);
 }
 
-/// 33.6: index 0000 is the group "MC7 processing unit", 0100 the time system; a group is no feature. snap7 has one record at index 0000
-/// and two at 0100, of a CPU 315 that compiles MC7 (0001) where this one interprets it (0002).
+/// 33.6: index 0000 is the group "MC7 processing unit", 0100 the time system; a group is not a feature. snap7 has one record at index 0000
+/// and two at 0100, from a CPU 315 that compiles MC7 (0001), while this one interprets it (0002).
 #[test]
 fn the_features_of_a_group_are_those_of_that_group_alone() {
     let mut client = Client::ready(240);
@@ -399,7 +399,7 @@ fn the_features_of_a_group_are_those_of_that_group_alone() {
     assert_eq!(list(&mut client, "00 12", "00 00").1, 8);
 }
 
-/// The answer is snap7's (`FF 09 00 02 02 00`).
+/// The answer is the same as snap7's (`FF 09 00 02 02 00`).
 #[test]
 fn whoever_logs_on_to_messages_is_told_that_it_is() {
     let mut client = Client::ready(240);
@@ -428,7 +428,7 @@ fn flags_are_counted_in_bits_and_in_bytes() {
     assert_eq!(list(&mut client, "00 14", "00 00"), (8, 9, bytes(&records.join(" "))));
 }
 
-/// What Wireshark's dissector reads there: used and free add up to the size, and what is served is what can be asked for.
+/// As decoded by Wireshark's dissector: used and free bytes add up to the size, and the listed services are supported.
 #[test]
 fn memories_areas_and_services_are_those_of_this_module() {
     let mut client = Client::ready(480);

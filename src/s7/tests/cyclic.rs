@@ -1,11 +1,11 @@
-//! What the module sends by itself.
+//! Subscriptions.
 
 use super::{Client, bytes, hex};
 
-/// DB1000.DBB0 and DB1000.DBW2, one item of an odd length.
+/// DB1000.DBB0 and DB1000.DBW2, one item of odd length.
 const ITEMS: &str = "12 0A 10 02 00 01 03 E8 84 00 00 00 12 0A 10 04 00 01 03 E8 84 00 00 10";
 
-/// The number of the job, its data part behind the head, and the kind in the parameter part.
+/// The number of the job, its data part after the header, and the kind in the parameter part.
 fn push(answer: &[u8]) -> (u8, String, u8) {
     let pdu = &answer[7..];
     assert_eq!(hex(&pdu[..6]), "32 07 00 00 00 00");
@@ -42,7 +42,7 @@ fn values_come_in_cycles_until_nobody_wants_them() {
     assert_eq!(push(answer), (job, "00 02 FF 04 00 08 07 00 FF 04 00 10 A5 A5".to_owned(), 0x02));
     assert!(client.tick(1399).is_empty());
     assert_eq!(client.tick(1400), pushed);
-    // Who is late does not catch up in a burst.
+    // A delayed subscription does not send a burst.
     assert_eq!(client.tick(5000).len(), 1);
     assert!(client.tick(5199).is_empty());
     let ended = client.user_data(2, 4, &format!("05 {job:02X}"));
@@ -62,7 +62,7 @@ fn values_that_are_wanted_on_change_come_only_then() {
     client.memory.blocks.get_mut(1000).unwrap()[2] = 1;
     assert_eq!(push(&client.tick(300)[0]), (job, "00 02 FF 04 00 08 A5 00 FF 04 00 10 01 A5".to_owned(), 0x02));
     assert!(client.tick(400).is_empty());
-    // A byte that nobody asked for.
+    // A byte outside the subscription.
     client.memory.blocks.get_mut(1000).unwrap()[1] = 1;
     assert!(client.tick(500).is_empty());
 }
@@ -111,7 +111,7 @@ fn a_client_has_32_jobs_and_ends_them_all_with_number_0() {
     assert!(client.tick(1000).is_empty());
 }
 
-/// What was begun for a long PDU might not fit a short one, and would never come.
+/// A subscription for a long PDU may not fit a short one, and would never be sent.
 #[test]
 fn a_second_setup_ends_what_comes_by_itself() {
     let mut client = Client::ready(480);

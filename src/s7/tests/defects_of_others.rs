@@ -1,10 +1,10 @@
-//! What ends other servers, or what they do wrong in silence: each as a fact about this one.
+//! Defects that crash other servers or make them silently wrong; each is tested on this server.
 
 use super::{CONNECT, Client, bytes, hex, packet};
 use crate::s7::Connection;
 
-/// Ends snap7's server: an answer buffer of 4096 bytes on the stack. DB1000 has 2048 bytes: what reaches beyond is out of range, what
-/// is there and does not fit makes the whole a wrong frame.
+/// Crashes snap7's server: an answer buffer of 4096 bytes on the stack. DB1000 has 2048 bytes. Items beyond that are out of range; existing
+/// bytes that do not fit in the PDU make the whole request a wrong frame.
 #[test]
 fn a_read_longer_than_any_pdu_is_refused() {
     let mut client = Client::ready(480);
@@ -18,7 +18,7 @@ fn a_read_longer_than_any_pdu_is_refused() {
         assert_eq!(client.read(&[item]), "00 02 00 04 00 00 04 01 05 00 00 00");
     }
     for item in ["02 08 00 03 E8 84 00 00 00", "06 02 00 03 E8 84 00 00 00"] {
-        assert_eq!(client.read(&[item]), "00 00 00 00 85 00"); // 2048 bytes, 512 double words: all of it
+        assert_eq!(client.read(&[item]), "00 00 00 00 85 00"); // 2048 bytes, 512 double words: the whole block
     }
     let each = "02 0F A0 03 E8 84 00 00 00"; // 20 x 4000
     assert_eq!(client.read(&[each; 20]), format!("00 02 00 50 00 00 04 14{}", " 05 00 00 00".repeat(20)));
@@ -29,7 +29,7 @@ fn a_read_longer_than_any_pdu_is_refused() {
     assert_eq!(client.connection, Connection::Open);
 }
 
-/// One item that is no use does not cost the others their values, however long it says to be.
+/// An invalid item does not affect the values of the others, whatever its length is.
 #[test]
 fn an_item_out_of_range_is_refused_by_itself_however_long_it_is() {
     let mut client = Client::ready(240);
@@ -37,7 +37,7 @@ fn an_item_out_of_range_is_refused_by_itself_however_long_it_is() {
     for (wild, code) in [
         ("02 FF FF 03 E8 84 00 00 00", "05"), // 65535 bytes of 2048
         ("0F FF FF 03 E8 84 00 00 00", "05"), // half a megabyte
-        ("02 FF FF 00 63 84 00 00 00", "0A"), // of DB99, which there is not
+        ("02 FF FF 00 63 84 00 00 00", "0A"), // DB99 does not exist
         ("02 FF FF 00 00 83 00 00 00", "05"), // flags
         ("02 FF FF 00 00 83 FF FF F8", "05"),
         ("1D FF FF 00 00 1D 00 00 00", "05"), // timers
@@ -47,7 +47,7 @@ fn an_item_out_of_range_is_refused_by_itself_however_long_it_is() {
         assert_eq!(answer, expected, "{wild}");
     }
     let mut client = client.on_828d();
-    let answer = client.read(&[good, "02 FF FF 0E D8 84 00 00 00"]); // DB3800, which has gaps and no such end
+    let answer = client.read(&[good, "02 FF FF 0E D8 84 00 00 00"]); // DB3800 has gaps and ends earlier
     assert_eq!(answer, "00 02 00 0A 00 00 04 02 FF 04 00 08 A5 00 05 00 00 00");
 }
 
@@ -64,7 +64,7 @@ fn the_longest_answer_is_as_long_as_the_pdu_and_not_a_byte_longer() {
     }
 }
 
-/// snap7's server cuts a read to 20 items; a write of more overruns its stack. nodes7 sends more than 50.
+/// snap7's server cuts a read to 20 items; a write with more items overruns its stack. nodes7 sends more than 50.
 #[test]
 fn as_many_items_as_fit_are_served() {
     let mut client = Client::ready(960);
@@ -78,7 +78,7 @@ fn as_many_items_as_fit_are_served() {
     assert_eq!(client.commands.len(), 50);
 }
 
-/// Ends snap7's server: from the third piece on its offsets count twice.
+/// Crashes snap7's server: from the third piece on, its offsets count twice.
 #[test]
 fn three_pieces_of_1300_bytes_and_five_of_800_are_put_together_and_refused() {
     for (count, length) in [(3, 1300), (5, 800)] {
@@ -96,7 +96,7 @@ fn three_pieces_of_1300_bytes_and_five_of_800_are_put_together_and_refused() {
     }
 }
 
-/// snap7's server writes its own memory into the block: it does not compare the length with what came.
+/// snap7's server writes its own memory into the block: it does not compare the length with the received bytes.
 #[test]
 fn a_write_of_more_than_what_came_writes_nothing() {
     let mut client = Client::ready(480);
@@ -106,7 +106,7 @@ fn a_write_of_more_than_what_came_writes_nothing() {
     assert!(client.commands.is_empty());
 }
 
-/// SCADACS/snap7 pull request 9: REAL items of a multi-write land in the wrong place.
+/// SCADACS/snap7 pull request 9: REAL items of a multi-item write go to the wrong address.
 #[test]
 fn a_real_in_the_middle_of_a_write_keeps_its_place() {
     let mut client = Client::ready(480);
@@ -137,7 +137,7 @@ fn a_write_without_fill_bytes_is_understood() {
     assert_eq!(written[0], written[2]);
 }
 
-/// python-snap7 writes only the first item of several.
+/// python-snap7's server writes only the first of several items.
 #[test]
 fn every_item_of_a_write_is_written() {
     let mut client = Client::ready(240);
@@ -165,7 +165,7 @@ fn a_bit_is_answered_as_a_bit() {
     assert!(client.read(&["01 00 01 03 E8 84 00 00 01"]).ends_with("FF 03 00 01 00"));
 }
 
-/// The Rust snap7-server answers zeros for blocks that do not exist, and has no bounds.
+/// The Rust snap7-server answers with zeros for blocks that do not exist, and has no bounds checks.
 #[test]
 fn a_missing_block_is_not_full_of_zeros() {
     let mut client = Client::ready(240);
@@ -189,7 +189,7 @@ fn the_confirm_is_as_long_as_it_says() {
     assert_eq!((usize::from(confirm[3]), usize::from(confirm[4])), (22, 17));
 }
 
-/// snap7's server is silent where it does not know a function; python-snap7's client sends a read of one byte and never looks.
+/// snap7's server does not answer unknown functions; python-snap7's client sends a one-byte read and ignores the answer.
 #[test]
 fn there_is_no_silence() {
     let mut client = Client::ready(240);
@@ -212,7 +212,7 @@ fn the_number_of_a_tpdu_stays_0() {
     }
 }
 
-/// python-snap7 issue 70: after a time-out the next answer belongs to the last question.
+/// python-snap7 issue 70: after a time-out, the next answer is taken for the last request.
 #[test]
 fn answers_come_in_the_order_of_the_requests_with_their_references() {
     let mut client = Client::ready(240);
@@ -224,7 +224,7 @@ fn answers_come_in_the_order_of_the_requests_with_their_references() {
     assert_eq!(references, [7, 3, 9]);
 }
 
-/// snap7's server sends one weekday too low, and sends the information on a missing block from memory it never wrote.
+/// snap7's server sends a weekday that is one too low, and answers the information request for a missing block from uninitialised memory.
 #[test]
 fn the_weekday_is_right_and_a_missing_block_has_no_information() {
     let mut client = Client::ready(240);

@@ -1,6 +1,6 @@
-//! Tests of S7 communication, without a socket. Bytes are written by hand: the layout from RFC 1006, ISO 8073 and the
-//! dissector of Wireshark (`packet-s7comm.c`), the requests as snap7's client, python-snap7, pyS7, nodes7, nmap's `s7-info` and
-//! collectors of SINUMERIK controls send them.
+//! Tests of S7 communication without a socket. The bytes are written by hand: the layout from RFC 1006, ISO 8073 and the dissector of
+//! Wireshark (`packet-s7comm.c`), the requests as sent by snap7's client, python-snap7, pyS7, nodes7, nmap's `s7-info` and collectors of
+//! SINUMERIK controls.
 
 mod any_bytes;
 mod blocks;
@@ -39,7 +39,7 @@ pub(super) fn packet(pdu: &[u8]) -> Vec<u8> {
     [&[3, 0, length[0], length[1], 2, 0xF0, 0x80], pdu].concat()
 }
 
-/// A PDU with some of its bytes changed, and sometimes without its end.
+/// A PDU with some bytes changed, sometimes truncated.
 pub(super) fn changed(pdu: impl Strategy<Value = Vec<u8>>) -> impl Strategy<Value = Vec<u8>> {
     let changes = proptest::collection::vec((any::<Index>(), any::<u8>()), 0..4);
     (pdu, changes, any::<Index>(), any::<bool>()).prop_map(|(mut pdu, changes, end, cut)| {
@@ -54,7 +54,7 @@ pub(super) fn changed(pdu: impl Strategy<Value = Vec<u8>>) -> impl Strategy<Valu
     })
 }
 
-/// A client and everything that it talks to.
+/// A client and its environment.
 struct Client {
     session: Session,
     memory: Memory,
@@ -74,7 +74,7 @@ struct Client {
 }
 
 impl Client {
-    /// Not connected yet. Every byte of the memory is A5, so that a stray write shows.
+    /// Not connected yet. Every byte of the memory is A5, so that an unintended write is visible.
     fn new() -> Self {
         let mut memory = Memory::new();
         for part in [crate::image::Part::ToNck, crate::image::Part::FromNck, crate::image::Part::Hmi] {
@@ -108,7 +108,7 @@ impl Client {
         }
     }
 
-    /// Connected, and this PDU negotiated.
+    /// Connected, with this PDU negotiated.
     fn ready(pdu: u16) -> Self {
         let mut client = Self::new();
         client.get_ready(pdu);
@@ -127,7 +127,7 @@ impl Client {
         assert_eq!(self.session.pdu_length(), usize::from(pdu));
     }
 
-    /// Connected to the NCK of a solution line, as collectors call it.
+    /// Connected to the NCK of a solution line, as data collectors do.
     fn at_the_nck(pdu: u16) -> Self {
         Self::called("0D 04", pdu)
     }
@@ -146,7 +146,7 @@ impl Client {
         self
     }
 
-    /// What the session answers to these bytes, one answer each.
+    /// The answers of the session to these bytes, one per answer.
     fn send(&mut self, bytes: &[u8]) -> Vec<Vec<u8>> {
         self.with_station(|session, station, answers| Some(session.receive(bytes, station, answers)))
     }
@@ -195,7 +195,7 @@ impl Client {
         hex(&answer[7..])
     }
 
-    /// A job with this parameter and data part, and the answer behind its reference.
+    /// A job with this parameter and data part, and the answer after its reference.
     fn job(&mut self, parameter: &str, data: &str) -> String {
         let (parameter, data) = (bytes(parameter), bytes(data));
         let lengths = format!("{} {}", word(parameter.len()), word(data.len()));
@@ -232,7 +232,7 @@ impl Client {
         self.job(&format!("05 {:02X} {}", items.len(), each.join(" ")), data)
     }
 
-    /// Does what was asked for, as the edge of a step does.
+    /// Executes the requested commands, as at the start of a step.
     fn step(&mut self) {
         for command in std::mem::take(&mut self.commands) {
             match command {

@@ -1,4 +1,4 @@
-//! Variables of the NCK. Requests as collectors of 828D and 840D sl send them: `12 08 82`, area and unit, column, line, module,
+//! Variables of the NCK. The requests are those of data collectors of 828D and 840D sl: `12 08 82`, area and unit, column, line, module,
 //! number of lines. Values are little-endian.
 
 use std::collections::BTreeSet;
@@ -11,8 +11,7 @@ use crate::s7::wire::data::Refusal;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position, Time};
 use crate::variables::{AlarmNumber, Parameter, Place, RaisedAlarm};
 
-/// A client of a machine with X at 100 mm, Y at -0.5 mm, and three alarms, of which 20000 came first, at 1 s, then 10652 and 10653
-/// at 3 s.
+/// A client of a machine with X at 100 mm, Y at -0.5 mm, and three alarms: first 20000 at 1 s, then 10652 and 10653 at 3 s.
 fn client() -> Client {
     let mut client = Client::at_the_nck(960);
     client.memory = Memory::new();
@@ -43,7 +42,7 @@ fn client() -> Client {
     client
 }
 
-/// At 4 s: overrides, R parameters, motors; 10652 goes by itself, the others by RESET.
+/// At 4 s: overrides, R parameters, motors; 10652 is cancelled automatically, the others by RESET.
 struct Knows;
 
 impl ControlValues for Knows {
@@ -72,7 +71,7 @@ impl ControlValues for Knows {
     }
 }
 
-/// One item without its `12 08`, and its value behind the head of the answer.
+/// One item without its `12 08`, and its value after the header of the answer.
 fn read(client: &mut Client, item: &str) -> String {
     let answer = client.job(&format!("04 01 12 08 {item}"), "");
     let (head, value) = answer.split_at(24);
@@ -103,7 +102,7 @@ fn several_lines_follow_one_another() {
     let mut client = client();
     assert_eq!(read(&mut client, "82 41 00 02 00 01 74 03"), double(&[100.0, -0.5, 0.0]));
     assert_eq!(read(&mut client, "82 41 00 02 00 02 74 01"), double(&[-0.5]));
-    // There is no fourth axis, no line 0, and nothing is none.
+    // There is no fourth axis and no line 0, and a count of 0 is invalid.
     for item in
         ["82 41 00 02 00 01 74 04", "82 41 00 02 00 00 74 01", "82 41 00 02 00 01 74 00", "82 41 00 02 FF FF 74 FF"]
     {
@@ -132,8 +131,8 @@ fn an_unknown_variable_does_not_exist_and_the_other_items_are_served() {
     for (item, code) in [
         ("82 42 00 02 00 01 74 01", "05"), // channel 2 does not exist
         ("82 40 00 02 00 01 74 01", "05"), // units count from 1
-        ("82 20 00 03 00 01 7F 01", "05"), // mode groups, too
-        ("82 00 00 07 00 01 7F 01", "FF"), // only the NCK is one, whatever it is called
+        ("82 20 00 03 00 01 7F 01", "05"), // also for mode groups
+        ("82 00 00 07 00 01 7F 01", "FF"), // the unit of the NCK is ignored
         ("82 81 00 03 00 01 26 01", "0A"), // tools
     ] {
         assert!(read(&mut client, item).starts_with(code), "{item}");
@@ -168,21 +167,21 @@ fn alarms_are_listed_in_three_orders_and_free_places_are_0() {
     assert_eq!(read(&mut client, "82 01 00 07 00 01 7F 01"), "FF 09 00 02 03 00");
     let (cam, warning, trip) = ("20 4E 00 00", "9C 29 00 00", "9D 29 00 00");
     for (module, list, ordinals) in [
-        ("77", [cam, warning, trip], [1, 2, 3]), // SALA: as they came
+        ("77", [cam, warning, trip], [1, 2, 3]), // SALA: oldest first
         ("54", [cam, warning, trip], [1, 2, 3]), // SALAC
-        ("75", [trip, warning, cam], [3, 2, 1]), // SALAL: the last first
-        ("76", [cam, trip, warning], [1, 3, 2]), // SALAP: what goes by itself last
+        ("75", [trip, warning, cam], [3, 2, 1]), // SALAL: newest first
+        ("76", [cam, trip, warning], [1, 3, 2]), // SALAP: automatic cancel last
     ] {
         let numbers = format!("FF 09 00 10 {} 00 00 00 00", list.join(" "));
         assert_eq!(read(&mut client, &format!("82 01 00 01 00 01 {module} 04")), numbers, "{module}");
         let [a, b, c] = ordinals;
         let ordinals = format!("FF 09 00 10 0{a} 00 00 00 0{b} 00 00 00 0{c} 00 00 00 00 00 00 00");
         assert_eq!(read(&mut client, &format!("82 01 00 02 00 01 {module} 04")), ordinals, "{module}");
-        assert_eq!(read(&mut client, &format!("82 01 00 01 00 41 {module} 01")), "05 00 00 00"); // place 65
+        assert_eq!(read(&mut client, &format!("82 01 00 01 00 41 {module} 01")), "05 00 00 00"); // row 65
     }
 }
 
-/// The clock is at 03:04:05.678 and the control at 4 s: 20000 came 3 s ago, 10653 1 s.
+/// The clock is at 03:04:05.678 and the control at 4 s: 20000 was raised 3 s ago, 10653 1 s ago.
 #[test]
 fn an_alarm_has_its_time_its_parameters_and_what_cancels_it() {
     let mut client = client();
@@ -243,7 +242,7 @@ fn what_the_service_display_of_an_axis_shows_is_there() {
         assert_eq!(read(&mut client, &format!("82 41 00 {column} 00 02 71 01")), word, "{column}");
     }
     assert_eq!(read(&mut client, "82 41 00 09 00 02 74 01"), fixed("Y", 32));
-    client.machine_data = Some(Box::new(Data)); // Y turns: -300 rev/min
+    client.machine_data = Some(Box::new(Data)); // Y is rotary: -300 rev/min
     assert_eq!(read(&mut client, "82 41 00 03 00 02 71 01"), double(&[-108_000.0]));
 }
 
@@ -307,7 +306,7 @@ fn a_drive_object_is_read_and_not_written() {
     assert_eq!(write, "00 02 00 01 00 00 05 01 03");
 }
 
-/// Slot 3 and 4 are the NCK; elsewhere the header says 8104 and there is no data, whatever else was asked for.
+/// The NCK is at slots 3 and 4. At other slots the whole request is refused with 8104 and without data.
 #[test]
 fn variables_of_the_nck_are_asked_of_the_nck() {
     let nck = "12 08 82 41 00 02 00 01 74 01";
@@ -331,7 +330,7 @@ fn variables_of_the_nck_are_asked_of_the_nck() {
         let write = client.job("05 01 12 08 82 41 00 01 00 06 15 01", "00 09 00 08 00 00 00 00 00 00 00 00");
         assert_eq!(write != refused, is_nck, "{tsap}");
         assert_eq!(client.user_data(2, 1, &subscribe).0 != "81 04", is_nck, "{tsap}");
-        // What the PLC has is served everywhere.
+        // Data of the PLC are served at every slot.
         assert!(client.job(&format!("04 01 {plc}"), "").ends_with("FF 04 00 08 A5"), "{tsap}");
     }
 }
@@ -395,7 +394,7 @@ fn names_are_texts_of_fixed_length_filled_with_zeros() {
     assert_eq!(read(&mut client, "82 01 46 78 00 05 1A 01"), "05 00 00 00");
 }
 
-/// MD34090 of axis 2, MD37100 of axis 1, MD30300: axis 2 turns.
+/// MD34090 of axis 2, MD37100 of axis 1, MD30300: axis 2 is a rotary axis.
 struct Data;
 
 impl MachineData for Data {
@@ -417,7 +416,7 @@ impl MachineData for Data {
         }
     }
 
-    /// MD30240 is 0 to 5, and nobody writes MD34000.
+    /// MD30240 is 0 to 5, and MD34000 is read-only.
     fn may_store(&self, _: Place, number: u16, _: u16, value: f64) -> Result<(), Refusal> {
         match number {
             30240 if value > 5.0 => Err(Refusal::OutOfRange),
@@ -444,7 +443,7 @@ fn machine_data_are_read_by_number_and_index() {
         assert_eq!(read(&mut client, &format!("82 {unit} 75 FC 00 01 1A 01")), "05 00 00 00", "{unit}");
     }
     assert_eq!(read(&mut client, "82 63 76 5C 00 01 1A 01"), "FF 09 00 01 00"); // MD30300 of the last axis
-    // Degrees have no inches.
+    // Degrees are not converted to inches.
     assert_eq!(read(&mut client, "84 41 00 02 00 02 74 01"), double(&[-0.5]));
 }
 
@@ -461,21 +460,21 @@ fn machine_data_are_written_and_what_the_control_shows_is_not() {
         ("82 62 85 2A 00 01 1A 01", "00 09 00 08 00 00 00 00 00 00 F0 7F", "07"), // infinite
         ("82 61 85 2A 00 01 1A 01", "00 09 00 08 00 00 00 00 00 00 E0 3F", "0A"),
         ("82 61 76 20 00 03 1A 01", "00 09 00 01 01", "05"),
-        ("82 61 76 20 00 01 1A 02", "00 09 00 02 01 06", "05"), // MD30240 is 5 at most: neither is written
+        ("82 61 76 20 00 01 1A 02", "00 09 00 02 01 06", "05"), // MD30240 is at most 5: neither is written
         ("82 61 76 20 00 01 1A 02", "00 09 00 03 01 02 03", "07"),
         ("82 61 76 20 00 02 1A 02", "00 09 00 02 01 02", "05"),
         ("82 61 84 D0 00 01 1A 01", "00 09 00 04 00 00 00 00", "03"),
         ("82 62 75 FC 00 01 1A 01", "00 09 00 01 02", "0A"), // MD30204
         ("82 64 76 5C 00 01 1A 01", "00 09 00 01 01", "05"), // there is no axis 4
         ("82 40 00 01 00 06 15 01", "00 09 00 08 00 00 00 00 00 00 E0 3F", "05"), // no channel 0
-        ("82 62 76 5C 00 01 1A 01", "00 09 00 01 02", "07"), // MD30300 is no 2
+        ("82 62 76 5C 00 01 1A 01", "00 09 00 01 02", "07"), // MD30300 cannot be 2
         ("82 41 00 02 00 01 74 01", "00 09 00 08 00 00 00 00 00 00 E0 3F", "03"),
     ] {
         assert_eq!(write(item, value), format!("00 02 00 01 00 00 05 01 {code}"), "{item} {value}");
     }
     let place = Place::Axis(AxisNumber::new(2).unwrap());
     assert_eq!(client.commands, [Command::MachineDatum { place, number: 34090, index: 0, value: 0.5 }]);
-    // Two rows, and two items of which one is refused: the other one is written.
+    // Two rows, and two items of which one is refused: the other item is written.
     client.commands.clear();
     let rows = "12 08 82 61 76 20 00 01 1A 02";
     let answer = client.job(&format!("05 02 {rows} 12 08 82 61 76 20 00 01 1A 01"), "00 09 00 02 02 03 00 09 00 01 06");
@@ -519,7 +518,7 @@ fn every_variable_of_the_catalogue_has_a_first_line() {
     }
 }
 
-/// s7.md 5: an alarm list in cycles.
+/// s7.md 5: an alarm list in a cyclic subscription.
 #[test]
 fn an_nc_variable_comes_in_cycles_too() {
     let mut client = client();
@@ -531,7 +530,7 @@ fn an_nc_variable_comes_in_cycles_too() {
     assert!(hex(&pushes[1]).ends_with("00 01 FF 09 00 08 00 00 00 00 00 00 59 40"));
 }
 
-/// Change-driven, as alarm displays subscribe: a push when an alarm comes, nothing while nothing changes.
+/// On change, as alarm displays subscribe: a push when an alarm is raised, none without a change.
 #[test]
 fn an_alarm_that_comes_is_pushed_to_who_subscribed_to_the_list() {
     let mut client = client();

@@ -28,7 +28,7 @@ fn a_called_tsap_that_is_not_among_those_accepted_is_refused_with_its_reason() {
     let settings = Settings { called: Some(vec![[1, 3], [3, 3]]), ..Settings::default() };
     let mut client = Client::new();
     client.session = Session::new(settings.clone());
-    // A disconnect request to whom asked, reason 3: address unknown.
+    // A disconnect request to the sender, reason 3: address unknown.
     assert_eq!(client.send(&bytes(CONNECT)), [bytes("03 00 00 0B 06 80 00 01 00 00 03")]);
     assert_eq!(client.connection, Connection::Closed);
     let mut client = Client::new();
@@ -65,7 +65,7 @@ fn a_request_in_several_pieces_is_one_request() {
     assert_eq!(client.send(&piece(c, 0x80)), whole);
 }
 
-/// s7.md 4.2: some collectors send an empty DT behind every request.
+/// s7.md 4.2: some collectors send an empty DT after every request.
 #[test]
 fn an_empty_data_tpdu_is_swallowed() {
     let mut client = Client::ready(480);
@@ -76,7 +76,8 @@ fn an_empty_data_tpdu_is_swallowed() {
     assert_eq!(client.read(&["02 00 01 03 E8 84 00 00 00"]), "00 02 00 05 00 00 04 01 FF 04 00 08 A5");
 }
 
-/// S7.Net issue 145: a TPDU of 512 bytes holds a PDU of 509; an answer of 960 goes in two packets, in one write.
+/// S7.Net issue 145: a TPDU of 512 bytes holds 509 bytes of a PDU; an answer of 960 bytes is sent in two packets with
+/// one write.
 #[test]
 fn an_answer_longer_than_the_agreed_tpdu_goes_in_pieces() {
     let mut client = Client::new();
@@ -87,7 +88,8 @@ fn an_answer_longer_than_the_agreed_tpdu_goes_in_pieces() {
     let [answer] = answers.as_slice() else { panic!("one write") };
     assert_eq!(hex(&answer[..8]), "03 00 02 04 02 F0 00 32");
     assert_eq!(hex(&answer[516..523]), "03 00 00 D8 02 F0 80");
-    // 700 bytes behind header, parameter and item; 509 of these 718 bytes in a TPDU of 512, which the TPKT makes 516.
+    // 700 bytes after header, parameter and item; 509 of these 718 bytes fit in a TPDU of 512 bytes, which the TPKT
+    // extends to 516.
     assert_eq!(answer.len() - 2 * 7, 12 + 2 + 4 + 700);
 }
 
@@ -107,11 +109,11 @@ fn what_is_no_packet_ends_the_connection() {
         "47 45 54 20",                            // HTTP
         "03 00 00 00",                            // shorter than its header
         "03 00 00 03",                            // the same
-        "03 00 00 05 02",                         // no room for a TPDU
+        "03 00 00 05 02",                         // too short for a TPDU
         "03 00 00 07 02 F0 80",                   // data before the connection
-        "03 00 00 07 09 F0 80",                   // the header of the TPDU ends behind the packet
+        "03 00 00 07 09 F0 80",                   // the header of the TPDU ends after the packet
         "03 00 00 07 06 E0 00",                   // a connection request that ends early
-        "03 00 00 0D 08 E0 00 00 00 01 00 C0 09", // its parameter ends behind it
+        "03 00 00 0D 08 E0 00 00 00 01 00 C0 09", // its parameter ends after it
         "03 00 FF FF",                            // more than a TPDU of 8192 bytes
         "03 00 00 06 01 F0",                      // data without a number
     ] {
@@ -146,7 +148,7 @@ fn the_pdu_is_what_was_asked_for_within_240_and_960_and_it_may_be_asked_for_agai
         let answer = client.ask(&format!("32 01 00 00 00 01 00 08 00 00 F0 00 00 01 00 01 {asked}"));
         assert_eq!(answer, format!("32 03 00 00 00 01 00 08 00 00 00 00 F0 00 00 01 00 01 {agreed}"));
     }
-    // Collectors ask for 100 jobs, pyS7 for 8.
+    // Collectors request 100 jobs, pyS7 8.
     let answer = client.ask("32 01 00 00 00 01 00 08 00 00 F0 00 00 64 00 08 03 C0");
     assert_eq!(answer, "32 03 00 00 00 01 00 08 00 00 00 00 F0 00 00 08 00 08 03 C0");
     let answer = client.ask("32 01 00 00 00 01 00 08 00 00 F0 00 00 00 00 00 03 C0");
@@ -167,15 +169,15 @@ fn unknown_functions_and_wrong_lengths_are_refused_with_an_error_and_the_referen
     assert_eq!(client.job("06 00", ""), "00 00 00 00 81 04");
     assert_eq!(client.job("", ""), "00 00 00 00 85 00");
     assert_eq!(client.job("F0 00 00 01", ""), "00 00 00 00 85 00");
-    // An unknown kind of PDU, and one that ends before its data part does.
+    // An unknown kind of PDU, and one that ends before its data part.
     assert_eq!(client.ask("32 09 00 00 AB CD 00 00 00 00"), "32 02 00 00 AB CD 00 00 00 00 81 04");
     assert_eq!(client.ask("32 01 00 00 AB CD 00 02 00 09 04 01"), "32 02 00 00 AB CD 00 00 00 00 85 00");
-    // User data whose head is none, and an unknown group.
+    // User data with an invalid header, and an unknown group.
     assert_eq!(client.ask("32 07 00 00 AB CD 00 02 00 00 04 01"), "32 02 00 00 AB CD 00 00 00 00 85 00");
     assert_eq!(client.user_data(9, 1, ""), ("81 04".to_owned(), "0A 00 00 00".to_owned()));
     assert_eq!(client.user_data(1, 1, "00"), ("D4 05".to_owned(), "0A 00 00 00".to_owned()));
     assert_eq!(client.user_data(4, 0x13, "00"), ("D4 05".to_owned(), "0A 00 00 00".to_owned()));
-    // A request longer than the PDU that was agreed.
+    // A request longer than the negotiated PDU.
     let long = format!("32 01 00 00 00 07 00 02 00 F0 04 01{}", " 00".repeat(0xF0));
     assert_eq!(client.ask(&long), "32 02 00 00 00 07 00 00 00 00 85 00");
     assert_eq!(client.connection, Connection::Open);

@@ -5,7 +5,7 @@ use crate::image::{Location, Part};
 use crate::s7::Command;
 use crate::s7::wire::data::{Refusal, TransportSize, Type};
 
-/// Answer to a read of one item of DB1000 from byte 0, which holds 01 02 03 ...
+/// Answer to a read of one item of DB1000 from byte 0, which contains 01 02 03 ...
 fn read_of(kind: &str, count: &str) -> String {
     let mut client = Client::ready(480);
     for (byte, value) in client.memory.blocks.get_mut(1000).unwrap().iter_mut().zip(1_u8..=255) {
@@ -32,7 +32,7 @@ fn each_type_is_answered_with_its_transport_size_and_length() {
         ("0B", "00 01", "FF 04 00 20 01 02 03 04"),
         ("0C", "00 01", "FF 04 00 10 01 02"),
         ("0F", "00 01", "FF 04 00 40 01 02 03 04 05 06 07 08"),
-        // Bits by the dozen, unknown types, none at all, timers in a data block.
+        // Twelve bits, unknown types, no type, timers in a data block.
         ("01", "00 02", "06 00 00 00"),
         ("13", "00 01", "06 00 00 00"),
         ("02", "00 00", "05 00 00 00"),
@@ -52,7 +52,7 @@ fn each_bit_is_read_by_itself() {
         bits.push(answer.ends_with("FF 03 00 01 01"));
     }
     assert_eq!(bits, [false, true, false, false, false, false, true, false]);
-    // 65535 is the last byte of a block; bit 7 of byte 8191 is where 16 bits end.
+    // 65535 is the last byte of a block; bit 7 of byte 8191 is the last 16-bit address.
     assert!(client.read(&["01 00 01 03 E8 84 07 FF FF"]).ends_with("05 00 00 00"));
 }
 
@@ -89,10 +89,10 @@ fn every_area_is_read() {
         ("1D 00 01 00 00 1D 00 00 1F", "FF 09 00 02 04 04"), // timer 31 is the last
         ("1C 00 01 00 00 1C 00 00 1F", "FF 09 00 02 05 05"),
         ("1D 00 01 00 00 1D 00 00 20", "05 00 00 00"),
-        ("04 00 01 00 00 1D 00 00 1F", "FF 04 00 10 04 04"), // as a plain word
+        ("04 00 01 00 00 1D 00 00 1F", "FF 04 00 10 04 04"), // as WORD
         ("02 00 01 00 00 1D 00 00 00", "07 00 00 00"),
-        ("09 00 02 00 00 1D 00 00 08", "07 00 00 00"), // a client of Node-RED means T1, in bits
-        ("1C 00 01 00 00 1D 00 00 00", "07 00 00 00"), // a timer is no counter
+        ("09 00 02 00 00 1D 00 00 08", "07 00 00 00"), // a client of Node-RED requests T1 in bits
+        ("1C 00 01 00 00 1D 00 00 00", "07 00 00 00"), // a timer is not a counter
         ("02 00 01 00 00 80 00 00 00", "0A 00 00 00"), // peripheral inputs
         ("02 00 01 00 00 86 00 00 00", "0A 00 00 00"), // local data
     ] {
@@ -100,7 +100,7 @@ fn every_area_is_read() {
     }
 }
 
-/// O-24: lengths of the interface blocks; the 828D has its own numbers and nothing else.
+/// O-24: lengths of the interface blocks; the 828D has only its own block numbers.
 #[test]
 fn blocks_that_do_not_exist_and_addresses_behind_their_end_are_told_apart() {
     let mut client = Client::ready(240);
@@ -131,7 +131,8 @@ fn blocks_that_do_not_exist_and_addresses_behind_their_end_are_told_apart() {
 #[test]
 fn items_of_other_syntaxes_are_refused_by_themselves() {
     let mut client = Client::ready(240);
-    // A symbol of an S7-1200 (B2), areas of data blocks (B0), a drive object (A2), nonsense; then a byte of DB1000.
+    // A symbol of an S7-1200 (B2), areas of data blocks (B0), a drive object (A2), an invalid item; then a byte of
+    // DB1000.
     let symbol = "12 0E B2 FF 00 00 00 52 00 00 03 E8 00 00 00 0A";
     let areas = "12 07 B0 01 01 03 E8 00 00 00";
     let drive = "12 0A A2 08 00 01 00 03 00 1E 00 00";
@@ -169,7 +170,7 @@ fn a_write_becomes_visible_with_the_next_step_and_whole() {
     assert_eq!(client.memory.flags[..3], [0xA5, 0x85, 0xA5]); // M1.5
 }
 
-/// A word is one command where it lies in one piece, so that the record shows it as one.
+/// A word is one command if it lies in one part of the memory, so that the record shows it as one.
 #[test]
 fn an_element_is_written_as_one_number_unless_two_writers_share_it() {
     let mut client = Client::ready(240);
@@ -190,7 +191,7 @@ fn an_element_is_written_as_one_number_unless_two_writers_share_it() {
     assert_eq!(parts.collect::<Vec<_>>(), [(Part::FromNck, 8, 0x12), (Part::Hmi, 8, 0x34)]);
 }
 
-/// SIG-11: what somebody else writes into a bit of the NCK is taken, and overwritten at its next publication.
+/// SIG-11: a bit of the NCK accepts a write, and is overwritten at the next publication.
 #[test]
 fn a_bit_of_the_nck_takes_what_is_written() {
     let mut client = Client::ready(240);
@@ -206,11 +207,11 @@ fn an_item_that_is_refused_leaves_the_others_alone() {
     let mut client = Client::ready(240);
     let answer = client.write(
         &[
-            "02 00 01 03 E8 84 00 00 00", // well
+            "02 00 01 03 E8 84 00 00 00", // valid
             "02 00 01 00 01 84 00 00 00", // no such block
             "02 00 02 03 E8 84 00 00 08", // two bytes, one given
-            "02 00 01 03 E9 84 00 00 38", // behind the end
-            "02 00 01 03 E8 84 00 00 10", // well
+            "02 00 01 03 E9 84 00 00 38", // after the end
+            "02 00 01 03 E8 84 00 00 10", // valid
         ],
         "00 04 00 08 11 00 00 04 00 08 22 00 00 04 00 08 33 00 00 04 00 08 44 00 00 04 00 08 55",
     );

@@ -1,5 +1,5 @@
-// Node-RED itself with node-red-contrib-s7, without a screen: the flow in flows.json reads in cycles, reports what changes, writes,
-// and asks for blocks and lists; this script drives it over HTTP, as a person would with its editor and buttons.
+// Node-RED itself with node-red-contrib-s7, without a screen: the flow in flows.json reads cyclically, reports changes, writes, and
+// requests blocks and lists. This script controls it over HTTP, as a user would with its editor and buttons.
 'use strict';
 const { spawn } = require('node:child_process');
 const fs = require('node:fs');
@@ -44,7 +44,7 @@ run(async () => {
   const write = (variable, written) => ask('/write', { variable, value: written });
   const control = (name, payload = {}) => ask('/control', { function: name, payload });
 
-  // It is there, and reads.
+  // It is connected and reads.
   const end = Date.now() + 60000;
   let first;
   while (!first && Date.now() < end) {
@@ -61,7 +61,7 @@ run(async () => {
   const later = (await ask('/values')).cycles - cycles;
   holds('about twenty cycles in a second, fewer on a busy computer', later >= 3 && later <= 40, `${later}`);
 
-  // It writes one and several, and finds what it wrote.
+  // It writes one and several values, and reads them back.
   for (const [name, written] of Object.entries({ bit: true, float: -2.25, text: 'panel', odd: 7, flag: true, flag_real: 0.5, input: true, output: 65000 })) {
     equal(`${name} is written`, await write(name, written), { done: true });
     await becomes(`${name} is found`, () => value(name), written);
@@ -70,7 +70,7 @@ run(async () => {
   equal('several in one message', await write(Object.keys(several), Object.values(several)), { done: true });
   await becomes('and found', async () => { const all = await values(); return Object.keys(several).map((name) => all[name]); }, Object.values(several));
 
-  // A key at the panel: the axis moves, and the flow gets the edges of its traverse command, one message each.
+  // A traversing key: the axis moves, and the flow gets the edges of its traverse command, one message each.
   const before = (await ask('/values')).edges;
   equal('key of Y', await write('key_plus_Y', true), { done: true });
   await becomes('Y traverses', () => value('traverse_command_Y'), true);
@@ -80,7 +80,7 @@ run(async () => {
   const { changes } = await ask('/values');
   holds('only what changed is reported', changes.filter(([name]) => name === 'int').length === 1, inspect(changes.slice(0, 60)));
 
-  // What is not there spoils nothing else.
+  // An address that does not exist does not affect the others.
   const logged = () => fs.readFileSync(path.join(home, 'log'), 'utf8');
   await becomes('a block that is not there is named', async () => /DB \[99\].*Object does not exist/.test(logged()), true);
   await becomes('its endpoint is offline, the one by TSAP has its value', async () => { const { gone, tsap, states } = await ask('/values'); return [gone, states.in_gone?.at(-1), tsap]; }, [undefined, 'red offline', { int: -12345 }]);
@@ -89,7 +89,7 @@ run(async () => {
   const blocks = await control('list-blocks');
   holds('blocks are listed', isDeepStrictEqual([31, 1000, 1001, 1002].map((number) => (blocks.DB || []).some((block) => block.number === number)), [true, true, true, true]), inspect(blocks).slice(0, 300));
   const info = await control('all-block-info');
-  // Each as the CPU sends it: the number stands behind type and language.
+  // Each entry as sent by the CPU: the number follows type and language.
   const numbers = (Array.isArray(info) ? info : []).map(({ data }) => data[12] * 256 + data[13]);
   holds('information of all blocks', [31, 1000, 1001, 1002].every((number) => numbers.includes(number)), inspect(info).slice(0, 300));
   const upload = await control('upload-block', { type: 'DB', number: 1001 });

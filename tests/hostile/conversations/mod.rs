@@ -1,26 +1,26 @@
-//! Hostile conversations: read from `conversations.txt`, and made by rule.
+//! Hostile conversations: read from `conversations.txt`, and generated.
 
 mod rules;
 
 /// One conversation.
 #[derive(Clone, Debug)]
 pub(super) struct Conversation {
-    /// What it is.
+    /// Its name.
     pub(super) name: String,
-    /// What the client does.
+    /// The actions of the client.
     pub(super) acts: Vec<Act>,
 }
 
-/// What a client does.
+/// An action of a client.
 #[derive(Clone, Debug)]
 pub(super) enum Act {
-    /// It sends these bytes.
+    /// Sends these bytes.
     Send(Vec<u8>),
-    /// It waits for so many milliseconds.
+    /// Waits for this many milliseconds.
     Pause(u64),
 }
 
-/// All of them.
+/// All conversations.
 pub(super) fn conversations() -> Vec<Conversation> {
     let mut all = read(include_str!("conversations.txt"));
     all.extend(rules::conversations());
@@ -61,7 +61,7 @@ impl Conversation {
         self.job(&[0xF0, 0, 0, 1, 0, 1, high, low], &[]);
     }
 
-    /// A piece of a PDU in a packet of its own.
+    /// A piece of a PDU in a separate packet.
     fn piece(&mut self, piece: &[u8], is_last: bool) {
         let [high, low] = length(piece.len() + 7);
         self.send([&[3, 0, high, low, 2, 0xF0, if is_last { 0x80 } else { 0 }], piece].concat());
@@ -82,7 +82,7 @@ impl Conversation {
     }
 
     fn pdu(&mut self, kind: u8, parameter: &[u8], data: &[u8]) {
-        // The reference counts, so that no two answers are alike.
+        // The reference is a counter, so that no two answers are the same.
         let [a, b] = length(self.acts.len());
         let head = [0x32, kind, 0, 0, a, b];
         self.data(&[&head[..], &length(parameter.len()), &length(data.len()), parameter, data].concat());
@@ -93,7 +93,7 @@ fn length(bytes: usize) -> [u8; 2] {
     u16::try_from(bytes).expect("a conversation is written with lengths that fit").to_be_bytes()
 }
 
-/// Reads the file; its head says how it is written.
+/// Reads the file; its head describes the format.
 fn read(text: &str) -> Vec<Conversation> {
     let mut all: Vec<Conversation> = Vec::new();
     for (number, line) in text.lines().enumerate() {
@@ -141,7 +141,7 @@ fn act(conversation: &mut Conversation, line: &str) -> Option<()> {
     Some(())
 }
 
-/// `0A 0B "text" (01 02)*3`.
+/// Parses `0A 0B "text" (01 02)*3`.
 fn bytes(hex: &str) -> Option<Vec<u8>> {
     let (mut found, mut rest) = (Vec::new(), hex.trim());
     while !rest.is_empty() {

@@ -1,4 +1,4 @@
-//! Conversations made by rule: every value of a field, every length of a request, in turn.
+//! Generated conversations: every value of a field, every length of a request, in turn.
 
 use super::{Conversation, length};
 
@@ -22,7 +22,7 @@ pub(super) fn conversations() -> Vec<Conversation> {
     all
 }
 
-/// A conversation in which a field takes every value, 16 values in each conversation.
+/// Conversations in which a field takes every value, 16 values per conversation.
 fn every(name: &str, ask: impl Fn(&mut Conversation, u8)) -> Vec<Conversation> {
     every_at(PLC, name, ask)
 }
@@ -83,7 +83,7 @@ fn user_data() -> Vec<Conversation> {
 
 fn read(conversation: &mut Conversation, item: &[u8]) {
     conversation.job(&[&[4, 1], item].concat(), &[]);
-    // Between two good ones, which must not suffer.
+    // Between two valid items, which must not be affected.
     let good = &READ[2..];
     let fill = if item.len() % 2 == 1 { &[0][..] } else { &[] };
     conversation.job(&[&[4, 3], good, item, fill, good].concat(), &[]);
@@ -152,7 +152,7 @@ fn items() -> Vec<Conversation> {
     all
 }
 
-/// A write of so many bytes to MB100 on, with this value.
+/// A write of this many bytes from MB100 on, with this value.
 fn write(conversation: &mut Conversation, count: u8, value: &[u8]) {
     conversation.job(&[5, 1, 0x12, 10, 0x10, 2, 0, count, 0, 0, 0x83, 0, 3, 0x20], value);
 }
@@ -185,7 +185,7 @@ fn writes() -> Vec<Conversation> {
     all
 }
 
-/// Requests of every kind, as their parameter and data part.
+/// Requests of every kind, as parameter and data part.
 fn templates() -> Vec<(&'static str, u8, Vec<u8>, Vec<u8>)> {
     let upload = [&[0x1D, 0, 0, 0, 0, 0, 0, 0, 9], b"_0A01000A".as_slice()].concat();
     let start = [&[0x28, 0, 0, 0, 0, 0, 0, 0xFD, 0, 0, 9], b"P_PROGRAM".as_slice()].concat();
@@ -211,7 +211,7 @@ fn templates() -> Vec<(&'static str, u8, Vec<u8>, Vec<u8>)> {
     ]
 }
 
-/// Every request, shorter and with wrong lengths.
+/// Every request, truncated and with wrong lengths.
 fn lengths() -> Vec<Conversation> {
     let mut all = Vec::new();
     for (name, kind, parameter, data) in templates() {

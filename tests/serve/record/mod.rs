@@ -1,5 +1,5 @@
-//! What clients and a scenario do to a live machine, recorded, is a scenario with the same trace, byte for byte; and what one request
-//! reads or writes is whole, at any speed.
+//! Recordings: the actions of clients and of a scenario on a live machine, recorded as a scenario, give the same trace byte for byte. Each
+//! request reads or writes as a whole, at any speed.
 #![expect(clippy::disallowed_methods, reason = "a live machine is watched in real time")]
 
 mod panel;
@@ -27,7 +27,7 @@ use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE, S7Client};
 
 use panel::{Bare, DB, FLAGS, Item};
 
-/// A live machine that is recorded, with its clients.
+/// A recorded live machine with its clients.
 struct Recorded {
     live: Live,
     window: LiveServer,
@@ -73,7 +73,7 @@ impl Recorded {
         }
     }
 
-    /// Ends it and runs the recording; gives its text.
+    /// Ends the machine and runs the recording; returns its text.
     #[track_caller]
     fn runs_again(self) -> String {
         let Self { live, window, path } = self;
@@ -148,11 +148,11 @@ fn writes_of_one_request_keep_their_order_and_the_nck_takes_its_bits_back() {
     let mut client = Bare::connect(recorded.address());
     let items = [
         Item::bytes((FLAGS, 0), 5, &[0xF0]),
-        Item::bit((FLAGS, 0), 5, 0, true),   // in the byte before
-        Item::bytes((FLAGS, 0), 5, &[0x0F]), // once more
+        Item::bit((FLAGS, 0), 5, 0, true),   // in the byte written before
+        Item::bytes((FLAGS, 0), 5, &[0x0F]), // again
         Item::bit((FLAGS, 0), 5, 7, true),
-        Item::bytes((DB, 31), 100, &[0xFF, 0xFF]), // DB31.DBX101.6 and others are the NCK's
-        Item::bytes((DB, 31), 58, &[1, 2, 3, 4]),  // the PLC's up to 59, then the NCK's
+        Item::bytes((DB, 31), 100, &[0xFF, 0xFF]), // DB31.DBX101.6 and others are written by the NCK
+        Item::bytes((DB, 31), 58, &[1, 2, 3, 4]),  // up to 59 written by the PLC, then by the NCK
         Item::new(0x1D, 1, (0x1D, 0), 7, &[0x25, 0x00]), // T7
         Item::new(0x1C, 1, (0x1C, 0), 3, &[0x01, 0x23]), // C3
     ];
@@ -179,7 +179,7 @@ fn writes_of_one_request_keep_their_order_and_the_nck_takes_its_bits_back() {
     }
 }
 
-/// Numbers that look like chance and are the same each time.
+/// Pseudo-random numbers, the same in each run.
 struct Chance(u64);
 
 impl Chance {
@@ -274,7 +274,7 @@ fn the_file_is_a_scenario_at_any_moment() {
         let read = || fs::read_to_string(&recorded.path).unwrap();
         let mut text = read();
         if Scenario::parse(&text, &recorded.path).is_err() {
-            // Whoever reads while it is written may meet half a step; once a second that is so for a moment.
+            // A reader during the write may see an incomplete step, for a moment once per second.
             std::thread::sleep(Duration::from_millis(100));
             text = read();
         }
@@ -286,7 +286,7 @@ fn the_file_is_a_scenario_at_any_moment() {
     recorded.runs_again();
 }
 
-/// A PLC program that looks whether what clients wrote is whole.
+/// A PLC program that checks whether the writes of clients are complete.
 struct Witness {
     torn: Arc<AtomicU64>,
     scans: Arc<AtomicU64>,
@@ -349,7 +349,7 @@ fn two_writers_at_speed_1000_and_no_request_is_torn() {
             let read = [&[4, 2], block(0).any.as_slice(), flags(0).any.as_slice()].concat();
             for _ in 0..500 {
                 let answer = client.job(&read, &[]);
-                // Behind function and count: 4 bytes, 200 of the block, 4 bytes, 100 flags.
+                // After function and count: 4 bytes, 200 of the block, 4 bytes, 100 flags.
                 let (block, flags) = (&answer[6..206], &answer[210..310]);
                 assert!(block.iter().chain(flags).all(|byte| *byte == block[0]), "half a request: {answer:x?}");
             }
@@ -359,7 +359,8 @@ fn two_writers_at_speed_1000_and_no_request_is_torn() {
     assert!(scans.load(Ordering::Relaxed) >= 250, "each write was a step of its own");
 }
 
-/// 40 writes of 200 bytes in one go are 8,000 bytes, and an edge takes 4,096: some act a cycle later, and so they do again.
+/// 40 writes of 200 bytes at once are 8,000 bytes, and a step takes 4,096: some take effect one cycle later, also when the recording is
+/// run.
 #[test]
 fn writes_beyond_the_limit_of_one_step_take_effect_in_order_and_are_repeated() {
     const BYTES: u8 = 200;

@@ -4,7 +4,7 @@ use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::time::Duration;
 
-/// A client that sends any bytes.
+/// A client that sends arbitrary bytes.
 pub(super) struct Bare(TcpStream);
 
 impl Bare {
@@ -25,7 +25,7 @@ impl Bare {
         answer
     }
 
-    /// One job; gives parameter and data of its answer.
+    /// One job; returns parameter and data of its answer.
     pub(super) fn job(&mut self, parameter: &[u8], data: &[u8]) -> Vec<u8> {
         let length = |length: usize| u16::try_from(length).expect("it is short").to_be_bytes();
         let mut packet = vec![3, 0];
@@ -40,7 +40,7 @@ impl Bare {
         answer[15..].to_vec()
     }
 
-    /// One request to write; gives the code of each item.
+    /// One write request; returns the code of each item.
     pub(super) fn write(&mut self, items: &[Item]) -> Vec<u8> {
         let mut parameter = vec![5, u8::try_from(items.len()).expect("few")];
         let mut data = Vec::new();
@@ -55,7 +55,7 @@ impl Bare {
     }
 }
 
-/// An item of a request to write, and its value.
+/// An item of a write request, and its value.
 pub(super) struct Item {
     pub(super) any: Vec<u8>,
     value: Vec<u8>,
@@ -65,7 +65,7 @@ pub(super) const DB: u8 = 0x84;
 pub(super) const FLAGS: u8 = 0x83;
 
 impl Item {
-    /// Elements of a type from a bit of an area on.
+    /// Elements of a type, starting at a bit of an area.
     pub(super) fn new(kind: u8, count: usize, (area, block): (u8, u16), bit: u32, bytes: &[u8]) -> Self {
         let mut any = vec![0x12, 10, 0x10, kind];
         any.extend(u16::try_from(count).expect("few").to_be_bytes());

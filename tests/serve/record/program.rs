@@ -1,4 +1,4 @@
-//! The same with the program itself: a scenario in real time, ends without warning, and what its doors say.
+//! Recordings by `opennck serve` itself: a scenario in real time, crashes, and error messages.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Lines};
@@ -19,7 +19,7 @@ struct Program {
 }
 
 impl Program {
-    /// Starts it in a folder of its own, which is empty before.
+    /// Starts it in a new, empty folder.
     fn start(folder: &Path, arguments: &[&str]) -> Self {
         let mut program = Command::new(env!("CARGO_BIN_EXE_opennck"));
         program.arg("serve").args(arguments).current_dir(folder);
@@ -78,7 +78,7 @@ fn a_scenario_acts_in_real_time_as_it_runs_and_is_recorded() {
     let mut program = Program::start(&folder, &arguments);
     let mut client = Bare::connect(program.address());
     program.says("the scenario passed");
-    // It is still served, and what clients write then is recorded, too.
+    // The machine is still served, and later writes of clients are recorded as well.
     assert_eq!(client.write(&[Item::bytes((FLAGS, 0), 77, &[7])]), [0xFF]);
     assert_eq!(program.end("-TERM"), Some(0));
     let live = fs::read_to_string(folder.join("live.jsonl")).unwrap();
@@ -92,7 +92,7 @@ fn a_scenario_acts_in_real_time_as_it_runs_and_is_recorded() {
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     }
     assert!(live == fs::read_to_string(folder.join("again.jsonl")).unwrap());
-    // As fast as it can is the same as in real time, up to its end.
+    // Running as fast as possible gives the same as real time, up to its end.
     let alone = fs::read_to_string(folder.join("run.jsonl")).unwrap();
     assert!(live.starts_with(&alone), "{} bytes, then {}", alone.len(), live.len());
 }
@@ -108,7 +108,7 @@ fn a_scenario_brings_its_plant_profile_and_image_into_the_recording() {
     fs::copy(project("plc_images/recipes.toml"), folder.join("image.toml")).unwrap();
     let arguments = ["--scenario", "mine.toml", "--speed", "20", "--record", "again.toml", "--trace", "live.jsonl"];
     let mut program = Program::start(&folder, &arguments);
-    // The step that fails ends it, and is said; serving goes on.
+    // The step that fails ends the scenario and is logged; the server keeps running.
     let line = program.says("the scenario failed");
     assert!(line.contains("mine.toml:12") && line.contains("Y.position > 1000"), "{line}");
     drop(Bare::connect(program.address()));
@@ -137,7 +137,7 @@ fn a_crash_loses_at_most_one_second() {
         let run = |line: &str| line.strip_prefix("run = \"")?.strip_suffix("cycles\"")?.parse::<u64>().ok();
         text.lines().filter_map(run).sum()
     };
-    // It is brought to the disk again and again, not only at the end.
+    // The file is written to the disk repeatedly, not only at the end.
     let begin = Instant::now();
     while cycles(&text()) < 700 {
         assert!(begin.elapsed() < Duration::from_secs(30), "{}", text());
@@ -154,7 +154,7 @@ fn a_crash_loses_at_most_one_second() {
 fn a_full_disk_ends_the_recording_and_not_the_machine() {
     let folder = folder("full");
     let mut shell = Command::new("sh");
-    // A file may have 4096 bytes, and who writes more is told so.
+    // The maximum file size is 4096 bytes, and a longer write returns an error.
     let line = "trap '' XFSZ; ulimit -f 8; exec \"$0\" serve g1_example --record full.toml \"$@\"";
     shell.args(["-c", line, env!("CARGO_BIN_EXE_opennck")]).current_dir(&folder);
     let mut program = Program::started(shell);
@@ -195,7 +195,7 @@ fn errors_of_a_recording_name_the_cause() {
     assert!(!folder.join("new.toml").exists(), "it would block the next attempt");
 }
 
-/// The commands of the README, as they stand there.
+/// The commands of the README, unchanged.
 #[test]
 #[cfg(unix)]
 fn the_session_of_the_readme_is_recorded_and_runs_again() {
@@ -213,7 +213,8 @@ fn the_session_of_the_readme_is_recorded_and_runs_again() {
     assert!(String::from_utf8_lossy(&output.stdout).contains("Y.traversing_key_plus"));
 }
 
-/// A step takes two seconds then, and a thousandth of that: who asks is answered, and it ends at once.
+/// At these speeds a step takes two seconds, or a thousandth of that: requests are answered, and the program ends at
+/// once.
 #[test]
 #[cfg(unix)]
 fn the_slowest_and_the_fastest_machine_answer_and_end() {

@@ -1,4 +1,4 @@
-//! Questions and answers: who gets which, and what odd servers do.
+//! Requests and their answers: which request gets which answer, and the behaviour of unusual servers.
 
 use super::*;
 use crate::s7::client::{Error, Mode, Value};
@@ -62,7 +62,7 @@ async fn one_refused_item_fails_alone() {
     let (client, mut peer) = place.meet(240, 1, quick()).await;
     let script = async {
         let (reference, _) = peer.request().await;
-        // snap7's server says a length of 4 behind a refusal.
+        // snap7's server sends a length of 4 after a refusal.
         peer.answer(reference, &[4, 3], &[0xFF, 4, 0, 8, 1, 0, 0x0A, 0, 0, 4, 0xFF, 4, 0, 16, 2, 3]).await;
     };
     let all = variables(&["MB1", "DB99.DBW0", "MW2"]);
@@ -178,12 +178,12 @@ async fn pushes_go_to_their_subscribers() {
     let one = |value: u8| [0, 1, 0xFF, 4, 0, 8, value];
     let script = async {
         let (reference, request) = peer.request().await;
-        // 2/1, one item, each 0.2 s.
+        // 2/1, one item, every 0.2 s.
         assert_eq!(request[5..7], [0x42, 1]);
         assert_eq!(request[12..16], [0, 1, 0, 2]);
         peer.user_data(reference, 0x82, 1, 33, &one(1)).await;
-        peer.user_data(0, 0x02, 1, 34, &one(9)).await; // of another job
-        peer.user_data(0, 0x02, 5, 33, &one(9)).await; // of another kind
+        peer.user_data(0, 0x02, 1, 34, &one(9)).await; // another job
+        peer.user_data(0, 0x02, 5, 33, &one(9)).await; // another kind
         peer.user_data(0, 0x02, 1, 33, &one(2)).await;
         peer
     };
@@ -198,13 +198,13 @@ async fn pushes_go_to_their_subscribers() {
     };
     let (values, mut peer) = tokio::join!(listening, script);
     assert_eq!(values, [(0, Ok(Value::Byte(1))), (0, Ok(Value::Byte(2)))]);
-    // What nobody asked for is ended.
+    // Updates without a subscription are ended.
     for job in [[1, 34], [5, 33]] {
         let (reference, request) = peer.request().await;
         assert_eq!((request[6], &request[12..14]), (4, &job[..]));
         peer.user_data(reference, 0x82, 4, 0, &[]).await;
     }
-    // Nobody listens any more: at the next value the module is told.
+    // The receiver is gone: the subscription is ended at the next update.
     peer.user_data(0, 0x02, 1, 33, &one(3)).await;
     let (_, request) = peer.request().await;
     assert_eq!(request[5..7], [0x42, 4]);

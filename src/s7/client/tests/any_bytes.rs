@@ -1,4 +1,4 @@
-//! Whatever a server sends: no panic, no wrong value, no memory without bound.
+//! Arbitrary input from a server: no panic, no wrong value, no unbounded memory.
 
 use proptest::prelude::*;
 use tokio::runtime::Builder;
@@ -10,8 +10,7 @@ use crate::s7::tests::{bytes, changed, packet};
 use crate::s7::wire::cotp::ConnectionConfirm;
 use crate::s7::wire::replies::{DataItems, Setup, UserData, upload_begun, upload_piece};
 
-/// Answers that are nearly right: of every kind, with some of their bytes changed and cut anywhere. The reference is that of the
-/// first request.
+/// Almost correct answers of every kind, with some bytes changed, and cut at any position. The reference is that of the first request.
 fn nearly_right() -> impl Strategy<Value = Vec<u8>> {
     let templates = [
         "32 03 00 00 00 03 00 02 00 06 00 00 04 01 FF 04 00 10 12 34",
@@ -40,7 +39,7 @@ proptest! {
         for text in ["MB0..2", "DB1.DBD0:REAL", "M1.1", "MW0..4", "DB10.DBX1.2..4", "nck:C/SMA/1[1..3]", "nck:C/State/actToolIdent", "T1"] {
             let variable = variable(text);
             if let Some(value) = Value::decode(&variable, &bytes) {
-                // What can be read can be written as it was, but for texts and groups of bits.
+                // A value that was read can be written back unchanged, except texts and groups of bits.
                 if !matches!(value, Value::Text(_)) && !text.contains("DBX") && text != "M1.1" {
                     prop_assert_eq!(value.encode(&variable), Ok(bytes.clone()));
                 }

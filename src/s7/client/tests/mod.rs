@@ -1,5 +1,5 @@
-//! Tests of the client against servers that do what a test tells them, byte by byte. Requests are compared with those of snap7's
-//! client, python-snap7 and nmap, as captured; a true server is in `tests/serve/s7_client.rs`.
+//! Tests of the client against scripted servers, byte by byte. Requests are compared with captured requests of snap7's client, python-snap7
+//! and nmap; tests against a real server are in `tests/serve/s7_client.rs`.
 
 mod answers;
 mod any_bytes;
@@ -13,7 +13,7 @@ use tokio::net::{TcpListener, TcpStream};
 
 use super::{Backoff, Client, Options, Variable};
 
-/// Somewhere to connect to.
+/// A listener to connect to.
 struct Place {
     listener: TcpListener,
 }
@@ -27,7 +27,7 @@ impl Place {
         self.listener.local_addr().unwrap().to_string()
     }
 
-    /// Takes a connection and agrees to a PDU and a number of jobs.
+    /// Accepts a connection and agrees to a PDU and a number of jobs.
     async fn accept(&self, pdu: u16, jobs: u16) -> Peer {
         let (stream, _) = self.listener.accept().await.unwrap();
         let mut peer = Peer { stream };
@@ -42,7 +42,7 @@ impl Place {
         peer
     }
 
-    /// A client, and what it is connected to.
+    /// A client and its peer.
     async fn meet(&self, pdu: u16, jobs: u16, options: Options) -> (Client, Peer) {
         let address = self.address();
         let (client, peer) = tokio::join!(Client::connect(&address, options), self.accept(pdu, jobs));
@@ -64,7 +64,7 @@ impl Peer {
         packet
     }
 
-    /// The next request: its reference, and what follows its header of ten bytes.
+    /// The next request: its reference, and the bytes after its header of ten bytes.
     async fn request(&mut self) -> (u16, Vec<u8>) {
         let packet = self.packet().await;
         assert_eq!(packet[4..8], [2, 0xF0, 0x80, 0x32]);
@@ -98,7 +98,7 @@ impl Peer {
         self.stream.write_all(&packet).await.unwrap();
     }
 
-    /// Answers a request that reads with these bytes, one item each.
+    /// Answers a read request with these bytes, one item each.
     async fn values(&mut self, reference: u16, values: &[&[u8]]) {
         let mut data = Vec::new();
         for value in values {
@@ -112,7 +112,7 @@ impl Peer {
     }
 }
 
-/// Short times, so that tests are short.
+/// Short times, so that the tests are fast.
 fn quick() -> Options {
     Options {
         timeout: Duration::from_millis(300),

@@ -1,9 +1,9 @@
-//! Connections that are lost, and what becomes of what was asked.
+//! Lost connections, and the requests in flight.
 
 use super::*;
 use crate::s7::client::{BlockKind, Client, Error, Mode, State, Value};
 
-/// The first three values of a flag byte that come by themselves, across lost connections.
+/// The first three pushed values of a flag byte, across lost connections.
 async fn first_three(client: &Client) -> Vec<Result<Value, Error>> {
     let memory = variables(&["MB1"]);
     let mut subscription = client.subscribe(&memory, Mode::Change, Duration::from_millis(100)).await.unwrap();
@@ -149,7 +149,7 @@ async fn subscriptions_are_renewed() {
         let mut peer = place.accept(240, 1).await;
         let (reference, again) = peer.request().await;
         assert_eq!(first, again);
-        peer.user_data(reference, 0x82, 5, 8, &one(2)).await; // another number now
+        peer.user_data(reference, 0x82, 5, 8, &one(2)).await; // with another number
         peer.user_data(0, 0x02, 5, 8, &one(3)).await;
         peer
     };
@@ -247,7 +247,7 @@ async fn an_unreachable_host_is_named_with_a_remedy() {
     let error = Client::connect(&address, quick()).await.unwrap_err();
     assert!(matches!(error, Error::Unreachable { .. }) && error.to_string().contains(&address), "{error}");
     assert!(error.cure().contains("port"));
-    // Somebody who speaks something else.
+    // A server with another protocol.
     let place = Place::open().await;
     let (address, other) = (place.address(), async {
         let (mut stream, _) = place.listener.accept().await.unwrap();

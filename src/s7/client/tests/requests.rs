@@ -1,4 +1,4 @@
-//! What goes out, byte by byte, beside what other clients were seen to send.
+//! Requests byte by byte, compared with those of other clients.
 
 use super::*;
 use crate::s7::client::{ConnectionKind, Tsaps, Value, password};
@@ -17,7 +17,7 @@ async fn connection_request_and_setup_are_those_of_snap7() {
         let (stream, _) = place.listener.accept().await.unwrap();
         let mut peer = Peer { stream };
         let request = peer.packet().await;
-        peer.stream.write_all(&[3, 0, 0, 11, 6, 0xD0, 0, 1, 0, 7, 0]).await.unwrap(); // without parameters, as some send it
+        peer.stream.write_all(&[3, 0, 0, 11, 6, 0xD0, 0, 1, 0, 7, 0]).await.unwrap(); // without parameters, as some servers send it
         (request, peer.packet().await)
     });
     let (_, (request, setup)) = tokio::join!(Client::connect(&address, options), captured);
@@ -82,14 +82,14 @@ fn other_requests_are_as_captured() {
     let name = requests::block_name(b'A', 1000);
     assert_eq!(hex(&requests::start_upload(name)), "1D 00 00 00 00 00 00 00 09 5F 30 41 30 31 30 30 30 41");
     assert_eq!(hex(&requests::upload(0x1E, [0, 0, 0, 1])), "1E 00 00 00 00 00 00 01");
-    // List 0011, as nmap asks for it.
+    // List 0011, as requested by nmap.
     assert_eq!(hex(&requests::user_data(4, 1)), "00 01 12 04 11 44 01 00");
     assert_eq!(hex(&requests::payload(&[0, 0x11, 0, 1])), "FF 09 00 04 00 11 00 01");
     assert_eq!(hex(&requests::payload(&[])), "0A 00 00 00");
     assert_eq!(hex(&requests::next_part(4, 1, 7, 7)), "00 01 12 08 12 44 01 07 07 00 00 00");
 }
 
-/// The folding is its own reverse as the server has it: each with 55 and the folded one two before.
+/// The encoding is the reverse of the server's: each byte XORed with 55 and the encoded byte two positions before.
 #[test]
 fn passwords_are_folded() {
     let folded = requests::folded(password("pass").unwrap());
