@@ -1,18 +1,18 @@
-"""Runs `opennck s7` against servers that others wrote: snap7's C++ server (python-snap7 2.1) and the Python server of
+"""Runs `opennck s7` against foreign servers: snap7's C++ server (python-snap7 2.1) and the Python server of
 python-snap7 3.3. Standalone:
 
     python3 tests/foreign/client_against_snap7.py [--program target/debug/opennck]
 
-It needs Python 3 and, where --python-2.1 and --python-3.3 do not name interpreters that have the packages already, a
-package index for pip. What cannot be installed is told and not taken for success: exit code 0 all held, 1 something did
-not, 3 not everything could be run.
+It needs Python 3. If --python-2.1 and --python-3.3 do not name interpreters that have the packages already, it also needs a
+package index for pip. A package that cannot be installed is reported and does not count as success. Exit codes: 0 all checks
+passed, 1 a check failed, 3 not everything could be run.
 
-What the servers do otherwise than a module, and how one works with them:
+Differences between these servers and a module, and how to work with them:
 
-| server | does | so |
+| server | behaviour | remedy |
 |---|---|---|
-| snap7 C++ | ends itself at more than 20 items in a write request, answers 20 of more in a read request | `--items 20` |
-| snap7 C++ | cuts system state lists at the PDU | shorter lists, here 001C |
+| snap7 C++ | ends if a write request has more than 20 items, answers only 20 items of a read request | `--items 20` |
+| snap7 C++ | cuts system state lists at the PDU | read shorter lists, here 001C |
 | python-snap7 3.3 | writes only the first item of a request | `--items 1` |
 | python-snap7 3.3 | answers a bit with its byte | read the byte |
 """

@@ -63,7 +63,7 @@ run(async () => {
   equal('each in its place', [client.DBRead(1002, 215, 1)[0], client.DBRead(1002, 231, 1)[0]], [3, 7]);
 
   equal('DB 99', client.DBRead(99, 0, 1), false);
-  equal('behind the end', client.DBRead(1000, 500, 20), false);
+  equal('after the end', client.DBRead(1000, 500, 20), false);
   holds('data blocks', client.ListBlocks().DBCount >= 3);
   const numbers = client.ListBlocksOfType(client.Block_DB);
   holds('their numbers', [31, 1000, 1001, 1002].every((number) => numbers.includes(number)), `${numbers}`);

@@ -72,7 +72,7 @@ equal("the good ones beside the bad", [result.success for result in results], [T
 equal("and their values", [results[0].value, results[1].value], [-12345, 0x8C])
 results = c.write_detailed(["MB40", "DB99,B0"], [1, 1])
 equal("a good write and a bad one", [result.success for result in results], [True, False])
-fails("a write behind the end", c.write, ["DB1000,B600"], [1])
+fails("a write after the end", c.write, ["DB1000,B600"], [1])
 
 # The CPU.
 equal("state of the CPU", c.get_cpu_status(), "RUN")

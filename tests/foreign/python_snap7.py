@@ -86,7 +86,7 @@ except Exception as error:  # version 3 answers one error for all
 # Addresses that do not exist.
 fails("DB 99 does not exist", c.db_read, 99, 0, 1)
 fails("DB 1000 ends at 512", c.db_read, 1000, 500, 20)
-fails("a write behind the end", c.db_write, 1000, 511, bytearray(2))
+fails("a write after the end", c.db_write, 1000, 511, bytearray(2))
 equal("and it goes on", bytes(c.db_read(1001, 0, 3)), b"\x8c\x00\xff")
 
 # Blocks.
@@ -110,7 +110,7 @@ def runs():
 
 holds("the CPU runs", runs())
 if IS_NATIVE:
-    holds("and says so", "Run" in str(c.get_cpu_state()))
+    holds("and reports it", "Run" in str(c.get_cpu_state()))
 else:
     fails("a read of no item is refused", c.get_cpu_state)
 if IS_NATIVE:

@@ -57,7 +57,7 @@ run(async () => {
   equal('900 bytes written', Buffer.compare(await plc.readDB(1002, 520, 900), big), 0);
 
   await fails('DB 99', () => plc.readDB(99, 0, 1));
-  await fails('a write behind the end', () => plc.writeDB(1000, 600, Buffer.alloc(2)));
+  await fails('a write after the end', () => plc.writeDB(1000, 600, Buffer.alloc(2)));
   equal('and it goes on', await read('DB1000,INT2'), [-12345]);
 
   const count = await plc.blockCount();
