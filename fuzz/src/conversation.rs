@@ -98,7 +98,7 @@ struct Record {
 }
 
 /// One run of a conversation.
-struct Telling<'a> {
+struct Run<'a> {
     world: &'a World,
     rights: Rights,
     session: Session,
@@ -110,7 +110,7 @@ struct Telling<'a> {
     commands: Vec<Command>,
 }
 
-impl<'a> Telling<'a> {
+impl<'a> Run<'a> {
     fn new(world: &'a World, rights: Rights) -> Self {
         Self {
             world,
@@ -188,10 +188,10 @@ pub fn judge(input: &[u8]) {
     WORLDS.with(|worlds| {
         let world = &worlds[usize::from(machine & 1)];
         let judged = judged(world, rights, &parts);
-        let whole = told(world, rights, &parts, |_| usize::MAX);
+        let whole = run(world, rights, &parts, |_| usize::MAX);
         assert_eq!(judged, whole, "everything at once differs from packet by packet");
         let mut seed = stream.iter().fold(1_u32, |seed, byte| seed.wrapping_mul(31).wrapping_add((*byte).into()));
-        let pieces = told(world, rights, &parts, |length| {
+        let pieces = run(world, rights, &parts, |length| {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             if length <= 300 { 1 } else { (seed >> 24) as usize % 50 + 1 }
         });
@@ -200,8 +200,8 @@ pub fn judge(input: &[u8]) {
 }
 
 /// Runs it in pieces whose lengths `cut` returns.
-fn told(world: &World, rights: Rights, parts: &[(&[u8], u8)], mut cut: impl FnMut(usize) -> usize) -> Record {
-    let (mut telling, mut record) = (Telling::new(world, rights), Record::default());
+fn run(world: &World, rights: Rights, parts: &[(&[u8], u8)], mut cut: impl FnMut(usize) -> usize) -> Record {
+    let (mut telling, mut record) = (Run::new(world, rights), Record::default());
     for (index, &(bytes, hundredths)) in parts.iter().enumerate() {
         let mut answers = Answers::default();
         let mut rest = bytes;
@@ -221,7 +221,7 @@ fn told(world: &World, rights: Rights, parts: &[(&[u8], u8)], mut cut: impl FnMu
 
 /// Runs it packet by packet and judges each answer.
 fn judged(world: &World, rights: Rights, parts: &[(&[u8], u8)]) -> Record {
-    let (mut telling, mut record) = (Telling::new(world, rights), Record::default());
+    let (mut telling, mut record) = (Run::new(world, rights), Record::default());
     let mut listener = Listener::new(shadow(&world.memory));
     // Bytes of an incomplete packet.
     let mut begun = Vec::new();
@@ -251,7 +251,7 @@ fn judged(world: &World, rights: Rights, parts: &[(&[u8], u8)]) -> Record {
                 record.ended = Some(index);
             }
             let has_asked = telling.commands.len() > before;
-            assert!(!has_asked || listener.is_set_up() && !rights.is_read_only, "nobody may change this");
+            assert!(!has_asked || listener.is_set_up() && !rights.is_read_only, "this client may not change anything");
             all.extend_from_slice(answers.bytes());
             begun = if whole.is_ok_and(|length| length.is_some()) { Vec::new() } else { stream };
             rest = others;
@@ -266,7 +266,7 @@ fn judged(world: &World, rights: Rights, parts: &[(&[u8], u8)]) -> Record {
         let shadow = shadow(&telling.memory);
         assert!(&shadow == listener.step(), "what was acknowledged is there at the next step, and nothing else");
     }
-    let Telling { session, .. } = telling;
+    let Run { session, .. } = telling;
     let freed = allocation_counter::measure(|| drop(session)).bytes_current.unsigned_abs();
     assert!(freed <= MEMORY, "a session held {freed} bytes");
     record

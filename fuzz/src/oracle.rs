@@ -274,7 +274,7 @@ impl Listener {
             }
             // A start in RUN and a stop in STOP are acknowledged with 3 and 7.
             [0x1F | 0x28 | 0x29] | [0x28, 3] | [0x29, 7] => assert!(data.is_empty()),
-            _ => panic!("an answer that nobody knows: {parameter:02X?}"),
+            _ => panic!("an unknown answer: {parameter:02X?}"),
         }
     }
 
@@ -303,7 +303,7 @@ impl Listener {
             place += 4 + length;
             data = rest;
         }
-        assert!(data.is_empty(), "nothing behind the last value: {data:02X?}");
+        assert!(data.is_empty(), "bytes after the last value: {data:02X?}");
     }
 
     /// Judges a push.
@@ -418,7 +418,7 @@ impl Item {
             4 | 5 | 9 | 0xC | 0x1C | 0x1D => 2,
             6..=8 | 0xA | 0xB => 4,
             0xF => 8,
-            _ => panic!("a value of type {kind:02X}, which nobody knows"),
+            _ => panic!("a value of type {kind:02X}, which is unknown"),
         };
         Some(usize::from(u16::from_be_bytes([c1, c0])) * each)
     }

@@ -274,7 +274,7 @@ impl Drop for Keeper {
 fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mpsc::Receiver<()>) {
     let mut powers = lock(image).power_requests();
     let mut was_stopped = false;
-    let (mut opened, mut switched) = (Said::default(), Said::default());
+    let (mut opened, mut switched) = (RepeatedEvent::default(), RepeatedEvent::default());
     while ended.recv_timeout(KEEP) == Err(RecvTimeoutError::Timeout) {
         let mut lines = Vec::new();
         let mut clocked = shared.lend();
@@ -322,7 +322,7 @@ fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mp
 
 /// An event that another process may repeat at any rate, for example because its words contain garbage.
 #[derive(Debug, Default)]
-struct Said {
+struct RepeatedEvent {
     /// Number of events since the last log line.
     times: u64,
     last: Option<Instant>,
@@ -330,7 +330,7 @@ struct Said {
     pause: Duration,
 }
 
-impl Said {
+impl RepeatedEvent {
     /// The log line for an event: at once if it is rare, at growing intervals if it repeats.
     fn line(&mut self, what: &str, now: Instant) -> Option<String> {
         let since = self.last.map(|last| now.saturating_duration_since(last));
@@ -369,7 +369,7 @@ mod tests {
     #[test]
     fn repeated_events_are_logged_at_growing_intervals_with_their_number() {
         let begin = Instant::now();
-        let mut said = Said::default();
+        let mut said = RepeatedEvent::default();
         let lines: Vec<_> = (0..=700_u64)
             .filter_map(|look| {
                 said.times += 1;

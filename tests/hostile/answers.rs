@@ -45,8 +45,8 @@ fn a_session_answers_every_conversation_or_ends_it() {
                 }
             }
         }
-        let told = std::panic::catch_unwind(|| conversation::judge(&input));
-        assert!(told.is_ok(), "{}", conversation.name);
+        let judged = std::panic::catch_unwind(|| conversation::judge(&input));
+        assert!(judged.is_ok(), "{}", conversation.name);
     }
 }
 

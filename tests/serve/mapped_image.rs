@@ -270,7 +270,7 @@ impl Served {
 
     /// The port in a line of the banner.
     fn port(&self, of: &str) -> u16 {
-        let line = self.head.iter().find_map(|line| line.strip_prefix(of)).expect("it says its port");
+        let line = self.head.iter().find_map(|line| line.strip_prefix(of)).expect("the output has the port");
         let port = line.strip_prefix("127.0.0.1:").and_then(|rest| rest.split([':', '/']).next());
         port.and_then(|port| port.parse().ok()).expect("a number")
     }

@@ -31,7 +31,7 @@ impl Served {
             head.push(lines.next().expect("the banner ends with Ctrl-C").expect("text"));
         }
         let port = head.iter().find_map(|line| line.split_once("127.0.0.1:")?.1.split(':').next()?.parse().ok());
-        Self { child, head, port: port.expect("it says its port") }
+        Self { child, head, port: port.expect("the output has the port") }
     }
 
     fn client(&self) -> S7Client {

@@ -31,7 +31,7 @@ impl Served {
         let mut ports = lines
             .map_while(Result::ok)
             .filter_map(|line| Some(line.split_once("127.0.0.1:")?.1.split(':').next()?.to_owned()));
-        let port = ports.next().expect("it says its port");
+        let port = ports.next().expect("the output has the port");
         Self { child, host: format!("127.0.0.1:{port}") }
     }
 

@@ -140,7 +140,7 @@ impl Arguments {
     }
 
     /// The options of the S7 server.
-    pub(super) fn window(&self, machine: &Machine) -> Result<LiveServerOptions, Problem> {
+    pub(super) fn server_options(&self, machine: &Machine) -> Result<LiveServerOptions, Problem> {
         let protected = self.protect.iter().map(|text| protected(text, machine)).collect::<Result<_, _>>()?;
         let identity = self.identity.as_deref().map(OwnIdentity::read).transpose()?.unwrap_or_default();
         let protection = protection(self.password.as_deref().filter(|text| !text.is_empty()), self.protection_level)?;

@@ -46,7 +46,7 @@ pub(super) fn serve(arguments: &Arguments, programs: &Programs, output: &mut Out
 /// Everything that is open while the machine is served.
 struct Served {
     /// Closed before the machine ends.
-    window: LiveServer,
+    server: LiveServer,
     /// Also ended before the machine.
     keeper: Option<Keeper>,
     live: Live,
@@ -60,8 +60,8 @@ struct Served {
 impl Served {
     /// Ends in this order: clients can no longer write, the machine takes its last step, the trace is written.
     fn close(self) -> Result<(), Problem> {
-        let Self { window, keeper, live, trace, .. } = self;
-        drop(window);
+        let Self { server, keeper, live, trace, .. } = self;
+        drop(server);
         drop(keeper);
         let Some(trace) = trace else {
             return Ok(());
@@ -93,14 +93,14 @@ fn trace_file(path: &Path, arguments: &Arguments) -> Result<Kept, Problem> {
 fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Result<Served, Problem> {
     let opened = arguments.open(programs, output)?;
     let machine = &opened.machine;
-    let window = arguments.window(machine)?;
+    let server = arguments.server_options(machine)?;
     if let (Some(_), Some(name)) = (&arguments.image, &opened.plc) {
         return Err(Problem::new(
             format!("expected one PLC program, found two: {name} in the scenario, and --image"),
             "remove `plc` from the scenario, or omit --image",
         ));
     }
-    let terms = window.terms.clone();
+    let terms = server.terms.clone();
     let mut head = banner::machine(&opened, arguments);
     let status = status_line();
     // A program that has set up its own log keeps it.
@@ -126,8 +126,8 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
         output.warning(warning);
     }
     let addresses: Vec<_> = arguments.s7.iter().map(String::as_str).collect();
-    let window = match LiveServer::open_with(&live, &addresses, window) {
-        Ok(window) => window,
+    let server = match LiveServer::open_with(&live, &addresses, server) {
+        Ok(server) => server,
         Err(problem) => {
             // No client could connect. Remove the new recording: it would block the next attempt.
             drop(keeper);
@@ -136,11 +136,11 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
             return Err(problem);
         }
     };
-    if let Some(warning) = arguments.warning(window.addresses()) {
+    if let Some(warning) = arguments.warning(server.addresses()) {
         output.warning(warning);
     }
-    head += &banner::endpoints(window.addresses(), arguments, &terms);
-    for address in window.metrics_addresses() {
+    head += &banner::endpoints(server.addresses(), arguments, &terms);
+    for address in server.metrics_addresses() {
         head += &format!("metrics on http://{address}/metrics\n");
     }
     if let Some(file) = arguments.image.as_deref().filter(|_| arguments.lock_step) {
@@ -150,7 +150,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
         head += &format!("injected faults: {faults}\n");
     }
     head += "press Ctrl-C to stop\n";
-    Ok(Served { window, keeper, live, status, head, trace })
+    Ok(Served { server, keeper, live, status, head, trace })
 }
 
 /// The hint about what the first step waits for.
@@ -164,8 +164,8 @@ fn waiting(image: &Path) -> String {
 
 /// Waits for Ctrl-C or SIGTERM.
 fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result<(), Problem> {
-    let Served { live, window, keeper, status: bar, head, .. } = served;
-    let mut status = Status::new(live, window);
+    let Served { live, server, keeper, status: bar, head, .. } = served;
+    let mut status = Status::new(live, server);
     let no_signals = |error: std::io::Error| {
         Problem::new(
             format!("cannot wait for Ctrl-C and SIGTERM: {error}"),

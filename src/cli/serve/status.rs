@@ -27,7 +27,7 @@ pub(super) fn status_line() -> ProgressBar {
 /// The status line.
 pub(super) struct Status<'a> {
     live: &'a Live,
-    window: &'a LiveServer,
+    server: &'a LiveServer,
     /// The last measurement of the rates: real time, machine time, number of answers.
     last: (Instant, f64, u64),
     speed: Option<f64>,
@@ -35,14 +35,14 @@ pub(super) struct Status<'a> {
 }
 
 impl<'a> Status<'a> {
-    pub(super) fn new(live: &'a Live, window: &'a LiveServer) -> Self {
+    pub(super) fn new(live: &'a Live, server: &'a LiveServer) -> Self {
         let time = live.with(|machine| machine.time().seconds());
-        Self { live, window, last: (Instant::now(), time, window.answers()), speed: None, rate: 0 }
+        Self { live, server, last: (Instant::now(), time, server.answers()), speed: None, rate: 0 }
     }
 
     pub(super) fn line(&mut self, wanted: Speed) -> String {
         if self.live.is_held() {
-            return format!("step 0  waiting for a PLC process to open the image  clients {}", self.window.clients());
+            return format!("step 0  waiting for a PLC process to open the image  clients {}", self.server.clients());
         }
         let looked = self.live.with_soon(|machine, scenario| {
             let name = |number| machine.alarm_name(number);
@@ -55,7 +55,7 @@ impl<'a> Status<'a> {
         };
         let elapsed = self.last.0.elapsed();
         if elapsed >= RATES {
-            let answers = self.window.answers();
+            let answers = self.server.answers();
             self.speed = Some((time - self.last.1) / elapsed.as_secs_f64());
             let millis = u64::try_from(elapsed.as_millis()).unwrap_or(u64::MAX).max(1);
             self.rate = (answers - self.last.2) * 1000 / millis;
@@ -75,7 +75,7 @@ impl<'a> Status<'a> {
             };
             line += &format!("  scenario {how}");
         }
-        line += &format!("  clients {} ({}/s)  alarms {alarms}", self.window.clients(), self.rate);
+        line += &format!("  clients {} ({}/s)  alarms {alarms}", self.server.clients(), self.rate);
         line
     }
 
@@ -91,6 +91,6 @@ impl<'a> Status<'a> {
     /// The summary of the whole run.
     pub(super) fn sum(&self) -> String {
         let step = self.live.with(|machine| machine.cycle());
-        format!("step {step}  {}  answers {}", self.overruns(), self.window.answers())
+        format!("step {step}  {}  answers {}", self.overruns(), self.server.answers())
     }
 }

@@ -48,7 +48,7 @@ pub(super) enum ReplyTo {
     /// The subscription with this identifier.
     Subscription(u64),
     /// No receiver.
-    Nobody,
+    NoReceiver,
 }
 
 /// An answer.

@@ -277,7 +277,7 @@ impl Link {
                 let _ = caller.send(reply); // the receiver may be gone
             }
             ReplyTo::Subscription(identifier) => self.subscription_answered(identifier, reply),
-            ReplyTo::Nobody => {}
+            ReplyTo::NoReceiver => {}
         }
     }
 
@@ -319,7 +319,7 @@ impl Link {
             }
         }
         // Subscriptions are requested anew on the next connection.
-        self.queue.retain(|job| !matches!(job.reply, ReplyTo::Subscription(_) | ReplyTo::Nobody));
+        self.queue.retain(|job| !matches!(job.reply, ReplyTo::Subscription(_) | ReplyTo::NoReceiver));
     }
 
     /// Reopens the connection; `None` when all clients are dropped or reconnecting is disabled.

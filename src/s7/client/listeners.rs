@@ -49,7 +49,7 @@ impl Link {
     /// Ends a job of the module, once.
     fn end(&mut self, function: u8, number: u8) {
         let data = requests::payload(&[function, number]);
-        let is_same = |job: &Job| matches!(job.reply, ReplyTo::Nobody) && job.data == data;
+        let is_same = |job: &Job| matches!(job.reply, ReplyTo::NoReceiver) && job.data == data;
         if self.queue.iter().any(is_same) || self.is_in_flight(is_same) {
             return;
         }
@@ -61,7 +61,7 @@ impl Link {
             pdu: 0,
             repeat: false,
             asked: Instant::now(),
-            reply: ReplyTo::Nobody,
+            reply: ReplyTo::NoReceiver,
         });
     }
 

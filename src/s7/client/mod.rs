@@ -107,7 +107,7 @@ impl Client {
     /// The host cannot be reached, or does not accept the connection or the password.
     pub async fn connect(address: &str, options: Options) -> Result<Self, Error> {
         let opened = opening::open(address, &options).await?;
-        Ok(Self::behind(opened, address, options))
+        Ok(Self::with_link(opened, address, options))
     }
 
     /// Connects over a stream that is already open: a tunnel, or a test's stream. It is not reopened when it is lost, whatever the options
@@ -121,10 +121,10 @@ impl Client {
     ) -> Result<Self, Error> {
         let (options, name) = (Options { reconnect: None, ..options }, "the other end");
         let opened = opening::greet(Box::new(stream), name, &options, Instant::now() + options.timeout).await?;
-        Ok(Self::behind(opened, name, options))
+        Ok(Self::with_link(opened, name, options))
     }
 
-    fn behind(opened: opening::Opened, address: &str, options: Options) -> Self {
+    fn with_link(opened: opening::Opened, address: &str, options: Options) -> Self {
         let (commands, receiver) = mpsc::channel(COMMANDS);
         let (sender, state) = watch::channel(State::Connected(opened.negotiated));
         let options = Arc::new(options);

@@ -25,7 +25,7 @@ pub(super) enum Purpose {
 
 /// The limits of one request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Room {
+pub(super) struct Capacity {
     /// Bytes of a PDU.
     pub(super) pdu: usize,
     /// Number of items.
@@ -140,31 +140,31 @@ impl Part {
 #[derive(Debug)]
 struct Open {
     purpose: Purpose,
-    room: Room,
+    capacity: Capacity,
     parts: Vec<Part>,
     request: usize,
     answer: usize,
 }
 
 impl Open {
-    fn new(purpose: Purpose, room: Room) -> Self {
+    fn new(purpose: Purpose, capacity: Capacity) -> Self {
         let (request, answer) = match purpose {
             Purpose::Read | Purpose::Write => (12, 14),
             Purpose::Subscribe => (26, 28),
         };
-        Self { purpose, room, parts: Vec::new(), request, answer }
+        Self { purpose, capacity, parts: Vec::new(), request, answer }
     }
 
     /// The bytes available for a value after an item of this length; `None` if the item does not fit.
     fn left(&self, wire: usize) -> Option<usize> {
-        if self.parts.len() >= self.room.items {
+        if self.parts.len() >= self.capacity.items {
             return None;
         }
-        let request = self.room.pdu.checked_sub(self.request + wire)?;
+        let request = self.capacity.pdu.checked_sub(self.request + wire)?;
         let left = match self.purpose {
-            Purpose::Read | Purpose::Subscribe => self.room.pdu.checked_sub(self.answer + 4)?,
+            Purpose::Read | Purpose::Subscribe => self.capacity.pdu.checked_sub(self.answer + 4)?,
             Purpose::Write => {
-                self.room.pdu.checked_sub(self.answer + 1)?;
+                self.capacity.pdu.checked_sub(self.answer + 1)?;
                 request.checked_sub(4)?
             }
         };
@@ -194,14 +194,14 @@ pub(super) struct Plan {
 }
 
 /// Fills requests with these parts, in order.
-pub(super) fn plan(parts: impl IntoIterator<Item = Part>, purpose: Purpose, room: Room) -> Plan {
+pub(super) fn plan(parts: impl IntoIterator<Item = Part>, purpose: Purpose, capacity: Capacity) -> Plan {
     let mut plan = Plan::default();
-    let mut open = Open::new(purpose, room);
+    let mut open = Open::new(purpose, capacity);
     for part in parts {
         let mut rest = Some(part);
         while let Some(part) = rest.take() {
             let left = open.left(part.wire());
-            let fresh = Open::new(purpose, room).left(part.wire()).unwrap_or(0);
+            let fresh = Open::new(purpose, capacity).left(part.wire()).unwrap_or(0);
             if left.is_some_and(|left| part.length <= left) {
                 open.push(part);
                 continue;
@@ -212,7 +212,7 @@ pub(super) fn plan(parts: impl IntoIterator<Item = Part>, purpose: Purpose, room
                 What::Memory(_) => usize::MAX,
                 What::Nc(_) => usize::from(u8::MAX) * part.grain().unwrap_or(1),
             };
-            let piece = |room: usize| part.grain().map_or(0, |grain| room.min(most) / grain * grain);
+            let piece = |capacity: usize| part.grain().map_or(0, |grain| capacity.min(most) / grain * grain);
             let here = left.map_or(0, piece);
             if may_split && here > 0 {
                 let (first, second) = part.split(here);
@@ -225,7 +225,7 @@ pub(super) fn plan(parts: impl IntoIterator<Item = Part>, purpose: Purpose, room
                 rest = Some(part);
             }
             if rest.is_some() && !open.parts.is_empty() {
-                plan.requests.push(std::mem::replace(&mut open, Open::new(purpose, room)).parts);
+                plan.requests.push(std::mem::replace(&mut open, Open::new(purpose, capacity)).parts);
             }
         }
     }
@@ -239,11 +239,11 @@ pub(super) fn plan(parts: impl IntoIterator<Item = Part>, purpose: Purpose, room
 mod tests {
     use super::*;
 
-    const SMALL: Room = Room { pdu: 240, items: 255 };
+    const SMALL: Capacity = Capacity { pdu: 240, items: 255 };
 
-    fn lengths(texts: &[&str], purpose: Purpose, room: Room) -> Vec<Vec<usize>> {
+    fn lengths(texts: &[&str], purpose: Purpose, capacity: Capacity) -> Vec<Vec<usize>> {
         let parts = texts.iter().enumerate().flat_map(|(of, text)| Part::all(of, &text.parse().unwrap(), purpose));
-        let plan = plan(parts, purpose, room);
+        let plan = plan(parts, purpose, capacity);
         assert_eq!(plan.too_long, []);
         plan.requests.iter().map(|parts| parts.iter().map(|part| part.length).collect()).collect()
     }
@@ -283,7 +283,7 @@ mod tests {
         let counts: Vec<usize> = lengths(&many, Purpose::Write, SMALL).iter().map(Vec::len).collect();
         assert_eq!(counts, [12, 12, 12, 4]);
         let counts: Vec<usize> =
-            lengths(&many, Purpose::Write, Room { pdu: 960, items: 20 }).iter().map(Vec::len).collect();
+            lengths(&many, Purpose::Write, Capacity { pdu: 960, items: 20 }).iter().map(Vec::len).collect();
         assert_eq!(counts, [20, 20]);
     }
 

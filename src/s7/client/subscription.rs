@@ -7,7 +7,7 @@ use tokio::sync::{mpsc, oneshot};
 use super::Client;
 use super::error::Error;
 use super::job::{LinkCommand, Subscribed};
-use super::plan::{Part, Plan, Purpose, Room, plan};
+use super::plan::{Capacity, Part, Plan, Purpose, plan};
 use super::value::Value;
 use super::variable::Variable;
 use crate::s7::wire::replies::DataItems;
@@ -59,7 +59,7 @@ impl Client {
         variables.iter().try_for_each(Variable::check)?;
         let pdu = self.connected("subscription").await?.pdu;
         let parts = variables.iter().enumerate().flat_map(|(of, variable)| Part::all(of, variable, Purpose::Subscribe));
-        let Plan { requests: groups, too_long } = plan(parts, Purpose::Subscribe, Room { pdu, items: 255 });
+        let Plan { requests: groups, too_long } = plan(parts, Purpose::Subscribe, Capacity { pdu, items: 255 });
         if let Some(part) = too_long.first() {
             return Err(Error::Input {
                 what: format!("expected a variable that fits into a PDU of {pdu} bytes, found {}", variables[part.of]),

@@ -99,7 +99,7 @@ impl Client {
     /// No answer arrives.
     pub async fn identification(&self) -> Result<Identification, Error> {
         let mut identification = Identification::default();
-        if let Some(list) = told(self.list(0x0011, 0).await)? {
+        if let Some(list) = optional(self.list(0x0011, 0).await)? {
             if let Some([_, _, number @ ..]) = list.at(1) {
                 identification.order_number = text(number.get(..20).unwrap_or(number));
             }
@@ -109,7 +109,7 @@ impl Client {
                 identification.version = format!("V{major}.{minor}");
             }
         }
-        if let Some(list) = told(self.list(0x001C, 0).await)? {
+        if let Some(list) = optional(self.list(0x001C, 0).await)? {
             let at = |index| list.at(index).and_then(|record| record.get(2..)).map(text).unwrap_or_default();
             identification.system_name = at(1);
             identification.module_name = at(2);
@@ -140,7 +140,7 @@ impl Client {
     /// # Errors
     /// No answer arrives.
     pub async fn protection(&self) -> Result<Option<u16>, Error> {
-        let list = told(self.list(0x0232, 4).await)?;
+        let list = optional(self.list(0x0232, 4).await)?;
         let record = list.as_ref().and_then(|list| list.at(4));
         // Index, level of the mode selector, level of the password, valid level.
         Ok(record.and_then(|record| record.get(6..8)).map(|level| u16::from_be_bytes([level[0], level[1]])))
@@ -286,7 +286,7 @@ fn part<'a>(what: &str, parameter: &[u8], data: &'a [u8]) -> Result<UserData<'a>
 }
 
 /// A list, or `None` if the module does not have it.
-fn told(list: Result<SystemStateList, Error>) -> Result<Option<SystemStateList>, Error> {
+fn optional(list: Result<SystemStateList, Error>) -> Result<Option<SystemStateList>, Error> {
     match list {
         Ok(list) => Ok(Some(list)),
         Err(error) if error.is_of_the_connection() => Err(error),

@@ -2,7 +2,7 @@
 
 use super::error::Error;
 use super::job::{Failure, Negotiated, Reply};
-use super::plan::{Part, Plan, Purpose, Room, plan};
+use super::plan::{Capacity, Part, Plan, Purpose, plan};
 use super::value::Value;
 use super::variable::{Memory, Variable};
 use super::{Client, Question};
@@ -145,7 +145,7 @@ impl Client {
                 Err(error) => return progress.fail_all(&parts, &error),
             };
             let Negotiated { pdu, .. } = negotiated;
-            let Plan { requests, too_long } = plan(parts.drain(..), purpose, Room { pdu, items: most });
+            let Plan { requests, too_long } = plan(parts.drain(..), purpose, Capacity { pdu, items: most });
             for part in too_long {
                 let cure = format!("a PDU has {pdu} bytes; request fewer rows or a longer PDU");
                 progress.fail(&part, Error::Input { what: "the value is too long for a PDU".to_owned(), cure });

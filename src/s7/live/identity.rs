@@ -62,17 +62,17 @@ impl OwnIdentity {
     /// The identification `base` with the values of the file.
     #[must_use]
     pub fn over<'a>(&'a self, base: Identity<'a>) -> Identity<'a> {
-        let said = |own: &'a Option<String>, base| own.as_deref().unwrap_or(base);
+        let value_or = |own: &'a Option<String>, base| own.as_deref().unwrap_or(base);
         Identity {
-            order_number: said(&self.order_number, base.order_number),
+            order_number: value_or(&self.order_number, base.order_number),
             version: self.version.unwrap_or(base.version),
-            system_name: said(&self.system_name, base.system_name),
-            module_name: said(&self.module_name, base.module_name),
-            plant: said(&self.plant, base.plant),
-            copyright: said(&self.copyright, base.copyright),
-            serial_number: said(&self.serial_number, base.serial_number),
-            module_type: said(&self.module_type, base.module_type),
-            location: said(&self.location, base.location),
+            system_name: value_or(&self.system_name, base.system_name),
+            module_name: value_or(&self.module_name, base.module_name),
+            plant: value_or(&self.plant, base.plant),
+            copyright: value_or(&self.copyright, base.copyright),
+            serial_number: value_or(&self.serial_number, base.serial_number),
+            module_type: value_or(&self.module_type, base.module_type),
+            location: value_or(&self.location, base.location),
         }
     }
 }

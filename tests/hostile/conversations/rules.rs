@@ -38,7 +38,7 @@ fn every_at(slot: u8, name: &str, ask: impl Fn(&mut Conversation, u8)) -> Vec<Co
 
 fn every_function() -> Vec<Conversation> {
     let one = |function: u8| {
-        let mut conversation = Conversation::ready(format!("function {function:02X}, with 0 to 16 bytes behind it"));
+        let mut conversation = Conversation::ready(format!("function {function:02X}, followed by 0 to 16 bytes"));
         for count in [0, 1, 7, 16] {
             conversation.job(&[&[function][..], &vec![0; count]].concat(), &[]);
             conversation.job(&[&[function][..], &vec![0xFF; count]].concat(), &[0xFF, 4, 0, 8, 0]);
@@ -218,7 +218,7 @@ fn lengths() -> Vec<Conversation> {
         let head = |parameter: [u8; 2], data: [u8; 2]| [&[0x32, kind, 0, 0, 0, 5], &parameter[..], &data].concat();
         let right = head(length(parameter.len()), length(data.len()));
         let whole = [right.as_slice(), &parameter, &data].concat();
-        let mut cut = Conversation::ready(format!("{name}, cut at every byte behind its header"));
+        let mut cut = Conversation::ready(format!("{name}, cut at every byte after its header"));
         (10..whole.len()).for_each(|end| cut.data(&whole[..end]));
         all.push(cut);
         let mut short = Conversation::ready(format!("{name}, with a shorter parameter part at every length"));
@@ -285,7 +285,7 @@ fn transport() -> Vec<Conversation> {
         }
     }
     for length in (0..8).chain([9, 200]) {
-        let mut conversation = Conversation::ready(format!("a packet that says {length} bytes"));
+        let mut conversation = Conversation::ready(format!("a packet with a length field of {length}"));
         conversation.send([3, 0, 0, length, 2, 0xF0, 0x80, 0x32]);
         all.push(conversation);
     }
@@ -344,7 +344,7 @@ fn services() -> Vec<Conversation> {
         }
         all.push(conversation);
     }
-    let mut names = Conversation::ready("information of blocks whose number is none");
+    let mut names = Conversation::ready("information about blocks with an invalid number");
     for number in ["00000", "99999", "65535", "65536", "0100A", "-1000", "+1000", " 1000", "1e3  ", "\0\0\0\0\0"] {
         names.ask(3, 3, format!("0A{number}A").as_bytes());
         let name = format!("_0A{number}A");

@@ -78,7 +78,7 @@ impl Recorded {
     fn runs_again(self) -> String {
         let Self { live, window, path } = self;
         drop(window);
-        let ended = live.end().expect("nobody looks at it any more");
+        let ended = live.end().expect("no server holds a handle any more");
         let trace = ended.json_lines().expect("it was kept");
         let text = fs::read_to_string(&path).expect("it was written");
         let scenario = Scenario::parse(&text, &path).unwrap_or_else(|problem| panic!("{problem}\n{text}"));

@@ -33,7 +33,7 @@ impl Program {
         let port = head.find_map(|line| line.ok()?.split_once("S7 on 127.0.0.1:")?.1.split(':').next()?.parse().ok());
         // Its output has no reader from here on.
         let log = BufReader::new(child.stderr.take().expect("it is piped")).lines();
-        Self { child, log, port: port.expect("it says its port") }
+        Self { child, log, port: port.expect("the output has the port") }
     }
 
     fn address(&self) -> SocketAddr {
@@ -42,7 +42,7 @@ impl Program {
 
     /// Waits for a line of its log.
     #[track_caller]
-    fn says(&mut self, what: &str) -> String {
+    fn wait_for_log(&mut self, what: &str) -> String {
         let line = self.log.find(|line| line.as_ref().is_ok_and(|line| line.contains(what)));
         line.unwrap_or_else(|| panic!("it did not say: {what}")).expect("text")
     }
@@ -77,7 +77,7 @@ fn a_scenario_acts_in_real_time_as_it_runs_and_is_recorded() {
     let arguments = ["--scenario", &scenario, "--speed", "50", "--record", "again.toml", "--trace", "live.jsonl"];
     let mut program = Program::start(&folder, &arguments);
     let mut client = Bare::connect(program.address());
-    program.says("the scenario passed");
+    program.wait_for_log("the scenario passed");
     // The machine is still served, and later writes of clients are recorded as well.
     assert_eq!(client.write(&[Item::bytes((FLAGS, 0), 77, &[7])]), [0xFF]);
     assert_eq!(program.end("-TERM"), Some(0));
@@ -109,7 +109,7 @@ fn a_scenario_brings_its_plant_profile_and_image_into_the_recording() {
     let arguments = ["--scenario", "mine.toml", "--speed", "20", "--record", "again.toml", "--trace", "live.jsonl"];
     let mut program = Program::start(&folder, &arguments);
     // The step that fails ends the scenario and is logged; the server keeps running.
-    let line = program.says("the scenario failed");
+    let line = program.wait_for_log("the scenario failed");
     assert!(line.contains("mine.toml:12") && line.contains("Y.position > 1000"), "{line}");
     drop(Bare::connect(program.address()));
     assert_eq!(program.end("-INT"), Some(0));
@@ -122,7 +122,7 @@ fn a_scenario_brings_its_plant_profile_and_image_into_the_recording() {
     for said in ["profile = \"828d\"", "plc_image = \"image.toml\"", "plant = { \"Y\" = { \"start\" = 12.5 } }"] {
         assert!(recording.contains(said), "no {said} in\n{recording}");
     }
-    assert!(!recording.contains("M0.0"), "what stands behind a failed step is not done:\n{recording}");
+    assert!(!recording.contains("M0.0"), "steps after a failed step must not be executed:\n{recording}");
 }
 
 #[test]
@@ -162,7 +162,7 @@ fn a_full_disk_ends_the_recording_and_not_the_machine() {
     for round in 0..200 {
         assert_eq!(client.write(&[Item::bytes((FLAGS, 0), 1, &[round, 2, 3, 4, 5, 6, 7, 8])]), [0xFF]);
     }
-    let line = program.says("the recording ends");
+    let line = program.wait_for_log("the recording ends");
     assert!(line.contains("full.toml cannot be written"), "{line}");
     assert_eq!(client.write(&[Item::bytes((FLAGS, 0), 1, &[9])]), [0xFF]);
     assert_eq!(program.end("-TERM"), Some(0));
@@ -172,7 +172,7 @@ fn a_full_disk_ends_the_recording_and_not_the_machine() {
 
 #[test]
 fn errors_of_a_recording_name_the_cause() {
-    let folder = folder("doors");
+    let folder = folder("errors");
     fs::write(folder.join("old.toml"), "mine").unwrap();
     fs::write(folder.join("wrong.toml"), "machine = \"g1_example\"\n[[step]]\nsett = { \"M0.0\" = 1 }\n").unwrap();
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
