@@ -133,8 +133,11 @@ pub trait Control: Send + Sync + Debug {
     /// The axes that are computed in this cycle. The others come out of a cycle as they went in.
     fn awake(&self) -> AxisSet;
 
-    /// Computes every axis in every cycle from now on: slower, and the same bytes.
+    /// Moves, monitors and shows every axis in every cycle from now on: slower, and the same bytes.
     fn never_rest(&mut self);
+
+    /// Decides everything for every axis in every cycle from now on, too: slower still, and the same bytes.
+    fn decide_always(&mut self);
 
     /// Power off and on: stored data become active, everything else starts anew.
     fn power_on(&mut self);

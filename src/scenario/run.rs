@@ -171,10 +171,17 @@ impl Prepared {
         (machine, Operator::new(book, self.plan), watch)
     }
 
-    /// Computes every axis in every cycle, also those that rest: slower, and the same trace.
+    /// Moves, monitors and shows every axis in every cycle, also those that rest: slower, and the same trace.
     #[must_use]
     pub fn never_rest(mut self) -> Self {
         self.session.machine.never_rest();
+        self
+    }
+
+    /// Decides everything for every axis in every cycle, too: slower still, and the same trace.
+    #[must_use]
+    pub fn decide_always(mut self) -> Self {
+        self.session.machine.decide_always();
         self
     }
 

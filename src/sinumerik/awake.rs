@@ -5,9 +5,15 @@ use crate::sinumerik::nck::Nck;
 use crate::units::AxisSet;
 
 impl Nck {
-    /// Computes every axis in every cycle, also those that rest. The results are the same.
+    /// Moves, monitors and shows every axis in every cycle, also those that rest. The results are the same.
     pub fn never_rest(&mut self) {
         self.resting.never = true;
+        self.resting.wake_all();
+    }
+
+    /// Decides everything for every axis in every cycle, too. The results are the same.
+    pub fn decide_always(&mut self) {
+        self.resting.always = true;
         self.resting.wake_all();
     }
 
@@ -26,34 +32,59 @@ impl Nck {
     pub(super) fn wake(&mut self, changes: Changes) {
         let (state, resting) = (&*self.state, &mut *self.resting);
         let same = resting.shared.is_of(state, &self.parameters);
-        if resting.never || changes.shared || !same || state.alarms_wake(resting) {
+        if resting.always || changes.shared || !same || state.alarms_wake(resting) {
             resting.shared = state.shared();
             resting.wake_all();
+        } else if resting.never {
+            resting.awake = AxisSet::ALL;
         }
-        resting.awake = resting.awake.with(changes.axes).and(self.parameters.existing);
-        resting.awake_units = 0;
+        resting.deciding = resting.deciding.with(changes.axes).and(self.parameters.existing);
+        resting.awake = resting.awake.with(resting.deciding).and(self.parameters.existing);
+        (resting.awake_units, resting.deciding_units) = (0, 0);
         for (index, unit) in state.units.iter().enumerate() {
-            if !resting.awake.and(unit.set).is_empty() {
-                resting.awake = resting.awake.with(unit.set);
-                resting.awake_units |= 1 << index;
+            if resting.awake.and(unit.set).is_empty() {
+                continue;
+            }
+            resting.awake = resting.awake.with(unit.set);
+            resting.awake_units |= 1 << index;
+            if unit.grouping.is_some() || !resting.deciding.and(unit.set).is_empty() {
+                resting.deciding = resting.deciding.with(unit.set);
+                resting.deciding_units |= 1 << index;
             }
         }
     }
 
-    /// At the end of a cycle: who came out of it as it went in, and of whom the iron says that it rests, rests.
+    /// At the end of a cycle: who came out of it as it went in, and of whom the iron says that it rests, rests; for whom
+    /// only the movement is another one, nothing is decided.
     pub(super) fn rest(&mut self, restless: AxisSet) {
-        let (state, resting) = (&*self.state, &mut *self.resting);
-        let mut awake = restless;
+        let (state, resting) = (&mut *self.state, &mut *self.resting);
+        let pending = state.alarms.axes();
+        let news = std::mem::take(&mut state.log.news);
+        let (mut awake, mut deciding) = (restless.with(pending).with(news), pending.with(news));
         if state.alarms_wake(resting) {
             // One that has just gone by itself held others in this cycle, and will not in the next.
             resting.wake_all();
-            awake = AxisSet::ALL;
+            (awake, deciding) = (AxisSet::ALL, AxisSet::ALL);
         }
         resting.alarm_version = state.alarms.version();
-        for axis in resting.awake.iter() {
-            if state.axes[axis] != resting.axes[axis] {
-                resting.axes[axis] = state.axes[axis].clone();
-                awake.set(axis, true);
+        for number in resting.awake.iter() {
+            let (axis, before) = (&state.axes[number], &mut resting.axes[number]);
+            let decided = resting.deciding.contains(number) || news.contains(number);
+            debug_assert_eq!(
+                axis == before,
+                axis.has_decisions_of(before) && axis.has_movement_of(before),
+                "a new field?"
+            );
+            debug_assert!(decided || axis.has_decisions_of(before), "axis {number} has decided unasked");
+            if decided && !axis.has_decisions_of(before) {
+                deciding.set(number, true);
+                before.clone_from(axis);
+            } else if !axis.has_movement_of(before) {
+                awake.set(number, true);
+                if axis.movement_asks_for_decision(before) {
+                    deciding.set(number, true);
+                }
+                before.take_movement_of(axis);
             }
         }
         for (now, before) in state.groupings.iter().zip(&mut resting.groupings) {
@@ -64,6 +95,6 @@ impl Nck {
                 awake = awake.with(axes);
             }
         }
-        resting.awake = awake;
+        (resting.awake, resting.deciding) = (awake.with(deciding), deciding);
     }
 }

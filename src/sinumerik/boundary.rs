@@ -90,6 +90,10 @@ impl Control for Nck {
         Self::never_rest(self);
     }
 
+    fn decide_always(&mut self) {
+        Self::decide_always(self);
+    }
+
     fn power_on(&mut self) {
         Self::power_on(self);
     }

@@ -71,7 +71,7 @@ impl Nck {
         let events = std::mem::take(&mut self.state.log.events);
         let taken = self.state.log.taken;
         *self.state = State::new(&self.parameters);
-        self.state.log = Log { cycle, events, taken };
+        self.state.log = Log { cycle, events, taken, ..Log::default() };
         self.resting.begin_anew(&self.state);
         self.fix_strobes();
     }
@@ -213,13 +213,15 @@ impl Nck {
         while let Some(index) = state.next_awake(next, resting) {
             next = index + 1;
             let unit = state.units[index];
-            state.take_feed(&unit, parameters, to_nck);
-            state.take_axis_signals(&unit, to_nck);
-            match unit.grouping {
-                Some(index) => state.run_grouping(usize::from(index), &unit, parameters, to_nck),
-                None => state.run_single(&unit, parameters, to_nck),
+            if state.decides(index, resting) {
+                state.take_feed(&unit, parameters, to_nck);
+                state.take_axis_signals(&unit, to_nck);
+                match unit.grouping {
+                    Some(index) => state.run_grouping(usize::from(index), &unit, parameters, to_nck),
+                    None => state.run_single(&unit, parameters, to_nck),
+                }
+                state.stop_by_ramp_function_generator(&unit);
             }
-            state.stop_by_ramp_function_generator(&unit);
             state.set_setpoints(&unit, parameters);
         }
         state.order_channel_referencing(parameters);
@@ -239,7 +241,11 @@ impl Nck {
             }
         }
         for number in self.awake().iter() {
-            self.state.axes[number].sense(&self.state.feedback[number]);
+            let (axis, feedback) = (&mut self.state.axes[number], &self.state.feedback[number]);
+            if axis.drive_ready != feedback.drive_ready {
+                self.state.log.news.set(number, true);
+            }
+            axis.sense(feedback);
         }
         self.monitor();
         for number in self.awake().iter() {

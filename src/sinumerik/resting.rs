@@ -1,10 +1,17 @@
-//! Axes that rest are not computed again.
+//! Axes that rest are not computed again, and nothing is decided twice.
 //!
 //! A cycle of the control is a function of its state, of what the PLC wrote and of what encoders and drives told. An axis
 //! whose state came out of a cycle as it went in, and that gets the same inputs again, comes out of the next one as it is: it
-//! rests, and the stages leave it out until something that it depends on is another one. What all axes depend on (modes,
-//! channels, handwheels, run-up, emergency stop, machine data, any alarm) wakes all. Nothing that anybody can see depends on who rests
-//! ([`Nck::never_rest`](crate::sinumerik::Nck::never_rest) computes everything always, and tests compare both).
+//! rests, and the stages leave it out until something that it depends on is another one.
+//!
+//! An axis that only moves is awake, and no decision is made for it: the stages that read signals and command a movement are
+//! left out, and it goes on with the movement that was commanded. They are a function of signals, of what was decided before, and
+//! of three things about a movement: whether the setpoint rests, on which side of its target it is, and, where
+//! [`Axis::decisions_follow_movement`] says so, of all of it. Axes of a closed grouping are decided in every cycle in which they are awake.
+//!
+//! What all axes depend on (modes, channels, handwheels, run-up, emergency stop, machine data, an alarm that comes or goes)
+//! wakes all; an alarm that stays keeps its own axis awake, which may have to raise it again. Nothing that anybody can see depends on
+//! who rests ([`Nck::decide_always`](crate::sinumerik::Nck::decide_always) computes everything always, and tests compare both).
 
 use arrayvec::ArrayVec;
 
@@ -47,7 +54,14 @@ pub(super) struct Resting {
     pub awake: AxisSet,
     /// Their units, a bit for each place in the list of units.
     pub awake_units: u32,
+    /// For whom of them is decided in this cycle.
+    pub deciding: AxisSet,
+    /// Their units.
+    pub deciding_units: u32,
+    /// Nobody rests.
     pub never: bool,
+    /// Nobody rests, and everything is decided in every cycle.
+    pub always: bool,
     /// Groupings may have been opened or closed.
     pub units_stale: bool,
     pub alarm_version: u32,
@@ -62,7 +76,10 @@ impl Resting {
         Self {
             awake: AxisSet::ALL,
             awake_units: u32::MAX,
+            deciding: AxisSet::ALL,
+            deciding_units: u32::MAX,
             never: false,
+            always: false,
             units_stale: true,
             alarm_version: state.alarms.version(),
             shared: state.shared(),
@@ -73,12 +90,13 @@ impl Resting {
 
     /// The state is another one, after power on or restored: what was before is nothing to compare with.
     pub(super) fn begin_anew(&mut self, state: &State) {
-        *self = Self { never: self.never, ..Self::new(state) };
+        *self = Self { never: self.never, always: self.always, ..Self::new(state) };
     }
 
     /// Everybody is computed in the next cycle.
     pub(super) fn wake_all(&mut self) {
         self.awake = AxisSet::ALL;
+        self.deciding = AxisSet::ALL;
         self.units_stale = true;
     }
 
@@ -87,9 +105,9 @@ impl Resting {
         self.awake.set(axis, true);
     }
 
-    /// Who is computed in this cycle.
-    pub(super) const fn awake(&self) -> AxisSet {
-        self.awake
+    /// For whom is decided in this cycle.
+    pub(super) const fn deciding(&self) -> AxisSet {
+        self.deciding
     }
 
     /// Groupings were opened or closed, or machine data became active, since this was last asked.
@@ -110,16 +128,30 @@ impl State {
         }
     }
 
-    /// An alarm is pending, or one came or went: that can stop anybody.
+    /// An alarm came or went: that can stop anybody.
     pub(super) fn alarms_wake(&self, resting: &Resting) -> bool {
-        !self.alarms.is_empty() || self.alarms.version() != resting.alarm_version
+        self.alarms.version() != resting.alarm_version
+    }
+
+    /// The first unit from this place on for which is decided in this cycle.
+    pub(super) fn next_deciding(&self, from: usize, resting: &Resting) -> Option<usize> {
+        self.next_unit(from, resting.deciding_units, resting)
     }
 
     /// The first unit from this place on that is computed in this cycle.
     pub(super) fn next_awake(&self, from: usize, resting: &Resting) -> Option<usize> {
+        self.next_unit(from, resting.awake_units, resting)
+    }
+
+    fn next_unit(&self, from: usize, units: u32, resting: &Resting) -> Option<usize> {
         // An alarm of a unit before concerns those behind it in the same cycle.
-        let rest = if self.alarms_wake(resting) { u32::MAX } else { resting.awake_units };
+        let rest = if self.alarms_wake(resting) { u32::MAX } else { units };
         let index = (rest & u32::MAX.checked_shl(u32::try_from(from).ok()?)?).trailing_zeros() as usize;
         (index < self.units.len()).then_some(index)
+    }
+
+    /// Whether is decided for a unit in this cycle.
+    pub(super) fn decides(&self, index: usize, resting: &Resting) -> bool {
+        resting.deciding_units >> index & 1 == 1 || self.alarms_wake(resting)
     }
 }

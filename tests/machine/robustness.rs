@@ -246,7 +246,7 @@ impl Bench {
             machine,
         };
         if let Some(twin) = &mut bench.twin {
-            twin.never_rest();
+            twin.decide_always();
         }
         // Searches that end soon: the same phases in fewer cycles.
         for axis in bench.axes.clone() {

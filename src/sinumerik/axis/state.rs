@@ -143,6 +143,55 @@ impl Default for Axis {
 }
 
 impl Axis {
+    /// What was decided about it is what was decided about the other; its movement may be another one.
+    pub(in crate::sinumerik) fn has_decisions_of(&self, other: &Self) -> bool {
+        (self.motion, self.enabling, self.traverse_request, self.traverse_command)
+            == (other.motion, other.enabling, other.traverse_request, other.traverse_command)
+            && (self.parameter_set, self.drive_data_set, self.measuring_system, self.drive_ready)
+                == (other.parameter_set, other.drive_data_set, other.measuring_system, other.drive_ready)
+            && (self.feed_factor, self.feed_held, self.feed_disabled, self.feed_holder)
+                == (other.feed_factor, other.feed_held, other.feed_disabled, other.feed_holder)
+            && (self.key_used, self.approach_key, self.limits) == (other.key_used, other.approach_key, other.limits)
+            && (self.offset, self.referenced) == (other.offset, other.referenced)
+            && self.jogging == other.jogging
+            && self.signals == other.signals
+            && self.causes == other.causes
+            && self.approach == other.approach
+    }
+
+    /// It moves as the other does.
+    pub(in crate::sinumerik) fn has_movement_of(&self, other: &Self) -> bool {
+        (self.setpoint, self.before, self.actual, self.velocity)
+            == (other.setpoint, other.before, other.actual, other.velocity)
+            && (self.branch, self.unsettled, self.arrived) == (other.branch, other.unsettled, other.arrived)
+            && (self.zero_mark, self.half_count, self.slide) == (other.zero_mark, other.half_count, other.slide)
+            && self.monitor == other.monitor
+    }
+
+    /// Moves as the other does, from now on.
+    pub(in crate::sinumerik) fn take_movement_of(&mut self, other: &Self) {
+        (self.setpoint, self.before, self.unsettled) = (other.setpoint, other.before, other.unsettled);
+        (self.branch, self.arrived) = (other.branch, other.arrived);
+        (self.actual, self.zero_mark, self.velocity) = (other.actual, other.zero_mark, other.velocity);
+        (self.half_count, self.slide, self.monitor) = (other.half_count, other.slide, other.monitor);
+    }
+
+    /// The movement since a cycle before leads to another decision than the one that was made: it has ended or begun, or has
+    /// passed its target, or every step of it counts.
+    pub(in crate::sinumerik) fn movement_asks_for_decision(&self, before: &Self) -> bool {
+        self.decisions_follow_movement()
+            || self.setpoint.is_at_rest() != before.setpoint.is_at_rest()
+            || self.motion.direction(self.setpoint.position) != self.motion.direction(before.setpoint.position)
+    }
+
+    /// What is decided about it depends on where it is: an approach, axis disable, handwheels, follow-up.
+    fn decisions_follow_movement(&self) -> bool {
+        self.approach.is_running()
+            || self.signals.disabled_at.is_some()
+            || self.jogging.handwheels != 0
+            || self.motion == Motion::Track
+    }
+
     /// Takes what drive and encoders tell.
     pub(in crate::sinumerik) fn sense(&mut self, feedback: &Feedback) {
         self.velocity = feedback.velocity;
