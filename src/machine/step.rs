@@ -31,9 +31,10 @@ impl Machine {
         let axes = self.definition.layout.with_bridged(self.control.awake());
         self.move_axes(axes);
         self.displace();
-        self.sense(axes);
+        let told = self.state.plant.news(axes);
+        self.sense(told);
         // Monitoring and alarms, publication, record.
-        self.control.observe(&self.state.feedback, axes);
+        self.control.observe(&self.state.feedback, told);
         let restless = self.state.plant.restless(axes);
         let State { memory, variables, .. } = &mut self.state;
         let out = ControlSide { from_nck: &mut memory.from_nck, hmi: &mut memory.hmi };
@@ -120,15 +121,7 @@ impl Machine {
     pub(super) fn sense(&mut self, axes: AxisSet) {
         self.state.plant.press_switches(&self.definition.layout, axes);
         for axis in axes.iter() {
-            self.state.feedback[axis] = Feedback {
-                encoders: self.state.plant.tell(axis),
-                half_count: self.state.plant.half_counts(axis),
-                velocity: self.state.plant.velocity(axis),
-                drive_ready: self.state.plant.is_drive_ready(axis),
-                drive_fault: self.state.plant.has_drive_fault(axis),
-                encoder_faults: self.state.plant.encoder_faults(axis),
-                slide: self.state.plant.slide(axis),
-            };
+            self.state.feedback[axis] = self.state.plant.tell(axis);
         }
     }
 }

@@ -90,9 +90,10 @@ impl Nck {
         for (now, before) in state.groupings.iter().zip(&mut resting.groupings) {
             let axes: AxisSet = now.coupling.members().collect();
             if !resting.awake.and(axes).is_empty() && now != before {
-                resting.units_stale = true;
+                resting.units_stale |= now.phase != before.phase;
                 before.clone_from(now);
-                awake = awake.with(axes);
+                // It may have been opened or closed: other stages decide about its axes then.
+                deciding = deciding.with(axes);
             }
         }
         (resting.awake, resting.deciding) = (awake.with(deciding), deciding);

@@ -196,7 +196,10 @@ impl Nck {
         self.state.select_modes(&self.parameters, to_nck);
         self.state.watch_emergency_stop(&self.parameters, to_nck);
         self.reset_and_cancel(to_nck, cancel_key);
-        if self.resting.take_units_stale() | self.state.check_closings(&self.parameters) {
+        if self.state.check_closings(&self.parameters) {
+            self.resting.wake_all();
+        }
+        if self.resting.take_units_stale() {
             self.state.form_units(&self.parameters);
             self.state.report_declarations(&self.parameters);
         }
@@ -221,6 +224,8 @@ impl Nck {
                     None => state.run_single(&unit, parameters, to_nck),
                 }
                 state.stop_by_ramp_function_generator(&unit);
+            } else if state.stays(&unit) {
+                continue;
             }
             state.set_setpoints(&unit, parameters);
         }
@@ -229,33 +234,34 @@ impl Nck {
 
     /// Takes what encoders and drives of these axes tell, and monitors it. The others tell what they told before.
     pub fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet) {
-        for number in told.and(self.parameters.existing).iter() {
-            let axis = &self.state.axes[number];
-            let feedback = match &axis.active_set(&self.parameters.axes[number]).misfit {
+        let (parameters, state) = (&*self.parameters, &mut *self.state);
+        for number in told.with(self.resting.deciding_now(state)).and(parameters.existing).iter() {
+            let axis = &mut state.axes[number];
+            let seen = match &axis.active_set(&parameters.axes[number]).misfit {
                 None => feedback[number],
                 Some(misfit) => misfit.seen(&feedback[number], usize::from(axis.measuring_system.unwrap_or(0))),
             };
-            if self.state.feedback[number] != feedback {
-                self.state.feedback[number] = feedback;
+            if state.feedback[number] != seen {
+                state.feedback[number] = seen;
                 self.resting.wake_axis(number);
             }
-        }
-        for number in self.awake().iter() {
-            let (axis, feedback) = (&mut self.state.axes[number], &self.state.feedback[number]);
-            if axis.drive_ready != feedback.drive_ready {
-                self.state.log.news.set(number, true);
+            if axis.drive_ready != seen.drive_ready {
+                state.log.news.set(number, true);
             }
-            axis.sense(feedback);
+            axis.sense(&seen);
         }
         self.monitor();
-        for number in self.awake().iter() {
-            let (axis, summary) = (&self.state.axes[number], &mut self.state.summary);
+        let awake = self.awake();
+        let mut summary = self.state.summary;
+        for number in awake.iter() {
+            let axis = &self.state.axes[number];
             summary.drive_ready.set(number, axis.drive_ready);
             summary.referenced.set(number, axis.is_referenced());
             summary.standing.set(number, axis.stands(&self.parameters.axes[number]));
             // An approach that waits at rest is on its way, too.
             summary.in_motion.set(number, axis.is_in_motion() || axis.approach.is_running());
         }
+        self.state.summary = summary;
     }
 
     /// Everything that it remembers, as bytes.

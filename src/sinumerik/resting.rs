@@ -15,13 +15,14 @@
 
 use arrayvec::ArrayVec;
 
+use crate::motion::Motion;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::gantry::state::Grouping;
 use crate::sinumerik::jog::state::{GroupFunction, HANDWHEELS, Handwheel};
 use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunUp};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::GROUPINGS;
-use crate::sinumerik::state::State;
+use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, AxisSet, PerAxis, PerChannel, PerModeGroup};
 
 /// What every axis depends on.
@@ -110,6 +111,11 @@ impl Resting {
         self.deciding
     }
 
+    /// For whom is decided in this cycle: for all as soon as an alarm came or went in it.
+    pub(super) fn deciding_now(&self, state: &State) -> AxisSet {
+        if state.alarms_wake(self) { AxisSet::ALL } else { self.deciding }
+    }
+
     /// Groupings were opened or closed, or machine data became active, since this was last asked.
     pub(super) fn take_units_stale(&mut self) -> bool {
         std::mem::take(&mut self.units_stale)
@@ -148,6 +154,14 @@ impl State {
         let rest = if self.alarms_wake(resting) { u32::MAX } else { units };
         let index = (rest & u32::MAX.checked_shl(u32::try_from(from).ok()?)?).trailing_zeros() as usize;
         (index < self.units.len()).then_some(index)
+    }
+
+    /// The setpoint of a single axis rests, and what it is commanded to do leaves it where it is.
+    pub(super) fn stays(&self, unit: &Unit) -> bool {
+        let (axis, shaping) = (&self.axes[unit.leader()], &self.shaping[unit.leader()]);
+        let commanded = matches!(axis.motion, Motion::Brake { .. } | Motion::Hold);
+        let rests = axis.setpoint.is_still() && axis.setpoint.position == axis.before && !axis.arrived;
+        unit.grouping.is_none() && commanded && rests && shaping.is_none()
     }
 
     /// Whether is decided for a unit in this cycle.

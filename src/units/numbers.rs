@@ -175,6 +175,12 @@ impl AxisSet {
         Self(self.0 & other.0)
     }
 
+    /// What is in it and not in the other.
+    #[must_use]
+    pub const fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
     /// Whether all of the other are in it.
     #[must_use]
     pub const fn has_all_of(self, other: Self) -> bool {
