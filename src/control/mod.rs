@@ -124,6 +124,10 @@ pub trait Control: Send + Sync + Debug {
     /// to have, in increments per second; `None` for a drive without power. `counts` are the values of both encoders now.
     fn velocity_command(&mut self, axis: AxisNumber, counts: [Position; 2], part: u32, of: u32) -> Option<f64>;
 
+    /// The axes for which every position-control cycle of this interpolation cycle is like the one before as long as their encoders
+    /// report the same: their setpoint rests. Asked behind each position-control cycle.
+    fn still(&self) -> AxisSet;
+
     /// Takes what the drives and encoders of the axes `told` report, and monitors it. The others report what they did before.
     fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet);
 

@@ -111,9 +111,12 @@ impl Machine {
         let CycleTimes { interpolation: cycle, position_control: count } = self.control.cycle_times();
         let servo_cycle = cycle.seconds() / f64::from(count);
         self.state.plant.run_up(axes, cycle);
+        let (layout, mut moving) = (&self.definition.layout, axes);
         for part in 1..=count {
             let command = |axis, counts| self.control.velocity_command(axis, counts, part, count);
-            self.state.plant.advance(&self.definition.layout, axes, servo_cycle, command);
+            let changed = self.state.plant.advance(layout, moving, servo_cycle, command);
+            // Those that did not move, and are commanded nothing else, would not in the other parts either.
+            moving = layout.with_bridged(moving.without(self.control.still()).with(changed));
         }
     }
 

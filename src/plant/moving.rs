@@ -121,33 +121,38 @@ impl Plant {
     /// One position-control cycle: each drive answers its command, slides move, bridges pull.
     ///
     /// A command of `None` is a drive without power: its motor is braked as fast as its speed loop would.
-    /// Only these axes are moved; whoever shares a bridge with one of them is to be among them.
+    /// Only these axes are moved; those that share a bridge with one of them are to be among them. Returns which of them became
+    /// another than they were.
     pub fn advance(
         &mut self,
         layout: &Layout,
         axes: AxisSet,
         cycle: f64,
         mut command: impl FnMut(AxisNumber, [Position; 2]) -> Option<f64>,
-    ) {
+    ) -> AxisSet {
+        let mut changed = AxisSet::NONE;
         for axis in axes.iter() {
             if let (Some(slide), Some(iron)) = (&mut self.slides[axis], &layout.axes[axis]) {
                 let command = command(axis, slide.values()).filter(|_| !slide.drive_fault);
-                if slide.advance(command, iron.time_constant, cycle) {
-                    self.changed.set(axis, true);
-                }
+                changed.set(axis, slide.advance(command, iron.time_constant, cycle));
             }
         }
         for bridge in layout.bridges.iter().filter(|bridge| axes.contains(bridge.first)) {
             for &(other, offset) in &bridge.others {
-                self.pull(bridge.first, other, offset, bridge.stiffness, cycle);
+                if self.pull(bridge.first, other, offset, bridge.stiffness, cycle) {
+                    changed = changed.with(AxisSet::of(bridge.first)).with(AxisSet::of(other));
+                }
             }
         }
+        self.changed = self.changed.with(changed);
+        changed
     }
 
-    /// A bridge takes back its share of a difference, half on each slide, all of it on the one that can move.
-    fn pull(&mut self, first: AxisNumber, other: AxisNumber, offset: Position, stiffness: f64, cycle: f64) {
+    /// A bridge takes back its share of a difference, half on each slide, all of it on the one that can move. Returns whether there
+    /// was one.
+    fn pull(&mut self, first: AxisNumber, other: AxisNumber, offset: Position, stiffness: f64, cycle: f64) -> bool {
         let (Some(a), Some(b)) = (self.slides[first], self.slides[other]) else {
-            return;
+            return false;
         };
         let strain = (b.position - a.position - offset).increments() as f64;
         let share = if stiffness >= 1.0 { 1.0 } else { stiffness * cycle };
@@ -155,12 +160,11 @@ impl Plant {
             (false, false) => (0.5, 0.5),
             (false, true) => (1.0, 0.0),
             (true, false) => (0.0, 1.0),
-            (true, true) => return,
+            (true, true) => return false,
         };
         if strain == 0.0 || share == 0.0 {
-            return;
+            return false;
         }
-        self.changed = self.changed.with(AxisSet::of(first)).with(AxisSet::of(other));
         #[expect(clippy::cast_possible_truncation, reason = "a strain fits by far; the cast saturates")]
         let whole = |movement: f64| Position::new(movement.round() as i64);
         let taken = whole(strain * share);
@@ -180,6 +184,7 @@ impl Plant {
                 slide.drive.force(if a.blocked { 0.0 } else { velocity });
             }
         }
+        true
     }
 
     /// Those of these axes that are not as they were when this was last asked, once a cycle.

@@ -28,6 +28,12 @@ impl Nck {
         if self.state.alarms_wake(&self.resting) { self.parameters.existing } else { self.resting.awake }
     }
 
+    /// The axes for which position control asks for the same in all its cycles, as long as their encoders tell the same.
+    #[must_use]
+    pub fn still(&self) -> AxisSet {
+        self.resting.still
+    }
+
     /// After the stages that concern everybody: who is computed in this cycle.
     pub(super) fn wake(&mut self, changes: Changes) {
         let (state, resting) = (&*self.state, &mut *self.resting);
@@ -70,21 +76,24 @@ impl Nck {
         for number in resting.awake.iter() {
             let (axis, before) = (&state.axes[number], &mut resting.axes[number]);
             let decided = resting.deciding.contains(number) || news.contains(number);
-            debug_assert_eq!(
-                axis == before,
-                axis.has_decisions_of(before) && axis.has_movement_of(before),
-                "a new field?"
-            );
             debug_assert!(decided || axis.has_decisions_of(before), "axis {number} has decided unasked");
             if decided && !axis.has_decisions_of(before) {
                 deciding.set(number, true);
                 before.clone_from(axis);
-            } else if !axis.has_movement_of(before) {
-                awake.set(number, true);
-                if axis.movement_asks_for_decision(before) {
-                    deciding.set(number, true);
-                }
+            }
+            // One whose iron moves is not compared: its movement is another one.
+            let moves = restless.contains(number) || !axis.has_movement_of(before);
+            if !moves {
+                continue;
+            }
+            awake.set(number, true);
+            if !restless.contains(number) {
                 before.take_movement_of(axis);
+            }
+            let way = axis.way();
+            if way != resting.ways[number] || axis.decisions_follow_movement() {
+                resting.ways[number] = way;
+                deciding.set(number, true);
             }
         }
         for (now, before) in state.groupings.iter().zip(&mut resting.groupings) {

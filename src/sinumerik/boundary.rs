@@ -72,6 +72,10 @@ impl Control for Nck {
         Self::velocity_command(self, axis, counts, part, of)
     }
 
+    fn still(&self) -> AxisSet {
+        Self::still(self)
+    }
+
     fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet) {
         Self::observe(self, feedback, told);
     }

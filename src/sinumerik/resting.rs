@@ -16,7 +16,7 @@
 use arrayvec::ArrayVec;
 
 use crate::motion::Motion;
-use crate::sinumerik::axis::state::Axis;
+use crate::sinumerik::axis::state::{Axis, Way};
 use crate::sinumerik::gantry::state::Grouping;
 use crate::sinumerik::jog::state::{GroupFunction, HANDWHEELS, Handwheel};
 use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunUp};
@@ -59,6 +59,10 @@ pub(super) struct Resting {
     pub deciding: AxisSet,
     /// Their units.
     pub deciding_units: u32,
+    /// For whom position control asks for the same in all its cycles, as long as encoders tell the same.
+    pub still: AxisSet,
+    /// Where the movement of each was at the end of the cycle before.
+    pub ways: PerAxis<Way>,
     /// Nobody rests.
     pub never: bool,
     /// Nobody rests, and everything is decided in every cycle.
@@ -79,6 +83,8 @@ impl Resting {
             awake_units: u32::MAX,
             deciding: AxisSet::ALL,
             deciding_units: u32::MAX,
+            still: AxisSet::NONE,
+            ways: PerAxis::default(),
             never: false,
             always: false,
             units_stale: true,

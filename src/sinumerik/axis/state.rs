@@ -176,16 +176,13 @@ impl Axis {
         (self.half_count, self.slide, self.monitor) = (other.half_count, other.slide, other.monitor);
     }
 
-    /// The movement since a cycle before leads to another decision than the one that was made: it has ended or begun, or has
-    /// passed its target, or every step of it counts.
-    pub(in crate::sinumerik) fn movement_asks_for_decision(&self, before: &Self) -> bool {
-        self.decisions_follow_movement()
-            || self.setpoint.is_at_rest() != before.setpoint.is_at_rest()
-            || self.motion.direction(self.setpoint.position) != self.motion.direction(before.setpoint.position)
+    /// Where its movement is.
+    pub(in crate::sinumerik) fn way(&self) -> Way {
+        Way { rests: self.setpoint.is_at_rest(), ahead: self.motion.direction(self.setpoint.position) }
     }
 
     /// What is decided about it depends on where it is: an approach, axis disable, handwheels, follow-up.
-    fn decisions_follow_movement(&self) -> bool {
+    pub(in crate::sinumerik) fn decisions_follow_movement(&self) -> bool {
         self.approach.is_running()
             || self.signals.disabled_at.is_some()
             || self.jogging.handwheels != 0
@@ -282,6 +279,15 @@ impl coupling::Axes for PerAxis<Axis> {
     fn is_referenced(&self, axis: AxisNumber) -> bool {
         self[axis].is_referenced()
     }
+}
+
+/// What of a movement leads to another decision when it changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::sinumerik) struct Way {
+    /// The setpoint rests.
+    rests: bool,
+    /// Where its target is, or where it runs: +1, −1 or 0.
+    ahead: i8,
 }
 
 /// How many cycles each step of the chain takes, so that brake and timer logic meets a real order.
