@@ -46,6 +46,8 @@ impl Nck {
         }
         resting.deciding = resting.deciding.with(changes.axes).and(self.parameters.existing);
         resting.awake = resting.awake.with(resting.deciding).and(self.parameters.existing);
+        // Until position control says otherwise.
+        resting.still = AxisSet::ALL;
         (resting.awake_units, resting.deciding_units) = (0, 0);
         for (index, unit) in state.units.iter().enumerate() {
             if resting.awake.and(unit.set).is_empty() {
@@ -73,8 +75,14 @@ impl Nck {
             (awake, deciding) = (AxisSet::ALL, AxisSet::ALL);
         }
         resting.alarm_version = state.alarms.version();
+        if resting.axes.is_empty() {
+            // There was nothing to compare with.
+            resting.axes.extend(state.axes.iter().map(|(_, axis)| axis.clone()));
+            resting.wake_all();
+            (awake, deciding) = (AxisSet::ALL, AxisSet::ALL);
+        }
         for number in resting.awake.iter() {
-            let (axis, before) = (&state.axes[number], &mut resting.axes[number]);
+            let (axis, before) = (&state.axes[number], &mut resting.axes[number.index()]);
             let decided = resting.deciding.contains(number) || news.contains(number);
             debug_assert!(decided || axis.has_decisions_of(before), "axis {number} has decided unasked");
             if decided && !axis.has_decisions_of(before) {

@@ -22,7 +22,7 @@ use crate::variables::{EventId, Place};
 ///
 /// Machine data have a stored and an active set (DEF-09, REF-22): a file or an operator changes the stored one, and
 /// the class of a datum says when it begins to act.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Nck {
     pub(super) stored: Arc<MachineData>,
     pub(super) active: Arc<MachineData>,
@@ -33,6 +33,21 @@ pub struct Nck {
     strobe: Strobe,
     /// The cancel key was pressed at the edge of this cycle; the stage takes it back, so that no saved machine has it.
     cancel_key: bool,
+}
+
+impl Clone for Nck {
+    fn clone(&self) -> Self {
+        Self {
+            stored: Arc::clone(&self.stored),
+            active: Arc::clone(&self.active),
+            presence: Arc::clone(&self.presence),
+            parameters: Arc::clone(&self.parameters),
+            state: self.state.clone(),
+            resting: Box::new(self.resting.anew(&self.state)),
+            strobe: self.strobe.clone(),
+            cancel_key: self.cancel_key,
+        }
+    }
 }
 
 /// A saved control.

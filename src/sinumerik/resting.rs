@@ -49,7 +49,7 @@ impl Shared {
 }
 
 /// Who rests, and what the last cycle left.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Resting {
     /// Who is computed in this cycle.
     pub awake: AxisSet,
@@ -71,7 +71,8 @@ pub(super) struct Resting {
     pub units_stale: bool,
     pub alarm_version: u32,
     pub shared: Shared,
-    pub axes: PerAxis<Axis>,
+    /// What was decided about each axis and how it moved; nothing yet where nothing is known.
+    pub axes: Vec<Axis>,
     pub groupings: ArrayVec<Grouping, GROUPINGS>,
 }
 
@@ -90,14 +91,21 @@ impl Resting {
             units_stale: true,
             alarm_version: state.alarms.version(),
             shared: state.shared(),
-            axes: state.axes.clone(),
+            axes: Vec::with_capacity(AxisNumber::MAX.into()),
             groupings: state.groupings.clone(),
         }
     }
 
     /// The state is another one, after power on or restored: what was before is nothing to compare with.
     pub(super) fn begin_anew(&mut self, state: &State) {
-        *self = Self { never: self.never, always: self.always, ..Self::new(state) };
+        let mut axes = std::mem::take(&mut self.axes);
+        axes.clear();
+        *self = Self { never: self.never, always: self.always, axes, ..Self::new(state) };
+    }
+
+    /// That of a copy of the control: nobody rests, and it costs little.
+    pub(super) fn anew(&self, state: &State) -> Self {
+        Self { never: self.never, always: self.always, ..Self::new(state) }
     }
 
     /// Everybody is computed in the next cycle.

@@ -4,7 +4,7 @@
 //! machine drains it between two steps.
 
 use crate::image::Part;
-use crate::variables::{Event, EventId, RaisedAlarm};
+use crate::variables::{Event, EventId, Events, RaisedAlarm};
 
 /// Who changed a bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -92,15 +92,15 @@ pub struct Recorder {
 
 impl Default for Recorder {
     fn default() -> Self {
-        Self { rows: Vec::with_capacity(Self::ROOM), events: Vec::with_capacity(Self::EVENTS), lost: 0 }
+        Self { rows: Vec::with_capacity(Self::ROOM), events: Vec::with_capacity(Events::CAPACITY), lost: 0 }
     }
 }
 
 impl Recorder {
     /// How many rows are kept between two drains: some times those of what clients may write at the edge of one step.
     pub const ROWS: usize = 16_384;
-    /// Room for rows before it has to grow; one step without such clients writes far fewer.
-    const ROOM: usize = 2048;
+    /// Room for rows before it has to grow; one step without such clients writes fewer. For events it is what one step can leave.
+    const ROOM: usize = 512;
     /// How many events fit between two drains.
     pub const EVENTS: usize = 1024;
 

@@ -38,7 +38,6 @@ impl Nck {
     ) -> Option<f64> {
         let parameters = &self.parameters.axes[number];
         let axis = &mut self.state.axes[number];
-        self.resting.still.set(number, true);
         let branch = self.state.shaping[number].as_deref_mut().and_then(|shaping| shaping.branch.as_mut());
         let Some(active) = axis.measuring_system.filter(|_| axis.enabling.is_powered()).map(usize::from) else {
             axis.reset_branch(branch);
@@ -73,8 +72,9 @@ impl Nck {
         let wanted = axis.velocity_wanted(set, setpoint, actual, axis.half_count);
         let ideal = axis.velocity_wanted(set, setpoint, axis.monitor.model(), Position::ZERO);
         axis.monitor.move_model(ideal * cycle);
-        let is_still = axis.before == axis.setpoint.position && ideal == 0.0 && !is_delayed;
-        self.resting.still.set(number, is_still);
+        if axis.before != axis.setpoint.position || ideal != 0.0 || is_delayed {
+            self.resting.still.set(number, false);
+        }
         Some(limited(wanted, parameters) * command)
     }
 }
