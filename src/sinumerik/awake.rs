@@ -28,6 +28,11 @@ impl Nck {
         if self.state.alarms_wake(&self.resting) { self.parameters.existing } else { self.resting.awake }
     }
 
+    /// The axes for which was decided in this cycle, or of which something else than their movement is new.
+    pub(super) fn decided(&self) -> AxisSet {
+        self.resting.deciding_now(&self.state).with(self.state.log.news)
+    }
+
     /// The axes for which position control asks for the same in all its cycles, as long as their encoders tell the same.
     #[must_use]
     pub fn still(&self) -> AxisSet {

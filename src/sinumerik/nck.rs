@@ -266,15 +266,18 @@ impl Nck {
             axis.sense(&seen);
         }
         self.monitor();
-        let awake = self.awake();
+        let (awake, decided) = (self.awake(), self.decided());
         let mut summary = self.state.summary;
         for number in awake.iter() {
             let axis = &self.state.axes[number];
-            summary.drive_ready.set(number, axis.drive_ready);
-            summary.referenced.set(number, axis.is_referenced());
             summary.standing.set(number, axis.stands(&self.parameters.axes[number]));
             // An approach that waits at rest is on its way, too.
             summary.in_motion.set(number, axis.is_in_motion() || axis.approach.is_running());
+        }
+        for number in awake.and(decided).iter() {
+            let axis = &self.state.axes[number];
+            summary.drive_ready.set(number, axis.drive_ready);
+            summary.referenced.set(number, axis.is_referenced());
         }
         self.state.summary = summary;
     }
