@@ -40,6 +40,9 @@ pub struct Plant {
     /// Those that became so before that, in the cycle before: a zero mark that they told of is passed.
     #[serde(skip, default = "all")]
     changed_before: AxisSet,
+    /// Those whose drives may not have run up yet.
+    #[serde(skip, default = "all")]
+    running_up: AxisSet,
     /// Whose cam, switch plus and switch minus are pressed; follows from the slides.
     #[serde(skip)]
     pressed: [AxisSet; 3],
@@ -55,12 +58,12 @@ impl Plant {
     #[must_use]
     pub fn new(layout: &Layout) -> Self {
         let slides = PerAxis::from_fn(|axis| layout.axes[axis].as_ref().map(Slide::new));
-        Self { slides, changed: AxisSet::ALL, changed_before: AxisSet::ALL, pressed: [AxisSet::NONE; 3] }
+        Self { slides, changed: all(), changed_before: all(), running_up: all(), pressed: [AxisSet::NONE; 3] }
     }
 
     /// Power off and on: slides and faults stay, drives run up anew, encoders count from where they are.
     pub fn power_on(&mut self, layout: &Layout) {
-        self.changed = AxisSet::ALL;
+        (self.changed, self.running_up) = (all(), all());
         for (axis, slide) in self.slides.iter_mut() {
             if let (Some(slide), Some(iron)) = (slide, &layout.axes[axis]) {
                 slide.drive = Drive::default();
@@ -207,12 +210,13 @@ impl Plant {
 
     /// The drives run up.
     pub fn run_up(&mut self, axes: AxisSet, cycle: Time) {
-        for axis in axes.iter() {
-            if let Some(slide) = &mut self.slides[axis]
-                && slide.ready_in > Time::ZERO
-            {
-                slide.ready_in = (slide.ready_in - cycle).max(Time::ZERO);
-                self.changed.set(axis, true);
+        for axis in axes.and(self.running_up).iter() {
+            match &mut self.slides[axis] {
+                Some(slide) if slide.ready_in > Time::ZERO => {
+                    slide.ready_in = (slide.ready_in - cycle).max(Time::ZERO);
+                    self.changed.set(axis, true);
+                }
+                Some(_) | None => self.running_up.set(axis, false),
             }
         }
     }

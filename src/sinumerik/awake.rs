@@ -17,12 +17,12 @@ impl Nck {
         self.resting.wake_all();
     }
 
-    /// Something happened to the machine: everybody is computed in the next cycle.
+    /// Something happened to the machine: every axis is computed in the next cycle.
     pub fn wake_all(&mut self) {
         self.resting.wake_all();
     }
 
-    /// The axes that are computed in this cycle: an alarm that comes in the middle of it concerns everybody from there on.
+    /// The axes that are computed in this cycle: an alarm that comes in the middle of it concerns all of them from there on.
     #[must_use]
     pub fn awake(&self) -> AxisSet {
         if self.state.alarms_wake(&self.resting) { self.parameters.existing } else { self.resting.awake }
@@ -39,7 +39,7 @@ impl Nck {
         self.resting.still
     }
 
-    /// After the stages that concern everybody: who is computed in this cycle.
+    /// After the stages that concern all axes: which of them are computed in this cycle, and for which is decided.
     pub(super) fn wake(&mut self, changes: Changes) {
         let (state, resting) = (&*self.state, &mut *self.resting);
         let same = resting.shared.is_of(state, &self.parameters);
@@ -52,7 +52,7 @@ impl Nck {
         resting.deciding = resting.deciding.with(changes.axes).and(self.parameters.existing);
         resting.awake = resting.awake.with(resting.deciding).and(self.parameters.existing);
         // Until position control says otherwise.
-        resting.still = AxisSet::ALL;
+        (resting.still, resting.heard) = (AxisSet::ALL, AxisSet::NONE);
         (resting.awake_units, resting.deciding_units) = (0, 0);
         for (index, unit) in state.units.iter().enumerate() {
             if resting.awake.and(unit.set).is_empty() {
@@ -67,15 +67,15 @@ impl Nck {
         }
     }
 
-    /// At the end of a cycle: who came out of it as it went in, and of whom the iron says that it rests, rests; for whom
-    /// only the movement is another one, nothing is decided.
+    /// At the end of a cycle: an axis rests that came out of it as it went in, and whose mechanics rest. Nothing is decided in the
+    /// next cycle for an axis of which only the movement is another one.
     pub(super) fn rest(&mut self, restless: AxisSet) {
         let (state, resting) = (&mut *self.state, &mut *self.resting);
         let pending = state.alarms.axes();
         let news = std::mem::take(&mut state.log.news);
         let (mut awake, mut deciding) = (restless.with(pending).with(news), pending.with(news));
         if state.alarms_wake(resting) {
-            // One that has just gone by itself held others in this cycle, and will not in the next.
+            // An alarm that has just gone by itself held other axes in this cycle, and will not in the next.
             resting.wake_all();
             (awake, deciding) = (AxisSet::ALL, AxisSet::ALL);
         }
@@ -94,13 +94,15 @@ impl Nck {
                 deciding.set(number, true);
                 before.clone_from(axis);
             }
-            // One whose iron moves is not compared: its movement is another one.
-            let moves = restless.contains(number) || !axis.has_movement_of(before);
+            // Where the mechanics moved there is nothing to compare: the movement is another one.
+            let moved = restless.contains(number);
+            let moves = moved || resting.heard.contains(number) || !axis.has_movement_of(before);
             if !moves {
+                debug_assert!(axis == before, "axis {number} has a field that neither of both compares");
                 continue;
             }
             awake.set(number, true);
-            if !restless.contains(number) {
+            if !moved || cfg!(debug_assertions) {
                 before.take_movement_of(axis);
             }
             let way = axis.way();

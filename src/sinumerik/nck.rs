@@ -258,7 +258,7 @@ impl Nck {
             };
             if state.feedback[number] != seen {
                 state.feedback[number] = seen;
-                self.resting.wake_axis(number);
+                self.resting.hear(number);
             }
             if axis.drive_ready != seen.drive_ready {
                 state.log.news.set(number, true);

@@ -10,8 +10,8 @@
 //! [`Axis::decisions_follow_movement`] says so, of all of it. Axes of a closed grouping are decided in every cycle in which they are awake.
 //!
 //! What all axes depend on (modes, channels, handwheels, run-up, emergency stop, machine data, an alarm that comes or goes)
-//! wakes all; an alarm that stays keeps its own axis awake, which may have to raise it again. Nothing that anybody can see depends on
-//! who rests ([`Nck::decide_always`](crate::sinumerik::Nck::decide_always) computes everything always, and tests compare both).
+//! wakes all; an alarm that stays keeps its own axis awake, which may have to raise it again. Nothing that can be seen depends
+//! on which axes rest ([`Nck::decide_always`](crate::sinumerik::Nck::decide_always) computes everything always, and tests compare both).
 
 use arrayvec::ArrayVec;
 
@@ -48,24 +48,26 @@ impl Shared {
     }
 }
 
-/// Who rests, and what the last cycle left.
+/// Which axes rest, and what the last cycle left.
 #[derive(Debug)]
 pub(super) struct Resting {
-    /// Who is computed in this cycle.
+    /// The axes that are computed in this cycle.
     pub awake: AxisSet,
     /// Their units, a bit for each place in the list of units.
     pub awake_units: u32,
-    /// For whom of them is decided in this cycle.
+    /// Those of them for which is decided in this cycle.
     pub deciding: AxisSet,
     /// Their units.
     pub deciding_units: u32,
-    /// For whom position control asks for the same in all its cycles, as long as encoders tell the same.
+    /// The axes for which position control asks for the same in all its cycles, as long as their encoders tell the same.
     pub still: AxisSet,
+    /// The axes that were told something else by their drives or encoders in this cycle.
+    pub heard: AxisSet,
     /// Where the movement of each was at the end of the cycle before.
     pub ways: PerAxis<Way>,
-    /// Nobody rests.
+    /// No axis rests.
     pub never: bool,
-    /// Nobody rests, and everything is decided in every cycle.
+    /// No axis rests, and everything is decided in every cycle.
     pub always: bool,
     /// Groupings may have been opened or closed.
     pub units_stale: bool,
@@ -77,7 +79,7 @@ pub(super) struct Resting {
 }
 
 impl Resting {
-    /// Nobody rests.
+    /// No axis rests.
     pub(super) fn new(state: &State) -> Self {
         Self {
             awake: AxisSet::ALL,
@@ -85,6 +87,7 @@ impl Resting {
             deciding: AxisSet::ALL,
             deciding_units: u32::MAX,
             still: AxisSet::NONE,
+            heard: AxisSet::NONE,
             ways: PerAxis::default(),
             never: false,
             always: false,
@@ -103,29 +106,30 @@ impl Resting {
         *self = Self { never: self.never, always: self.always, axes, ..Self::new(state) };
     }
 
-    /// That of a copy of the control: nobody rests, and it costs little.
+    /// That of a copy of the control: no axis rests, and it costs little.
     pub(super) fn anew(&self, state: &State) -> Self {
         Self { never: self.never, always: self.always, ..Self::new(state) }
     }
 
-    /// Everybody is computed in the next cycle.
+    /// Every axis is computed in the next cycle.
     pub(super) fn wake_all(&mut self) {
         self.awake = AxisSet::ALL;
         self.deciding = AxisSet::ALL;
         self.units_stale = true;
     }
 
-    /// An axis was told something new.
-    pub(super) fn wake_axis(&mut self, axis: AxisNumber) {
+    /// An axis was told something else by its drive or encoders.
+    pub(super) fn hear(&mut self, axis: AxisNumber) {
         self.awake.set(axis, true);
+        self.heard.set(axis, true);
     }
 
-    /// For whom is decided in this cycle.
+    /// The axes for which is decided in this cycle.
     pub(super) const fn deciding(&self) -> AxisSet {
         self.deciding
     }
 
-    /// For whom is decided in this cycle: for all as soon as an alarm came or went in it.
+    /// The axes for which is decided in this cycle: all of them as soon as an alarm came or went in it.
     pub(super) fn deciding_now(&self, state: &State) -> AxisSet {
         if state.alarms_wake(self) { AxisSet::ALL } else { self.deciding }
     }
@@ -148,7 +152,7 @@ impl State {
         }
     }
 
-    /// An alarm came or went: that can stop anybody.
+    /// An alarm came or went: that can stop every axis.
     pub(super) fn alarms_wake(&self, resting: &Resting) -> bool {
         self.alarms.version() != resting.alarm_version
     }

@@ -159,12 +159,10 @@ impl Axis {
             && self.approach == other.approach
     }
 
-    /// It moves as the other does.
+    /// It moves as the other does, where drive and encoders told the same of both.
     pub(in crate::sinumerik) fn has_movement_of(&self, other: &Self) -> bool {
-        (self.setpoint, self.before, self.actual, self.velocity)
-            == (other.setpoint, other.before, other.actual, other.velocity)
-            && (self.branch, self.unsettled, self.arrived) == (other.branch, other.unsettled, other.arrived)
-            && (self.zero_mark, self.half_count, self.slide) == (other.zero_mark, other.half_count, other.slide)
+        (self.setpoint, self.before, self.arrived) == (other.setpoint, other.before, other.arrived)
+            && (self.branch, self.unsettled) == (other.branch, other.unsettled)
             && self.monitor == other.monitor
     }
 
