@@ -125,8 +125,10 @@ pub trait Control: Send + Sync + Debug {
     fn velocity_command(&mut self, axis: AxisNumber, counts: [Position; 2], part: u32, of: u32) -> Option<f64>;
 
     /// The axes for which every position-control cycle of this interpolation cycle is like the one before as long as their encoders
-    /// report the same: their setpoint rests. Asked behind each position-control cycle.
-    fn still(&self) -> AxisSet;
+    /// report the same: their setpoint rests. Asked behind each position-control cycle; a control that does not know has none.
+    fn still(&self) -> AxisSet {
+        AxisSet::NONE
+    }
 
     /// Takes what the drives and encoders of the axes `told` report, and monitors it. The others report what they did before.
     fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet);
@@ -141,7 +143,9 @@ pub trait Control: Send + Sync + Debug {
     fn never_rest(&mut self);
 
     /// Decides everything for every axis in every cycle from now on, too: slower still, and the same bytes.
-    fn decide_always(&mut self);
+    fn decide_always(&mut self) {
+        self.never_rest();
+    }
 
     /// Power off and on: stored data become active, everything else starts anew.
     fn power_on(&mut self);
