@@ -85,8 +85,14 @@ const REFUSED_INSIDE: &[(&str, &str)] = &[
 
 /// Files with fields that are left out of saved machines, and why they may.
 const NOT_SAVED: &[(&str, &str)] = &[
-    ("src/plant/moving.rs", "which switches are pressed follows from the slides, and is found anew after restoring"),
-    ("src/control/log.rs", "which transitions were taken is what a suite has exercised, and decides nothing"),
+    (
+        "src/plant/moving.rs",
+        "which switches are pressed follows from the slides, and is found anew after restoring; all slides count as changed then",
+    ),
+    (
+        "src/control/log.rs",
+        "which transitions were taken is what a suite has exercised, and decides nothing; for all axes is decided after restoring",
+    ),
 ];
 
 /// Where a control may be named: in itself and in the module that chooses.
