@@ -44,7 +44,7 @@ impl Clone for Nck {
             parameters: Arc::clone(&self.parameters),
             state: self.state.clone(),
             resting: Box::new(self.resting.anew(&self.state)),
-            strobe: self.strobe.clone(),
+            strobe: self.strobe,
             cancel_key: self.cancel_key,
         }
     }

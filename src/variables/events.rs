@@ -99,7 +99,7 @@ pub struct Event {
 /// The latest events, in a ring.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Events {
-    ring: ArrayVec<Event, { Events::CAPACITY }>,
+    ring: ArrayVec<Event, { Self::CAPACITY }>,
     last: u32,
 }
 
