@@ -35,7 +35,8 @@ fn step(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// The same, but every axis is computed in every cycle, as in `loop_by_hand`: the time of a step while all axes are active.
+/// The same, and every axis is moved, monitored and shown in every cycle, as `loop_by_hand` does: what a step costs where all
+/// are awake.
 #[divan::bench]
 fn step_that_never_rests(bencher: Bencher<'_, '_>) {
     let mut machine = jogging_machine();
@@ -49,7 +50,57 @@ fn step_that_never_rests(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// The same, but the record is not drained: it is full from the start, and rows are only counted.
+/// The same, and everything is decided for every axis in every cycle, too.
+#[divan::bench]
+fn step_that_always_decides(bencher: Bencher<'_, '_>) {
+    let mut machine = jogging_machine();
+    machine.decide_always();
+    bencher.counter(ItemsCount::new(STEPS)).bench_local(|| {
+        for _ in 0..STEPS {
+            machine.step();
+            machine.drain();
+        }
+        machine.cycle()
+    });
+}
+
+/// 31 axes of which each jogs forth and back, eight of them as the four groupings that they form.
+#[divan::bench]
+fn all_axes_move(bencher: Bencher<'_, '_>) {
+    let jogging = program("all", (), |(), io| {
+        let seconds = io.time.nanos() / Time::from_millis(1_000).nanos();
+        for axis in io.axes() {
+            let signals = io.to_nck.axis(axis);
+            signals.set_position_measuring_system_1(true);
+            signals.set_controller_enable(true);
+            signals.set_pulse_enable(true);
+            signals.set_traversing_key_plus(seconds % 2 == 0);
+            signals.set_traversing_key_minus(seconds % 2 == 1);
+        }
+    });
+    let mut machine = Machine::open(directory_of_31_axes("four_groupings", 4)).expect("the archive is a good one");
+    machine.load_program(jogging.boxed());
+    for _ in 0..STEPS {
+        machine.step();
+        machine.drain();
+    }
+    let axes = &machine.memory().from_nck().axes;
+    let moving = machine.names().axes.iter().filter(|(axis, name)| {
+        let signals = &axes[*axis];
+        name.is_some() && (signals.traverse_command_plus() || signals.traverse_command_minus())
+    });
+    assert_eq!(moving.count(), 31);
+    assert_eq!(machine.variables().alarms.count(), 0, "{:?}", machine.variables().alarms);
+    bencher.counter(ItemsCount::new(STEPS)).bench_local(|| {
+        for _ in 0..STEPS {
+            machine.step();
+            machine.drain();
+        }
+        machine.cycle()
+    });
+}
+
+/// The same as `step`, and nobody drains the record: it is full from the start, and rows are only counted.
 #[divan::bench]
 fn step_with_a_full_record(bencher: Bencher<'_, '_>) {
     let mut machine = jogging_machine();
@@ -114,6 +165,22 @@ fn fork(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| machine.fork());
 }
 
+/// The machine of `step`, from its archive.
+#[divan::bench]
+fn open_machine(bencher: Bencher<'_, '_>) {
+    let directory = directory_of_31_axes("thirty_one_axes", 1);
+    bencher.bench_local(|| Machine::open(&directory).expect("the archive is a good one"));
+}
+
+/// The trace of the worked example as text.
+#[divan::bench]
+fn trace_to_text(bencher: Bencher<'_, '_>) {
+    let scenario = opennck::cli::example::scenario().expect("the program holds a good one");
+    let profile = scenario.profiles.first().copied().unwrap_or_default();
+    let finished = scenario.prepare(profile, &Programs::ready()).expect("the program holds a good one").run();
+    bencher.bench_local(|| finished.text().len());
+}
+
 /// The worked example, from its text to the last row of its trace.
 #[divan::bench]
 fn worked_example(bencher: Bencher<'_, '_>) {
@@ -153,7 +220,7 @@ const TEN_CONDITIONS: [&str; 10] = [
 ];
 
 fn run_scenario(bencher: Bencher<'_, '_>, never: &[&str]) {
-    let machine = directory_of_31_axes();
+    let machine = directory_of_31_axes("thirty_one_axes", 1);
     let text =
         format!("machine = {machine:?}\nplc = \"jogging\"\nnever = {never:?}\n[[step]]\nrun = \"{STEPS}cycles\"\n");
     let scenario = Scenario::parse(&text, Path::new("bench.toml")).expect("the scenario is valid");
@@ -167,7 +234,7 @@ fn run_scenario(bencher: Bencher<'_, '_>, never: &[&str]) {
 
 /// 31 axes; AX1 leads AX2. A program enables all axes and jogs the gantry forth and back every second.
 fn jogging_machine() -> Machine {
-    let mut machine = Machine::open(directory_of_31_axes()).expect("the archive is valid");
+    let mut machine = Machine::open(directory_of_31_axes("thirty_one_axes", 1)).expect("the archive is a good one");
     machine.load_program(jogging_program().boxed());
     for _ in 0..STEPS {
         machine.step();
@@ -180,17 +247,23 @@ fn jogging_machine() -> Machine {
     machine
 }
 
-fn directory_of_31_axes() -> PathBuf {
-    let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("thirty_one_axes");
-    fs::create_dir_all(&directory).expect("the target directory is writable");
+fn directory_of_31_axes(name: &str, groupings: u8) -> PathBuf {
+    let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::create_dir_all(&directory).expect("the target directory is ours");
     let mut archive = String::from("CHANDATA(1)\nN10050 $MN_SYSCLOCK_CYCLE_TIME=0.002\n");
     for axis in 1..=31 {
         archive += &format!("N30130 $MA_CTRLOUT_TYPE[AX{axis}]=1\nN30200 $MA_NUM_ENCS[AX{axis}]=1\n");
         archive += &format!("N30240 $MA_ENC_TYPE[0,AX{axis}]=1\nN32020 $MA_JOG_VELO[AX{axis}]=2000\n");
     }
-    archive += "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1\nN37100 $MA_GANTRY_AXIS_TYPE[AX2]=11\n";
-    archive += "N37120 $MA_GANTRY_POS_TOL_ERROR[AX2]=1\nN37130 $MA_GANTRY_POS_TOL_REF[AX2]=1\nM17\n";
-    fs::write(directory.join("thirty_one_axes.tea"), archive).expect("the target directory is writable");
+    for grouping in 1..=groupings {
+        let (leader, follower) = (2 * grouping - 1, 2 * grouping);
+        archive += &format!("N37100 $MA_GANTRY_AXIS_TYPE[AX{leader}]={grouping}\n");
+        archive += &format!("N37100 $MA_GANTRY_AXIS_TYPE[AX{follower}]={}\n", 10 + grouping);
+        archive += &format!("N37120 $MA_GANTRY_POS_TOL_ERROR[AX{follower}]=1\n");
+        archive += &format!("N37130 $MA_GANTRY_POS_TOL_REF[AX{follower}]=1\n");
+    }
+    archive += "M17\n";
+    fs::write(directory.join("machine_data.tea"), archive).expect("the target directory is ours");
     directory
 }
 

@@ -92,8 +92,14 @@ const REFUSED_INSIDE: &[(&str, &str)] = &[
 
 /// Files with fields that are not saved with a machine, and the reason.
 const NOT_SAVED: &[(&str, &str)] = &[
-    ("src/plant/moving.rs", "the pressed switches follow from the slides and are recomputed after restoring"),
-    ("src/control/log.rs", "the transitions taken are statistics of a test suite and have no effect"),
+    (
+        "src/plant/moving.rs",
+        "the pressed switches follow from the slides and are recomputed after restoring; all slides count as changed then",
+    ),
+    (
+        "src/control/log.rs",
+        "the transitions taken are statistics of a test suite and have no effect; all axes are decided after restoring",
+    ),
 ];
 
 /// Files that may name a control: its own module, and the module that selects a control.

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::transitions::Taken;
+use crate::units::AxisSet;
 use crate::variables::{EventId, Events, Input, Place, RuleNumber};
 
 /// The latest events and the cycle that runs.
@@ -15,11 +16,17 @@ pub struct Log {
     /// Which rows of the tables of transitions were taken.
     #[serde(skip)]
     pub taken: Taken,
+    /// Axes of which something was noted in this cycle, or is known that no decision brought.
+    #[serde(skip)]
+    pub news: AxisSet,
 }
 
 impl Log {
     /// Notes that a rule allowed something.
     pub fn note(&mut self, place: Place, rule: impl Into<RuleNumber>, inputs: [Input; 3], parent: EventId) -> EventId {
+        if let Place::Axis(axis) = place {
+            self.news.set(axis, true);
+        }
         self.events.push(self.cycle, place, rule.into(), inputs, parent)
     }
 

@@ -124,6 +124,12 @@ pub trait Control: Send + Sync + Debug {
     /// to have, in increments per second; `None` for a drive without power. `counts` are the values of both encoders now.
     fn velocity_command(&mut self, axis: AxisNumber, counts: [Position; 2], part: u32, of: u32) -> Option<f64>;
 
+    /// The axes for which every position-control cycle of this interpolation cycle is like the one before as long as their encoders
+    /// report the same: their setpoint rests. Asked behind each position-control cycle; a control that does not know has none.
+    fn still(&self) -> AxisSet {
+        AxisSet::NONE
+    }
+
     /// Takes what the drives and encoders of the axes `told` report, and monitors it. The others report what they did before.
     fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet);
 
@@ -133,8 +139,13 @@ pub trait Control: Send + Sync + Debug {
     /// The axes that are computed in this cycle. The others come out of a cycle as they went in.
     fn awake(&self) -> AxisSet;
 
-    /// Computes every axis in every cycle from now on: slower, and the same bytes.
+    /// Moves, monitors and shows every axis in every cycle from now on: slower, and the same bytes.
     fn never_rest(&mut self);
+
+    /// Decides everything for every axis in every cycle from now on, too: slower still, and the same bytes.
+    fn decide_always(&mut self) {
+        self.never_rest();
+    }
 
     /// Power off and on: stored data become active, everything else starts anew.
     fn power_on(&mut self);

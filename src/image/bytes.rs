@@ -8,14 +8,32 @@ use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// An area of bytes. A clone is cheap: it shares the bytes until one of the copies is written.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Bytes(Arc<Vec<u8>>);
+#[derive(Clone, Debug, Default)]
+pub struct Bytes {
+    bytes: Arc<Vec<u8>>,
+    /// They may have been written to since [`Bytes::take_written`] was last asked.
+    written: bool,
+}
+
+/// What matters is the bytes, not whether they have been looked at.
+impl PartialEq for Bytes {
+    fn eq(&self, other: &Self) -> bool {
+        self.bytes == other.bytes
+    }
+}
+
+impl Eq for Bytes {}
 
 impl Bytes {
     /// An area of this length, all bytes 0.
     #[must_use]
     pub fn zeroed(length: usize) -> Self {
-        Self(Arc::new(vec![0; length]))
+        Self::from(vec![0; length])
+    }
+
+    /// Whether they may have been written to since this was last asked.
+    pub(crate) fn take_written(&mut self) -> bool {
+        std::mem::take(&mut self.written)
     }
 
     /// One bit: `bit(3, 4)` is bit 4 of byte 3, as in `I3.4`; `false` beyond the end.
@@ -34,13 +52,13 @@ impl Bytes {
     /// One byte; 0 beyond the end.
     #[must_use]
     pub fn byte(&self, byte: usize) -> u8 {
-        self.0.get(byte).copied().unwrap_or(0)
+        self.bytes.get(byte).copied().unwrap_or(0)
     }
 
     /// Sets one byte; has no effect beyond the end.
     pub fn set_byte(&mut self, byte: usize, value: u8) {
-        if self.0.get(byte).is_some_and(|old| *old != value) {
-            Arc::make_mut(&mut self.0)[byte] = value;
+        if self.bytes.get(byte).is_some_and(|old| *old != value) {
+            self[byte] = value;
         }
     }
 
@@ -84,20 +102,21 @@ impl Bytes {
 
 impl From<Vec<u8>> for Bytes {
     fn from(bytes: Vec<u8>) -> Self {
-        Self(Arc::new(bytes))
+        Self { bytes: Arc::new(bytes), written: true }
     }
 }
 
 impl Deref for Bytes {
     type Target = [u8];
     fn deref(&self) -> &[u8] {
-        &self.0
+        &self.bytes
     }
 }
 
 impl DerefMut for Bytes {
     fn deref_mut(&mut self) -> &mut [u8] {
-        Arc::make_mut(&mut self.0).as_mut_slice()
+        self.written = true;
+        Arc::make_mut(&mut self.bytes).as_mut_slice()
     }
 }
 

@@ -30,6 +30,11 @@ impl Blocks {
         self.0.iter()
     }
 
+    /// Whether the block at a place in the list may have been written to since this was last asked.
+    pub(crate) fn take_written(&mut self, index: usize) -> bool {
+        self.0.get_mut(index).is_some_and(|block| block.bytes.take_written())
+    }
+
     /// The bytes of a block.
     #[must_use]
     pub fn get(&self, number: u16) -> Option<&Bytes> {

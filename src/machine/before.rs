@@ -19,11 +19,11 @@ impl Before {
     pub(super) fn new(memory: &Memory) -> Self {
         let own = memory.blocks.iter().map(|block| Part::Block(block.number));
         let parts = FIXED.into_iter().chain(own).map(|part| (part, memory.part(part).to_vec())).collect();
-        Self { parts, written: Written::new(memory), plc_wrote: true, power_on: false }
+        Self { parts, written: Written::new(), plc_wrote: true, power_on: false }
     }
 
     /// Nothing, for a machine that does not go on.
     pub(super) const fn without_room() -> Self {
-        Self { parts: Vec::new(), written: Written::without_room(), plc_wrote: true, power_on: false }
+        Self { parts: Vec::new(), written: Written::new(), plc_wrote: true, power_on: false }
     }
 }

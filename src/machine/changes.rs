@@ -1,7 +1,7 @@
 //! What changed in a step, for the record: whole parts are compared first, then their bytes.
 
 use super::Machine;
-use super::written::Force;
+use super::written::{FIXED, Force};
 use crate::control::Changes;
 use crate::image::{Interface, Location, Part};
 use crate::trace::{By, Change, Row};
@@ -38,8 +38,19 @@ impl Machine {
     /// Writes the record of a step.
     pub(super) fn record(&mut self) {
         let mut parts = std::mem::take(&mut self.before.parts);
-        for (part, old) in &mut parts {
-            if *part != Part::ToNck || self.before.plc_wrote {
+        for (index, (part, old)) in parts.iter_mut().enumerate() {
+            let memory = &mut self.state.memory;
+            let may_differ = match part {
+                Part::ToNck => self.before.plc_wrote,
+                Part::FromNck | Part::Hmi => true,
+                Part::Inputs => memory.inputs.take_written(),
+                Part::Outputs => memory.outputs.take_written(),
+                Part::Flags => memory.flags.take_written(),
+                Part::Timers => memory.timers.take_written(),
+                Part::Counters => memory.counters.take_written(),
+                Part::Block(_) => memory.blocks.take_written(index - FIXED.len()),
+            };
+            if may_differ {
                 self.record_part(*part, old);
             }
         }

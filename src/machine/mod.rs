@@ -169,9 +169,14 @@ impl Machine {
         &self.recorder
     }
 
-    /// Computes every axis in every cycle, also those that rest: slower, and the same bytes.
+    /// Moves, monitors and shows every axis in every cycle, also those that rest: slower, and the same bytes.
     pub fn never_rest(&mut self) {
         self.control.never_rest();
+    }
+
+    /// Decides everything for every axis in every cycle, also where nothing can come of it: slower still, and the same bytes.
+    pub fn decide_always(&mut self) {
+        self.control.decide_always();
     }
 
     /// Forgets the record that has been read.

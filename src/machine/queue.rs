@@ -18,6 +18,7 @@ impl Machine {
     pub fn queue(&mut self, command: Command) -> Result<(), Problem> {
         self.check(&command)?;
         self.state.queue.push(command);
+        self.before.written.make_room(&self.state.memory);
         Ok(())
     }
 
@@ -50,6 +51,11 @@ impl Machine {
     pub(super) fn take_commands(&mut self) {
         self.before.written.clear();
         self.before.power_on = false;
+        if self.state.queue.is_empty() {
+            return;
+        }
+        // Those that were saved with the machine.
+        self.before.written.make_room(&self.state.memory);
         let mut queue = std::mem::take(&mut self.state.queue);
         for command in queue.drain(..) {
             if let Some(command) = of_the_control(&command) {

@@ -31,9 +31,10 @@ impl Machine {
         let axes = self.definition.layout.with_bridged(self.control.awake());
         self.move_axes(axes);
         self.displace();
-        self.sense(axes);
+        let told = self.state.plant.news(axes);
+        self.sense(told);
         // Monitoring and alarms, publication, record.
-        self.control.observe(&self.state.feedback, axes);
+        self.control.observe(&self.state.feedback, told);
         let restless = self.state.plant.restless(axes);
         let State { memory, variables, .. } = &mut self.state;
         let out = ControlSide { from_nck: &mut memory.from_nck, hmi: &mut memory.hmi };
@@ -110,9 +111,12 @@ impl Machine {
         let CycleTimes { interpolation: cycle, position_control: count } = self.control.cycle_times();
         let servo_cycle = cycle.seconds() / f64::from(count);
         self.state.plant.run_up(axes, cycle);
+        let (layout, mut moving) = (&self.definition.layout, axes);
         for part in 1..=count {
             let command = |axis, counts| self.control.velocity_command(axis, counts, part, count);
-            self.state.plant.advance(&self.definition.layout, axes, servo_cycle, command);
+            let changed = self.state.plant.advance(layout, moving, servo_cycle, command);
+            // Those that did not move, and are commanded nothing else, would not in the other parts either.
+            moving = layout.with_bridged(moving.without(self.control.still()).with(changed));
         }
     }
 
@@ -120,15 +124,7 @@ impl Machine {
     pub(super) fn sense(&mut self, axes: AxisSet) {
         self.state.plant.press_switches(&self.definition.layout, axes);
         for axis in axes.iter() {
-            self.state.feedback[axis] = Feedback {
-                encoders: self.state.plant.tell(axis),
-                half_count: self.state.plant.half_counts(axis),
-                velocity: self.state.plant.velocity(axis),
-                drive_ready: self.state.plant.is_drive_ready(axis),
-                drive_fault: self.state.plant.has_drive_fault(axis),
-                encoder_faults: self.state.plant.encoder_faults(axis),
-                slide: self.state.plant.slide(axis),
-            };
+            self.state.feedback[axis] = self.state.plant.tell(axis);
         }
     }
 }

@@ -19,7 +19,8 @@ pub(super) struct Force {
 #[derive(Debug)]
 pub(super) struct Written {
     writes: Vec<Force>,
-    /// For each byte what was written last: the fixed parts in the order of [`FIXED`], then own blocks in theirs.
+    /// For each byte what was written last: the fixed parts in the order of [`FIXED`], then own blocks in theirs. Empty until
+    /// something is to be written: most machines that are forked are never written to.
     places: Vec<(Part, Vec<Bits>)>,
     /// Which of the writes the PLC program overwrote, last first.
     overwritten: Vec<usize>,
@@ -37,16 +38,20 @@ pub(super) const FIXED: [Part; 8] =
     [Part::ToNck, Part::FromNck, Part::Hmi, Part::Inputs, Part::Outputs, Part::Flags, Part::Timers, Part::Counters];
 
 impl Written {
-    /// Nothing yet, in a memory such as this.
-    pub(super) fn new(memory: &Memory) -> Self {
-        let own = memory.blocks.iter().map(|block| Part::Block(block.number));
-        let places = FIXED.into_iter().chain(own).map(|part| (part, vec![Bits::default(); memory.part(part).len()]));
-        Self { writes: Vec::with_capacity(WRITES), places: places.collect(), overwritten: Vec::with_capacity(WRITES) }
+    /// Nothing yet.
+    pub(super) const fn new() -> Self {
+        Self { writes: Vec::new(), places: Vec::new(), overwritten: Vec::new() }
     }
 
-    /// Nothing, where nothing is ever written.
-    pub(super) const fn without_room() -> Self {
-        Self { writes: Vec::new(), places: Vec::new(), overwritten: Vec::new() }
+    /// Makes room for writes to a memory such as this, so that a step has to make none.
+    pub(super) fn make_room(&mut self, memory: &Memory) {
+        if self.places.is_empty() {
+            let own = memory.blocks.iter().map(|block| Part::Block(block.number));
+            let bits = |part| (part, vec![Bits::default(); memory.part(part).len()]);
+            self.places = FIXED.into_iter().chain(own).map(bits).collect();
+            self.writes.reserve(WRITES);
+            self.overwritten.reserve(WRITES);
+        }
     }
 
     pub(super) fn push(&mut self, location: Location, value: u64) {
@@ -144,7 +149,8 @@ mod tests {
             now in any::<[u8; 8]>(),
         ) {
             let (mut memory, mut image) = (Memory::new(), Memory::new());
-            let mut written = Written::new(&memory);
+            let mut written = Written::new();
+            written.make_room(&memory);
             written.push(Location { part: Part::Block(2), offset: 255, bit: 7, width: 1, format: Format::Unsigned }, 1);
             prop_assert_eq!(written.settle(&memory).count(), 1);
             prop_assert_eq!(written.bit(Part::Block(2), 255, 7), Some(true));

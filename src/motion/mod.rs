@@ -38,17 +38,12 @@ pub(crate) fn advance(position: crate::units::Position, carry: &mut f64, movemen
         return position;
     }
     let wanted = movement + *carry;
-    // Half away from zero, as `round` does, which is a call on some processors; the cast drops the fraction and saturates.
+    // Half away from zero, as `round` does, which is a call on some processors; the cast drops the fraction and saturates. Which
+    // way it is rounded is as good as random, so that nothing branches on it.
     #[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
     let truncated = wanted as i64;
     let fraction = wanted - truncated as f64;
-    let whole = if fraction >= 0.5 {
-        truncated.saturating_add(1)
-    } else if fraction <= -0.5 {
-        truncated.saturating_sub(1)
-    } else {
-        truncated
-    };
+    let whole = truncated.saturating_add(i64::from(fraction >= 0.5) - i64::from(fraction <= -0.5));
     *carry = wanted - whole as f64;
     within_reach(position.increments().saturating_add(whole))
 }

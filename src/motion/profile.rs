@@ -64,6 +64,12 @@ impl Setpoint {
         self.velocity.abs() < 1e-9 && !self.held_back
     }
 
+    /// It does not move at all, and braking would change nothing of it.
+    #[must_use]
+    pub const fn is_still(&self) -> bool {
+        self.velocity.to_bits() == 0 && !self.held_back
+    }
+
     /// Moves for one cycle towards a velocity (signed, increments per second): jogging, searching, braking with 0.
     pub fn run(&mut self, velocity: f64, acceleration: f64, cycle: f64) {
         self.held_back = false;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Fault, FaultKind, Iron, Layout, Switch};
-use crate::motion::{Drive, Encoder, EncoderSignal, within_reach};
+use crate::motion::{Drive, Encoder, EncoderSignal, Feedback, within_reach};
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 
 /// One slide.
@@ -34,12 +34,23 @@ struct Slide {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plant {
     slides: PerAxis<Option<Slide>>,
-    /// As they were when [`Plant::restless`] was last asked.
-    #[serde(skip)]
-    before: PerAxis<Option<Slide>>,
+    /// Those that became another than they were, since [`Plant::restless`] was last asked.
+    #[serde(skip, default = "all")]
+    changed: AxisSet,
+    /// Those that became so before that, in the cycle before: a zero mark that they told of is passed.
+    #[serde(skip, default = "all")]
+    changed_before: AxisSet,
+    /// Those whose drives may not have run up yet.
+    #[serde(skip, default = "all")]
+    running_up: AxisSet,
     /// Whose cam, switch plus and switch minus are pressed; follows from the slides.
     #[serde(skip)]
     pressed: [AxisSet; 3],
+}
+
+/// Of a plant that was restored nothing is known yet.
+const fn all() -> AxisSet {
+    AxisSet::ALL
 }
 
 impl Plant {
@@ -47,11 +58,12 @@ impl Plant {
     #[must_use]
     pub fn new(layout: &Layout) -> Self {
         let slides = PerAxis::from_fn(|axis| layout.axes[axis].as_ref().map(Slide::new));
-        Self { slides, before: PerAxis::default(), pressed: [AxisSet::NONE; 3] }
+        Self { slides, changed: all(), changed_before: all(), running_up: all(), pressed: [AxisSet::NONE; 3] }
     }
 
     /// Power off and on: slides and faults stay, drives run up anew, encoders count from where they are.
     pub fn power_on(&mut self, layout: &Layout) {
+        (self.changed, self.running_up) = (all(), all());
         for (axis, slide) in self.slides.iter_mut() {
             if let (Some(slide), Some(iron)) = (slide, &layout.axes[axis]) {
                 slide.drive = Drive::default();
@@ -70,6 +82,7 @@ impl Plant {
         let Some(slide) = &mut self.slides[fault.axis] else {
             return;
         };
+        self.changed.set(fault.axis, true);
         match fault.kind {
             FaultKind::Block => slide.blocked = true,
             FaultKind::Push { by } => slide.push(by),
@@ -91,6 +104,7 @@ impl Plant {
         let Some(slide) = &mut self.slides[fault.axis] else {
             return;
         };
+        self.changed.set(fault.axis, true);
         match fault.kind {
             FaultKind::Block => slide.blocked = false,
             FaultKind::Push { .. } | FaultKind::EncoderSlip { .. } => {}
@@ -110,32 +124,38 @@ impl Plant {
     /// One position-control cycle: each drive answers its command, slides move, bridges pull.
     ///
     /// A command of `None` is a drive without power: its motor is braked as fast as its speed loop would.
-    /// Only these axes are moved; whoever shares a bridge with one of them is to be among them.
+    /// Only these axes are moved; those that share a bridge with one of them are to be among them. Returns which of them became
+    /// another than they were.
     pub fn advance(
         &mut self,
         layout: &Layout,
         axes: AxisSet,
         cycle: f64,
         mut command: impl FnMut(AxisNumber, [Position; 2]) -> Option<f64>,
-    ) {
+    ) -> AxisSet {
+        let mut changed = AxisSet::NONE;
         for axis in axes.iter() {
-            let counts = self.values(axis);
             if let (Some(slide), Some(iron)) = (&mut self.slides[axis], &layout.axes[axis]) {
-                let command = command(axis, counts).filter(|_| !slide.drive_fault);
-                slide.advance(command, iron.time_constant, cycle);
+                let command = command(axis, slide.values()).filter(|_| !slide.drive_fault);
+                changed.set(axis, slide.advance(command, iron.time_constant, cycle));
             }
         }
         for bridge in layout.bridges.iter().filter(|bridge| axes.contains(bridge.first)) {
             for &(other, offset) in &bridge.others {
-                self.pull(bridge.first, other, offset, bridge.stiffness, cycle);
+                if self.pull(bridge.first, other, offset, bridge.stiffness, cycle) {
+                    changed = changed.with(AxisSet::of(bridge.first)).with(AxisSet::of(other));
+                }
             }
         }
+        self.changed = self.changed.with(changed);
+        changed
     }
 
-    /// A bridge takes back its share of a difference, half on each slide, all of it on the one that can move.
-    fn pull(&mut self, first: AxisNumber, other: AxisNumber, offset: Position, stiffness: f64, cycle: f64) {
+    /// A bridge takes back its share of a difference, half on each slide, all of it on the one that can move. Returns whether there
+    /// was one.
+    fn pull(&mut self, first: AxisNumber, other: AxisNumber, offset: Position, stiffness: f64, cycle: f64) -> bool {
         let (Some(a), Some(b)) = (self.slides[first], self.slides[other]) else {
-            return;
+            return false;
         };
         let strain = (b.position - a.position - offset).increments() as f64;
         let share = if stiffness >= 1.0 { 1.0 } else { stiffness * cycle };
@@ -143,10 +163,10 @@ impl Plant {
             (false, false) => (0.5, 0.5),
             (false, true) => (1.0, 0.0),
             (true, false) => (0.0, 1.0),
-            (true, true) => return,
+            (true, true) => return false,
         };
         if strain == 0.0 || share == 0.0 {
-            return;
+            return false;
         }
         #[expect(clippy::cast_possible_truncation, reason = "a strain fits by far; the cast saturates")]
         let whole = |movement: f64| Position::new(movement.round() as i64);
@@ -167,99 +187,38 @@ impl Plant {
                 slide.drive.force(if a.blocked { 0.0 } else { velocity });
             }
         }
+        true
     }
 
-    /// Those of these axes that are not as they were when this was last asked.
+    /// Those of these axes that are not as they were when this was last asked, once a cycle.
     pub fn restless(&mut self, axes: AxisSet) -> AxisSet {
-        let mut restless = AxisSet::NONE;
-        for axis in axes.iter() {
-            let changed = self.slides[axis] != self.before[axis];
-            if changed {
-                self.before[axis] = self.slides[axis];
-            }
-            restless.set(axis, changed);
-        }
-        restless
+        self.changed_before = self.changed;
+        self.changed = self.changed.without(axes);
+        self.changed_before.and(axes)
     }
 
-    /// What both encoders of an axis tell since the last call.
-    pub fn tell(&mut self, axis: AxisNumber) -> [EncoderSignal; 2] {
-        let Some(slide) = &mut self.slides[axis] else {
-            return [EncoderSignal::default(); 2];
-        };
-        if slide.position == slide.told {
-            return slide.counts.map(|value| EncoderSignal { value, zero_mark: None });
-        }
-        let signals = [0, 1].map(|index| {
-            let mut signal = slide.encoders[index].signal(slide.told, slide.position);
-            signal.value = slide.dead[index].unwrap_or(signal.value);
-            if slide.zero_mark_missing || slide.dead[index].is_some() {
-                signal.zero_mark = None;
-            }
-            signal
-        });
-        slide.told = slide.position;
-        slide.counts = signals.map(|signal| signal.value);
-        signals
-    }
-
-    /// The counts of both encoders of an axis at the moment.
+    /// Those of these axes whose drive or encoders tell something else than in the cycle before.
     #[must_use]
-    pub fn values(&self, axis: AxisNumber) -> [Position; 2] {
-        match &self.slides[axis] {
-            None => [Position::ZERO; 2],
-            Some(slide) if slide.position == slide.told => slide.counts,
-            Some(slide) => {
-                [0, 1].map(|index| slide.dead[index].unwrap_or_else(|| slide.encoders[index].value(slide.position)))
-            }
-        }
+    pub fn news(&self, axes: AxisSet) -> AxisSet {
+        self.changed.with(self.changed_before).and(axes)
+    }
+
+    /// What drive and encoders of an axis tell since the last call.
+    pub fn tell(&mut self, axis: AxisNumber) -> Feedback {
+        self.slides[axis].as_mut().map_or_else(Feedback::default, Slide::tell)
     }
 
     /// The drives run up.
     pub fn run_up(&mut self, axes: AxisSet, cycle: Time) {
-        for axis in axes.iter() {
-            if let Some(slide) = &mut self.slides[axis] {
-                slide.ready_in = Time::from_nanos((slide.ready_in - cycle).nanos().max(0));
+        for axis in axes.and(self.running_up).iter() {
+            match &mut self.slides[axis] {
+                Some(slide) if slide.ready_in > Time::ZERO => {
+                    slide.ready_in = (slide.ready_in - cycle).max(Time::ZERO);
+                    self.changed.set(axis, true);
+                }
+                Some(_) | None => self.running_up.set(axis, false),
             }
         }
-    }
-
-    /// The drive has run up, and has no fault.
-    #[must_use]
-    pub fn is_drive_ready(&self, axis: AxisNumber) -> bool {
-        self.slides[axis].as_ref().is_some_and(|slide| slide.ready_in == Time::ZERO && !slide.drive_fault)
-    }
-
-    /// The drive tells of a fault.
-    #[must_use]
-    pub fn has_drive_fault(&self, axis: AxisNumber) -> bool {
-        self.slides[axis].as_ref().is_some_and(|slide| slide.drive_fault)
-    }
-
-    /// Which encoder of an axis tells nothing.
-    #[must_use]
-    pub fn encoder_faults(&self, axis: AxisNumber) -> [bool; 2] {
-        self.slides[axis].as_ref().map_or([false; 2], |slide| slide.dead.map(|dead| dead.is_some()))
-    }
-
-    /// Velocity of the motor, in increments per second at the slide.
-    #[must_use]
-    pub fn velocity(&self, axis: AxisNumber) -> f64 {
-        self.slides[axis].as_ref().map_or(0.0, |slide| slide.drive.velocity())
-    }
-
-    /// Half a count of both encoders.
-    #[must_use]
-    pub fn half_counts(&self, axis: AxisNumber) -> [Position; 2] {
-        self.slides[axis]
-            .as_ref()
-            .map_or([Position::ZERO; 2], |slide| [slide.encoders[0].half_count(), slide.encoders[1].half_count()])
-    }
-
-    /// True position of a slide.
-    #[must_use]
-    pub fn slide(&self, axis: AxisNumber) -> Position {
-        self.slides[axis].as_ref().map_or(Position::ZERO, |slide| slide.position)
     }
 
     /// The axes whose switch is pressed, as of the last [`Plant::press_switches`].
@@ -313,6 +272,44 @@ impl Slide {
         }
     }
 
+    /// The counts of both encoders at the moment.
+    fn values(&self) -> [Position; 2] {
+        if self.position == self.told {
+            return self.counts;
+        }
+        [0, 1].map(|index| self.dead[index].unwrap_or_else(|| self.encoders[index].value(self.position)))
+    }
+
+    /// What drive and encoders tell since the last call.
+    fn tell(&mut self) -> Feedback {
+        Feedback {
+            encoders: self.signals(),
+            half_count: [self.encoders[0].half_count(), self.encoders[1].half_count()],
+            velocity: self.drive.velocity(),
+            drive_ready: self.ready_in == Time::ZERO && !self.drive_fault,
+            drive_fault: self.drive_fault,
+            encoder_faults: self.dead.map(|dead| dead.is_some()),
+            slide: self.position,
+        }
+    }
+
+    fn signals(&mut self) -> [EncoderSignal; 2] {
+        if self.position == self.told {
+            return self.counts.map(|value| EncoderSignal { value, zero_mark: None });
+        }
+        let signals = [0, 1].map(|index| {
+            let mut signal = self.encoders[index].signal(self.told, self.position);
+            signal.value = self.dead[index].unwrap_or(signal.value);
+            if self.zero_mark_missing || self.dead[index].is_some() {
+                signal.zero_mark = None;
+            }
+            signal
+        });
+        self.told = self.position;
+        self.counts = signals.map(|signal| signal.value);
+        signals
+    }
+
     /// It is somewhere else, within the way that a slide can have.
     fn push(&mut self, by: Position) {
         self.position = within_reach(self.position.increments().saturating_add(by.increments()));
@@ -337,8 +334,9 @@ impl Slide {
         }
     }
 
-    /// A command of `None` is a drive without power.
-    fn advance(&mut self, command: Option<f64>, time_constant: f64, cycle: f64) {
+    /// A command of `None` is a drive without power. Returns whether it is another than before.
+    fn advance(&mut self, command: Option<f64>, time_constant: f64, cycle: f64) -> bool {
+        let before = (self.position, self.drive);
         match command {
             None if self.drift != 0.0 => self.drive.force(self.drift),
             None => self.drive.answer(0.0, time_constant, cycle),
@@ -349,6 +347,7 @@ impl Slide {
         } else {
             self.position = self.drive.moved(self.position, cycle);
         }
+        before != (self.position, self.drive)
     }
 }
 
@@ -388,12 +387,12 @@ mod tests {
     #[test]
     fn a_drive_with_a_fault_is_not_ready_and_does_not_answer() {
         let (layout, mut plant, axis) = plant();
-        assert!(plant.is_drive_ready(axis) && !plant.has_drive_fault(axis));
+        assert!(plant.tell(axis).drive_ready && !plant.tell(axis).drive_fault);
         plant.fault(Fault { axis, kind: FaultKind::DriveFault }, Some(0));
         advance(&mut plant, &layout, axis, Some(1e9), 10);
-        assert!(!plant.is_drive_ready(axis) && plant.has_drive_fault(axis) && plant.slide(axis) == mm(5.0));
+        assert!(!plant.tell(axis).drive_ready && plant.tell(axis).drive_fault && plant.tell(axis).slide == mm(5.0));
         plant.clear_fault(Fault { axis, kind: FaultKind::DriveFault });
-        assert!(plant.is_drive_ready(axis) && !plant.has_drive_fault(axis));
+        assert!(plant.tell(axis).drive_ready && !plant.tell(axis).drive_fault);
     }
 
     #[test]
@@ -401,10 +400,10 @@ mod tests {
         let (layout, mut plant, axis) = plant();
         plant.fault(Fault { axis, kind: FaultKind::Friction { by: 0.25 } }, Some(0));
         advance(&mut plant, &layout, axis, Some(8e6), 200);
-        assert!((plant.velocity(axis) - 6e6).abs() < 1.0, "{}", plant.velocity(axis));
+        assert!((plant.tell(axis).velocity - 6e6).abs() < 1.0, "{}", plant.tell(axis).velocity);
         plant.clear_fault(Fault { axis, kind: FaultKind::Friction { by: 0.0 } });
         advance(&mut plant, &layout, axis, Some(8e6), 200);
-        assert!((plant.velocity(axis) - 8e6).abs() < 1.0, "{}", plant.velocity(axis));
+        assert!((plant.tell(axis).velocity - 8e6).abs() < 1.0, "{}", plant.tell(axis).velocity);
     }
 
     #[test]
@@ -412,10 +411,10 @@ mod tests {
         let (layout, mut plant, axis) = plant();
         plant.fault(Fault { axis, kind: FaultKind::Drift { by: -1e6 } }, Some(0));
         advance(&mut plant, &layout, axis, Some(0.0), 500);
-        assert_eq!(plant.slide(axis), mm(5.0));
+        assert_eq!(plant.tell(axis).slide, mm(5.0));
         // 1 mm/s for 500 cycles of 2 ms.
         advance(&mut plant, &layout, axis, None, 500);
-        assert_eq!(plant.slide(axis), mm(4.0));
+        assert_eq!(plant.tell(axis).slide, mm(4.0));
     }
 
     #[test]
@@ -423,15 +422,15 @@ mod tests {
         let (_, mut plant, axis) = plant();
         let dead = Fault { axis, kind: FaultKind::EncoderFault { encoder: None } };
         plant.fault(dead, Some(0));
-        assert_eq!(plant.encoder_faults(axis), [true, false]);
+        assert_eq!(plant.tell(axis).encoder_faults, [true, false]);
         plant.fault(Fault { axis, kind: FaultKind::Push { by: mm(6.0) } }, Some(0));
         // Past the zero mark at 10 mm: only encoder 2 tells of it.
-        let [first, second] = plant.tell(axis);
+        let [first, second] = plant.tell(axis).encoders;
         assert_eq!((first.value, first.zero_mark), (mm(0.0), None));
         assert_eq!((second.value, second.zero_mark), (mm(6.0), Some(mm(5.0))));
         plant.clear_fault(dead);
         plant.fault(Fault { axis, kind: FaultKind::Push { by: mm(1.0) } }, Some(0));
-        assert_eq!(plant.tell(axis).map(|signal| signal.value), [mm(1.0), mm(7.0)]);
-        assert_eq!(plant.encoder_faults(axis), [false; 2]);
+        assert_eq!(plant.tell(axis).encoders.map(|signal| signal.value), [mm(1.0), mm(7.0)]);
+        assert_eq!(plant.tell(axis).encoder_faults, [false; 2]);
     }
 }

@@ -174,10 +174,17 @@ impl Prepared {
         (machine, Operator::new(book, self.plan), watch)
     }
 
-    /// Computes every axis in every cycle, including axes at rest. This is slower and gives the same trace.
+    /// Moves, monitors and publishes every axis in every cycle, also an axis at rest. This is slower and gives the same trace.
     #[must_use]
     pub fn never_rest(mut self) -> Self {
         self.session.machine.never_rest();
+        self
+    }
+
+    /// Decides everything for every axis in every cycle as well. This is slower still and gives the same trace.
+    #[must_use]
+    pub fn decide_always(mut self) -> Self {
+        self.session.machine.decide_always();
         self
     }
 

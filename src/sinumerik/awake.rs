@@ -5,65 +5,121 @@ use crate::sinumerik::nck::Nck;
 use crate::units::AxisSet;
 
 impl Nck {
-    /// Computes every axis in every cycle, also those that rest. The results are the same.
+    /// Moves, monitors and shows every axis in every cycle, also those that rest. The results are the same.
     pub fn never_rest(&mut self) {
         self.resting.never = true;
         self.resting.wake_all();
     }
 
-    /// Something happened to the machine: everybody is computed in the next cycle.
+    /// Decides everything for every axis in every cycle, too. The results are the same.
+    pub fn decide_always(&mut self) {
+        self.resting.always = true;
+        self.resting.wake_all();
+    }
+
+    /// Something happened to the machine: every axis is computed in the next cycle.
     pub fn wake_all(&mut self) {
         self.resting.wake_all();
     }
 
-    /// The axes that are computed in this cycle: an alarm that comes in the middle of it concerns everybody from there on.
+    /// The axes that are computed in this cycle: an alarm that comes in the middle of it concerns all of them from there on.
     #[must_use]
     pub fn awake(&self) -> AxisSet {
         if self.state.alarms_wake(&self.resting) { self.parameters.existing } else { self.resting.awake }
     }
 
-    /// After the stages that concern everybody: who is computed in this cycle.
+    /// The axes for which was decided in this cycle, or of which something else than their movement is new.
+    pub(super) fn decided(&self) -> AxisSet {
+        self.resting.deciding_now(&self.state).with(self.state.log.news)
+    }
+
+    /// The axes for which position control asks for the same in all its cycles, as long as their encoders tell the same.
+    #[must_use]
+    pub fn still(&self) -> AxisSet {
+        self.resting.still
+    }
+
+    /// After the stages that concern all axes: which of them are computed in this cycle, and for which is decided.
     pub(super) fn wake(&mut self, changes: Changes) {
         let (state, resting) = (&*self.state, &mut *self.resting);
         let same = resting.shared.is_of(state, &self.parameters);
-        if resting.never || changes.shared || !same || state.alarms_wake(resting) {
+        if resting.always || changes.shared || !same || state.alarms_wake(resting) {
             resting.shared = state.shared();
             resting.wake_all();
+        } else if resting.never {
+            resting.awake = AxisSet::ALL;
         }
-        resting.awake = resting.awake.with(changes.axes).and(self.parameters.existing);
-        resting.awake_units = 0;
+        resting.deciding = resting.deciding.with(changes.axes).and(self.parameters.existing);
+        resting.awake = resting.awake.with(resting.deciding).and(self.parameters.existing);
+        // Until position control says otherwise.
+        (resting.still, resting.heard) = (AxisSet::ALL, AxisSet::NONE);
+        (resting.awake_units, resting.deciding_units) = (0, 0);
         for (index, unit) in state.units.iter().enumerate() {
-            if !resting.awake.and(unit.set).is_empty() {
-                resting.awake = resting.awake.with(unit.set);
-                resting.awake_units |= 1 << index;
+            if resting.awake.and(unit.set).is_empty() {
+                continue;
+            }
+            resting.awake = resting.awake.with(unit.set);
+            resting.awake_units |= 1 << index;
+            if unit.grouping.is_some() || !resting.deciding.and(unit.set).is_empty() {
+                resting.deciding = resting.deciding.with(unit.set);
+                resting.deciding_units |= 1 << index;
             }
         }
     }
 
-    /// At the end of a cycle: who came out of it as it went in, and of whom the iron says that it rests, rests.
+    /// At the end of a cycle: an axis rests that came out of it as it went in, and whose mechanics rest. Nothing is decided in the
+    /// next cycle for an axis of which only the movement is another one.
     pub(super) fn rest(&mut self, restless: AxisSet) {
-        let (state, resting) = (&*self.state, &mut *self.resting);
-        let mut awake = restless;
+        let (state, resting) = (&mut *self.state, &mut *self.resting);
+        let pending = state.alarms.axes();
+        let news = std::mem::take(&mut state.log.news);
+        let (mut awake, mut deciding) = (restless.with(pending).with(news), pending.with(news));
         if state.alarms_wake(resting) {
-            // One that has just gone by itself held others in this cycle, and will not in the next.
+            // An alarm that has just gone by itself held other axes in this cycle, and will not in the next.
             resting.wake_all();
-            awake = AxisSet::ALL;
+            (awake, deciding) = (AxisSet::ALL, AxisSet::ALL);
         }
         resting.alarm_version = state.alarms.version();
-        for axis in resting.awake.iter() {
-            if state.axes[axis] != resting.axes[axis] {
-                resting.axes[axis] = state.axes[axis].clone();
-                awake.set(axis, true);
+        if resting.axes.is_empty() {
+            // There was nothing to compare with.
+            resting.axes.extend(state.axes.iter().map(|(_, axis)| axis.clone()));
+            resting.wake_all();
+            (awake, deciding) = (AxisSet::ALL, AxisSet::ALL);
+        }
+        for number in resting.awake.iter() {
+            let (axis, before) = (&state.axes[number], &mut resting.axes[number.index()]);
+            let decided = resting.deciding.contains(number) || news.contains(number);
+            debug_assert!(decided || axis.has_decisions_of(before), "axis {number} has decided unasked");
+            if decided && !axis.has_decisions_of(before) {
+                deciding.set(number, true);
+                before.clone_from(axis);
+            }
+            // Where the mechanics moved there is nothing to compare: the movement is another one.
+            let moved = restless.contains(number);
+            let moves = moved || resting.heard.contains(number) || !axis.has_movement_of(before);
+            if !moves {
+                debug_assert!(axis == before, "axis {number} has a field that neither of both compares");
+                continue;
+            }
+            awake.set(number, true);
+            if !moved || cfg!(debug_assertions) {
+                before.take_movement_of(axis);
+            }
+            let way = axis.way();
+            if way != resting.ways[number] || axis.decisions_follow_movement() {
+                resting.ways[number] = way;
+                deciding.set(number, true);
             }
         }
         for (now, before) in state.groupings.iter().zip(&mut resting.groupings) {
             let axes: AxisSet = now.coupling.members().collect();
             if !resting.awake.and(axes).is_empty() && now != before {
-                resting.units_stale = true;
+                resting.units_stale |= now.phase != before.phase;
                 before.clone_from(now);
-                awake = awake.with(axes);
+                // It may have been opened or closed: other stages decide about its axes then.
+                deciding = deciding.with(axes);
             }
         }
-        resting.awake = awake;
+        (resting.awake, resting.deciding) = (awake.with(deciding), deciding);
     }
 }

@@ -72,6 +72,10 @@ impl Control for Nck {
         Self::velocity_command(self, axis, counts, part, of)
     }
 
+    fn still(&self) -> AxisSet {
+        Self::still(self)
+    }
+
     fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet) {
         Self::observe(self, feedback, told);
     }
@@ -88,6 +92,10 @@ impl Control for Nck {
 
     fn never_rest(&mut self) {
         Self::never_rest(self);
+    }
+
+    fn decide_always(&mut self) {
+        Self::decide_always(self);
     }
 
     fn power_on(&mut self) {

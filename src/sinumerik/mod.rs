@@ -6,7 +6,7 @@
 //! measuring systems, parameter sets, enabling, referencing and gantry or JOG, setpoints, coupling);
 //! [`Nck::velocity_command`] is position control, while drives and mechanics move; [`Nck::observe`] takes what encoders
 //! and drives tell and monitors it; [`Nck::publish`] writes the NCK's half of the interface and the variables. The control
-//! reads [`ToNck`], the HMI's selection of handwheels, and nothing else. Axes that rest are left out (`resting.rs`).
+//! reads [`ToNck`], the HMI's selection of handwheels, and nothing else. Axes that rest are left out, and nothing is decided for those that only move (`resting.rs`).
 //!
 //! | I want to add | I do |
 //! |---|---|
@@ -15,6 +15,8 @@
 //! | a rule that causes an edge | a row in `rules.rs`, a `note` where it is decided |
 //! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `referencing/state.rs` or `gantry/state.rs` |
 //! | something that all axes depend on | a field of `Shared` in `resting.rs`, or nobody wakes for it |
+//! | something that an axis remembers | a field of `Axis` in `axis/state.rs`, in `has_decisions_of` or in `has_movement_of`, too |
+//! | a decision that depends on where an axis is | an arm of `decisions_follow_movement` there |
 //! | something to watch | a file in `monitoring/`, a row in its table |
 //! | a signal that the control shows, and its cause | a row in `publish/` |
 

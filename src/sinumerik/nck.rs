@@ -22,7 +22,7 @@ use crate::variables::{EventId, Place};
 ///
 /// Machine data have a stored and an active set (DEF-09, REF-22): a file or an operator changes the stored one, and
 /// the class of a datum says when it begins to act.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Nck {
     pub(super) stored: Arc<MachineData>,
     pub(super) active: Arc<MachineData>,
@@ -33,6 +33,21 @@ pub struct Nck {
     strobe: Strobe,
     /// The cancel key was pressed at the edge of this cycle; the stage takes it back, so that no saved machine has it.
     cancel_key: bool,
+}
+
+impl Clone for Nck {
+    fn clone(&self) -> Self {
+        Self {
+            stored: Arc::clone(&self.stored),
+            active: Arc::clone(&self.active),
+            presence: Arc::clone(&self.presence),
+            parameters: Arc::clone(&self.parameters),
+            state: self.state.clone(),
+            resting: Box::new(self.resting.anew(&self.state)),
+            strobe: self.strobe,
+            cancel_key: self.cancel_key,
+        }
+    }
 }
 
 /// A saved control.
@@ -71,7 +86,7 @@ impl Nck {
         let events = std::mem::take(&mut self.state.log.events);
         let taken = self.state.log.taken;
         *self.state = State::new(&self.parameters);
-        self.state.log = Log { cycle, events, taken };
+        self.state.log = Log { cycle, events, taken, ..Log::default() };
         self.resting.begin_anew(&self.state);
         self.fix_strobes();
     }
@@ -196,7 +211,10 @@ impl Nck {
         self.state.select_modes(&self.parameters, to_nck);
         self.state.watch_emergency_stop(&self.parameters, to_nck);
         self.reset_and_cancel(to_nck, cancel_key);
-        if self.resting.take_units_stale() | self.state.check_closings(&self.parameters) {
+        if self.state.check_closings(&self.parameters) {
+            self.resting.wake_all();
+        }
+        if self.resting.take_units_stale() {
             self.state.form_units(&self.parameters);
             self.state.report_declarations(&self.parameters);
         }
@@ -213,13 +231,17 @@ impl Nck {
         while let Some(index) = state.next_awake(next, resting) {
             next = index + 1;
             let unit = state.units[index];
-            state.take_feed(&unit, parameters, to_nck);
-            state.take_axis_signals(&unit, to_nck);
-            match unit.grouping {
-                Some(index) => state.run_grouping(usize::from(index), &unit, parameters, to_nck),
-                None => state.run_single(&unit, parameters, to_nck),
+            if state.decides(index, resting) {
+                state.take_feed(&unit, parameters, to_nck);
+                state.take_axis_signals(&unit, to_nck);
+                match unit.grouping {
+                    Some(index) => state.run_grouping(usize::from(index), &unit, parameters, to_nck),
+                    None => state.run_single(&unit, parameters, to_nck),
+                }
+                state.stop_by_ramp_function_generator(&unit);
+            } else if state.stays(&unit) {
+                continue;
             }
-            state.stop_by_ramp_function_generator(&unit);
             state.set_setpoints(&unit, parameters);
         }
         state.order_channel_referencing(parameters);
@@ -227,29 +249,37 @@ impl Nck {
 
     /// Takes what encoders and drives of these axes tell, and monitors it. The others tell what they told before.
     pub fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet) {
-        for number in told.and(self.parameters.existing).iter() {
-            let axis = &self.state.axes[number];
-            let feedback = match &axis.active_set(&self.parameters.axes[number]).misfit {
+        let (parameters, state) = (&*self.parameters, &mut *self.state);
+        for number in told.with(self.resting.deciding_now(state)).and(parameters.existing).iter() {
+            let axis = &mut state.axes[number];
+            let seen = match &axis.active_set(&parameters.axes[number]).misfit {
                 None => feedback[number],
                 Some(misfit) => misfit.seen(&feedback[number], usize::from(axis.measuring_system.unwrap_or(0))),
             };
-            if self.state.feedback[number] != feedback {
-                self.state.feedback[number] = feedback;
-                self.resting.wake_axis(number);
+            if state.feedback[number] != seen {
+                state.feedback[number] = seen;
+                self.resting.hear(number);
             }
-        }
-        for number in self.awake().iter() {
-            self.state.axes[number].sense(&self.state.feedback[number]);
+            if axis.drive_ready != seen.drive_ready {
+                state.log.news.set(number, true);
+            }
+            axis.sense(&seen);
         }
         self.monitor();
-        for number in self.awake().iter() {
-            let (axis, summary) = (&self.state.axes[number], &mut self.state.summary);
-            summary.drive_ready.set(number, axis.drive_ready);
-            summary.referenced.set(number, axis.is_referenced());
+        let (awake, decided) = (self.awake(), self.decided());
+        let mut summary = self.state.summary;
+        for number in awake.iter() {
+            let axis = &self.state.axes[number];
             summary.standing.set(number, axis.stands(&self.parameters.axes[number]));
             // An approach that waits at rest is on its way, too.
             summary.in_motion.set(number, axis.is_in_motion() || axis.approach.is_running());
         }
+        for number in awake.and(decided).iter() {
+            let axis = &self.state.axes[number];
+            summary.drive_ready.set(number, axis.drive_ready);
+            summary.referenced.set(number, axis.is_referenced());
+        }
+        self.state.summary = summary;
     }
 
     /// Everything that it remembers, as bytes.

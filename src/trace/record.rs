@@ -4,7 +4,7 @@
 //! between two steps.
 
 use crate::image::Part;
-use crate::variables::{Event, EventId, RaisedAlarm};
+use crate::variables::{Event, EventId, Events, RaisedAlarm};
 
 /// The writer of a bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -92,15 +92,15 @@ pub struct Recorder {
 
 impl Default for Recorder {
     fn default() -> Self {
-        Self { rows: Vec::with_capacity(Self::ROOM), events: Vec::with_capacity(Self::EVENTS), lost: 0 }
+        Self { rows: Vec::with_capacity(Self::ROOM), events: Vec::with_capacity(Events::CAPACITY), lost: 0 }
     }
 }
 
 impl Recorder {
     /// The number of rows that are kept between two drains: several times the number that clients can write at the edge of one step.
     pub const ROWS: usize = 16_384;
-    /// The initial capacity for rows; one step without such clients writes far fewer rows.
-    const ROOM: usize = 2048;
+    /// The initial capacity for rows; one step without such clients writes fewer. For events it is the number of one step.
+    const ROOM: usize = 512;
     /// The number of events that are kept between two drains.
     pub const EVENTS: usize = 1024;
 

@@ -174,6 +174,12 @@ impl AxisSet {
         Self(self.0 & other.0)
     }
 
+    /// The axes of this set that are not in the other.
+    #[must_use]
+    pub const fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
     /// Whether this set contains all axes of the other set.
     #[must_use]
     pub const fn has_all_of(self, other: Self) -> bool {
@@ -184,9 +190,13 @@ impl AxisSet {
     pub fn iter(self) -> impl Iterator<Item = AxisNumber> {
         let mut rest = self.0;
         std::iter::from_fn(move || {
-            let index = rest.trailing_zeros();
-            rest &= rest.wrapping_sub(1);
-            u8::try_from(index + 1).ok().and_then(AxisNumber::new)
+            if rest == 0 {
+                return None;
+            }
+            #[expect(clippy::cast_possible_truncation, reason = "32 bits have places below 32")]
+            let index = rest.trailing_zeros() as u8;
+            rest &= rest - 1;
+            Some(AxisNumber(index + 1))
         })
     }
 }

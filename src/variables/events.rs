@@ -96,24 +96,24 @@ pub struct Event {
     pub parent: EventId,
 }
 
-/// The number of events that are kept.
-const CAPACITY: usize = 128;
-
 /// The latest events, in a ring buffer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Events {
-    ring: ArrayVec<Event, CAPACITY>,
+    ring: ArrayVec<Event, { Events::CAPACITY }>,
     last: u32,
 }
 
 impl Events {
+    /// The number of events that are kept.
+    pub const CAPACITY: usize = 128;
+
     /// Records an event and returns its number.
     pub fn push(&mut self, cycle: u64, place: Place, rule: RuleNumber, inputs: [Input; 3], parent: EventId) -> EventId {
         self.last = self.last.wrapping_add(1).max(1);
         let id = EventId(self.last);
         let event = Event { id, cycle, place, rule, inputs, parent };
         if self.ring.try_push(event).is_err() {
-            self.ring[(self.last as usize - 1) % CAPACITY] = event;
+            self.ring[(self.last as usize - 1) % Self::CAPACITY] = event;
         }
         id
     }
@@ -132,7 +132,7 @@ impl Events {
     /// An event by its number, if it is still kept.
     #[must_use]
     pub fn find(&self, id: EventId) -> Option<&Event> {
-        let place = (id.0 as usize).checked_sub(1)? % CAPACITY;
+        let place = (id.0 as usize).checked_sub(1)? % Self::CAPACITY;
         self.ring.get(place).filter(|event| event.id == id)
     }
 }

@@ -247,7 +247,7 @@ impl Bench {
             machine,
         };
         if let Some(twin) = &mut bench.twin {
-            twin.never_rest();
+            twin.decide_always();
         }
         // Fast searches: the same phases in fewer cycles.
         for axis in bench.axes.clone() {

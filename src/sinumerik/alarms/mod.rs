@@ -11,6 +11,7 @@ use std::fmt;
 use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
+use crate::units::AxisSet;
 use crate::variables::{AlarmNumber, Alarms, EventId, Parameter, Place, RaisedAlarm};
 
 /// What an alarm does, as flags; the names are the Diagnostics Manual's.
@@ -417,10 +418,14 @@ impl Pending {
         self.entries.iter().find(of_it).map_or(EventId::NONE, |entry| entry.cause)
     }
 
-    /// Whether nothing is pending.
+    /// The axes that something is pending of.
     #[must_use]
-    pub(super) fn is_empty(&self) -> bool {
-        self.entries.is_empty()
+    pub(super) fn axes(&self) -> AxisSet {
+        let place = |entry: &Entry| match entry.alarm.place {
+            Place::Axis(axis) => Some(axis),
+            Place::Nck | Place::ModeGroup(_) | Place::Channel(_) => None,
+        };
+        self.entries.iter().filter_map(place).collect()
     }
 
     /// Whether the list changed since it was last asked.
@@ -512,6 +517,6 @@ mod tests {
         pending.settle();
         assert!(has(&pending, GANTRY_WARNING_LIMIT));
         pending.settle();
-        assert!(pending.is_empty());
+        assert_eq!(pending.iter().count(), 0);
     }
 }

@@ -42,7 +42,7 @@ impl State {
         resting: &Resting,
     ) {
         let mut next = 0;
-        while let Some(index) = self.next_awake(next, resting) {
+        while let Some(index) = self.next_deciding(next, resting) {
             next = index + 1;
             let unit = self.units[index];
             let parked = unit.members().any(|axis| self.selected(axis, parameters, to_nck).is_none());
@@ -115,12 +115,12 @@ impl State {
 
     /// One step of the chain for every axis.
     pub(in crate::sinumerik) fn enable(&mut self, parameters: &Parameters, to_nck: &ToNck, resting: &Resting) {
-        for number in resting.awake().iter() {
+        for number in resting.deciding().iter() {
             self.axes[number].monitor.clamped = to_nck.axes[number].clamping_in_progress();
             self.enable_pulses(number, to_nck.axes[number].pulse_enable());
         }
         let mut next = 0;
-        while let Some(index) = self.next_awake(next, resting) {
+        while let Some(index) = self.next_deciding(next, resting) {
             next = index + 1;
             let unit = self.units[index];
             let conditions = self.conditions(&unit, parameters, to_nck);

@@ -27,7 +27,7 @@ impl State {
         to_nck: &ToNck,
         resting: &Resting,
     ) {
-        for number in resting.awake().iter() {
+        for number in resting.deciding().iter() {
             let signals = &to_nck.axes[number];
             let (wanted, data_set) = (signals.controller_parameter_set(), signals.drive_data_set_selection());
             let axis = &self.axes[number];

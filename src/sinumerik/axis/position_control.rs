@@ -17,6 +17,7 @@
 //! MD32620 = 2 and 4 act by their speed part; MD32650 does nothing.
 
 use crate::motion::velocity_command;
+use crate::sinumerik::axis::shaping::SetpointBranch;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
@@ -36,41 +37,34 @@ impl Nck {
         count: u32,
     ) -> Option<f64> {
         let parameters = &self.parameters.axes[number];
-        let dynamics = &parameters.dynamics;
-        let state = &mut *self.state;
-        let axis = &mut state.axes[number];
-        let branch = state.shaping[number].as_deref_mut().and_then(|shaping| shaping.branch.as_mut());
-        let powered = axis.measuring_system.filter(|_| axis.enabling.is_powered());
-        let put_out = powered.is_some_and(|active| !axis.monitor.encoders[usize::from(active)].fault)
-            && !axis.signals.fast_stop
-            && axis.signals.disabled_at().is_none();
-        let branch = match branch {
-            Some(branch) if !put_out => {
-                branch.reset();
-                axis.branch = (0.0, 0.0);
-                None
-            }
-            other => other,
+        let axis = &mut self.state.axes[number];
+        let branch = self.state.shaping[number].as_deref_mut().and_then(|shaping| shaping.branch.as_mut());
+        let Some(active) = axis.measuring_system.filter(|_| axis.enabling.is_powered()).map(usize::from) else {
+            axis.reset_branch(branch);
+            return None;
         };
-        let active = usize::from(powered?);
-        let set = &dynamics.sets[usize::from(axis.parameter_set)];
+        let set = axis.active_set(parameters);
         let (shown, command) = match &set.misfit {
             None => (encoders[active], 1.0),
             Some(misfit) => (misfit.shown(active, encoders[active]), misfit.command),
         };
         let actual = shown + axis.offset[active];
         if axis.monitor.encoders[active].fault || axis.signals.fast_stop {
+            axis.reset_branch(branch);
             axis.monitor.restart_model(actual);
             return Some(0.0);
         }
         if let Some(held) = axis.signals.disabled_at() {
+            axis.reset_branch(branch);
             axis.monitor.restart_model(actual);
             let deviation = (held - actual).increments() as f64;
             return Some(limited(velocity_command(deviation, set.gain, axis.half_count, 0.0), parameters) * command);
         }
-        let cycle = self.parameters.cycle.seconds() / f64::from(count);
+        let cycle = self.parameters.servo_cycle;
+        let is_delayed = branch.is_some();
         if let Some(branch) = branch {
-            axis.branch = branch.pass(dynamics.feed_forward, set, axis.setpoint.velocity() * cycle, cycle);
+            let movement = axis.setpoint.velocity() * cycle;
+            axis.branch = branch.pass(parameters.dynamics.feed_forward, set, movement, cycle);
             axis.unsettled = axis.unsettled.wrapping_add(u32::from(branch.is_behind()));
         }
         // Of the time at which the actual value was taken.
@@ -78,6 +72,9 @@ impl Nck {
         let wanted = axis.velocity_wanted(set, setpoint, actual, axis.half_count);
         let ideal = axis.velocity_wanted(set, setpoint, axis.monitor.model(), Position::ZERO);
         axis.monitor.move_model(ideal * cycle);
+        if axis.before != axis.setpoint.position || ideal != 0.0 || is_delayed {
+            self.resting.still.set(number, false);
+        }
         Some(limited(wanted, parameters) * command)
     }
 }
@@ -85,7 +82,7 @@ impl Nck {
 impl State {
     /// Memory for the filters and delays that the active machine data ask for; what is in use already stays as it is.
     pub(in crate::sinumerik) fn prepare_position_control(&mut self, parameters: &Parameters) {
-        let cycle = parameters.cycle.seconds() / f64::from(parameters.servo_cycles);
+        let cycle = parameters.servo_cycle;
         for (number, axis) in parameters.existing() {
             let dynamics = &axis.dynamics;
             let shaping = &mut self.shaping[number];
@@ -125,11 +122,19 @@ impl Axis {
         velocity_command(deviation - behind, set.gain, half_count, feed_forward)
     }
 
+    /// Its setpoint branch starts anew.
+    fn reset_branch(&mut self, branch: Option<&mut SetpointBranch>) {
+        if let Some(branch) = branch {
+            branch.reset();
+            self.branch = (0.0, 0.0);
+        }
+    }
+
     fn finely_interpolated(&self, part: u32, count: u32) -> Position {
         if part == count {
             return self.setpoint.position;
         }
-        if part == 0 {
+        if part == 0 || self.before == self.setpoint.position {
             return self.before;
         }
         let way = (self.setpoint.position - self.before).increments();

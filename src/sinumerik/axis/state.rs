@@ -143,6 +143,50 @@ impl Default for Axis {
 }
 
 impl Axis {
+    /// What was decided about it is what was decided about the other; its movement may be another one.
+    pub(in crate::sinumerik) fn has_decisions_of(&self, other: &Self) -> bool {
+        (self.motion, self.enabling, self.traverse_request, self.traverse_command)
+            == (other.motion, other.enabling, other.traverse_request, other.traverse_command)
+            && (self.parameter_set, self.drive_data_set, self.measuring_system, self.drive_ready)
+                == (other.parameter_set, other.drive_data_set, other.measuring_system, other.drive_ready)
+            && (self.feed_factor, self.feed_held, self.feed_disabled, self.feed_holder)
+                == (other.feed_factor, other.feed_held, other.feed_disabled, other.feed_holder)
+            && (self.key_used, self.approach_key, self.limits) == (other.key_used, other.approach_key, other.limits)
+            && (self.offset, self.referenced) == (other.offset, other.referenced)
+            && self.jogging == other.jogging
+            && self.signals == other.signals
+            && self.causes == other.causes
+            && self.approach == other.approach
+    }
+
+    /// It moves as the other does, where drive and encoders told the same of both.
+    pub(in crate::sinumerik) fn has_movement_of(&self, other: &Self) -> bool {
+        (self.setpoint, self.before, self.arrived) == (other.setpoint, other.before, other.arrived)
+            && (self.branch, self.unsettled) == (other.branch, other.unsettled)
+            && self.monitor == other.monitor
+    }
+
+    /// Moves as the other does, from now on.
+    pub(in crate::sinumerik) fn take_movement_of(&mut self, other: &Self) {
+        (self.setpoint, self.before, self.unsettled) = (other.setpoint, other.before, other.unsettled);
+        (self.branch, self.arrived) = (other.branch, other.arrived);
+        (self.actual, self.zero_mark, self.velocity) = (other.actual, other.zero_mark, other.velocity);
+        (self.half_count, self.slide, self.monitor) = (other.half_count, other.slide, other.monitor);
+    }
+
+    /// Where its movement is.
+    pub(in crate::sinumerik) fn way(&self) -> Way {
+        Way { rests: self.setpoint.is_at_rest(), ahead: self.motion.direction(self.setpoint.position) }
+    }
+
+    /// What is decided about it depends on where it is: an approach, axis disable, handwheels, follow-up.
+    pub(in crate::sinumerik) fn decisions_follow_movement(&self) -> bool {
+        self.approach.is_running()
+            || self.signals.disabled_at.is_some()
+            || self.jogging.handwheels != 0
+            || self.motion == Motion::Track
+    }
+
     /// Takes what drive and encoders tell.
     pub(in crate::sinumerik) fn sense(&mut self, feedback: &Feedback) {
         self.velocity = feedback.velocity;
@@ -233,6 +277,15 @@ impl coupling::Axes for PerAxis<Axis> {
     fn is_referenced(&self, axis: AxisNumber) -> bool {
         self[axis].is_referenced()
     }
+}
+
+/// What of a movement leads to another decision when it changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::sinumerik) struct Way {
+    /// The setpoint rests.
+    rests: bool,
+    /// Where its target is, or where it runs: +1, −1 or 0.
+    ahead: i8,
 }
 
 /// How many cycles each step of the chain takes, so that brake and timer logic meets a real order.

@@ -48,7 +48,7 @@ impl State {
         to_nck: &ToNck,
         resting: &Resting,
     ) {
-        for number in resting.awake().iter() {
+        for number in resting.deciding().iter() {
             let group = parameters.mode_group(parameters.axes[number].channel);
             if !self.mode_groups[group].is_jogging() {
                 self.axes[number].jogging.shown = 0;

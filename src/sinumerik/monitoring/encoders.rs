@@ -121,6 +121,7 @@ impl State {
         let axis = &mut self.axes[number];
         if std::mem::take(&mut axis.referenced[encoder]) {
             axis.causes.reference[encoder] = cause;
+            self.log.news.set(number, true);
         }
     }
 

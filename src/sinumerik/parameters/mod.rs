@@ -29,6 +29,8 @@ pub struct Parameters {
     pub cycle: Time,
     /// How many position-control cycles make one, MD10070 / MD10060.
     pub servo_cycles: u32,
+    /// One of them, in seconds.
+    pub servo_cycle: f64,
     /// MD11412: alarms that could say "mode group not ready" or "channel not ready" say the second only.
     pub only_channel_not_ready: bool,
     /// MD11300: keys act as long as they are pressed, in INC and in the reference point approach.
@@ -77,6 +79,7 @@ impl Parameters {
             channel_list,
             cycle,
             servo_cycles: servo_cycles(data),
+            servo_cycle: cycle.seconds() / f64::from(servo_cycles(data)),
             only_channel_not_ready: data.general.alarm_reaction_chan_noready,
             jog_mode: data.general.jog_inc_mode_leveltriggrd,
             key_modes: KeyModes {

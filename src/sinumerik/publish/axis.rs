@@ -14,29 +14,12 @@ use crate::units::{AxisNumber, Position};
 use crate::variables::{Input, Place, Quantity};
 
 impl State {
-    /// DB31 to DB61, of one axis, but for 101.x.
+    /// DB31 to DB61, of one axis: what a movement alone can change.
     #[inline]
-    pub(super) fn show_axis(
-        &self,
-        number: AxisNumber,
-        parameters: &AxisParameters,
-        all: &Parameters,
-        rows: &mut impl Rows,
-    ) {
+    pub(super) fn show_movement(&self, number: AxisNumber, parameters: &AxisParameters, rows: &mut impl Rows) {
         let axis = &self.axes[number];
         let (causes, set) = (&axis.causes, axis.active_set(parameters));
-        let channel = parameters.channel;
-        let mode = || self.mode_groups[all.mode_group(channel)].cause();
-        let [first, second] = &axis.monitor.encoders;
-        rows.bit(axis_from_nck::encoder_limit_frequency_exceeded_1, first.frequency_exceeded, || {
-            Why::Event(first.frequency_cause)
-        });
-        rows.bit(axis_from_nck::encoder_limit_frequency_exceeded_2, second.frequency_exceeded, || {
-            Why::Event(second.frequency_cause)
-        });
-        rows.bit(axis_from_nck::referenced_synchronized_1, axis.referenced[0], || Why::Event(causes.reference[0]));
-        rows.bit(axis_from_nck::referenced_synchronized_2, axis.referenced[1], || Why::Event(causes.reference[1]));
-        let [current, speed, position] = axis.enabling.controllers();
+        let [_, _, position] = axis.enabling.controllers();
         let at_rest = position && axis.setpoint.is_at_rest() && axis.traverse_command == 0;
         let within = |window: Position| at_rest && axis.deviation().abs() <= window;
         let exact_stop = |datum: u32, window: Position| {
@@ -67,6 +50,39 @@ impl State {
         let (coarse, fine) = (set.exact_stop_coarse, set.exact_stop_fine);
         rows.bit(axis_from_nck::position_reached_exact_stop_coarse, within(coarse), || exact_stop(36000, coarse));
         rows.bit(axis_from_nck::position_reached_exact_stop_fine, within(fine), || exact_stop(36010, fine));
+        rows.bit(axis_from_nck::axis_stationary, axis.velocity.abs() < parameters.standstill_velocity, || {
+            #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
+            let velocity = Position::new(axis.velocity.abs() as i64);
+            let measured = Input::Length(Quantity::Velocity, number, velocity);
+            let limit = parameters.standstill_velocity * 60.0 / Position::PER_USER_UNIT;
+            let limit = Input::Datum(36060, Some(number), limit);
+            Why::Tested(Rule::Standstill, [measured, limit, Input::None], causes.motion)
+        });
+    }
+
+    /// DB31 to DB61, of one axis, but for what a movement alone can change, and for 101.x.
+    #[inline]
+    pub(super) fn show_axis(
+        &self,
+        number: AxisNumber,
+        parameters: &AxisParameters,
+        all: &Parameters,
+        rows: &mut impl Rows,
+    ) {
+        let axis = &self.axes[number];
+        let causes = &axis.causes;
+        let channel = parameters.channel;
+        let mode = || self.mode_groups[all.mode_group(channel)].cause();
+        let [first, second] = &axis.monitor.encoders;
+        rows.bit(axis_from_nck::encoder_limit_frequency_exceeded_1, first.frequency_exceeded, || {
+            Why::Event(first.frequency_cause)
+        });
+        rows.bit(axis_from_nck::encoder_limit_frequency_exceeded_2, second.frequency_exceeded, || {
+            Why::Event(second.frequency_cause)
+        });
+        rows.bit(axis_from_nck::referenced_synchronized_1, axis.referenced[0], || Why::Event(causes.reference[0]));
+        rows.bit(axis_from_nck::referenced_synchronized_2, axis.referenced[1], || Why::Event(causes.reference[1]));
+        let [current, speed, position] = axis.enabling.controllers();
         let alarm = self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, Some(Place::Axis(number)));
         let cancelled = || self.channels[channel].cancel_cause;
         rows.bit(axis_from_nck::axis_specific_alarm, alarm.is_some(), || Why::Event(alarm.unwrap_or_else(cancelled)));
@@ -85,14 +101,6 @@ impl State {
         rows.bit(axis_from_nck::follow_up_active, follows_up, || match axis.measuring_system {
             None => Why::Event(causes.measuring_system),
             Some(_) => Why::Event(causes.enabling.max(causes.measuring_system)),
-        });
-        rows.bit(axis_from_nck::axis_stationary, axis.velocity.abs() < parameters.standstill_velocity, || {
-            #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
-            let velocity = Position::new(axis.velocity.abs() as i64);
-            let measured = Input::Length(Quantity::Velocity, number, velocity);
-            let limit = parameters.standstill_velocity * 60.0 / Position::PER_USER_UNIT;
-            let limit = Input::Datum(36060, Some(number), limit);
-            Why::Tested(Rule::Standstill, [measured, limit, Input::None], causes.motion)
         });
         rows.bit(axis_from_nck::position_controller_active, position, enabling);
         rows.bit(axis_from_nck::speed_controller_active, speed, enabling);

@@ -28,11 +28,11 @@ use crate::variables::{AxisValues, EventId, Place, Variables};
 impl Nck {
     /// Writes what the control shows. Of `restless` axes the iron has not come to rest.
     pub fn publish(&mut self, from_nck: &mut FromNck, hmi: &mut Hmi, variables: &mut Variables, restless: AxisSet) {
-        let mut shown = self.awake();
+        let (mut shown, mut decided) = (self.awake(), self.decided());
         let (parameters, state) = (&*self.parameters, &mut *self.state);
         if std::mem::take(&mut state.overwritten) {
             from_nck.clear_signals();
-            shown = parameters.existing;
+            (shown, decided) = (parameters.existing, AxisSet::ALL);
         }
         state.show_nck(&mut Written::new(from_nck.nck.as_mut_bytes(), NckFromNck::FIRST));
         for group in parameters.existing_mode_groups() {
@@ -51,7 +51,11 @@ impl Nck {
             let axis = &parameters.axes[number];
             if !axis.silent {
                 let bytes = from_nck.axes[number].as_mut_bytes();
-                state.show_axis(number, axis, parameters, &mut Written::new(bytes, AxisFromNck::FIRST));
+                let mut rows = Written::new(bytes, AxisFromNck::FIRST);
+                if decided.contains(number) {
+                    state.show_axis(number, axis, parameters, &mut rows);
+                }
+                state.show_movement(number, axis, &mut rows);
             }
             variables.axes[number] = state.values(number, axis);
         }
@@ -81,6 +85,7 @@ impl Nck {
             Place::Channel(channel) => state.show_channel(channel, parameters, &mut asked),
             Place::Axis(axis) => {
                 state.show_axis(axis, &parameters.axes[axis], parameters, &mut asked);
+                state.show_movement(axis, &parameters.axes[axis], &mut asked);
                 state.show_gantry_axis(axis, &mut asked);
             }
         }
