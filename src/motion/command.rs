@@ -1,28 +1,28 @@
-//! What an axis is commanded to do in one cycle: brake, run, go to a position, follow the actual value, or hold.
+//! The motion command of an axis in one cycle: brake, run, go to a position, follow the actual value, or hold.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Limits, Setpoint};
 use crate::units::Position;
 
-/// What an axis is commanded to do in a cycle.
+/// The motion command of an axis in one cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Motion {
-    /// Brake to rest.
+    /// Brakes to standstill.
     Brake {
         /// In increments per second squared.
         deceleration: f64,
     },
-    /// Move at a velocity.
+    /// Moves at a velocity.
     Run {
         /// Signed, in increments per second.
         velocity: f64,
         /// In increments per second squared.
         acceleration: f64,
     },
-    /// Move to a position.
+    /// Moves to a position.
     GoTo {
-        /// Where.
+        /// Target position.
         target: Position,
         /// In increments per second.
         velocity: f64,
@@ -31,12 +31,12 @@ pub enum Motion {
     },
     /// Follow-up: the setpoint is the actual value.
     Track,
-    /// The setpoint stays.
+    /// The setpoint does not change.
     Hold,
 }
 
 impl Motion {
-    /// A movement that an override of 0 % holds.
+    /// Whether an override of 0 % holds the movement.
     #[must_use]
     pub fn is_held(&self) -> bool {
         match *self {
@@ -45,9 +45,9 @@ impl Motion {
         }
     }
 
-    /// One cycle of it on a setpoint. `actual` is the actual value for [`Motion::Track`]; `hold` is the deceleration, in increments per
-    /// second squared, of a movement that an override of 0 % holds; `cycle` is in seconds. Returns whether the target of a
-    /// [`Motion::GoTo`] is reached and the setpoint rests on it.
+    /// Executes the command on a setpoint for one cycle. `actual` is the actual value for [`Motion::Track`]. `hold` is the deceleration, in
+    /// increments per second squared, of a movement that an override of 0 % holds. `cycle` is in seconds. Returns true when the setpoint is
+    /// at rest on the target of a [`Motion::GoTo`].
     pub fn execute(self, setpoint: &mut Setpoint, actual: Position, hold: f64, cycle: f64) -> bool {
         match self {
             Self::Brake { deceleration } => setpoint.run(0.0, deceleration, cycle),
@@ -62,7 +62,8 @@ impl Motion {
         false
     }
 
-    /// It passes the jerk filter by: a braking harder than `hardest`, the hardest acceleration of the axis, or no movement at all.
+    /// Whether the command bypasses the jerk filter: it brakes harder than `hardest`, the largest acceleration of the axis, or it is no
+    /// movement.
     #[must_use]
     pub fn is_fast(self, hardest: f64) -> bool {
         match self {
@@ -72,7 +73,7 @@ impl Motion {
         }
     }
 
-    /// The acceleration with which it sets off.
+    /// The acceleration at the start of the movement.
     #[must_use]
     pub fn acceleration(self) -> Option<f64> {
         match self {
@@ -81,7 +82,7 @@ impl Motion {
         }
     }
 
-    /// The direction that is commanded: +1, −1, or 0.
+    /// The commanded direction: +1, −1, or 0.
     #[must_use]
     pub fn direction(&self, from: Position) -> i8 {
         let sign = match *self {

@@ -1,37 +1,37 @@
-//! An incremental encoder on a slide: counts from where it was switched on, and pulses at its zero marks.
+//! An incremental encoder on a slide. It counts from the position at power on and reports its zero marks.
 
 use serde::{Deserialize, Serialize};
 
 use crate::units::Position;
 
-/// What an encoder tells the control in one cycle.
+/// The signal of an encoder in one cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct EncoderSignal {
-    /// Distance from where it was switched on, in whole counts.
+    /// Distance from the position at power on, in whole counts.
     pub value: Position,
-    /// The value at the zero mark that was passed in this cycle, caught by the hardware.
+    /// The value at the zero mark that was passed in this cycle, latched by the hardware.
     pub zero_mark: Option<Position>,
 }
 
-/// The encoder itself.
+/// An incremental encoder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Encoder {
     /// One count.
     resolution: Position,
     /// Position of one zero mark, in the machine frame.
     zero_mark: Position,
-    /// Distance of the zero marks.
+    /// Distance between two zero marks.
     spacing: Position,
-    /// Slide position at which it counts zero.
+    /// Slide position at which the encoder counts zero.
     origin: Position,
-    /// Counts that it lost or gained (fault `encoder_slip`).
+    /// Counts lost or gained (fault `encoder_slip`).
     slip: Position,
 }
 
 impl Encoder {
-    /// An encoder whose zero marks lie at `zero_mark + k · spacing`, switched on at a slide position.
+    /// An encoder that is switched on at the position `slide`. Its zero marks are at `zero_mark + k · spacing`.
     ///
-    /// Resolution and spacing are taken as at least one increment.
+    /// Resolution and spacing are at least one increment; smaller values are raised to it.
     #[must_use]
     pub fn new(resolution: Position, zero_mark: Position, spacing: Position, slide: Position) -> Self {
         let one = Position::new(1);
@@ -44,13 +44,13 @@ impl Encoder {
         }
     }
 
-    /// Half a count: the largest deviation that it cannot see.
+    /// Half a count: the largest deviation that the encoder cannot detect.
     #[must_use]
     pub fn half_count(&self) -> Position {
         Position::new(self.resolution.increments() / 2)
     }
 
-    /// Switched off and on: it counts from here.
+    /// Switches the encoder off and on: it counts from this position.
     pub fn restart(&mut self, slide: Position) {
         self.origin = slide;
         self.slip = Position::ZERO;
@@ -61,7 +61,7 @@ impl Encoder {
         self.slip = super::within_reach(self.slip.increments().saturating_add(by.increments()));
     }
 
-    /// What it tells after the slide moved.
+    /// The signal after the slide has moved.
     #[must_use]
     pub fn signal(&self, before: Position, after: Position) -> EncoderSignal {
         let passed = if before == after { None } else { self.mark_between(before, after) };
@@ -76,7 +76,7 @@ impl Encoder {
         Position::new((distance + count / 2).div_euclid(count) * count) + self.slip
     }
 
-    /// The first zero mark on the way from `before` (which does not count) to `after` (which does).
+    /// The first zero mark between `before` (excluded) and `after` (included).
     fn mark_between(&self, before: Position, after: Position) -> Option<Position> {
         let (spacing, phase) = (self.spacing.increments(), self.zero_mark.increments());
         let before_index = (before.increments() - phase).div_euclid(spacing);
@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn a_zero_mark_is_caught_in_both_directions_and_only_once() {
         let encoder = encoder();
-        // Zero marks at …, 0.3, 10.3, …; counting starts at 5.0, so the mark at 10.3 is 5.3.
+        // Zero marks at …, 0.3, 10.3, …; counting starts at 5.0, so the mark at 10.3 has the value 5.3.
         assert_eq!(encoder.signal(mm(10.2), mm(10.4)).zero_mark, Some(mm(5.3)));
         assert_eq!(encoder.signal(mm(10.4), mm(10.2)).zero_mark, Some(mm(5.3)));
         assert_eq!(encoder.signal(mm(10.2), mm(10.3)).zero_mark, Some(mm(5.3)));

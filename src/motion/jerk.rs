@@ -1,33 +1,33 @@
-//! Jerk: a moving average over the jerk time of a setpoint that is limited in acceleration.
+//! Jerk limitation: a moving average, over the jerk time, of a setpoint that is limited in acceleration.
 //!
-//! Called once per interpolation cycle in the place of the plain setpoint, for axes that have a filter. An average over
-//! whole positions ends on the target exactly when the window holds nothing but the target; its velocity is the way over the window
-//! divided by its time. A step of acceleration becomes a ramp over the jerk time, and a movement takes the jerk time longer.
+//! Axes with a filter use it instead of the plain setpoint, once per interpolation cycle. The average is taken over whole positions, so it
+//! reaches the target exactly when the window holds only the target. The velocity is the distance across the window divided by the window's
+//! time. A step of acceleration becomes a ramp over the jerk time, and a movement takes the jerk time longer.
 //!
-//! Two windows stand in a row: what limits the jerk of single-axis movements, and the filter that every movement passes.
-//! A fast stop passes both by: it brakes from where and how fast the axis is, and the windows act again from the
-//! next rest on. So does an axis that somebody else moved (follow-up, the axis that leads it), or whose windows
-//! changed while it moved. No call but [`JerkFilter::new`] allocates.
+//! Two windows are in series: the jerk limit of single-axis movements, and the filter that applies to every movement. A fast stop bypasses
+//! both: it brakes from the present position and velocity, and the windows are active again after the next standstill. The same applies to
+//! an axis that was moved by another source (follow-up, or its leading axis) and to an axis whose windows changed during motion. Only
+//! [`JerkFilter::new`] allocates.
 
 use serde::{Deserialize, Serialize};
 
 use super::Setpoint;
 use crate::units::Position;
 
-/// The longest window, in cycles: a sum of so many positions fits.
+/// The longest window, in cycles. The sum of this many positions fits into the number type.
 pub const LONGEST_WINDOW: usize = 1_000;
 
 /// The mean of the last positions.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Window {
-    /// The last positions, a ring, counted from `base`.
+    /// The last positions, a ring buffer, relative to `base`.
     ring: Vec<i64>,
-    /// How many of them count.
+    /// Number of positions in use.
     length: usize,
     next: usize,
     sum: i64,
     base: Position,
-    /// The last one, and how many of the latest are equal to it.
+    /// The newest position, and how many of the newest positions are equal to it.
     last: i64,
     equal: usize,
 }
@@ -38,14 +38,14 @@ impl Window {
         Self { ring: vec![0; longest], length: longest, equal: longest + 1, ..Self::default() }
     }
 
-    /// Full of one position.
+    /// Fills the window with one position.
     fn fill(&mut self, position: Position, length: usize) {
         self.length = length.clamp(1, self.ring.len());
         self.ring.fill(0);
         (self.next, self.sum, self.base, self.last, self.equal) = (0, 0, position, 0, self.length + 1);
     }
 
-    /// Takes a position: the mean, and how far the newest is from the one that falls out.
+    /// Adds a position. Returns the mean, and the distance between the newest position and the one that is dropped.
     fn pass(&mut self, position: Position) -> (Position, i64) {
         let newest = (position - self.base).increments();
         let way = newest - std::mem::replace(&mut self.ring[self.next], newest);
@@ -58,7 +58,7 @@ impl Window {
         (self.base + Position::new(mean), way)
     }
 
-    /// The mean has not moved in the last cycle, and will not.
+    /// The mean did not move in the last cycle and will not move.
     fn is_settled(&self) -> bool {
         self.equal > self.length
     }
@@ -70,26 +70,26 @@ pub struct JerkFilter {
     /// Limited in acceleration only.
     unfiltered: Setpoint,
     windows: [Window; 2],
-    /// The setpoint as the last step left it: another one was moved by somebody else.
+    /// The setpoint after the last step. If the present one differs, another source moved it.
     left: Setpoint,
     active: bool,
 }
 
 impl JerkFilter {
-    /// Memory for windows of so many cycles; 1 is none.
+    /// A filter with memory for windows of this many cycles; 1 means no window.
     #[must_use]
     pub fn new(longest: [usize; 2]) -> Self {
         Self { windows: longest.map(Window::new), ..Self::default() }
     }
 
-    /// Whether it has memory for exactly this.
+    /// Whether the memory has exactly these sizes.
     #[must_use]
     pub fn has_windows_of(&self, longest: [usize; 2]) -> bool {
         longest.map(|cycles| cycles.clamp(1, LONGEST_WINDOW))
             == [self.windows[0].ring.len(), self.windows[1].ring.len()]
     }
 
-    /// Gives the same place another value.
+    /// Shifts the coordinate of the present position without a movement.
     pub fn shift(&mut self, by: Position) {
         self.unfiltered.shift(by);
         self.left.shift(by);
@@ -98,10 +98,10 @@ impl JerkFilter {
         }
     }
 
-    /// One cycle: `command` moves the setpoint that is limited in acceleration and tells whether it arrived.
+    /// One cycle. `command` moves the setpoint that is limited in acceleration and returns whether it has arrived.
     ///
-    /// `first` is the first window's length for a movement that begins now, `fast` a stop that passes the filter by. True
-    /// once the setpoint itself has arrived.
+    /// `first` is the length of the first window for a movement that begins now. `fast` marks a stop that bypasses the filter. Returns true
+    /// when the setpoint itself has arrived.
     pub fn step(
         &mut self,
         setpoint: &mut Setpoint,
@@ -119,7 +119,7 @@ impl JerkFilter {
             let before = self.unfiltered;
             let settled = self.is_settled();
             let arrived = command(&mut self.unfiltered);
-            // What rests and has rested goes on resting: nothing changes.
+            // At rest before and after: nothing changes.
             if !settled || self.unfiltered != before {
                 self.filter(setpoint, cycle);
             }
@@ -131,7 +131,7 @@ impl JerkFilter {
         arrived
     }
 
-    /// Some of the movement is still held back.
+    /// Whether the filter still delays part of the movement.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.active && !self.is_settled()
@@ -176,7 +176,7 @@ mod tests {
         Position::from_user(value)
     }
 
-    /// Cycles to a target, and the largest changes of velocity and of acceleration on the way.
+    /// Number of cycles to a target, and the largest changes of velocity and of acceleration on the way.
     fn go(filter: &mut JerkFilter, setpoint: &mut Setpoint, target: Position) -> (u32, f64, f64) {
         let (mut acceleration, mut most) = (0.0, (0.0_f64, 0.0_f64));
         for count in 1..100_000 {
@@ -200,10 +200,10 @@ mod tests {
         for length in [2_usize, 5, 50, 200] {
             let (mut filter, mut setpoint) = (JerkFilter::new([length, 1]), Setpoint::default());
             let (cycles, acceleration, jerk) = go(&mut filter, &mut setpoint, mm(100.0));
-            // The window is empty so many cycles less one after the last movement.
+            // After the last movement the window empties that many cycles later, less one.
             assert_eq!(cycles, unfiltered + u32::try_from(length).unwrap() - 1);
             assert_eq!(setpoint, Setpoint::at(mm(100.0)));
-            // Velocities are ways of whole increments: one increment a cycle of rounding.
+            // Velocities are distances in whole increments: rounding adds up to one increment per cycle.
             let rounding = 1.01 / CYCLE / CYCLE;
             assert!(acceleration <= LIMITS.acceleration + rounding, "{length}: {acceleration}");
             let limit = LIMITS.acceleration / (length as f64 * CYCLE);
@@ -221,7 +221,7 @@ mod tests {
         assert_eq!(setpoint, Setpoint::at(mm(-7.000_001)));
     }
 
-    /// Released at v, the way to rest is v²/2a of braking and v · (length − 1)/2 cycles that the window holds back.
+    /// After release at velocity v, the stopping distance is v²/2a of braking plus v · (length − 1)/2 cycles delayed by the window.
     #[test]
     fn the_stopping_distance_is_that_of_braking_and_of_half_the_window() {
         for (velocity, length) in [(33.333_333e6, 50_u32), (100e6, 20), (100e6, 1), (166.666e6, 100)] {
@@ -242,12 +242,12 @@ mod tests {
             assert!(setpoint.is_at_rest());
             let way = (setpoint.position - released).increments() as f64;
             let expected = velocity * velocity / 2e9 + velocity * f64::from(length - 1) * CYCLE / 2.0;
-            // Braking begins within the cycle: up to one cycle of way less.
+            // Braking begins within the cycle: the distance is up to one cycle shorter.
             assert!(way <= expected && way > expected - velocity * CYCLE, "{velocity} {length}: {way}, not {expected}");
         }
     }
 
-    /// 100 mm/s and a fast stop at 4 m/s²: 25 ms, 12.5 cycles, although the window is 200 ms long.
+    /// A fast stop from 100 mm/s at 4 m/s² takes 25 ms, 12.5 cycles, although the window is 200 ms long.
     #[test]
     fn a_fast_stop_passes_the_filter_by_and_the_next_movement_does_not() {
         let (mut filter, mut setpoint) = (JerkFilter::new([100, 1]), Setpoint::default());
@@ -271,7 +271,7 @@ mod tests {
             raw.run(100e6, 1e9, CYCLE);
             false
         });
-        // The first step of 1 m/s² is 4 µm, of which the window shows a hundredth.
+        // The first step of 1 m/s² is 4 µm; the window outputs one hundredth of it.
         assert_eq!(setpoint.position - here, Position::new(40));
     }
 
@@ -293,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn a_way_there_and_back_within_the_window_is_no_rest() {
+    fn a_movement_and_its_return_within_the_window_is_not_standstill() {
         let (mut filter, mut setpoint) = (JerkFilter::new([50, 1]), Setpoint::default());
         for velocity in [1e6, -1e6, 0.0] {
             filter.step(&mut setpoint, None, false, CYCLE, |raw| {
@@ -301,11 +301,11 @@ mod tests {
                 false
             });
         }
-        assert!(!setpoint.is_at_rest(), "the window still holds the way");
+        assert!(!setpoint.is_at_rest(), "the window still delays part of the movement");
     }
 
     #[test]
-    fn who_was_moved_by_somebody_else_begins_with_an_empty_window() {
+    fn an_axis_moved_by_another_source_begins_with_an_empty_window() {
         let (mut filter, mut setpoint) = (JerkFilter::new([10, 1]), Setpoint::default());
         go(&mut filter, &mut setpoint, mm(1.0));
         setpoint = Setpoint::at(mm(50.0));

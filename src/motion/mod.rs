@@ -1,9 +1,8 @@
-//! THE AXIS, dialect-free: setpoint profiles, position control, the drive's answer, encoders, and the one
-//! [`coupling`] engine that every gantry uses.
+//! AXIS MECHANICS AND CONTROL LOOPS, independent of the kind of control: setpoint profiles, position control, the drive's response,
+//! encoders, and the one [`coupling`] engine for all gantries.
 //!
-//! Everything here is stepped by whole cycles with a cycle time in seconds; positions are whole increments, and a
-//! fraction of an increment is carried, never lost. Arithmetic is `+ − × ÷ sqrt` and comparisons only, so that every
-//! build and machine computes the same bits.
+//! Everything is computed in whole cycles; the cycle time is in seconds. Positions are whole increments; a fraction of an increment is
+//! carried over and never lost. Arithmetic uses only `+ − × ÷ sqrt` and comparisons, so every build and machine computes the same bits.
 
 mod command;
 pub mod coupling;
@@ -22,24 +21,25 @@ pub use jerk::{JerkFilter, LONGEST_WINDOW};
 pub use profile::{Limits, Movement, Setpoint};
 pub use servo::{Drive, velocity_command};
 
-/// How far an axis can run away, in increments: beyond every position that machine data can say, and near enough to zero
-/// for sums, differences and fine interpolation of positions.
+/// The farthest position of an axis, in increments. It is beyond every position that machine data can express, and small enough for sums,
+/// differences and fine interpolation of positions.
 const FARTHEST: i64 = 1 << 52;
 
-/// A position as far away as an axis can be at most.
+/// Limits a position to the range that an axis can reach.
 #[must_use]
 pub fn within_reach(position: i64) -> crate::units::Position {
     crate::units::Position::new(position.clamp(-FARTHEST, FARTHEST))
 }
 
-/// Adds a movement in increments to a position, carrying the fraction; it ends at [`FARTHEST`]. No movement changes neither.
+/// Adds a movement in increments to a position and carries the fraction. The result is limited to [`FARTHEST`]. A movement of zero changes
+/// neither.
 pub(crate) fn advance(position: crate::units::Position, carry: &mut f64, movement: f64) -> crate::units::Position {
     if movement == 0.0 {
         return position;
     }
     let wanted = movement + *carry;
-    // Half away from zero, as `round` does, which is a call on some processors; the cast drops the fraction and saturates. Which
-    // way it is rounded is as good as random, so that nothing branches on it.
+    // Rounds half away from zero, like `round`, which is a function call on some processors. The cast drops the fraction and saturates.
+    // The rounding direction is practically random, so the code has no branch on it.
     #[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
     let truncated = wanted as i64;
     let fraction = wanted - truncated as f64;

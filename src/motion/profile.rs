@@ -1,15 +1,14 @@
-//! The setpoint of one axis: limited in velocity and acceleration, and free to be given a new target, a new
-//! velocity or a new direction while it moves.
+//! The setpoint of one axis, limited in velocity and acceleration. Target, velocity and direction may change during
+//! motion.
 //!
-//! Called once per interpolation cycle, by the stage "setpoints". A profile that runs to a target brakes by the
-//! discrete braking distance, so that it ends on the target exactly and with one last step of at most one
-//! cycle's acceleration.
+//! Called once per interpolation cycle, by the stage "setpoints". A profile that runs to a target uses the discrete
+//! braking distance. It ends on the target exactly, and its last step is at most one cycle's acceleration.
 
 use serde::{Deserialize, Serialize};
 
 use crate::units::Position;
 
-/// What bounds a movement.
+/// The limits of a movement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Largest velocity, in increments per second.
@@ -18,7 +17,7 @@ pub struct Limits {
     pub acceleration: f64,
 }
 
-/// What a setpoint did in one cycle, for another one that follows it.
+/// The movement of a setpoint in one cycle, for another setpoint that follows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Movement {
     way: Position,
@@ -27,26 +26,26 @@ pub struct Movement {
 }
 
 impl Movement {
-    /// The same in the opposite direction.
+    /// The same movement in the opposite direction.
     #[must_use]
     pub(super) fn reversed(self) -> Self {
         Self { way: -self.way, velocity: -self.velocity, ..self }
     }
 }
 
-/// The setpoint of an axis and how fast it moves.
+/// The setpoint of an axis and its velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Setpoint {
-    /// Where.
+    /// Position.
     pub position: Position,
     carry: f64,
     velocity: f64,
-    /// A filter still holds back some of the movement.
+    /// A filter still delays part of the movement.
     held_back: bool,
 }
 
 impl Setpoint {
-    /// At rest here.
+    /// A setpoint at rest at this position.
     #[must_use]
     pub const fn at(position: Position) -> Self {
         Self { position, carry: 0.0, velocity: 0.0, held_back: false }
@@ -64,13 +63,14 @@ impl Setpoint {
         self.velocity.abs() < 1e-9 && !self.held_back
     }
 
-    /// It does not move at all, and braking would change nothing of it.
+    /// Whether it does not move at all, so that braking has no effect.
     #[must_use]
     pub const fn is_still(&self) -> bool {
         self.velocity.to_bits() == 0 && !self.held_back
     }
 
-    /// Moves for one cycle towards a velocity (signed, increments per second): jogging, searching, braking with 0.
+    /// Moves for one cycle towards a velocity (signed, increments per second). Used for jogging, searching and, with 0,
+    /// braking.
     pub fn run(&mut self, velocity: f64, acceleration: f64, cycle: f64) {
         self.held_back = false;
         let step = acceleration * cycle;
@@ -78,7 +78,7 @@ impl Setpoint {
         self.position = super::advance(self.position, &mut self.carry, self.velocity * cycle);
     }
 
-    /// Moves for one cycle towards a target; true once it rests there.
+    /// Moves for one cycle towards a target. Returns true when the setpoint rests there.
     pub fn go_to(&mut self, target: Position, limits: Limits, cycle: f64) -> bool {
         self.held_back = false;
         let distance = (target - self.position).increments() as f64 - self.carry;
@@ -87,8 +87,8 @@ impl Setpoint {
             *self = Self::at(target);
             return true;
         }
-        // The largest velocity from which N whole cycles of braking end on the target: the sum
-        // v·T + (v − aT)·T + … over N cycles is the distance, for the smallest N that can do it.
+        // The largest velocity from which N whole cycles of braking end on the target: the sum v·T + (v − aT)·T + …
+        // over N cycles equals the distance, for the smallest possible N.
         let in_steps = distance.abs() / (step * cycle);
         let cycles = ((0.25 + 2.0 * in_steps).sqrt() - 0.5).ceil().max(1.0);
         let braking = step * (in_steps / cycles + 0.5 * (cycles - 1.0));
@@ -107,24 +107,24 @@ impl Setpoint {
         false
     }
 
-    /// How it came here from where it was before this cycle, and how fast it moves now.
+    /// The movement since `before`, the position before this cycle, and the present velocity.
     #[must_use]
     pub fn moved_from(&self, before: Position) -> Movement {
         Movement { way: self.position - before, velocity: self.velocity, held_back: self.held_back }
     }
 
-    /// Follows another setpoint: its movement in the same cycle, with the velocity that it has now.
+    /// Follows another setpoint: takes over its movement in the same cycle and its present velocity.
     pub fn follow(&mut self, movement: Movement) {
         self.position += movement.way;
         (self.velocity, self.held_back) = (movement.velocity, movement.held_back);
     }
 
-    /// What a filter makes of another setpoint.
+    /// Sets the output of a filter for this setpoint.
     pub(super) fn show(&mut self, position: Position, velocity: f64, held_back: bool) {
         *self = Self { position, carry: 0.0, velocity, held_back };
     }
 
-    /// Gives the same place another value: setting a reference moves nothing.
+    /// Shifts the coordinate without a movement: setting a reference moves nothing.
     pub fn shift(&mut self, by: Position) {
         self.position += by;
     }
@@ -143,7 +143,7 @@ mod tests {
             let before = *setpoint;
             let arrived = setpoint.go_to(target, limits, CYCLE);
             let change = (setpoint.velocity() - before.velocity()).abs();
-            // The last cycle ends on a whole increment: one increment a cycle of rounding.
+            // The last cycle ends on a whole increment: rounding adds up to one increment per cycle.
             assert!(change <= limits.acceleration * CYCLE + 1.01 / CYCLE, "acceleration {change}");
             assert!(setpoint.velocity().abs() <= limits.velocity + 1e-6);
             if arrived {

@@ -1,23 +1,24 @@
-//! Position control and the drive behind it, run once per position-control cycle: a whole number of times in an
-//! interpolation cycle.
+//! Position control and the drive. Both run once per position-control cycle; an interpolation cycle contains a whole
+//! number of these.
 //!
-//! The speed loop answers as PT1, discretised as `a = T / (τ + T)`; that is stable for every τ ≥ 0.
+//! The speed loop responds as PT1, discretised as `a = T / (τ + T)`, which is stable for every τ ≥ 0.
 
 use serde::{Deserialize, Serialize};
 
 use crate::units::Position;
 
-/// The velocity that position control asks for, in increments per second.
+/// The velocity command of position control, in increments per second.
 ///
-/// `deviation` is setpoint minus actual value in increments; what is not above half an encoder count cannot be seen and
-/// asks for nothing. `feed_forward` is the part of the setpoint velocity that is passed on (0 without feed-forward).
+/// `deviation` is setpoint minus actual value in increments. A deviation of at most half an encoder count cannot be
+/// detected and gives no command. `feed_forward` is the part of the setpoint velocity that is added (0 without
+/// feedforward).
 #[must_use]
 pub fn velocity_command(deviation: f64, gain: f64, half_count: Position, feed_forward: f64) -> f64 {
     let seen = if deviation.abs() <= half_count.increments() as f64 { 0.0 } else { deviation };
     seen * gain + feed_forward
 }
 
-/// A drive: the velocity of its motor, seen at the slide.
+/// A drive: the velocity of its motor, referred to the slide.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Drive {
     velocity: f64,
@@ -25,26 +26,26 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// The speed loop's answer to a command, one position-control cycle later.
+    /// The response of the speed loop to a command, one position-control cycle later.
     pub fn answer(&mut self, command: f64, time_constant: f64, cycle: f64) {
         if command == 0.0 && self.velocity == 0.0 {
             return;
         }
         let share = cycle / (time_constant + cycle);
         self.velocity += share * (command - self.velocity);
-        // Far below one increment per hour: nothing moves any more, and arithmetic stays away from denormals.
+        // Far below one increment per hour: the drive is at rest. This avoids denormal numbers.
         if self.velocity.abs() < 1e-4 {
             self.velocity = 0.0;
         }
     }
 
-    /// Its velocity in increments per second.
+    /// Velocity in increments per second.
     #[must_use]
     pub const fn velocity(&self) -> f64 {
         self.velocity
     }
 
-    /// Something holds or carries it: the motor has this velocity now.
+    /// Sets the velocity of a motor that is blocked or moved by an external force.
     pub fn force(&mut self, velocity: f64) {
         self.velocity = velocity;
     }
@@ -63,7 +64,7 @@ mod tests {
     const CYCLE: f64 = 0.002;
 
     #[test]
-    fn the_drive_answers_as_pt1() {
+    fn the_drive_responds_as_pt1() {
         let mut drive = Drive::default();
         for _ in 0..3 {
             drive.answer(1000.0, 0.004, CYCLE);
@@ -84,13 +85,13 @@ mod tests {
             drive.answer(command, 0.003, CYCLE);
             slide = drive.moved(slide, CYCLE);
         }
-        // 100 mm/s ÷ 16.667 1/s = 6 mm, plus the one cycle (0.2 mm) that the setpoint is ahead in this order.
+        // 100 mm/s ÷ 16.667 1/s = 6 mm, plus one cycle (0.2 mm) by which the setpoint leads in this order.
         let error = (setpoint - slide).user();
         assert!((error - 6.0).abs() < 0.201, "{error}");
     }
 
     #[test]
-    fn less_than_half_a_count_asks_for_nothing() {
+    fn less_than_half_a_count_gives_no_command() {
         assert_eq!(velocity_command(50.0, 16.0, Position::new(50), 0.0).to_bits(), 0.0_f64.to_bits());
         assert!(velocity_command(51.0, 16.0, Position::new(50), 0.0) > 0.0);
     }

@@ -1,10 +1,10 @@
-//! The differences of a coupling: actual value of the follower minus factor × actual value of the leader minus a base, and
-//! what becomes of it when it crosses a limit.
+//! The differences of a coupling and their limits. A difference is the actual value of the follower minus factor × actual value of the
+//! leader minus a base.
 //!
-//! The base is what counts as no difference. A captured offset is the base for good. An offset of zero or of a configured
-//! length becomes the base once leader and follower are referenced; before that the base is where they were when counting
-//! began. A reference gives a place another actual value: the base goes with it, so that the difference does not jump, except
-//! for the reference that makes it absolute.
+//! The base is the offset that counts as no difference. A captured offset stays the base. An offset of zero or of a configured length
+//! becomes the base when leader and follower are referenced; before that, the base is their distance when counting began. A reference
+//! changes the actual value of a position, and the base changes with it, so the difference does not jump. The exception is the reference
+//! that makes the difference absolute.
 
 use arrayvec::ArrayVec;
 
@@ -12,12 +12,12 @@ use super::policy::{BeforeReference, OffsetSource, Reaction, TwoStage};
 use super::state::{Axes, Coupled, Coupling, Halt, MEMBERS, Stage};
 use crate::units::{AxisNumber, Position};
 
-/// A limit as it acts.
+/// A limit in effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limit {
-    /// The difference that may not be exceeded.
+    /// The largest permitted difference.
     pub at: Position,
-    /// How much of it is the base, where it counts beyond one.
+    /// The part of it that is the base, if the limit counts beyond a base.
     pub base: Option<Position>,
 }
 
@@ -37,33 +37,33 @@ impl Limit {
     }
 }
 
-/// What happened to a follower.
+/// An event of a follower.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum What {
-    /// Its difference went beyond the first limit.
+    /// Its difference exceeded the first limit.
     FirstExceeded(Limit),
-    /// Its difference is not beyond the first limit any more; `None` where there is no such limit any more.
+    /// Its difference returned within the first limit; `None` if the first limit no longer exists.
     FirstBack(Option<Limit>),
-    /// Its difference went beyond the second limit.
+    /// Its difference exceeded the second limit.
     SecondExceeded(Limit),
-    /// Its difference is not beyond the second limit any more; `None` where there is no such limit any more.
+    /// Its difference returned within the second limit; `None` if the second limit no longer exists.
     SecondBack(Option<Limit>),
-    /// The realignment ended on its target.
+    /// The realignment reached its target.
     Realigned,
-    /// It does not follow any more.
+    /// It no longer follows.
     Released,
-    /// The coupling is closed again: it will follow as soon as all members rest.
+    /// The coupling is closed again: it follows when all members are at rest.
     Closed,
 }
 
-/// An event of a coupling, without the words of any control.
+/// An event of a coupling, independent of the kind of control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CouplingEvent {
-    /// Which follower.
+    /// The follower.
     pub follower: AxisNumber,
     /// Its difference.
     pub difference: Position,
-    /// What happened.
+    /// The event.
     pub what: What,
 }
 
@@ -71,7 +71,7 @@ pub struct CouplingEvent {
 pub type Events = ArrayVec<CouplingEvent, { 2 * (MEMBERS - 1) }>;
 
 impl Coupled {
-    /// What the actual values are apart, without a base.
+    /// The distance of the actual values, without a base.
     fn apart(&self, leader: AxisNumber, axes: &impl Axes) -> Position {
         axes.actual(self.follower.axis) - self.follower.factor * axes.actual(leader)
     }
@@ -80,7 +80,7 @@ impl Coupled {
         self.apart(leader, axes) - self.base
     }
 
-    /// The base that acts once both axes are referenced; none where the offset was captured.
+    /// The base that acts when both axes are referenced; none if the offset was captured.
     const fn absolute_base(&self) -> Option<Position> {
         match self.follower.offset {
             OffsetSource::Zero => Some(Position::ZERO),
@@ -93,12 +93,12 @@ impl Coupled {
         axes.is_referenced(self.follower.axis) && axes.is_referenced(leader)
     }
 
-    /// What the follower is apart from the leader at the end of a realignment.
+    /// The distance between follower and leader at the end of a realignment.
     pub(super) fn offset(&self) -> Position {
         self.absolute_base().unwrap_or(self.base)
     }
 
-    /// Takes the present positions as no difference, unless the base is absolute or was captured at another time.
+    /// Takes the present positions as no difference, unless the base is absolute or is captured at another time.
     pub(super) fn count_anew(&mut self, leader: AxisNumber, axes: &impl Axes) {
         match self.absolute_base() {
             Some(base) if self.is_referenced(leader, axes) => self.base = base,
@@ -107,7 +107,7 @@ impl Coupled {
         }
     }
 
-    /// Takes the offset that the setpoints have now, where it is to be captured at activation.
+    /// Captures the present offset of the setpoints, if the policy captures it at activation.
     pub(super) fn activate(&mut self, leader: AxisNumber, axes: &impl Axes) {
         if self.follower.offset == OffsetSource::AtActivation {
             let setpoint = |axis| axes.setpoint(axis).position;
@@ -115,7 +115,7 @@ impl Coupled {
         }
     }
 
-    /// The limits that act: a base widens the first one, and the second one where that says so.
+    /// The limits in effect. A base widens the first limit, and the second limit if that is defined to count beyond the base.
     fn limits(&self, limits: TwoStage) -> (Option<Limit>, Limit) {
         let second = Limit::new(limits.second, None);
         let beyond_base = limits.second_beyond_base.filter(|_| self.kept.is_some());
@@ -140,7 +140,7 @@ impl Coupled {
 }
 
 impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
-    /// The control starts: offsets of start-up are captured, and differences that are not absolute count from here.
+    /// The control starts: captures the offsets of start-up. Differences that are not absolute count from the present positions.
     pub fn start_up(&mut self, axes: &impl Axes) {
         let leader = self.leader;
         for coupled in &mut self.followers {
@@ -152,14 +152,14 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         }
     }
 
-    /// Differences that are not absolute and have no captured offset count from here.
+    /// Differences that are not absolute and have no captured offset count from the present positions.
     pub fn count_anew(&mut self, axes: &impl Axes) {
         for coupled in &mut self.followers {
             coupled.count_anew(self.leader, axes);
         }
     }
 
-    /// The actual value of an axis was given another value, by this much, by a reference: nothing moved.
+    /// A reference shifted the actual value of an axis by this amount. Nothing moved.
     pub fn value_shifted(&mut self, axis: AxisNumber, by: Position, axes: &impl Axes) {
         for coupled in &mut self.followers {
             let shift = if axis == coupled.follower.axis {
@@ -176,15 +176,15 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         }
     }
 
-    /// Replaces the limits of all followers; with `None` one is not monitored.
+    /// Replaces the limits of all followers. A follower with `None` is not monitored.
     pub fn set_limits(&mut self, limits: impl Fn(AxisNumber) -> Option<TwoStage>) {
         for coupled in &mut self.followers {
             coupled.follower.limits = limits(coupled.follower.axis);
         }
     }
 
-    /// Compares the differences of all followers with their limits, once per cycle after the encoders. `events` takes an event
-    /// for each limit that was crossed since the last time, and nothing else. While the coupling is open, nothing is beyond a limit.
+    /// Compares the differences of all followers with their limits, once per cycle after the encoders. Adds one event to `events` for each
+    /// limit that was crossed since the last call. While the coupling is open, no limit counts as exceeded.
     pub fn compare(&mut self, axes: &impl Axes, events: &mut Events) {
         events.clear();
         let (leader, open) = (self.leader, self.is_open());
@@ -215,31 +215,31 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         Some(self.follower(follower)?.difference(self.leader, axes))
     }
 
-    /// What a follower and the leader are apart beyond the offset, whatever the difference counts from: what a realignment
-    /// removes.
+    /// The distance between a follower and the leader beyond the offset, independent of the base. A realignment removes it.
     #[must_use]
     pub fn misalignment(&self, follower: AxisNumber, axes: &impl Axes) -> Option<Position> {
         let coupled = self.follower(follower)?;
         Some(coupled.apart(self.leader, axes) - coupled.offset())
     }
 
-    /// The difference of each follower and the limits that it is beyond, as they were compared the last time.
+    /// The difference of each follower and the limits that it exceeded at the last comparison.
     pub fn differences(&self) -> impl Iterator<Item = (AxisNumber, Position, Stage)> + '_ {
         self.followers.iter().map(|coupled| (coupled.follower.axis, coupled.difference, coupled.stage))
     }
 
-    /// Whether the group is halted by its policy.
+    /// The halt of the group by its policy, if any.
     #[must_use]
     pub const fn halt(&self) -> Option<Halt> {
         self.halt
     }
 
-    /// Ends a halt that can be reset. A difference that is still beyond its limit halts again only after it was back.
+    /// Ends a halt that can be reset. A difference that still exceeds its limit halts the group again only after it has returned within the
+    /// limit.
     pub fn reset(&mut self) {
         self.halt = self.halt.filter(|halt| *halt == Halt::Locked);
     }
 
-    /// Position control is back after a loss: the amount of each difference is the base beyond which limits count.
+    /// Position control is active again after a loss: the amount of each difference is the base beyond which limits count.
     pub fn keep_bases(&mut self, axes: &impl Axes) {
         for coupled in &mut self.followers {
             coupled.kept = Some(coupled.difference(self.leader, axes).abs());

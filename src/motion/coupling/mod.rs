@@ -1,26 +1,26 @@
-//! The coupling engine: one leader, its followers, and how far they are apart.
+//! The coupling engine: one leader, its followers, and their differences.
 //!
-//! It knows no control: no rule, no signal and no alarm of any manual. A control gives it a [`Policy`] and the definition of
-//! each [`Follower`], and calls it in every cycle:
+//! It is independent of the kind of control: it contains no rule, signal or alarm of a manual. A control gives it a
+//! [`Policy`] and the definition of each [`Follower`], and calls it in every cycle:
 //!
 //! | stage | call | result |
 //! |---|---|---|
 //! | setpoints | [`Coupling::lead`] | the movement of each member that does not lead |
 //! | stop | [`Coupling::stop`] | which members brake, and how hard |
 //! | realignment | [`Coupling::begin_realignment`], [`Coupling::realign`] | where each member moves, decoupled |
-//! | after the encoders | [`Coupling::compare`] | an event for each limit that a difference crossed |
+//! | after the encoders | [`Coupling::compare`] | an event for each limit that a difference has crossed |
 //!
 //! | file | what |
 //! |---|---|
-//! | `policy.rs` | what a control decides |
-//! | `state.rs` | the members, which one leads, and what is remembered |
+//! | `policy.rs` | the decisions of a control |
+//! | `state.rs` | the members, which one leads, and the stored state |
 //! | `difference.rs` | differences, their base, limits and events |
 //! | `realign.rs` | the decoupled motion that removes a difference |
 //! | `connection.rs` | closed, realigning, open; opening and closing |
 //! | `stop.rs` | the stop of the group |
 //!
-//! The control translates events into its own messages, and keeps its own phases. Positions are integers, nothing allocates,
-//! and the number of followers is bounded by the number of axes only, or by what a control allows.
+//! The control translates events into its own messages and keeps its own phases. Positions are integers. Nothing allocates. The number of
+//! followers is limited by the number of axes and by the control.
 
 mod connection;
 mod difference;

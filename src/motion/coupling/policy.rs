@@ -1,8 +1,8 @@
-//! What a control decides about a coupling: how each follower is coupled, where its difference counts from, its two limits,
-//! and how the group reacts.
+//! The policy of a coupling, defined by the control: how each follower is coupled, the base of its difference, its two limits, and the
+//! reaction of the group.
 //!
-//! A control builds these values from its machine data or parameter lists. They are plain data; the engine reads them and
-//! never changes them, except for the limits of a follower, which a control may replace in every cycle.
+//! A control builds these values from its machine data or parameter lists. They are plain data. The engine reads them and does not change
+//! them, except that a control may replace the limits of a follower in every cycle.
 
 use std::ops::Mul;
 
@@ -48,34 +48,34 @@ impl Mul<Movement> for Sign {
     }
 }
 
-/// What a coupled follower and its leader are apart when nothing is wrong: follower minus factor × leader.
+/// The nominal distance between a coupled follower and its leader: follower minus factor × leader.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum OffsetSource {
-    /// Nothing, once both are referenced.
+    /// Zero, when both are referenced.
     #[default]
     Zero,
-    /// This much, once both are referenced.
+    /// This distance, when both are referenced.
     Configured(Position),
-    /// What their actual values were apart when the control started.
+    /// The distance of their actual values when the control started.
     AtStartUp,
-    /// What their setpoints were apart when the coupling was closed the last time.
+    /// The distance of their setpoints when the coupling was last closed.
     AtActivation,
 }
 
-/// The limits of a difference. Strictly greater is beyond a limit, equal is not.
+/// The limits of a difference. A limit is exceeded only by a strictly greater value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TwoStage {
-    /// The first limit; `None` where there is no first stage.
+    /// The first limit; `None` without a first stage.
     pub first: Option<Position>,
     /// The second limit.
     pub second: Position,
-    /// A second limit that counts beyond the base that [`Coupling::keep_bases`](super::Coupling::keep_bases) left. While
-    /// there is a base, the smaller one of both second limits acts.
+    /// A second limit that counts beyond the base left by [`Coupling::keep_bases`](super::Coupling::keep_bases). While there is a base, the
+    /// smaller of the two second limits acts.
     pub second_beyond_base: Option<Position>,
 }
 
 impl TwoStage {
-    /// Two limits that are the same with and without a base, but for the first, which always counts beyond it.
+    /// Two limits that do not depend on the base, except that the first one always counts beyond it.
     #[must_use]
     pub const fn new(first: Option<Position>, second: Position) -> Self {
         Self { first, second, second_beyond_base: None }
@@ -85,74 +85,74 @@ impl TwoStage {
 /// A follower, as a control defines it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Follower {
-    /// Which axis.
+    /// The axis.
     pub axis: AxisNumber,
-    /// In which direction it follows.
+    /// The direction in which it follows.
     pub factor: Sign,
-    /// Where its difference counts from.
+    /// The base of its difference.
     pub offset: OffsetSource,
-    /// Its limits; without any, its difference is not monitored.
+    /// Its limits. Without limits its difference is not monitored.
     pub limits: Option<TwoStage>,
 }
 
 impl Follower {
-    /// A follower with factor +1 and no offset, which is not monitored yet.
+    /// A follower with factor +1, without an offset and not yet monitored.
     #[must_use]
     pub const fn new(axis: AxisNumber) -> Self {
         Self { axis, factor: Sign::Plus, offset: OffsetSource::Zero, limits: None }
     }
 }
 
-/// What the engine does when a limit is exceeded, besides the event.
+/// The reaction of the engine to an exceeded limit, in addition to the event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Reaction {
-    /// Nothing. What follows is the business of the control, for example of its alarms.
+    /// None. The control reacts, for example with an alarm.
     Report,
     /// The group is halted until [`Coupling::reset`](super::Coupling::reset).
     Stop,
-    /// The group is halted as long as this coupling exists: only a new start of the control ends it.
+    /// The group is halted as long as this coupling exists. Only a restart of the control ends the halt.
     Lock,
 }
 
-/// What a difference with offset [`OffsetSource::Zero`] or [`OffsetSource::Configured`] means before both axes are referenced.
+/// The difference with offset [`OffsetSource::Zero`] or [`OffsetSource::Configured`] before both axes are referenced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BeforeReference {
     /// It is not monitored.
     Off,
-    /// It counts from where the axes were when counting began: at start-up, or when the coupling closed.
+    /// It counts from the positions at which counting began: at start-up, or when the coupling closed.
     Relative,
 }
 
-/// Where a difference counts from when the coupling closes again, as long as it is relative.
+/// The base of a relative difference when the coupling closes again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Release {
-    /// From where the axes are then: what arose while it was open does not count.
+    /// The positions at that time: a difference that arose while the coupling was open does not count.
     CountAnew,
-    /// From where it counted before: what arose while it was open counts.
+    /// The previous base: a difference that arose while the coupling was open counts.
     Keep,
 }
 
 /// Which members stop, and how, when the group has to stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum GroupStop {
-    /// All, with the smallest deceleration of any of them.
+    /// All, with the smallest deceleration among them.
     AllAtTheSlowest,
     /// All, each with its own deceleration.
     EachAtItsOwn,
-    /// The one that leads, with its own deceleration; the others follow it to rest.
+    /// The leading member, with its own deceleration; the others follow it to standstill.
     Leading,
 }
 
-/// How a group reacts.
+/// The reactions of a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Policy {
-    /// To a difference beyond the first limit.
+    /// To a difference above the first limit.
     pub first: Reaction,
-    /// To a difference beyond the second limit.
+    /// To a difference above the second limit.
     pub second: Reaction,
-    /// Before its axes are referenced.
+    /// Differences before the axes are referenced.
     pub before_reference: BeforeReference,
-    /// To being closed again.
+    /// To closing after a release.
     pub release: Release,
     /// To a stop.
     pub stop: GroupStop,
@@ -167,22 +167,22 @@ pub enum Moves {
     Followers,
 }
 
-/// Where the leader is at the end; each follower goes to where that puts it.
+/// The final position of the leader. The final position of each follower results from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// At its present actual value.
     LeaderActual,
     /// At its present setpoint.
     LeaderSetpoint,
-    /// Here.
+    /// This position.
     Given(Position),
 }
 
-/// How a realignment runs. A control decides it when it begins one.
+/// The parameters of a realignment. A control chooses them when the realignment begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Realign {
     /// Which members move.
     pub moves: Moves,
-    /// Where to.
+    /// The target.
     pub target: Target,
 }

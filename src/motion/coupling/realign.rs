@@ -1,8 +1,8 @@
-//! Realignment: members move decoupled until each follower is where factor × leader + offset is.
+//! Realignment: members move decoupled until each follower is at factor × leader + offset.
 //!
-//! The target is fixed when the realignment begins. The control gives velocity and acceleration of each member in every
-//! cycle, so that overrides and feed stops act; it executes the commands, with filters of its own where it has any. The realignment ends when every member that moves rests on its target and is in
-//! position; it is the control that breaks it off, and decides how long it waits.
+//! The target is fixed when the realignment begins. The control gives velocity and acceleration of each member in every cycle, so overrides
+//! and feed stops act. It also executes the commands, with its own filters if it has any. The realignment ends when every moving member
+//! rests on its target and is in position. Only the control aborts it and limits the waiting time.
 
 use arrayvec::ArrayVec;
 
@@ -12,25 +12,26 @@ use super::state::{Axes, Connection, Coupling, MEMBERS, Realignment};
 use crate::motion::{Limits, Motion};
 use crate::units::{AxisNumber, Position};
 
-/// How far a realignment is.
+/// Progress of a realignment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Progress {
     /// A member moves.
     Running,
-    /// This member is the first that rests on its target and is not in position; a member is so for this many cycles in all.
+    /// This member is the first that rests on its target and is not in position, and the number of cycles for which a member has been in
+    /// this state.
     Waiting(AxisNumber, u64),
-    /// All members are in position: the coupling is closed, with this leader's position.
+    /// All members are in position. The coupling is closed, with this position of the leader.
     Done(Position),
 }
 
 /// One cycle of a realignment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Realigning {
-    /// What each member that moves is to do, in the order of the members: a [`Motion::GoTo`].
+    /// The command of each moving member, in the order of the members: a [`Motion::GoTo`].
     pub commands: ArrayVec<(AxisNumber, Motion), MEMBERS>,
-    /// How far it is.
+    /// Progress.
     pub progress: Progress,
-    /// [`What::Realigned`] for each follower, once it is done.
+    /// [`What::Realigned`] for each follower when the realignment is done.
     pub events: Events,
 }
 
@@ -45,7 +46,7 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         self.connection = Connection::Realigning(Realignment { target, moves: how.moves, waited: 0 });
     }
 
-    /// One cycle of a realignment; `None` where none is on its way.
+    /// One cycle of a realignment; `None` if none is running.
     pub fn realign(
         &mut self,
         axes: &impl Axes,
@@ -79,7 +80,7 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         Some(Realigning { commands, progress, events })
     }
 
-    /// Breaks a realignment off: the coupling closes where its members come to rest.
+    /// Aborts a realignment. The coupling closes when its members are at rest.
     pub fn abort_realignment(&mut self) {
         if matches!(self.connection, Connection::Realigning(_)) {
             self.connection = Connection::Settling;

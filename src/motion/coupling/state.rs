@@ -1,4 +1,4 @@
-//! What a coupling is and remembers: its members, which one leads, and how they are connected. Plain data.
+//! The state of a coupling: its members, the leading member, and the connection. Plain data.
 
 use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
@@ -7,10 +7,10 @@ use super::policy::{Follower, Moves, Policy, Sign};
 use crate::motion::{Movement, Setpoint};
 use crate::units::{AxisNumber, AxisSet, Position};
 
-/// How many members a coupling can have.
+/// Largest number of members of a coupling.
 pub(super) const MEMBERS: usize = AxisNumber::MAX as usize;
 
-/// What a coupling reads of the axes of a control.
+/// The axis data that a coupling reads from a control.
 pub trait Axes {
     /// The actual value.
     fn actual(&self, axis: AxisNumber) -> Position;
@@ -20,35 +20,35 @@ pub trait Axes {
     fn is_referenced(&self, axis: AxisNumber) -> bool;
 }
 
-/// Which limits a difference is beyond.
+/// The limits that a difference exceeds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Stage {
-    /// Beyond the first limit.
+    /// Above the first limit.
     pub first: bool,
-    /// Beyond the second limit.
+    /// Above the second limit.
     pub second: bool,
 }
 
-/// Why a group is halted.
+/// The kind of a halt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Halt {
     /// A reset ends it.
     UntilReset,
-    /// Only a new start of the control ends it.
+    /// Only a restart of the control ends it.
     Locked,
 }
 
-/// A follower with what the engine knows about it.
+/// A follower and its state in the engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Coupled {
     pub follower: Follower,
-    /// What counts as no difference.
+    /// The offset that counts as no difference.
     pub base: Position,
-    /// The difference when it was compared the last time.
+    /// The difference at the last comparison.
     pub difference: Position,
-    /// The limits that the difference was beyond then.
+    /// The limits that it exceeded then.
     pub stage: Stage,
-    /// The amount that limits count beyond.
+    /// The amount beyond which limits count.
     pub kept: Option<Position>,
 }
 
@@ -59,29 +59,29 @@ impl Coupled {
     }
 }
 
-/// How the members are connected.
+/// The connection of the members.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Connection {
-    /// Movements are handed on.
+    /// Movements are passed on.
     Closed,
     /// The members move decoupled to their targets.
     Realigning(Realignment),
-    /// It is to be closed as soon as all members rest.
+    /// It closes when all members are at rest.
     Settling,
     /// The members are independent.
     Open,
 }
 
-/// A realignment on its way.
+/// A running realignment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Realignment {
     pub target: Position,
     pub moves: Moves,
-    /// Cycles in which a member rested on its target and was not in position.
+    /// Number of cycles in which a member rested on its target and was not in position.
     pub waited: u64,
 }
 
-/// Axes that move together. A control that has a limit for the number of followers says so by `FOLLOWERS`, and pays for no more.
+/// Axes that move together. A control may limit the number of followers with `FOLLOWERS`; memory is reserved only for that number.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Coupling<const FOLLOWERS: usize = { MEMBERS - 1 }> {
     pub(super) leader: AxisNumber,
@@ -93,8 +93,7 @@ pub struct Coupling<const FOLLOWERS: usize = { MEMBERS - 1 }> {
 }
 
 impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
-    /// A closed coupling whose differences count from zero; `None` where an axis stands in it twice, or where there are too
-    /// many.
+    /// A closed coupling whose differences count from zero; `None` if an axis is listed twice or there are too many axes.
     #[must_use]
     pub fn new(leader: AxisNumber, policy: Policy, followers: impl IntoIterator<Item = Follower>) -> Option<Self> {
         let mut members = AxisSet::of(leader);
@@ -122,7 +121,7 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         self.leader
     }
 
-    /// The followers by definition, in the order in which they were given.
+    /// The followers by definition, in the given order.
     pub fn followers(&self) -> impl DoubleEndedIterator<Item = AxisNumber> + ExactSizeIterator + '_ {
         self.followers.iter().map(|coupled| coupled.follower.axis)
     }
@@ -132,20 +131,19 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         std::iter::once(self.leader).chain(self.followers())
     }
 
-    /// The member that leads at the moment.
+    /// The member that leads at present.
     #[must_use]
     pub const fn leads_now(&self) -> AxisNumber {
         self.leads_now
     }
 
-    /// Inverts the dependency, or reverts it: this member leads from now on. Differences stay as they are.
+    /// Makes this member the leading one, or restores the definition. Differences do not change.
     pub fn lead_with(&mut self, axis: AxisNumber) {
         debug_assert!(self.members().any(|member| member == axis));
         self.leads_now = axis;
     }
 
-    /// The movement of each member that does not lead, for a movement of the one that leads. None while the coupling is not
-    /// closed.
+    /// The movement of each member that does not lead, for a movement of the leading member. Empty while the coupling is not closed.
     pub fn lead(&self, movement: Movement) -> impl Iterator<Item = (AxisNumber, Movement)> + '_ {
         let common = self.factor(self.leads_now) * movement;
         let led = self.members().zip(self.factors()).filter(|_| self.is_closed());

@@ -1,4 +1,4 @@
-//! The engine alone: what holds for any number of followers, any factors, and any order of events.
+//! Tests of the engine alone: properties that hold for any number of followers, any factors, and any order of events.
 
 use proptest::collection::vec;
 use proptest::prelude::{Just, Strategy, any, prop_oneof};
@@ -23,7 +23,7 @@ const POLICY: Policy = Policy {
     stop: GroupStop::AllAtTheSlowest,
 };
 
-/// The axes of a control that has nothing else.
+/// A minimal set of axes for the engine.
 #[derive(Clone, Debug, Default)]
 struct Bench {
     setpoints: PerAxis<Setpoint>,
@@ -55,7 +55,7 @@ impl Bench {
         bench
     }
 
-    /// One cycle in which the member that leads moves at a velocity.
+    /// One cycle in which the leading member moves at a velocity.
     fn lead(&mut self, coupling: &Coupling, velocity: f64) {
         let leads = coupling.leads_now();
         let before = self.setpoints[leads].position;
@@ -83,7 +83,7 @@ fn sign(sign: Sign) -> i64 {
     (sign * Position::new(1)).increments()
 }
 
-/// Axis 1 leads the following ones.
+/// A coupling in which axis 1 leads the given axes.
 fn led_by_axis_1(policy: Policy, followers: &[Follower]) -> Coupling {
     <Coupling>::new(axis(1), policy, followers.iter().copied()).unwrap()
 }
@@ -406,7 +406,7 @@ fn a_halt_lasts_until_its_reset_or_for_good_and_persisting_differences_do_not_re
     assert_eq!(coupling.halt(), Some(Halt::UntilReset));
     coupling.reset();
     compare(&mut coupling, &Bench::at(&[0, 200_000]));
-    assert_eq!(coupling.halt(), None, "it is still beyond, and does not halt again");
+    assert_eq!(coupling.halt(), None, "still above the limit, no second halt");
     compare(&mut coupling, &Bench::at(&[0, 600_000]));
     compare(&mut coupling, &Bench::at(&[0, 0]));
     coupling.reset();
@@ -455,7 +455,7 @@ fn every_axis_can_be_a_member_and_none_can_be_one_twice() {
     let all = || AxisNumber::all().skip(1).map(Follower::new);
     assert_eq!(<Coupling>::new(axis(1), POLICY, all()).map(|coupling| coupling.members().count()), Some(MEMBERS));
     assert_eq!(Coupling::<2>::new(axis(1), POLICY, all().take(2)).map(|pair| pair.followers().len()), Some(2));
-    assert_eq!(Coupling::<2>::new(axis(1), POLICY, all()), None, "more than a control allows");
+    assert_eq!(Coupling::<2>::new(axis(1), POLICY, all()), None, "more followers than the control allows");
     assert_eq!(<Coupling>::new(axis(5), POLICY, all()), None, "the leader follows itself");
     assert_eq!(<Coupling>::new(axis(1), POLICY, all().chain([Follower::new(axis(2))])), None);
 }
