@@ -1,16 +1,16 @@
-//! Machine data or parameters of a control, by number: values, their types, and whose they are.
+//! Machine data or parameters of a control, by number: values, types and owners.
 
 use super::{Kind, Value};
 use crate::units::{AxisNumber, ChannelNumber};
 
-/// Whose value a datum is.
+/// The owner of a datum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Owner {
-    /// The control's as a whole.
+    /// The control as a whole.
     Nck,
-    /// A channel's.
+    /// A channel.
     Channel(ChannelNumber),
-    /// A machine axis'.
+    /// A machine axis.
     Axis(AxisNumber),
 }
 
@@ -19,9 +19,9 @@ pub enum Owner {
 pub struct Datum {
     /// Its type.
     pub kind: Kind,
-    /// Only the control writes it.
+    /// Only the control may write it.
     pub read_only: bool,
-    /// How many values the datum has.
+    /// The number of values of the datum.
     pub count: u8,
     /// The stored value.
     pub value: Value,
@@ -29,9 +29,9 @@ pub struct Datum {
 
 /// The machine data or parameters of a control.
 pub trait Data {
-    /// The value `index` of the datum `number` of `owner`, as it is stored; `None` where there is no such value.
+    /// The stored value `index` of the datum `number` of `owner`; `None` if there is no such value.
     fn stored(&self, number: u32, owner: Owner, index: u8) -> Option<Datum>;
 
-    /// A text among the data, as a name of an axis or channel; `None` where there is no such text.
+    /// A text datum, for example the name of an axis or channel; `None` if there is no such text.
     fn text(&self, number: u32, owner: Owner, index: u8) -> Option<&str>;
 }

@@ -1,8 +1,8 @@
-//! THE BOUNDARY OF A CONTROL: what a numerical control is to the rest of the project.
+//! THE BOUNDARY OF A CONTROL: the interface between a numerical control and the rest of the project.
 //!
-//! [`Control`] is the trait that the machine steps. A control brings everything that has a name of its own: the interface
-//! ([`Interface`]), signals, machine data, alarms, rules, charts of its state machines. Nothing outside the control's own
-//! module and the one place that opens machines names it.
+//! [`Control`] is the trait that the machine steps. A control provides everything specific to it: the interface ([`Interface`]), signals,
+//! machine data, alarms, rules, and charts of its state machines. Only the control's own module and the one place that opens machines name
+//! a specific control.
 //!
 //! The machine calls a control in this order, once per interpolation cycle:
 //!
@@ -12,7 +12,7 @@
 //!    mechanics move;
 //! 4. [`Control::observe`], once encoders and drives have reported: monitoring and alarms;
 //! 5. [`Control::publish`]: writes its half of the interface and the variables;
-//! 6. [`Control::cause`] and its like, for each bit that changed, while the record is written.
+//! 6. [`Control::cause`] and the related methods, for each bit that changed, while the record is written.
 
 mod data;
 mod log;
@@ -35,58 +35,58 @@ use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position, Time};
 use crate::variables::{AlarmNumber, EventId, Events, Place, Rule, RuleNumber, Variables};
 
-/// What is done to a control from outside, at the edge of a cycle.
+/// A command to a control from outside, taken at the edge of a cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ControlCommand {
-    /// Stores a machine datum or parameter; it acts when its class says.
+    /// Stores a machine datum or parameter. It takes effect as its class defines.
     Store {
-        /// Which, as people write it: `34090[XF]`.
+        /// The datum, as users write it: `34090[XF]`.
         target: String,
         /// Its value.
         value: Value,
     },
-    /// Makes stored data active that wait for it ("set machine data active").
+    /// Makes stored data effective that wait for it ("set machine data active").
     Activate,
     /// The operator's alarm-cancel key.
     Cancel,
     /// A handwheel is turned.
     Handwheel {
-        /// From 1.
+        /// Number, from 1.
         number: u8,
-        /// How far, with its sign.
+        /// Number of pulses, with sign.
         pulses: i32,
-        /// Over how many cycles the pulses spread.
+        /// Number of cycles over which the pulses are spread.
         cycles: u64,
     },
-    /// The PLC program does not run.
+    /// The PLC program stopped running.
     PlcMissing,
-    /// The PLC program runs again.
+    /// The PLC program is running again.
     PlcRestarted,
-    /// A client, scenario or operator wrote these bits of the control's or the HMI's part.
+    /// A client, scenario or operator wrote these bits of the control's or the HMI's part of the interface.
     Written(Location),
-    /// Something happened to the mechanics: no axis rests in the next cycle.
+    /// The mechanics were changed: no axis rests in the next cycle.
     Wake,
 }
 
-/// What the PLC and the HMI wrote, as the control reads it in one cycle.
+/// The data written by the PLC and the HMI, as the control reads them in one cycle.
 #[derive(Clone, Copy, Debug)]
 pub struct PlcSide<'a> {
-    /// What the PLC writes to the NCK.
+    /// The bytes that the PLC writes to the NCK.
     pub to_nck: &'a [u8],
-    /// What the HMI writes.
+    /// The bytes that the HMI writes.
     pub hmi: &'a [u8],
 }
 
-/// What a control writes at the end of a cycle.
+/// The data that a control writes at the end of a cycle.
 #[derive(Debug)]
 pub struct ControlSide<'a> {
-    /// What the NCK writes.
+    /// The bytes that the NCK writes.
     pub from_nck: &'a mut [u8],
-    /// The bytes of the HMI that a control may mirror its own state to.
+    /// The bytes of the HMI to which a control may mirror its own state.
     pub hmi: &'a mut [u8],
 }
 
-/// What the PLC's half has other than in the last cycle.
+/// The differences between the PLC's half now and in the last cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Changes {
     /// Axes whose block changed.
@@ -95,134 +95,134 @@ pub struct Changes {
     pub shared: bool,
 }
 
-/// The times of a control.
+/// The cycle times of a control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CycleTimes {
     /// The interpolation cycle: one step of the machine.
     pub interpolation: Time,
-    /// How many position-control cycles it has.
+    /// Number of position-control cycles in an interpolation cycle.
     pub position_control: u32,
 }
 
-/// A numerical control behind the interface. The head of this module says when each method is called.
+/// A numerical control behind the interface. The module documentation states when each method is called.
 pub trait Control: Send + Sync + Debug {
-    /// Whether a command could be taken now; called at the boundary, before the command is queued. Changes nothing.
+    /// Checks whether a command can be taken now. Called at the boundary, before the command is queued. Changes nothing.
     ///
     /// # Errors
-    /// A datum or handwheel that does not exist, or a value that does not fit it.
+    /// A datum or handwheel does not exist, or a value does not fit the datum.
     fn check(&self, command: &ControlCommand) -> Result<(), Problem>;
 
-    /// Takes a command that [`Control::check`] has passed, at the edge of a cycle. A command that an earlier one of the same
-    /// cycle has made impossible does nothing.
+    /// Takes a command that [`Control::check`] has accepted, at the edge of a cycle. A command has no effect if an earlier command of the
+    /// same cycle has made it impossible.
     fn command(&mut self, command: &ControlCommand);
 
-    /// Decides a cycle: reads what the PLC and the HMI wrote, and leaves the setpoints that position control works on. `cycle` is
-    /// its number, `changes` says what of the PLC's half is another than in the cycle before.
+    /// Computes the decisions of a cycle: reads the data of the PLC and the HMI, and sets the setpoints for position control. `cycle` is
+    /// the number of the cycle, `changes` the differences of the PLC's half from the previous cycle.
     fn decide(&mut self, cycle: u64, plc: PlcSide<'_>, changes: Changes);
 
-    /// Position control of an axis in part `part` (from 1) of `of` parts of the interpolation cycle: the velocity that its drive is
-    /// to have, in increments per second; `None` for a drive without power. `counts` are the values of both encoders now.
+    /// Position control of an axis in part `part` (from 1) of `of` parts of the interpolation cycle. Returns the velocity command for the
+    /// drive, in increments per second; `None` for a drive without power. `counts` are the present values of both encoders.
     fn velocity_command(&mut self, axis: AxisNumber, counts: [Position; 2], part: u32, of: u32) -> Option<f64>;
 
-    /// The axes for which every position-control cycle of this interpolation cycle is like the one before as long as their encoders
-    /// report the same: their setpoint rests. Asked behind each position-control cycle; a control that does not know has none.
+    /// The axes whose setpoint rests: each of their position-control cycles in this interpolation cycle repeats the previous one while
+    /// their encoders report the same values. Called after each position-control cycle. The default is no axis.
     fn still(&self) -> AxisSet {
         AxisSet::NONE
     }
 
-    /// Takes what the drives and encoders of the axes `told` report, and monitors it. The others report what they did before.
+    /// Takes the feedback of drives and encoders of the axes `told`, and monitors it. The feedback of the other axes has not changed.
     fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet);
 
-    /// Writes its half of the interface and the variables. The mechanics of the axes `restless` have not come to rest.
+    /// Writes the control's half of the interface and the variables. The mechanics of the axes `restless` are not at rest.
     fn publish(&mut self, out: ControlSide<'_>, variables: &mut Variables, restless: AxisSet);
 
-    /// The axes that are computed in this cycle. The others come out of a cycle as they went in.
+    /// The axes that are computed in this cycle. The state of the others does not change.
     fn awake(&self) -> AxisSet;
 
-    /// Moves, monitors and shows every axis in every cycle from now on: slower, and the same bytes.
+    /// From now on moves, monitors and publishes every axis in every cycle: slower, with identical bytes.
     fn never_rest(&mut self);
 
-    /// Decides everything for every axis in every cycle from now on, too: slower still, and the same bytes.
+    /// From now on also makes all decisions for every axis in every cycle: even slower, with identical bytes.
     fn decide_always(&mut self) {
         self.never_rest();
     }
 
-    /// Power off and on: stored data become active, everything else starts anew.
+    /// Power off and on: stored data become effective, everything else starts again.
     fn power_on(&mut self);
 
-    /// Its cycle times as they act now.
+    /// The cycle times in effect.
     fn cycle_times(&self) -> CycleTimes;
 
-    /// The active measuring system of an axis, 0 or 1; `None` for a parked one.
+    /// The active measuring system of an axis, 0 or 1; `None` for a parked axis.
     fn measuring_system(&self, axis: AxisNumber) -> Option<u8>;
 
-    /// The event behind the present value of a bit that the control writes: byte and bit of the block of `place`, as it was decided in
-    /// the cycle that runs. It may note an event for what follows from a value at the moment.
+    /// The event behind the present value of a bit that the control writes, at byte and bit of the block of `place`, as decided in the
+    /// present cycle. It may record an event for a value that follows directly from the present state.
     fn cause(&mut self, place: Place, byte: u16, bit: u8) -> EventId;
 
     /// The event behind a pending alarm.
     fn alarm_cause(&self, number: AlarmNumber, place: Place) -> EventId;
 
-    /// The event that took an alarm away.
+    /// The event that cleared an alarm.
     fn cleared_cause(&self, number: AlarmNumber, place: Place) -> EventId;
 
     /// The latest events.
     fn events(&self) -> &Events;
 
-    /// How the override switches of the machine are coded, as the active data say.
+    /// The coding of the machine's override switches, according to the data in effect.
     fn override_coding(&self) -> OverrideCoding;
 
-    /// The override of an axis that acts, in per cent.
+    /// The effective override of an axis, in per cent.
     fn axis_override(&self, axis: AxisNumber, plc: PlcSide<'_>) -> f64;
 
-    /// The overrides of a channel that act, in per cent: feed and rapid traverse.
+    /// The effective overrides of a channel, in per cent: feed and rapid traverse.
     fn channel_overrides(&self, channel: ChannelNumber, plc: PlcSide<'_>) -> [f64; 2];
 
-    /// The speed of the motor of an axis in rev/min, behind pitch and gear, from its velocity in mm/min or rev/min.
+    /// The motor speed of an axis in rev/min, with pitch and gear, from the axis velocity in mm/min or rev/min.
     fn motor_speed(&self, axis: AxisNumber, velocity: f64) -> f64;
 
-    /// Its machine data or parameters, by number.
+    /// The machine data or parameters, by number.
     fn data(&self) -> &dyn Data;
 
-    /// Its texts.
+    /// The texts of the control.
     fn texts(&self) -> &'static dyn Texts;
 
-    /// Whether the lengths of an axis are degrees.
+    /// Whether positions of the axis are in degrees.
     fn is_rotary(&self, axis: AxisNumber) -> bool;
 
-    /// What its data make of the machine, in lines for people: its gantry groupings.
+    /// The configuration that results from the data, as lines of text: the gantry groupings.
     fn configuration(&self, names: &Names) -> Vec<String>;
 
-    /// Which rows of its charts it has taken, in the order of [`Texts::charts`].
+    /// The rows of the charts that were used, in the order of [`Texts::charts`].
     fn taken(&self) -> Taken;
 
-    /// Everything that it remembers, as bytes.
+    /// The complete state, as bytes.
     fn save(&self) -> Vec<u8>;
 
-    /// Goes on from where [`Control::save`] was called, on a control of the same kind.
+    /// Continues from the state at [`Control::save`], on a control of the same kind.
     ///
     /// # Errors
-    /// The bytes are no saved control of this kind and version; nothing has changed then.
+    /// The bytes are not a saved control of this kind and version. In this case nothing has changed.
     fn restore(&mut self, saved: &[u8]) -> Result<(), Problem>;
 
-    /// A second control that goes on from here by itself.
+    /// An independent copy that continues from the present state.
     fn clone_box(&self) -> Box<dyn Control>;
 
-    /// The control itself, for those who know which one it is.
+    /// The control itself, for callers that know its type.
     fn as_any(&self) -> &dyn Any;
 }
 
 impl dyn Control {
-    /// The control as one of a kind; `None` where it is another.
+    /// The control as a specific type; `None` if it is of another type.
     #[must_use]
     pub fn downcast<C: 'static>(&self) -> Option<&C> {
         self.as_any().downcast_ref()
     }
 }
 
-/// The words of a control: what stands behind its numbers. They depend on no machine.
+/// The texts of a control: the meaning of its numbers. They do not depend on a machine.
 pub trait Texts: Sync {
-    /// What it is called in saved machines and messages.
+    /// Its name in saved machines and messages.
     fn name(&self) -> &'static str;
 
     /// Its interface.
@@ -234,40 +234,40 @@ pub trait Texts: Sync {
     /// The alarm of a number.
     fn alarm(&self, number: AlarmNumber) -> Option<AlarmRow>;
 
-    /// What an alarm is called: its number, or a name of our own where no source gives a number.
+    /// The name of an alarm: its number, or our own name if no source gives a number.
     fn alarm_name(&self, number: AlarmNumber) -> String;
 
-    /// The number of an alarm that has only a name of our own.
+    /// The number of an alarm that has only our own name.
     fn alarm_named(&self, name: &str) -> Option<AlarmNumber>;
 
     /// A rule by its number.
     fn rule(&self, rule: RuleNumber) -> Rule;
 
-    /// What a datum is called in a cause: `MD37110`.
+    /// The name of a datum in a cause: `MD37110`.
     fn datum_name(&self, number: u32) -> String;
 
-    /// The data that set its cycle times, for the cure of an error: `MD10050 and MD10070`.
+    /// The data that set the cycle times, for use in error messages: `MD10050 and MD10070`.
     fn cycle_data(&self) -> &'static str;
 
     /// Its state machines as charts.
     fn charts(&self) -> Vec<Chart>;
 }
 
-/// An alarm that a control has.
+/// An alarm of a control.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AlarmRow {
     /// Its number.
     pub number: AlarmNumber,
-    /// What it is called: its number, or a name of our own.
+    /// Its name: its number, or our own name.
     pub name: String,
     /// Its text, with `%1` to `%4`.
     pub text: &'static str,
     /// Whether the model raises it.
     pub raised: bool,
-    /// What cancels it, in words.
+    /// The action that cancels it, in words.
     pub cancelled_by: String,
-    /// What it does, in words.
+    /// Its reactions, in words.
     pub reaction: String,
-    /// What cancels it, as NC variables number it.
+    /// The code of the cancelling action in NC variables.
     pub clear_info: u8,
 }

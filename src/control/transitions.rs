@@ -1,18 +1,18 @@
-//! Tables of transitions: a state machine of a control takes only the steps that stand in its table, and each row remembers that it
-//! was taken. A [`Chart`] shows a table to people.
+//! Transition tables: a state machine of a control makes only the transitions in its table, and the use of each row is recorded. A
+//! [`Chart`] is a table in readable form.
 
 use std::fmt::Debug;
 
 use crate::variables::RuleNumber;
 
-/// A step from one phase to another by a rule.
+/// A transition from one phase to another by a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Transition<P, R> {
-    /// From.
+    /// Initial phase.
     pub from: P,
-    /// To.
+    /// Next phase.
     pub to: P,
-    /// By.
+    /// Rule.
     pub by: R,
 }
 
@@ -21,45 +21,45 @@ pub const fn row<P, R>(from: P, by: R, to: P) -> Transition<P, R> {
     Transition { from, to, by }
 }
 
-/// Where a rule leads from a phase. A step that is not in the table is a mistake of the caller and leads to the first phase.
+/// The next phase for a phase and a rule. A transition that is not in the table is an error of the caller and leads to the first phase.
 pub fn next<P, R>(table: &[Transition<P, R>], taken: &mut Rows, from: P, by: R) -> P
 where
     P: Copy + PartialEq + Default + Debug,
     R: Copy + PartialEq + Debug,
 {
     let index = table.iter().position(|row| row.from == from && row.by == by);
-    debug_assert!(index.is_some(), "no step from {from:?} by {by:?}");
+    debug_assert!(index.is_some(), "no transition from {from:?} by {by:?}");
     index.map_or_else(P::default, |index| {
         taken.0 |= 1 << index;
         table[index].to
     })
 }
 
-/// Rows of a table, a bit each.
+/// A set of rows of a table, one bit for each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rows(u64);
 
 impl Rows {
-    /// How many rows a table can have.
+    /// The largest number of rows in a table.
     pub const CAPACITY: usize = u64::BITS as usize;
 
-    /// Whether this row is among them.
+    /// Whether the set contains this row.
     #[must_use]
     pub const fn has(self, index: usize) -> bool {
         index < Self::CAPACITY && self.0 >> index & 1 == 1
     }
 }
 
-/// How many charts a control can have.
+/// The largest number of charts of a control.
 pub const CHARTS: usize = 8;
 
-/// The rows by which a control has gone since it was made, of whichever axis and grouping: one entry for each of its charts. They
-/// decide nothing and are neither saved nor taken back: they show what a suite of scenarios has exercised.
+/// The rows that a control has used since it was created, for all axes and groupings: one entry for each of its charts. They have no effect
+/// on behaviour and are neither saved nor restored. They show the coverage of a suite of scenarios.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Taken(pub [Rows; CHARTS]);
 
 impl Taken {
-    /// Adds what another control of the same kind has taken.
+    /// Adds the rows that another control of the same kind has used.
     pub fn add(&mut self, other: Self) {
         for (rows, more) in self.0.iter_mut().zip(other.0) {
             rows.0 |= more.0;
@@ -67,36 +67,37 @@ impl Taken {
     }
 }
 
-/// A table of transitions as people see it.
+/// A transition table in readable form.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Chart {
-    /// The word by which a command line asks for it: `approach`.
+    /// The name used on the command line: `approach`.
     pub name: &'static str,
     /// Its title: `Reference point approach`.
     pub title: &'static str,
-    /// The phases in the order in which the table names them: an identifier and a text.
+    /// The phases in the order of the table: an identifier and a text.
     pub phases: Vec<(String, &'static str)>,
     /// The rows of the table, in its order.
     pub edges: Vec<Edge>,
-    /// Steps that are possible from every phase and are no rows: a rule and the phase that it leads to.
+    /// Transitions from every phase, which are not rows: a rule and the next phase.
     pub from_anywhere: Vec<(RuleNumber, String)>,
 }
 
 /// A row of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edge {
-    /// The identifier of the phase that it starts from.
+    /// The identifier of the initial phase.
     pub from: String,
-    /// The identifier of the phase that it leads to.
+    /// The identifier of the next phase.
     pub to: String,
-    /// The rule that allows it.
+    /// The rule that allows the transition.
     pub rule: RuleNumber,
-    /// What the rule tests here, where its own text leaves that to its inputs.
+    /// The condition that the rule tests here, if the text of the rule leaves it to its inputs.
     pub tested: Option<&'static str>,
 }
 
 impl Chart {
-    /// The chart of a table. `text` gives the text of a phase, `tested` what a rule tests where its own text does not say it.
+    /// The chart of a table. `text` returns the text of a phase, `tested` the condition that a rule tests, if the text of the rule does not
+    /// contain it.
     #[must_use]
     pub fn of<P, R>(
         name: &'static str,
@@ -130,7 +131,7 @@ impl Chart {
         }
     }
 
-    /// The same with a step from every phase, to the phase of this identifier.
+    /// The chart with one more transition, from every phase to the phase with this identifier.
     #[must_use]
     pub fn with_step_from_anywhere(mut self, rule: impl Into<RuleNumber>, to: impl Debug) -> Self {
         self.from_anywhere.push((rule.into(), format!("{to:?}")));

@@ -1,10 +1,10 @@
-//! A value of a machine datum, as an archive or a scenario gives it, and how the control writes it.
+//! A value of a machine datum, as given in an archive or a scenario, and as the control writes it.
 
 use std::fmt;
 
 use crate::source::{self, Node, Problem};
 
-/// A value before it is fitted to the type of a datum, and as it is read back.
+/// A value before conversion to the type of a datum, and when it is read back.
 #[derive(serde::Serialize, serde::Deserialize, Clone, Debug, PartialEq)]
 pub enum Value {
     /// `TRUE`, `true`.
@@ -18,7 +18,8 @@ pub enum Value {
 }
 
 impl Value {
-    /// Reads a value as it stands in an ASCII archive; `None` if it is none. `inf` and `NaN` are none.
+    /// Reads a value in the syntax of an ASCII archive; `None` if the text is not a value. `inf` and `NaN` are not
+    /// values.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let text = text.trim();
@@ -61,10 +62,10 @@ impl Value {
         text.parse().ok().filter(|number: &f64| number.is_finite()).map(Self::Real)
     }
 
-    /// The value that stands in a scenario; a mask may be written as in an archive, `"'H1c'"`.
+    /// The value in a scenario. A mask may be written as in an archive, `"'H1c'"`.
     ///
     /// # Errors
-    /// It is an array or a table.
+    /// The node is an array or a table.
     pub fn from_node(node: &Node) -> Result<Self, Problem> {
         match &node.value {
             source::Value::Boolean(value) => Ok(Self::Boolean(*value)),
@@ -115,7 +116,7 @@ impl Value {
     }
 }
 
-/// As in a message.
+/// The form used in messages.
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.export(Kind::Double))

@@ -1,5 +1,5 @@
-//! WHICH CONTROLS THERE ARE: the one place that names them. It reads the files of a machine and chooses the control that they are
-//! of; everything else sees a [`Control`](crate::control::Control).
+//! THE AVAILABLE CONTROLS: the only module that names them. It reads the files of a machine and selects the matching control. All other
+//! modules use [`Control`](crate::control::Control).
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::sinumerik::machine_data::files_of;
 use crate::sinumerik::{Commissioning, TEXTS, examine as examine_archive};
 use crate::source::{Place, Problem, Table, did_you_mean, read_text};
 
-/// A machine in the program itself: file names and contents.
+/// A built-in machine: file names and contents.
 struct BuiltIn {
     name: &'static str,
     archives: &'static [(&'static str, &'static [u8])],
@@ -22,30 +22,30 @@ static BUILT_IN: &[BuiltIn] = &[BuiltIn {
     plant: ("plant.toml", include_str!("../../machine_data/g1_example/plant.toml")),
 }];
 
-/// The words of all controls; the first is the usual one.
+/// The texts of all controls; the first is the default.
 static ALL: &[&dyn Texts] = &[&TEXTS];
 
-/// The words of all controls.
+/// The texts of all controls.
 pub fn texts() -> impl Iterator<Item = &'static dyn Texts> {
     ALL.iter().copied()
 }
 
-/// The profile of this name, of whichever control.
+/// The profile of this name, of any control.
 #[must_use]
 pub fn profile(name: &str) -> Option<Profile> {
     texts().find_map(|texts| Profile::named(texts.interface(), name))
 }
 
-/// The names of all profiles, the usual one first.
+/// The names of all profiles, the default first.
 pub fn profiles() -> impl Iterator<Item = &'static str> {
     texts().flat_map(|texts| texts.interface().tables().numberings).map(|numbering| numbering.name)
 }
 
-/// What the files of a machine say of its control, and `plant.toml` as it stands: of a directory, a single archive file, or a built-in
-/// machine.
+/// The configuration of a control and the contents of `plant.toml`, from the files of a machine: a directory, a single archive file, or a
+/// built-in machine.
 ///
 /// # Errors
-/// Anything in the files that cannot be used, with file and line.
+/// A file contains something unusable; the error gives file and line.
 pub fn read(path: &Path) -> Result<(Box<dyn Configuration>, Table), Problem> {
     if !path.exists() {
         return read_built_in(path);
@@ -67,10 +67,10 @@ pub fn read(path: &Path) -> Result<(Box<dyn Configuration>, Table), Problem> {
     Ok((Box::new(configuration), plant))
 }
 
-/// What is in the files of a machine, whether or not it can be opened.
+/// The contents of the files of a machine, whether or not it can be opened.
 ///
 /// # Errors
-/// A file cannot be read, or is no file of machine data.
+/// A file cannot be read, or is not a machine data file.
 pub fn examine(path: &Path) -> Result<Examined, Problem> {
     examine_archive(path)
 }
