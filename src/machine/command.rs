@@ -1,4 +1,4 @@
-//! What can be done to a machine from outside. A command is checked when it is queued and acts at the edge of the next step.
+//! Commands to a machine from outside. A command is checked when it is queued and takes effect at the edge of the next step.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,29 +7,29 @@ use crate::control::Value;
 use crate::image::Location;
 use crate::units::ChannelNumber;
 
-/// Something that is done to a machine from outside.
+/// A command to a machine from outside.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Command {
     /// Writes bits once.
     Write {
-        /// Which.
+        /// The bits.
         location: Location,
         /// Raw value.
         value: u64,
     },
     /// Writes bits after every PLC scan, until released.
     Force {
-        /// Which.
+        /// The bits.
         location: Location,
         /// Raw value.
         value: u64,
     },
-    /// Ends every force that shares a bit with this place.
+    /// Ends every force that shares a bit with this location.
     Release {
-        /// Where.
+        /// The bits.
         location: Location,
     },
-    /// Stores a machine datum, which acts when its class says.
+    /// Stores a machine datum. It takes effect as its class defines.
     MachineDatum {
         /// `34090[XF]`, `34100[2,XF]`, `11300`, an identifier.
         target: String,
@@ -38,7 +38,7 @@ pub enum Command {
     },
     /// Writes an R parameter.
     RParameter {
-        /// Whose.
+        /// The channel.
         channel: ChannelNumber,
         /// `R number`.
         number: u16,
@@ -53,22 +53,22 @@ pub enum Command {
     PlcStop,
     /// The PLC restarts: OB100, then OB1.
     PlcRun,
-    /// The PLC restarts from the beginning: flags, timers, counters, outputs, own blocks and its half of the interface have their first
-    /// values again, and so has its program.
+    /// The PLC restarts from the beginning: flags, timers, counters, outputs, its own blocks and its half of the interface return to their
+    /// initial values, and the program starts again.
     PlcColdRestart,
     /// The operator's alarm-cancel key.
     Cancel,
-    /// Somebody turns a handwheel; the pulses spread evenly over the cycles.
+    /// Turns a handwheel. The pulses are spread evenly over the cycles.
     Handwheel {
-        /// 1 to 3.
+        /// Number, 1 to 3.
         number: u8,
-        /// How far, with its sign.
+        /// Number of pulses, with sign.
         pulses: i32,
-        /// How long it takes.
+        /// Duration in cycles.
         cycles: u64,
     },
-    /// Something breaks.
+    /// Causes a fault.
     Fault(Fault),
-    /// Something is repaired.
+    /// Clears a fault.
     ClearFault(Fault),
 }

@@ -1,10 +1,10 @@
-//! What the files say of a machine.
+//! The definition of a machine from its files.
 
 use crate::image::{Location, Memory, Names};
 use crate::plant::{Layout, Switch};
 use crate::units::{AxisNumber, Time};
 
-/// What the files say of a machine; it never changes after opening and is shared by all forks.
+/// The definition of a machine from its files. It does not change after opening, and all forks share it.
 #[derive(Debug)]
 pub(super) struct Definition {
     pub(super) names: Names,
@@ -13,7 +13,7 @@ pub(super) struct Definition {
     pub(super) unwired: Vec<(AxisNumber, Switch, Location)>,
     /// The memory after power on: presets.
     pub(super) memory: Memory,
-    /// How often the PLC program runs; in every cycle where it is not said.
+    /// The cycle of the PLC program; the NC cycle if not defined.
     pub(super) plc_cycle: Option<Time>,
     pub(super) warnings: Vec<String>,
 }

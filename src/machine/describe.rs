@@ -1,4 +1,4 @@
-//! The texts behind the numbers of this machine's control, and what names mean in expressions over it.
+//! Texts for the numbers of this machine's control, and the meaning of names in expressions.
 
 use super::Machine;
 use crate::expression::Scope;

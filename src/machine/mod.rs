@@ -1,5 +1,4 @@
-//! ONE STEP of a machine: control, iron and PLC program in a fixed order; and what goes with it: open, queue, power, save,
-//! restore, fork.
+//! ONE STEP of a machine: control, simulated mechanics and PLC program in a fixed order. Also open, queue, power, save, restore and fork.
 //!
 //! ```
 //! use opennck::machine::Machine;
@@ -13,9 +12,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `step.rs` holds the order of a step, `open.rs` reads machines, `command.rs` lists what can be done to a machine from
-//! outside, `queue.rs` keeps these commands and does them at the edge of the next step, `changes.rs` finds what changed for the
-//! record, `saved.rs` saves, restores and forks.
+//! `step.rs` defines the order of a step, `open.rs` reads machines, `command.rs` lists the commands from outside, `queue.rs` queues them
+//! and executes them at the edge of the next step, `changes.rs` finds the changes for the record, `saved.rs` saves, restores and forks.
 
 mod before;
 mod changes;
@@ -49,7 +47,7 @@ use before::Before;
 use definition::Definition;
 use state::State;
 
-/// A machine: a control, its iron and its PLC program.
+/// A machine: a control, its simulated mechanics and its PLC program.
 pub struct Machine {
     definition: Arc<Definition>,
     control: Box<dyn Control>,
@@ -61,19 +59,19 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// What was odd in its files but did not hinder, for people.
+    /// Findings in its files that did not prevent opening, as text.
     #[must_use]
     pub fn warnings(&self) -> &[String] {
         &self.definition.warnings
     }
 
-    /// Gives the machine a PLC program; its OB100 runs in the next step.
+    /// Loads a PLC program. Its OB100 runs in the next step.
     pub fn load_program(&mut self, program: Box<dyn PlcProgram>) {
         self.program = Some(program);
         self.state.plc.restart();
     }
 
-    /// How many cycles have been run.
+    /// Number of cycles run so far.
     #[must_use]
     pub fn cycle(&self) -> u64 {
         self.state.cycle
@@ -97,7 +95,7 @@ impl Machine {
         &self.state.memory
     }
 
-    /// What the control shows beside bits.
+    /// Values of the control other than bits.
     #[must_use]
     pub fn variables(&self) -> &Variables {
         &self.state.variables
@@ -109,25 +107,25 @@ impl Machine {
         &self.state.r_parameters
     }
 
-    /// The override of an axis that acts, in per cent.
+    /// The effective override of an axis, in per cent.
     #[must_use]
     pub fn axis_override(&self, axis: AxisNumber) -> f64 {
         self.control.axis_override(axis, self.state.plc_side())
     }
 
-    /// The overrides of a channel that act, in per cent: feed and rapid traverse.
+    /// The effective overrides of a channel, in per cent: feed and rapid traverse.
     #[must_use]
     pub fn channel_overrides(&self, channel: ChannelNumber) -> [f64; 2] {
         self.control.channel_overrides(channel, self.state.plc_side())
     }
 
-    /// The speed of the motor of an axis in rev/min, behind pitch and gear.
+    /// The motor speed of an axis in rev/min, with pitch and gear.
     #[must_use]
     pub fn motor_speed(&self, axis: AxisNumber) -> f64 {
         self.control.motor_speed(axis, self.state.variables.axes[axis].velocity)
     }
 
-    /// What axes and channels are called.
+    /// The names of axes and channels.
     #[must_use]
     pub fn names(&self) -> &Names {
         &self.definition.names
@@ -139,25 +137,25 @@ impl Machine {
         self.definition.names.axis(name)
     }
 
-    /// The control. Who knows which one it is looks closer with [`downcast`](Control::downcast).
+    /// The control. [`downcast`](Control::downcast) gives access to a specific type.
     #[must_use]
     pub fn control(&self) -> &(dyn Control + 'static) {
         &*self.control
     }
 
-    /// Whether the PLC is stopped: it was asked to, or its program failed.
+    /// Whether the PLC is stopped, by a command or because its program failed.
     #[must_use]
     pub fn is_plc_stopped(&self) -> bool {
         self.state.plc.stopped
     }
 
-    /// Why the PLC program stopped by itself, if it did.
+    /// The fault that stopped the PLC program, if any.
     #[must_use]
     pub fn plc_fault(&self) -> Option<&str> {
         self.state.plc.fault.as_deref()
     }
 
-    /// How overrides are coded, for values such as `"100%"`.
+    /// The coding of overrides, for values such as `"100%"`.
     #[must_use]
     pub fn override_coding(&self) -> OverrideCoding {
         self.control.override_coding()
@@ -169,17 +167,17 @@ impl Machine {
         &self.recorder
     }
 
-    /// Moves, monitors and shows every axis in every cycle, also those that rest: slower, and the same bytes.
+    /// Moves, monitors and publishes every axis in every cycle, including axes at rest: slower, with identical bytes.
     pub fn never_rest(&mut self) {
         self.control.never_rest();
     }
 
-    /// Decides everything for every axis in every cycle, also where nothing can come of it: slower still, and the same bytes.
+    /// Also makes all decisions for every axis in every cycle: even slower, with identical bytes.
     pub fn decide_always(&mut self) {
         self.control.decide_always();
     }
 
-    /// Forgets the record that has been read.
+    /// Removes the record after it has been read.
     pub fn drain(&mut self) {
         self.recorder.clear();
     }

@@ -1,4 +1,4 @@
-//! Reading a machine: its control, `plant.toml`, presets; every default filled in.
+//! Reads a machine: its control, `plant.toml` and presets, with all defaults filled in.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -17,27 +17,27 @@ use crate::trace::Recorder;
 use crate::units::{AxisNumber, AxisSet, PerAxis, Time};
 use crate::variables::{Alarms, EventId, RParameters, Variables};
 
-/// How to open a machine other than as its files say.
+/// Options that override the files of a machine.
 #[derive(Debug, Default)]
 pub struct OpenOptions {
-    /// Tables to merge over `plant.toml`, as a scenario's `[plant.XF]`: keys are axis names.
+    /// Tables that are merged over `plant.toml`, like `[plant.XF]` of a scenario; keys are axis names.
     pub plant_over: Option<Table>,
-    /// Under which numbers the interface blocks are known.
+    /// The numbering of the interface blocks.
     pub profile: Profile,
-    /// Memory of the PLC beside the interface, and starting values.
+    /// PLC memory beside the interface, and initial values.
     pub preset: Option<Preset>,
 }
 
 impl Machine {
-    /// Opens a machine: a directory, a single archive file, or the name of a built-in one.
+    /// Opens a machine: a directory, a single archive file, or the name of a built-in machine.
     ///
     /// # Errors
-    /// Anything in its files that cannot be used, with file and line.
+    /// A file contains something unusable; the error gives file and line.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Problem> {
         Self::open_with(path, OpenOptions::default())
     }
 
-    /// Opens a machine with a changed plant, another profile or presets for its memory.
+    /// Opens a machine with a changed plant, another profile, or presets for its memory.
     ///
     /// # Errors
     /// As [`Machine::open`].
@@ -46,10 +46,10 @@ impl Machine {
         Self::of(&*configuration, plant, options)
     }
 
-    /// A machine of any control, with the plant that `plant.toml` describes.
+    /// A machine with any control, and the plant that `plant.toml` describes.
     ///
     /// # Errors
-    /// Anything in the plant or the options that cannot be used with this control.
+    /// Something in the plant or the options cannot be used with this control.
     pub fn of(configuration: &dyn Configuration, mut plant: Table, options: OpenOptions) -> Result<Self, Problem> {
         if let Some(over) = options.plant_over {
             plant.merge(over);
@@ -128,7 +128,8 @@ fn assemble(definition: Definition, control: Box<dyn Control>, memory: Memory) -
     machine
 }
 
-/// The signals that the simulator itself sets because their switches lead to no input: cams, then limit switches.
+/// The signals that the simulator itself sets, because their switches are not wired to an input: cams, then limit
+/// switches.
 fn unwired(layout: &Layout, names: &Names) -> Vec<(AxisNumber, Switch, Location)> {
     let Some(SwitchSignals { cam, limit_plus, limit_minus }) = names.interface().tables().switches else {
         return Vec::new();

@@ -1,20 +1,20 @@
-//! Whether the PLC of a machine runs, and when it scans next.
+//! Whether the PLC of a machine runs, and the time of its next scan.
 
 use serde::{Deserialize, Serialize};
 
 use crate::units::Time;
 
-/// The PLC without its program.
+/// The state of the PLC without its program.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct PlcState {
-    /// It was asked to stop, or its program failed.
+    /// It was stopped by a command, or its program failed.
     pub(super) stopped: bool,
     /// OB100 has run since the last start.
     pub(super) started: bool,
     /// NC cycles until the next scan.
     pub(super) wait: u64,
     pub(super) last_scan: Time,
-    /// Why its program failed.
+    /// The fault of its program.
     pub(super) fault: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Commands wait here for the edge of the next step, where they are done in the order in which they came.
+//! The command queue. Commands are executed at the edge of the next step, in the order in which they were queued.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ impl Machine {
     /// Queues a command for the edge of the next step.
     ///
     /// # Errors
-    /// As [`Machine::check`]; nothing is queued then.
+    /// As [`Machine::check`]. In this case nothing is queued.
     pub fn queue(&mut self, command: Command) -> Result<(), Problem> {
         self.check(&command)?;
         self.state.queue.push(command);
@@ -22,10 +22,10 @@ impl Machine {
         Ok(())
     }
 
-    /// Whether a command could be queued now.
+    /// Checks whether a command can be queued now.
     ///
     /// # Errors
-    /// A machine datum, R parameter or handwheel that does not exist, or a value that does not fit it.
+    /// A machine datum, R parameter or handwheel does not exist, or a value does not fit it.
     pub fn check(&self, command: &Command) -> Result<(), Problem> {
         if let Some(command) = of_the_control(command) {
             self.control.check(&command)?;
@@ -41,13 +41,13 @@ impl Machine {
         Ok(())
     }
 
-    /// What waits for the edge of the next step, in the order in which it will be done.
+    /// The queued commands, in the order of execution.
     #[must_use]
     pub fn queued(&self) -> &[Command] {
         &self.state.queue
     }
 
-    /// Does what was queued.
+    /// Executes the queued commands.
     pub(super) fn take_commands(&mut self) {
         self.before.written.clear();
         self.before.power_on = false;
@@ -83,7 +83,7 @@ impl Machine {
                     self.restart_program();
                     self.control.command(&ControlCommand::PlcRestarted);
                 }
-                // What displaces once does so after the mechanics of this step, where encoders and monitoring see all of it.
+                // A single displacement acts after the mechanics of this step, so that encoders and monitoring detect all of it.
                 Command::Fault(fault @ Fault { kind: FaultKind::Push { .. } | FaultKind::EncoderSlip { .. }, .. }) => {
                     self.state.displaced.push((fault, self.control.measuring_system(fault.axis)));
                     self.control.command(&ControlCommand::Wake);
@@ -100,7 +100,7 @@ impl Machine {
         self.state.queue = queue;
     }
 
-    /// The program starts anew, in OB100.
+    /// The program starts again, in OB100.
     fn restart_program(&mut self) {
         if let Some(program) = &mut self.program {
             program.reset();
@@ -116,7 +116,8 @@ impl Machine {
         }
     }
 
-    /// What the PLC writes has its first values again. What others write to it stays: the NCK's half, the operator panel's, inputs.
+    /// The bytes that the PLC writes return to their initial values. The bytes that others write stay: the NCK's half, the operator panel,
+    /// inputs.
     fn forget_plc_memory(&mut self) {
         let first = Arc::clone(&self.definition);
         for part in [Part::ToNck, Part::Outputs, Part::Flags, Part::Timers, Part::Counters] {
@@ -140,7 +141,7 @@ impl Machine {
         self.control.command(&ControlCommand::Wake);
     }
 
-    /// Power off and on: interface, PLC memory and forces start anew; plant, faults and stored machine data stay.
+    /// Power off and on: interface, PLC memory and forces start again; plant, faults and stored machine data stay.
     fn power_on(&mut self) {
         self.control.power_on();
         self.state.plant.power_on(&self.definition.layout);
@@ -154,7 +155,7 @@ impl Machine {
     }
 }
 
-/// What a command asks of the control.
+/// The command to the control that a command contains.
 fn of_the_control(command: &Command) -> Option<ControlCommand> {
     match command {
         Command::MachineDatum { target, value } => {

@@ -1,4 +1,4 @@
-//! Save, restore and fork: a machine goes on from where it was, byte for byte.
+//! Save, restore and fork. A restored machine continues with identical bytes.
 
 use std::sync::Arc;
 
@@ -14,19 +14,19 @@ use crate::trace::Recorder;
 use crate::units::{AxisSet, PerAxis, PerChannel};
 use crate::variables::Alarms;
 
-/// Which form of saved machine this is.
+/// Version of the format of a saved machine.
 const VERSION: u32 = 8;
 
 #[derive(Serialize, Deserialize)]
 struct Saved {
     names: SavedNames,
-    /// Which control it is, and what it remembers.
+    /// The name of the control and its state.
     control: (String, Vec<u8>),
     program: Option<(String, Vec<u8>)>,
     state: State,
 }
 
-/// Of which machine it is.
+/// The names of the saved machine.
 #[derive(PartialEq, Serialize, Deserialize)]
 struct SavedNames {
     interface: String,
@@ -47,7 +47,7 @@ impl SavedNames {
 }
 
 impl Machine {
-    /// Everything that a machine remembers, as bytes; what its files said is not among it.
+    /// The complete state of a machine, as bytes. The contents of its files are not included.
     #[must_use]
     #[expect(clippy::missing_panics_doc, reason = "plain data is always written")]
     pub fn save(&self) -> Vec<u8> {
@@ -61,24 +61,29 @@ impl Machine {
         [&VERSION.to_le_bytes()[..], &checksum(&content).to_le_bytes(), &content].concat()
     }
 
-    /// Goes on from where [`Machine::save`] was called, on a machine of the same files with the same PLC program.
+    /// Continues from the state at [`Machine::save`], on a machine with the same files and the same PLC program.
     ///
     /// # Errors
-    /// The bytes are no saved machine, or one of other axes, another control or another PLC program; nothing has changed then.
+    /// The bytes are not a saved machine, or they belong to a machine with other axes, another control or another PLC program. In this case
+    /// nothing has changed.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Problem> {
         let damaged =
-            |what: String| Problem::new(what, "restore what `save` of this version gave, on the same machine");
+            |what: String| Problem::new(what, "restore bytes from `save` of this version, on the same machine");
         let content = content(bytes).map_err(damaged)?;
         let saved: Saved = postcard::from_bytes(content)
             .map_err(|error| damaged(format!("expected a saved machine, found damaged bytes: {error}")))?;
         if saved.names != SavedNames::of(&self.definition.names) {
-            return Err(damaged("expected a saved machine with the same axes and channels, found others".to_owned()));
+            return Err(damaged(
+                "expected a saved machine with the same axes and channels, found other axes or channels".to_owned(),
+            ));
         }
         let (control, remembered) = &saved.control;
         if control != self.control.texts().name() || !saved.state.memory.fits(self.definition.names.interface()) {
-            return Err(damaged("expected a saved machine with the same interface, found another".to_owned()));
+            return Err(damaged(
+                "expected a saved machine with the same interface, found another interface".to_owned(),
+            ));
         }
-        // Both keep what they had where they refuse; the program is asked last, so that nothing has changed then.
+        // Program and control keep their state when they refuse. The program is restored last, so that nothing has changed then.
         let mut restored = self.control.clone_box();
         restored.restore(remembered)?;
         match (&mut self.program, &saved.program) {
@@ -104,7 +109,7 @@ impl Machine {
         Ok(())
     }
 
-    /// A second machine that goes on from here by itself, with a record that begins here.
+    /// A second, independent machine that continues from the present state. Its record begins here.
     ///
     /// # Errors
     /// The PLC program cannot be forked.
@@ -121,7 +126,7 @@ impl Machine {
         Ok(self.copy(program, Recorder::default(), Before::new(&self.state.memory)))
     }
 
-    /// The machine as it is now, to be looked at while this one goes on.
+    /// The present state of the machine, for reading while this machine continues.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot {
         Snapshot(self.copy(None, Recorder::without_room(), Before::without_room()))
@@ -142,8 +147,8 @@ impl Machine {
     }
 }
 
-/// A machine that stands still: what another one was after some step, without its program and its record. It is for reading only:
-/// it can be neither saved nor forked as that machine.
+/// A copy of a machine after a step, without its program and its record. It does not run. It is for reading only and cannot be saved or
+/// forked.
 #[derive(Debug)]
 pub struct Snapshot(Machine);
 
@@ -155,8 +160,7 @@ impl std::ops::Deref for Snapshot {
     }
 }
 
-/// What stands behind version and checksum: whole and of this version, so that every index and length in it is one
-/// that a machine has written.
+/// The content after version and checksum. It is complete and of this version, so a machine has written every index and length in it.
 fn content(bytes: &[u8]) -> Result<&[u8], String> {
     let too_short = || "expected a saved machine, found too few bytes".to_owned();
     let (version, rest) = bytes.split_first_chunk().ok_or_else(too_short)?;

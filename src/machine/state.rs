@@ -1,5 +1,5 @@
-//! All that a machine remembers from one step to the next, but for its control and its PLC program, which save themselves:
-//! plain data, whose copies are derived. What is not here and is no definition can be found anew from what is.
+//! The state that a machine keeps from one step to the next, without its control and its PLC program, which save themselves. It is plain
+//! data with derived copies. Everything else is part of the definition or can be computed from this state.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,7 @@ use crate::variables::{EventId, RParameters, Variables};
 /// The state of a machine.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct State {
-    /// How many cycles have been run.
+    /// Number of cycles run so far.
     pub(super) cycle: u64,
     /// Simulated time since the machine was opened.
     pub(super) time: Time,
@@ -29,14 +29,14 @@ pub(super) struct State {
     pub(super) plc: PlcState,
     pub(super) forces: Vec<Force>,
     pub(super) queue: Vec<Command>,
-    /// Slides and encoders to be displaced in this step, with the measuring system that was active then.
+    /// Slides and encoders to be displaced in this step, with the measuring system that was active at that time.
     pub(super) displaced: Vec<(Fault, Option<u8>)>,
-    /// The last event that the record has; those before the first step are recorded with it.
+    /// The last recorded event. Events before the first step are recorded with that step.
     pub(super) recorded: EventId,
 }
 
 impl State {
-    /// What the control reads.
+    /// The data that the control reads.
     pub(super) fn plc_side(&self) -> PlcSide<'_> {
         PlcSide { to_nck: &self.memory.to_nck, hmi: &self.memory.hmi }
     }
