@@ -1,8 +1,8 @@
-//! An archive of machine data as it was read: values, what was given, what is unknown, what was found.
+//! An archive of machine data as read: values, explicitly given data, unknown data, and findings.
 //!
-//! Reading goes in two steps, because a file may name an axis before MD10000 gives it that name: all assignments are
-//! collected, then names of axes and channels and the kinds of axes (MD30300) are set, then everything else in the
-//! order of the files, where a later assignment replaces an earlier one. One error, and nothing is loaded.
+//! Reading takes two passes, because a file may use the name of an axis before MD10000 defines it. The first pass collects all assignments.
+//! The second pass sets names of axes and channels and the types of axes (MD30300), then everything else in the order of the files; a later
+//! assignment replaces an earlier one. If there is one error, nothing is loaded.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -18,14 +18,14 @@ use super::named::{resolve, split_indices};
 use super::table::Datum;
 use super::{MachineData, Target, ascii, binary};
 
-/// What was done with the files.
+/// Summary of reading the files.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Summary {
     /// The files and members in their order.
     pub members: Vec<Member>,
-    /// How many values of known machine data were taken.
+    /// Number of known values read.
     pub taken: usize,
-    /// How many unknown values were kept.
+    /// Number of unknown values kept.
     pub unknown: usize,
 }
 
@@ -35,14 +35,14 @@ impl fmt::Display for Summary {
         let left = self.members.iter().filter(|member| !read(member)).count();
         write!(f, "{} machine data taken, {} unknown kept", self.taken, self.unknown)?;
         if left > 0 {
-            write!(f, ", {left} members without machine data left alone")?;
+            write!(f, ", {left} members without machine data ignored")?;
         }
         writeln!(f)?;
         for member in self.members.iter().filter(read) {
             writeln!(f, "  {}: {} assignments", member.name, member.assignments.unwrap_or_default())?;
         }
         for member in self.members.iter().filter(|member| !read(member)) {
-            writeln!(f, "  left: {}", member.name)?;
+            writeln!(f, "  ignored: {}", member.name)?;
         }
         Ok(())
     }
@@ -51,19 +51,19 @@ impl fmt::Display for Summary {
 /// An archive that was read as a whole.
 #[derive(Clone, PartialEq)]
 pub struct Archive {
-    /// The values, with defaults where nothing was given.
+    /// The values, with defaults for data that were not given.
     pub data: MachineData,
-    /// What was given explicitly, and where.
+    /// The data that were given explicitly, and their places.
     pub given: BTreeMap<Target, Place>,
-    /// What is kept without being understood, in the order of the files.
+    /// Assignments that are kept but not modelled, in the order of the files.
     pub unknown: Vec<Assignment>,
     /// Warnings.
     pub findings: Vec<Finding>,
-    /// What was done with the files.
+    /// Summary of reading.
     pub summary: Summary,
 }
 
-/// Only the summary: the values of 31 axes fill screens.
+/// Prints only the summary, because the values of 31 axes fill several screens.
 impl fmt::Debug for Archive {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Archive({})", self.summary)
@@ -120,7 +120,7 @@ impl Archive {
             match known_datum(&line) {
                 Ok(Some(datum)) => known.push((datum, line)),
                 Ok(None) => {
-                    // Only data of a channel differ by the section they stand in.
+                    // Only channel data depend on the section in which they are.
                     let per_channel = line.name.starts_with("$MC") || line.name.starts_with("$SC");
                     let key = (per_channel.then_some(line.channel), line.name.to_ascii_uppercase());
                     unknown.insert(key, (order, line));
@@ -128,7 +128,7 @@ impl Archive {
                 Err(finding) => findings.push(finding),
             }
         }
-        // Names first, then the kinds of axes, whose defaults they decide, then the rest.
+        // Names first, then the types of axes, which determine the defaults, then the rest.
         known.sort_by_key(|(datum, _)| match datum.number {
             10000 | 20000 => 0,
             30300 => 1,
@@ -184,17 +184,17 @@ impl Archive {
         self.given.keys().any(|target| target.datum().number == number && target.owner() == owner)
     }
 
-    /// Whether any axis-specific datum was given for this machine axis: the machine has it.
+    /// Whether any axis-specific datum was given for this machine axis, which means that the machine has it.
     #[must_use]
     pub fn given_axis(&self, axis: AxisNumber) -> bool {
         self.given.keys().any(|target| target.owner() == Owner::Axis(axis))
     }
 }
 
-/// Below this number `N…` is only the number of a block; machine data have none there.
+/// Below this number `N…` is only a block number; there are no machine data with smaller numbers.
 const FIRST_DATUM: u32 = 9_000;
 
-/// The datum that a line means; `None` where the catalogue does not have it.
+/// The datum of a line; `None` if it is not in the catalogue.
 fn known_datum(line: &Line) -> Result<Option<&'static Datum>, Finding> {
     let identifier = line.name.split('[').next().unwrap_or_default().trim();
     let number = line.number.filter(|number| *number >= FIRST_DATUM);
@@ -206,13 +206,13 @@ fn known_datum(line: &Line) -> Result<Option<&'static Datum>, Finding> {
         what,
         cure,
     };
-    // Without a prefix a name means a variable of the user, not a machine datum.
+    // A name without a prefix is a user variable, not a machine datum.
     let by_name = identifier.starts_with('$').then(|| by_identifier(identifier)).flatten();
     match (by_name, number.and_then(by_number)) {
         (Some(datum), _) if number.is_none_or(|number| number == datum.number) => Ok(Some(datum)),
         (Some(datum), _) => Err(error(
             format!("expected N{} before {identifier}, found N{}", datum.number, number.unwrap_or_default()),
-            "number and identifier must mean the same datum; correct one, or leave the number away".to_owned(),
+            "number and identifier must belong to the same datum; correct one, or omit the number".to_owned(),
         )),
         (None, Some(datum)) => Err(error(
             format!("expected {datum} by its number, found {identifier}"),
@@ -225,7 +225,7 @@ fn known_datum(line: &Line) -> Result<Option<&'static Datum>, Finding> {
     }
 }
 
-/// Puts a known datum into the values.
+/// Stores the value of a known datum.
 fn take(datum: &'static Datum, line: &Line, data: &mut MachineData) -> Result<Target, Problem> {
     let (_, indices) = split_indices(&line.name).ok_or_else(|| {
         Problem::new(
@@ -256,8 +256,7 @@ fn unknown_findings(unknown: &[Assignment]) -> Vec<Finding> {
                 place: Some(assignment.place.clone()),
                 number: assignment.number,
                 identifier: identifier.to_owned(),
-                what: "expected a machine datum of the catalogue, found an unknown one; it is kept, but does nothing"
-                    .to_owned(),
+                what: "not modelled (kept, no effect)".to_owned(),
                 cure: String::new(),
             });
         }
@@ -265,7 +264,7 @@ fn unknown_findings(unknown: &[Assignment]) -> Vec<Finding> {
     findings
 }
 
-/// An axis whose default name was given to another one is called `AXn`: a given name always means the axis it was given to.
+/// Renames an axis to `AXn` if its default name was given to another axis: a given name always refers to the axis that has it.
 fn keep_default_names_apart(data: &mut MachineData, given: &BTreeMap<Target, Place>) {
     let names = &mut data.general.axconf_machax_name_tab;
     let is_given = |index: usize| {
@@ -280,11 +279,11 @@ fn keep_default_names_apart(data: &mut MachineData, given: &BTreeMap<Target, Pla
     }
 }
 
-/// The archive files of a machine: the file itself, or in a directory all `*.tea`, `*.ini`, `*.mpf` by name, or one `*.arc`.
+/// The archive files of a machine: the file itself, or, in a directory, all `*.tea`, `*.ini` and `*.mpf` by name, or one `*.arc`.
 ///
 /// # Errors
-/// The path cannot be read, or a directory has a binary archive beside other archives. A directory without any
-/// archive gives an empty list.
+/// The path cannot be read, or a directory contains a binary archive beside other archives. A directory without any archive gives an empty
+/// list.
 pub fn files_of(machine: &Path) -> Result<Vec<PathBuf>, Problem> {
     if machine.is_file() {
         return Ok(vec![machine.to_owned()]);
@@ -301,7 +300,7 @@ pub fn files_of(machine: &Path) -> Result<Vec<PathBuf>, Problem> {
     files.sort();
     if files.len() > 1 && files.iter().any(|path| has(path, &["arc"])) {
         return Err(Place::file(&machine.display().to_string()).problem(
-            format!("expected one binary archive or ASCII archives, found {} archives of both kinds", files.len()),
+            format!("expected one binary archive or only ASCII archives, found {} archives", files.len()),
             "keep one `.arc`, or only `.tea`, `.ini` and `.mpf`",
         ));
     }

@@ -1,8 +1,8 @@
-//! The ASCII form of an archive (TEA, INI): one assignment a line, sections by channel, several members in a file.
+//! The ASCII format of an archive (TEA, INI): one assignment per line, sections by channel, several members in a file.
 //!
-//! Reading is as tolerant as the control's import: line ends of either kind, Latin-1, a byte order mark, missing
-//! block numbers, blanks around `=`, comments, checksums of lines. A broken line is an error here; the control stops
-//! its import there (alarm 12550 and others), which would leave half of an archive in force.
+//! Reading is as tolerant as the import of the control: either kind of line ending, Latin-1, a byte order mark, missing
+//! block numbers, blanks around `=`, comments, checksums of lines. A malformed line is an error here. The control stops
+//! its import at such a line (alarm 12550 and others), and half of the archive would be in effect.
 
 use crate::source::{Place, decode};
 use crate::units::ChannelNumber;
@@ -14,12 +14,12 @@ pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) {
     read_text(name, &decode(bytes), Broken::Refuse, reading);
 }
 
-/// What happens to a line that is no assignment.
+/// The reaction to a line that is not an assignment.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Broken {
     /// An error: a person wrote the file.
     Refuse,
-    /// A warning: the control wrote the file, and knows more kinds of line than we do.
+    /// A warning: the control wrote the file, and it uses more kinds of line than the simulator knows.
     Skip,
 }
 
@@ -79,7 +79,7 @@ enum Kind<'a> {
     Broken(String, &'static str),
 }
 
-/// What a line without its comment is.
+/// Classifies a line without its comment.
 fn kind(line: &str) -> Kind<'_> {
     if line.eq_ignore_ascii_case("INCH") {
         return Kind::Inch;
@@ -104,7 +104,7 @@ fn kind(line: &str) -> Kind<'_> {
     })
 }
 
-/// The beginning of a line that is no assignment, fit for a terminal whatever it holds.
+/// The beginning of a line that is not an assignment, escaped for output on a terminal.
 fn quoted(line: &str) -> String {
     let shown: String = line.chars().take(60).collect();
     let more = if shown.len() < line.len() { "…" } else { "" };
@@ -128,7 +128,7 @@ fn assignment(line: &str) -> Option<Kind<'_>> {
     let first = letters.next()?;
     let sound = (first == '$' || first == '_' || first.is_ascii_alphabetic())
         && name.split('[').next()?.trim().chars().skip(1).all(|letter| letter == '_' || letter.is_ascii_alphanumeric());
-    // A checksum of the line stands behind the value as `'1f34`.
+    // A checksum of the line follows the value as `'1f34`.
     if let Some((before, checksum)) = value.rsplit_once([' ', '\t'])
         && let Some(digits) = checksum.strip_prefix('\'')
         && !digits.is_empty()
@@ -139,13 +139,13 @@ fn assignment(line: &str) -> Option<Kind<'_>> {
     (sound && !value.is_empty()).then_some(Kind::Assignment { number, name, value })
 }
 
-/// What stands behind a word, in capitals or not.
+/// The text after a word, in upper or lower case.
 fn strip_word<'a>(line: &'a str, word: &str) -> Option<&'a str> {
     let (start, rest) = line.split_at_checked(word.len())?;
     start.eq_ignore_ascii_case(word).then_some(rest)
 }
 
-/// Takes a comment off, unless its `;` stands inside quotes.
+/// Removes a comment, unless its `;` is inside quotes.
 fn without_comment(line: &str) -> &str {
     let mut quoted = false;
     let end = line.char_indices().find(|(_, letter)| {

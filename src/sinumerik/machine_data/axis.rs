@@ -5,15 +5,15 @@ use super::table::machine_data;
 machine_data! {
 /// The machine data of one axis.
 Axis {
-    /// output of setpoints: 0 simulation, 1 real; whether the axis is simulated is decided by the plant (E-26)
+    /// output of setpoints: 0 simulation, 1 real; the plant defines whether the axis is simulated (E-26)
     30130 CTRLOUT_TYPE ctrlout_type: u8 = 0; "", Range::ANY, PowerOn;
-    /// number of encoders; more than 0 also to reference a simulated axis
+    /// number of encoders; must be above 0 to reference an axis, also a simulated one
     30200 NUM_ENCS num_encs: u8 = 1; "", Range::between(0.0, 2.0), PowerOn;
     /// encoder type: 0 simulation, 1 raw signal, 2 square wave, 4 absolute
     30240 ENC_TYPE enc_type: [u8; 2] = [0; 2]; "", Range::ANY, PowerOn;
-    /// corrections of the active encoder do not touch this one; 2 aligned, but not referenced
+    /// corrections of the active encoder do not affect this one; 2 aligned, but not referenced
     30242 ENC_IS_INDEPENDENT enc_is_independent: [u8; 2] = [0; 2]; "", Range::ANY, NewConf;
-    /// rotary axis; all axes of a gantry grouping must be equal
+    /// rotary axis; must be equal for all axes of a gantry grouping
     30300 IS_ROT_AX is_rot_ax: bool = false; "", Range::ANY, PowerOn;
     /// modulo rotary axis, whose software limits are inactive
     30310 ROT_IS_MODULO rot_is_modulo: bool = false; "", Range::ANY, PowerOn;
@@ -37,7 +37,7 @@ Axis {
     31020 ENC_RESOL enc_resol: [i32; 2] = [2048; 2]; "1/rev", Range::ANY, PowerOn;
     /// pitch of the leadscrew
     31030 LEADSCREW_PITCH leadscrew_pitch: f64 = 10.0; "mm/rev", Range::INCREMENT, PowerOn;
-    /// the encoder sits at the machine, not at the motor
+    /// the encoder is mounted on the machine, not on the motor
     31040 ENC_IS_DIRECT enc_is_direct: [bool; 2] = [false; 2]; "", Range::ANY, PowerOn;
     /// denominator of the load gear
     31050 DRIVE_AX_RATIO_DENOM drive_ax_ratio_denom: [i32; 6] = [1; 6]; "", Range::ANY, PowerOn;
@@ -57,19 +57,20 @@ Axis {
     32020 JOG_VELO jog_velo: f64 = 2_000.0, rotary 5.55; "mm/min", Range::NOT_NEGATIVE, Reset;
     /// velocity of a positioning axis without a programmed one
     32060 POS_AX_VELO pos_ax_velo: f64 = 10_000.0, rotary 27.77; "mm/min", Range::NOT_NEGATIVE, Reset;
-    /// velocity of overlaid motion, of JOG_VELO
+    /// velocity of overlaid motion, as a share of JOG_VELO
     32070 CORR_VELO corr_velo: f64 = 50.0; "%", Range::NOT_NEGATIVE, Reset;
     /// largest increment of the handwheel; 0 unlimited
     32080 HANDWH_MAX_INCR_SIZE handwh_max_incr_size: f64 = 0.0; "mm, deg", Range::NOT_NEGATIVE, Reset;
-    /// what aborts (1) rather than interrupts (0) handwheel travel: bit 0 feed override, 1 spindle override, 2 feed stop, 3 clamping, 4 controller enable, 5 pulse enable
+    /// conditions that abort (1) or interrupt (0) handwheel travel: bit 0 feed override, 1 spindle override, 2 feed stop, 3 clamping, 4
+    /// controller enable, 5 pulse enable
     32084 HANDWH_STOP_COND handwh_stop_cond: u32 = 0xFF; "", Range::ANY, Reset;
     /// share of the JOG velocity for the overlay of a handwheel
     32090 HANDWH_VELO_OVERLAY_FACTOR handwh_velo_overlay_factor: f64 = 0.5; "factor", Range::NOT_NEGATIVE, Reset;
-    /// -1 reverses the direction of travel, against the iron as it was when the machine was opened; position control stays stable
+    /// -1 reverses the direction of travel relative to the mechanics at opening of the machine; position control stays stable
     32100 AX_MOTION_DIR ax_motion_dir: i32 = 1; "", Range::ANY, PowerOn;
-    /// -1 reverses the direction of the encoder; against the iron as it was when the machine was opened, the axis runs away
+    /// -1 reverses the direction of the encoder; if it differs from the mechanics at opening of the machine, the axis runs away
     32110 ENC_FEEDBACK_POL enc_feedback_pol: [i32; 2] = [1; 2]; "", Range::ANY, PowerOn;
-    /// servo gain: 1 gives 1 mm following error at 1 m/min; times 16.6667 it is 1/s; 0 opens the loop
+    /// servo gain: 1 gives 1 mm following error at 1 m/min; multiplied by 16.6667 it is in 1/s; 0 opens the loop
     32200 POSCTRL_GAIN posctrl_gain: [f64; 6] = [1.0; 6]; "(m/min)/mm", Range::NOT_NEGATIVE, NewConf;
     /// rated output
     32250 RATED_OUTVAL rated_outval: f64 = 0.0; "%", Range::NOT_NEGATIVE, NewConf;
@@ -79,23 +80,25 @@ Axis {
     32300 MAX_AX_ACCEL max_ax_accel: [f64; 5] = [1.0; 5], rotary [2.77; 5]; "m/s2", Range::POSITIVE, NewConf;
     /// acceleration in JOG; 0 takes MD32300
     32301 JOG_MAX_ACCEL jog_max_accel: f64 = 0.0; "m/s2", Range::NOT_NEGATIVE, NewConf;
-    /// axial jerk filter on, for every movement; a fast stop (enable lost, emergency stop, MD36600 = 1) passes it by
+    /// axial jerk filter on, for every movement; a fast stop (enable lost, emergency stop, MD36600 = 1) bypasses it
     32400 AX_JERK_ENABLE ax_jerk_enable: bool = false; "", Range::ANY, NewConf;
-    /// kind of jerk filter; 2 is recommended; every kind acts as 2, the moving average
+    /// type of jerk filter; 2 is recommended; every type acts as 2, the moving average
     32402 AX_JERK_MODE ax_jerk_mode: u8 = 1; "", Range::ANY, NewConf;
     /// time constant of the jerk filter: the window of the average, at most 1000 cycles
     32410 AX_JERK_TIME ax_jerk_time: f64 = 0.001; "s", Range::NOT_NEGATIVE, NewConf;
-    /// jerk limitation in JOG, referencing and of positioning axes; a fast stop passes it by
+    /// jerk limitation in JOG, referencing and of positioning axes; a fast stop bypasses it
     32420 JOG_AND_POS_JERK_ENABLE jog_and_pos_jerk_enable: bool = false; "", Range::ANY, Reset;
-    /// largest jerk in JOG, referencing and of positioning axes; acceleration over it is the jerk time; 0 limits nothing
+    /// largest jerk in JOG, referencing and of positioning axes; acceleration divided by it is the jerk time; 0 means no limit
     32430 JOG_AND_POS_MAX_JERK jog_and_pos_max_jerk: f64 = 100.0; "m/s3", Range::NOT_NEGATIVE, Reset;
     /// backlash, active once referenced
     32450 BACKLASH backlash: [f64; 2] = [0.0; 2]; "mm, deg", Range::POSITION, NewConf;
     /// share of the speed feedforward; 1: at steady speed the following error is that of the balancing time alone
     32610 VELO_FFW_WEIGHT velo_ffw_weight: [f64; 6] = [1.0; 6]; "factor", Range::NOT_NEGATIVE, NewConf;
-    /// feedforward: 0 off, 1 speed PT1, 2 torque PT1, 3 speed Tt, 4 torque Tt (2 and 4: only their speed part acts, balanced by MD32800); the default 0 is ours, as a machine without archive shows v/Kv (real controls: 1 with MD32630 = 1)
+    /// feedforward: 0 off, 1 speed PT1, 2 torque PT1, 3 speed Tt, 4 torque Tt (2 and 4: only their speed part acts, balanced by MD32800);
+    /// the default 0 is ours, so that a machine without archive shows v/Kv (real controls: 1 with MD32630 = 1)
     32620 FFW_MODE ffw_mode: u8 = 0; "", Range::between(0.0, 4.0), Reset;
-    /// who switches the feedforward: 0 MD32620 alone; 1 and 2 FFWON of a part program, so that nothing switches it on in JOG and REF; the default 0 is ours
+    /// activation of the feedforward: 0 MD32620 alone; 1 and 2 FFWON of a part program, so that nothing switches it on in JOG and REF; the
+    /// default 0 is ours
     32630 FFW_ACTIVATION_MODE ffw_activation_mode: u8 = 0; "", Range::between(0.0, 2.0), Reset;
     /// inertia for torque feedforward
     32650 AX_INERTIA ax_inertia: f64 = 0.0; "kgm2", Range::NOT_NEGATIVE, NewConf;
@@ -107,11 +110,11 @@ Axis {
     32750 TEMP_COMP_TYPE temp_comp_type: u8 = 0; "", Range::ANY, NewConf;
     /// time constant of the closed current loop: balancing time of the feedforward modes 2 and 4
     32800 EQUIV_CURRCTRL_TIME equiv_currctrl_time: [f64; 6] = [0.0005; 6]; "s", Range::NOT_NEGATIVE, NewConf;
-    /// time constant of the closed speed loop, as the control believes it: balancing time of the feedforward modes 1 and 3
+    /// time constant of the closed speed loop as set in the control: balancing time of the feedforward modes 1 and 3
     32810 EQUIV_SPEEDCTRL_TIME equiv_speedctrl_time: [f64; 6] = [0.008; 6]; "s", Range::NOT_NEGATIVE, NewConf;
     /// dynamic response adaptation: the setpoint is delayed by MD32910, also without feedforward
     32900 DYN_MATCH_ENABLE dyn_match_enable: bool = false; "", Range::ANY, NewConf;
-    /// time constant of the adaptation: slowest of the grouping less the own
+    /// time constant of the adaptation: that of the slowest axis of the grouping minus that of this axis
     32910 DYN_MATCH_TIME dyn_match_time: [f64; 6] = [0.0; 6]; "s", Range::NOT_NEGATIVE, NewConf;
     /// fine interpolator, 2 cubic; equal in a grouping
     33000 FIPO_TYPE fipo_type: u8 = 2; "", Range::ANY, PowerOn;
@@ -121,37 +124,38 @@ Axis {
     34010 REFP_CAM_DIR_IS_MINUS refp_cam_dir_is_minus: bool = false; "", Range::ANY, Reset;
     /// velocity of the cam search
     34020 REFP_VELO_SEARCH_CAM refp_velo_search_cam: f64 = 5_000.0, rotary 13.88; "mm/min", Range::POSITIVE, Reset;
-    /// longest way to the cam, else alarm 20000
+    /// largest distance to the cam, else alarm 20000
     34030 REFP_MAX_CAM_DIST refp_max_cam_dist: f64 = 10_000.0; "mm, deg", Range::NOT_NEGATIVE, Reset;
     /// creep velocity of the zero mark search, and of the synchronising motion (E-12)
     34040 REFP_VELO_SEARCH_MARKER refp_velo_search_marker: [f64; 2] = [300.0; 2], rotary [0.833; 2]; "mm/min", Range::POSITIVE, Reset;
-    /// zero mark search begins at the 0 falling, 1 rising edge of the cam (E-19)
+    /// edge of the cam at which the zero mark search begins: 0 falling, 1 rising (E-19)
     34050 REFP_SEARCH_MARKER_REVERSE refp_search_marker_reverse: [bool; 2] = [false; 2]; "", Range::ANY, Reset;
-    /// longest way to the zero mark, else alarm 20002 (distance-coded: 20004)
+    /// largest distance to the zero mark, else alarm 20002 (distance-coded: 20004)
     34060 REFP_MAX_MARKER_DIST refp_max_marker_dist: [f64; 2] = [20.0; 2]; "mm, deg", Range::NOT_NEGATIVE, Reset;
-    /// velocity of the way from the zero mark to the reference point
+    /// velocity from the zero mark to the reference point
     34070 REFP_VELO_POS refp_velo_pos: f64 = 10_000.0, rotary 27.77; "mm/min", Range::POSITIVE, Reset;
-    /// way from the zero mark to the reference point
+    /// distance from the zero mark to the reference point
     34080 REFP_MOVE_DIST refp_move_dist: [f64; 2] = [-2.0; 2]; "mm, deg", Range::POSITION, Reset;
     /// added to MD34080; offset of absolute and distance-coded encoders, written by the control on calibration
     34090 REFP_MOVE_DIST_CORR refp_move_dist_corr: [f64; 2] = [0.0; 2]; "mm, deg", Range::POSITION, PowerOn;
-    /// delays the zero mark search behind the edge of the cam
+    /// distance by which the zero mark search is delayed after the edge of the cam
     34092 REFP_CAM_SHIFT refp_cam_shift: [f64; 2] = [0.0; 2]; "mm, deg", Range::NOT_NEGATIVE, Reset;
-    /// way from the edge of the cam to the zero mark, shown by the control
+    /// distance from the edge of the cam to the zero mark, displayed by the control
     34093 REFP_CAM_MARKER_DIST refp_cam_marker_dist: [f64; 2] = [0.0; 2]; "mm, deg", Range::POSITION, Immediate, read_only true;
-    /// reference point value 1 to 4, chosen by DBX2.4 to 2.7
+    /// reference point value 1 to 4, selected by DBX2.4 to 2.7
     34100 REFP_SET_POS refp_set_pos: [f64; 4] = [0.0; 4]; "mm, deg", Range::POSITION, Reset;
     /// 1: all encoders are aligned to the one that was referenced
     34102 REFP_SYNC_ENCS refp_sync_encs: u8 = 0; "", Range::between(0.0, 1.0), Reset;
     /// referencing by external motion in follow-up
     34104 REFP_PERMITTED_IN_FOLLOWUP refp_permitted_in_followup: bool = false; "", Range::ANY, PowerOn;
-    /// order of channel-specific referencing: -1 not needed for NC start, 0 needed, but not started, n after all with n-1
+    /// order of channel-specific referencing: -1 not required for NC start, 0 required but not started, n after all axes with n-1
     34110 REFP_CYCLE_NR refp_cycle_nr: i32 = 1; "", Range::between(-1.0, 31.0), Reset;
-    /// 0 absolute encoder, or no approach; 1 zero mark; 2 BERO; 3 distance-coded; 5 BERO for a cam; 6 second encoder; 7 spindle; 8 distance-coded over four marks
+    /// 0 absolute encoder, or no approach; 1 zero mark; 2 BERO; 3 distance-coded; 5 BERO as the cam; 6 second encoder; 7 spindle; 8
+    /// distance-coded over four marks
     34200 ENC_REFP_MODE enc_refp_mode: [u8; 2] = [1; 2]; "", Range::between(0.0, 8.0), PowerOn;
     /// absolute: 0 not calibrated, 1 enabled, 2 calibrated; incremental: 1 restoring enabled, 2 referenced and at standstill, 3 position restored
     34210 ENC_REFP_STATE enc_refp_state: [u8; 2] = [0; 2]; "", Range::between(0.0, 3.0), Immediate;
-    /// turns that a rotary absolute encoder tells apart
+    /// number of turns that a rotary absolute encoder distinguishes
     34220 ENC_ABS_TURNS_MODULO enc_abs_turns_modulo: [i32; 2] = [4096; 2]; "rev", Range::between(1.0, 100000.0), PowerOn;
     /// serial number of the encoder; a change invalidates the calibration
     34230 ENC_SERIAL_NUMBER enc_serial_number: [i32; 2] = [0; 2]; "", Range::ANY, PowerOn;
@@ -159,9 +163,9 @@ Axis {
     34232 EVERY_ENC_SERIAL_NUMBER every_enc_serial_number: [bool; 2] = [true; 2]; "", Range::ANY, PowerOn;
     /// basic distance of the fixed marks
     34300 ENC_REFP_MARKER_DIST enc_refp_marker_dist: [f64; 2] = [10.0; 2]; "mm, deg", Range::INCREMENT, PowerOn;
-    /// difference of two distances of marks
+    /// difference of two mark distances
     34310 ENC_MARKER_INC enc_marker_inc: [f64; 2] = [0.02; 2]; "mm, deg", Range::INCREMENT, PowerOn;
-    /// the scale counts against the machine axis
+    /// the scale counts in the opposite direction of the machine axis
     34320 ENC_INVERS enc_invers: [bool; 2] = [false; 2]; "", Range::ANY, PowerOn;
     /// absolute and distance-coded: 0 travels to MD34100, 1 stops where the position is known
     34330 REFP_STOP_AT_ABS_MARKER refp_stop_at_abs_marker: [bool; 2] = [false; 2]; "", Range::ANY, PowerOn;
@@ -189,15 +193,15 @@ Axis {
     36050 CLAMP_POS_TOL clamp_pos_tol: f64 = 0.5; "mm, deg", Range::NOT_NEGATIVE, NewConf;
     /// special functions of a clamped axis
     36052 STOP_ON_CLAMPING stop_on_clamping: u8 = 0; "", Range::ANY, NewConf;
-    /// below it the axis counts as stationary, DBX61.4
+    /// velocity below which the axis counts as stationary, DBX61.4
     36060 STANDSTILL_VELO_TOL standstill_velo_tol: f64 = 5.0, rotary 0.0138; "mm/min", Range::NOT_NEGATIVE, NewConf;
     /// first software limit switch minus
     36100 POS_LIMIT_MINUS pos_limit_minus: f64 = -1e8; "mm, deg", Range::POSITION, NewConf;
     /// first software limit switch plus
     36110 POS_LIMIT_PLUS pos_limit_plus: f64 = 1e8; "mm, deg", Range::POSITION, NewConf;
-    /// second software limit switch minus, chosen by DBX12.2
+    /// second software limit switch minus, selected by DBX12.2
     36120 POS_LIMIT_MINUS2 pos_limit_minus2: f64 = -1e8; "mm, deg", Range::POSITION, NewConf;
-    /// second software limit switch plus, chosen by DBX12.3
+    /// second software limit switch plus, selected by DBX12.3
     36130 POS_LIMIT_PLUS2 pos_limit_plus2: f64 = 1e8; "mm, deg", Range::POSITION, NewConf;
     /// velocity monitoring, alarm 25030; 10 to 15 % above MD32000
     36200 AX_VELO_LIMIT ax_velo_limit: [f64; 6] = [11_500.0; 6], rotary [31.94; 6]; "mm/min", Range::NOT_NEGATIVE, NewConf;
@@ -207,7 +211,7 @@ Axis {
     36220 CTRLOUT_LIMIT_TIME ctrlout_limit_time: f64 = 0.0; "s", Range::NOT_NEGATIVE, NewConf;
     /// frequency limit of the encoder, DBX60.2 and 60.3, alarm 21610
     36300 ENC_FREQ_LIMIT enc_freq_limit: [f64; 2] = [300_000.0; 2]; "Hz", Range::NOT_NEGATIVE, PowerOn;
-    /// share of it below which the encoder works again
+    /// share of MD36300 below which the encoder operates again
     36302 ENC_FREQ_LIMIT_LOW enc_freq_limit_low: [f64; 2] = [99.9; 2]; "%", Range::NOT_NEGATIVE, NewConf;
     /// zero mark monitoring: 0 off, below 100 alarms 25000 and 25001, 100 all encoder monitoring off, above 25010 and 25011
     36310 ENC_ZERO_MONITORING enc_zero_monitoring: [i32; 2] = [0; 2]; "", Range::ANY, NewConf;
@@ -227,7 +231,7 @@ Axis {
     36620 SERVO_DISABLE_DELAY_TIME servo_disable_delay_time: f64 = 0.1; "s", Range::NOT_NEGATIVE, NewConf;
     /// signals of the drive that are passed on
     36730 DRIVE_SIGNAL_TRACKING drive_signal_tracking: u8 = 0; "", Range::ANY, PowerOn;
-    /// units digit: grouping 1 to 8, 0 none; tens digit: 0 leading, 1 synchronous axis; judged at power on (10650, 10651)
+    /// units digit: grouping 1 to 8, 0 none; tens digit: 0 leading, 1 synchronous axis; checked at power on (10650, 10651)
     37100 GANTRY_AXIS_TYPE gantry_axis_type: u8 = 0; "", Range::ANY, PowerOn;
     /// warning limit, alarm 10652 and DBX101.3; 0: no warning and no automatic start
     37110 GANTRY_POS_TOL_WARNING gantry_pos_tol_warning: f64 = 0.0; "mm, deg", Range::NOT_NEGATIVE, Reset;

@@ -1,8 +1,8 @@
-//! The binary commissioning archive (`.arc`): members behind headers of 512 bytes, each padded to 512.
+//! The binary commissioning archive (`.arc`): members with headers of 512 bytes, each padded to a multiple of 512.
 //!
-//! The machine data are the members `_N_INITIAL_INI` and `_N_CFG_…` of folder `\_NC_ACT.DIR\`; drive data,
-//! definitions, programs and PLC parts travel in the same file, are listed and left alone. A truncated file or a
-//! wrong checksum is damage and is named with its offset.
+//! The machine data are in the members `_N_INITIAL_INI` and `_N_CFG_…` of folder `\_NC_ACT.DIR\`. Drive data,
+//! definitions, programs and PLC parts in the same file are listed and ignored. A truncated file or a wrong checksum is
+//! reported as damage, with its offset.
 
 use std::path::Path;
 
@@ -11,11 +11,11 @@ use crate::source::{Place, Problem, decode};
 use super::ascii::{Broken, read_text};
 use super::finding::{Member, Reading};
 
-/// Headers are this long, and data are padded to a multiple of it.
+/// Length of a header; data are padded to a multiple of it.
 const BLOCK: usize = 512;
 
-/// Whether a file is a binary archive, or what a copy that failed left of one: an `.arc` without a byte, or one with
-/// bytes that no text has. An `.arc` of plain text is an ASCII archive.
+/// Whether a file is a binary archive or the rest of a failed copy: an empty `.arc`, or one with bytes that do not
+/// occur in text. An `.arc` of plain text is an ASCII archive.
 pub(super) fn is_binary(name: &str, bytes: &[u8]) -> bool {
     let is_arc = Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("arc"));
     let no_text = || bytes.iter().any(|&byte| byte < b'\t');
@@ -64,7 +64,7 @@ pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<()
         let data = &member[..size];
         let (internal, folder) = (text(&header[..50]), text(&header[384..512]));
         if is_machine_data(&internal, &folder) {
-            // The name in the message is the file and the member, its lines are those of the member.
+            // Messages name the file and the member; line numbers are those of the member.
             read_text(&format!("{name}({})", shown(header)), &decode(data), Broken::Skip, reading);
         } else if !internal.starts_with("@@") {
             reading.members.push(Member { name: format!("{folder}{}", shown(header)), assignments: None });
@@ -79,24 +79,24 @@ fn is_machine_data(internal: &str, folder: &str) -> bool {
         && (internal == "_N_INITIAL_INI" || (internal.starts_with("_N_CFG_") && internal.ends_with("_INI")))
 }
 
-/// The name as people see it, or the internal one.
+/// The displayed name, or the internal name if there is none.
 fn shown(header: &[u8; BLOCK]) -> String {
     let name = text(&header[50..100]);
     if name.is_empty() { text(&header[..50]) } else { name }
 }
 
-/// The sum of the header's bytes, its own field taken as zero.
+/// The sum of the header's bytes, with the checksum field taken as zero.
 fn checksum(header: &[u8; BLOCK]) -> u64 {
     header[..148].iter().chain(&header[156..]).map(|&byte| u64::from(byte)).sum()
 }
 
-/// A text up to its zero byte.
+/// A text up to its first zero byte.
 fn text(field: &[u8]) -> String {
     let end = field.iter().position(|&byte| byte == 0).unwrap_or(field.len());
     field[..end].iter().map(|&byte| char::from(byte)).collect::<String>().trim().to_owned()
 }
 
-/// A number in decimal digits, ended by zero bytes or blanks.
+/// A number in decimal digits, terminated by zero bytes or blanks.
 fn decimal(field: &[u8]) -> Option<u64> {
     let text = text(field);
     text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse().ok())?

@@ -1,4 +1,4 @@
-//! The catalogue: every machine datum the simulator knows, by number and by identifier.
+//! The catalogue: all known machine data, by number and by identifier.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -8,7 +8,7 @@ use crate::source;
 use super::table::{Datum, Row, Scope, Table};
 use super::{Axis, Channel, General, Setting};
 
-/// Every machine datum with the number of its row, by number.
+/// All machine data with the number of their row, by number.
 static BY_NUMBER: LazyLock<BTreeMap<u32, (&'static Datum, usize)>> = LazyLock::new(|| {
     let mut all = BTreeMap::new();
     collect(General::rows(), &mut all);
@@ -25,7 +25,7 @@ fn collect<T>(rows: &'static [Row<T>], all: &mut BTreeMap<u32, (&'static Datum, 
     all.extend(rows.iter().enumerate().map(|(row, entry)| (entry.datum.number, (&entry.datum, row))));
 }
 
-/// Every machine datum, ascending by number.
+/// All machine data, ascending by number.
 pub fn catalogue() -> impl Iterator<Item = &'static Datum> {
     BY_NUMBER.values().map(|(datum, _)| *datum)
 }
@@ -36,7 +36,7 @@ pub fn by_number(number: u32) -> Option<&'static Datum> {
     BY_NUMBER.get(&number).map(|(datum, _)| *datum)
 }
 
-/// The datum with this identifier, with or without its prefix, in capitals or not.
+/// The datum with this identifier, with or without its prefix, in upper or lower case.
 #[must_use]
 pub fn by_identifier(identifier: &str) -> Option<&'static Datum> {
     let identifier = identifier.to_ascii_uppercase();
@@ -54,13 +54,13 @@ pub fn nearest_identifier(identifier: &str) -> Option<&'static str> {
     source::nearest(name, BY_IDENTIFIER.keys().copied())
 }
 
-/// The place of a datum in its table.
+/// The row number of a datum in its table.
 pub(super) fn row(number: u32) -> Option<usize> {
     BY_NUMBER.get(&number).map(|(_, row)| *row)
 }
 
 impl Scope {
-    /// Takes the prefix off an identifier.
+    /// Splits an identifier into its scope and the rest.
     pub(super) fn split(identifier: &str) -> Option<(Self, &str)> {
         [Self::General, Self::Setting, Self::Channel, Self::Axis]
             .into_iter()
@@ -69,7 +69,7 @@ impl Scope {
 }
 
 impl Datum {
-    /// The default of a linear axis as the control writes it; that of the first index.
+    /// The default of a linear axis, at the first index, as the control writes it.
     #[must_use]
     pub fn default_text(&self) -> String {
         fn text<T: Table>(row: usize, datum: &Datum) -> String {

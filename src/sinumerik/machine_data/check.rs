@@ -1,6 +1,6 @@
-//! What `machine-data check` says about an archive that could be read: unknown data, and values that do not go together.
+//! The findings of `machine-data check` about a readable archive: unknown data, and values that contradict each other.
 //!
-//! Definitions that the control refuses at power on (10650, 10651) are left to its alarms.
+//! Definitions that the control rejects at power on (10650, 10651) are left to its alarms.
 
 use crate::control::Owner;
 use crate::source::Place;
@@ -10,7 +10,7 @@ use super::archive::Archive;
 use super::finding::{Finding, Severity};
 use super::{Axis, Datum, MachineData, Target, by_number};
 
-/// Every finding about an archive.
+/// All findings about an archive.
 #[must_use]
 pub fn check(archive: &Archive) -> Vec<Finding> {
     let mut findings = archive.findings.clone();
@@ -27,8 +27,8 @@ pub fn check(archive: &Archive) -> Vec<Finding> {
     findings
 }
 
-/// DYN-03: the data of interpolation and jerk that must be equal within a grouping and are not, with the value of the
-/// leading axis and that of the synchronous axis.
+/// DYN-03: the data of interpolation and jerk that must be equal within a grouping and differ, with the values of the
+/// leading axis and the synchronous axis.
 pub(in crate::sinumerik) fn unequal_data(leading: &Axis, synchronous: &Axis) -> impl Iterator<Item = (u32, [f64; 2])> {
     let values = |axis: &Axis| {
         [
@@ -58,7 +58,8 @@ fn finding(archive: &Archive, number: u32, owner: Owner, index: u8, what: String
     }
 }
 
-/// The interpolation cycle is a whole multiple of the position control cycle, and both are times of a control.
+/// Checks that the interpolation cycle is a whole multiple of the position control cycle, and that both are within the
+/// range of a control.
 fn cycles(archive: &Archive, findings: &mut Vec<Finding>) {
     let general = &archive.data.general;
     let (position, interpolation) = (general.posctrl_sysclock_time_ratio, general.ipo_sysclock_time_ratio);
@@ -70,25 +71,25 @@ fn cycles(archive: &Archive, findings: &mut Vec<Finding>) {
     let cycle = general.sysclock_cycle_time;
     if !(0.000_1..=0.032).contains(&cycle) {
         let what = format!("expected a basic cycle from 0.0001 to 0.032 s, found {cycle} s");
-        findings.push(finding(archive, 10050, Owner::Nck, 0, what, "the unit is seconds"));
+        findings.push(finding(archive, 10050, Owner::Nck, 0, what, "correct MD10050; its unit is seconds"));
     }
 }
 
-/// Names of machine axes that two axes have, or that hide the `AXn` of another axis.
+/// Finds names that two machine axes have, and names that hide the `AXn` of another axis.
 fn names(archive: &Archive, findings: &mut Vec<Finding>) {
     for axis in MachineData::axis_numbers() {
         let name = archive.data.axis_name(axis);
         let logical = MachineData::axis_numbers().find(|other| *other != axis && name == format!("AX{other}"));
         if let Some(other) = logical {
-            let what = format!("expected another name than `{name}`, which means axis {other}, for axis {axis}");
-            let cure = "name it AXn with its own number, or otherwise";
+            let what = format!("expected a name other than `{name}`, which means axis {other}, for axis {axis}");
+            let cure = "choose a name that is not AXn, or AXn with its own number";
             findings.push(finding(archive, 10000, Owner::Nck, axis.number() - 1, what, cure));
         }
         if let Some(other) = archive.data.axis(name)
             && other != axis
         {
             let what =
-                format!("expected a name that only machine axis {axis} has, found `{name}`, which axis {other} has");
+                format!("expected a unique name for machine axis {axis}, found `{name}`, which axis {other} has");
             let index = axis.number() - 1;
             findings.push(finding(archive, 10000, Owner::Nck, index, what, "give every machine axis its own name"));
         }
@@ -107,36 +108,36 @@ fn gantry_code(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>)
             Owner::Axis(axis),
             0,
             what,
-            "1 leading, 11 synchronous axis of grouping 1",
+            "for example 1 for the leading axis and 11 for a synchronous axis of grouping 1",
         ));
     }
 }
 
-/// Limits and times of an axis that must lie in an order, where the archive says one of the two.
+/// Limits and times of an axis that must be in ascending order, checked if the archive gives one of the two.
 fn monitoring_order(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>) {
     let (data, owner) = (&archive.data.axes[axis], Owner::Axis(axis));
     let order = [
-        (36010, data.stop_limit_fine, 36000, data.stop_limit_coarse, "exact stop fine lies below exact stop coarse"),
+        (36010, data.stop_limit_fine, 36000, data.stop_limit_coarse, "set exact stop fine below exact stop coarse"),
         (
             36000,
             data.stop_limit_coarse,
             36030,
             data.standstill_pos_tol,
-            "exact stop coarse lies below the standstill tolerance",
+            "set exact stop coarse below the standstill tolerance",
         ),
         (
             32000,
             data.max_ax_velo,
             36200,
             data.ax_velo_limit[0],
-            "the alarm limit lies 10 to 15 % above the largest velocity",
+            "set the alarm limit 10 to 15 % above the largest velocity",
         ),
         (
             36610,
             data.ax_emergency_stop_time,
             36620,
             data.servo_disable_delay_time,
-            "the ramp ends before the enables are taken away",
+            "the ramp must end before the enables are removed",
         ),
     ];
     for (lower, least, upper, found, cure) in order {
@@ -148,7 +149,7 @@ fn monitoring_order(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Find
     }
 }
 
-/// DYN-03, of a synchronous axis.
+/// DYN-03, for a synchronous axis.
 fn gantry_dynamics(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>) {
     let axes = &archive.data.axes;
     let Some(grouping @ 1..=8) = axes[axis].gantry_axis_type.checked_sub(10) else { return };
@@ -158,11 +159,12 @@ fn gantry_dynamics(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Findi
     let [leading, name] = [leader, axis].map(|axis| archive.data.axis_name(axis));
     for (datum, [wanted, found]) in unequal_data(&axes[leader], &axes[axis]) {
         let what = format!("DYN-03: expected {wanted} for axis {name}, as leading axis {leading} has, found {found}");
-        findings.push(finding(archive, datum, Owner::Axis(axis), 0, what, "make it equal within the grouping"));
+        findings.push(finding(archive, datum, Owner::Axis(axis), 0, what, "set the same value within the grouping"));
     }
 }
 
-/// MON-16: MD37110 < MD37120 < MD37130; REF-28: MD36500 < MD37110 with two encoders. Both only where MD37110 is in use.
+/// MON-16: MD37110 < MD37120 < MD37130; REF-28: MD36500 < MD37110 with two encoders. Both apply only if MD37110 is in
+/// use.
 fn gantry_limits(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>) {
     let data = &archive.data.axes[axis];
     let name = archive.data.axis_name(axis);
@@ -173,15 +175,22 @@ fn gantry_limits(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding
     let owner = Owner::Axis(axis);
     if trip <= warning {
         let what = format!("MON-16: expected more than MD37110 = {warning} for axis {name}, found {trip}");
-        findings.push(finding(archive, 37120, owner, 0, what, "the trip limit lies above the warning limit"));
+        findings.push(finding(archive, 37120, owner, 0, what, "set the trip limit above the warning limit"));
     }
     if reference <= trip {
         let what = format!("MON-16: expected more than MD37120 = {trip} for axis {name}, found {reference}");
-        findings.push(finding(archive, 37130, owner, 0, what, "the limit for referencing lies above the trip limit"));
+        findings.push(finding(archive, 37130, owner, 0, what, "set the limit for referencing above the trip limit"));
     }
     if data.num_encs == 2 && data.enc_change_tol >= warning {
         let what =
             format!("REF-28: expected less than MD37110 = {warning} for axis {name}, found {}", data.enc_change_tol);
-        findings.push(finding(archive, 36500, owner, 0, what, "a switch-over could warn by itself; lower MD36500"));
+        findings.push(finding(
+            archive,
+            36500,
+            owner,
+            0,
+            what,
+            "lower MD36500: otherwise an encoder switch-over alone can cause the warning",
+        ));
     }
 }

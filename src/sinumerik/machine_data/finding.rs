@@ -1,4 +1,4 @@
-//! What reading an archive finds: assignments line by line, and what is to be said about them.
+//! The results of reading an archive: assignments line by line, and findings.
 
 use std::fmt;
 
@@ -7,33 +7,33 @@ use crate::units::ChannelNumber;
 
 use super::table::numbered;
 
-/// How bad a finding is.
+/// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
     /// The archive is used.
     Warning,
-    /// The archive is refused.
+    /// The archive is rejected.
     Error,
 }
 
-/// Something to say about an archive: where, which datum, what was expected and what came.
+/// A finding about an archive: place, datum, what was expected and what was found.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// How bad it is.
+    /// Severity.
     pub severity: Severity,
-    /// Where, if it stands in a file.
+    /// Place, if it is in a file.
     pub place: Option<Place>,
     /// The number of the datum, if it is known.
     pub number: Option<u32>,
     /// The identifier with its prefix; may be empty.
     pub identifier: String,
-    /// What was expected and what came.
+    /// What was expected and what was found.
     pub what: String,
     /// What to do about it; may be empty.
     pub cure: String,
 }
 
-/// `a.tea:7: error: MD37100 GANTRY_AXIS_TYPE: expected …, found …`, and the cure in a second line.
+/// `a.tea:7: error: MD37100 GANTRY_AXIS_TYPE: expected …, found …`, and the remedy in a second line.
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(place) = &self.place {
@@ -63,11 +63,11 @@ impl From<Problem> for Finding {
     }
 }
 
-/// One problem for the first of the findings that refused an archive, saying how many more there are.
+/// A single problem with the first error of a rejected archive, and the number of further findings.
 #[must_use]
 pub fn refusal(findings: &[Finding]) -> Problem {
     let Some(first) = findings.first() else {
-        return Problem::new("the machine data were refused", "");
+        return Problem::new("the machine data were rejected", "");
     };
     let name = first.number.map(|number| format!("{} {}: ", numbered(number), first.identifier)).unwrap_or_default();
     let more = match findings.len() - 1 {
@@ -77,12 +77,12 @@ pub fn refusal(findings: &[Finding]) -> Problem {
     Problem { place: first.place.clone(), what: format!("{name}{}{more}", first.what), cure: first.cure.clone() }
 }
 
-/// An assignment that means no datum of the catalogue: kept as it stands, to be written back.
+/// An assignment to a datum that is not in the catalogue. It is kept unchanged, to be written back.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Assignment {
-    /// Where it stands.
+    /// Its place.
     pub place: Place,
-    /// The number in front of it, if there is one.
+    /// The number in front of it, if any.
     pub number: Option<u32>,
     /// The name with its prefix and index: `$MA_SPIND_VELO_LIMIT[0,AX4]`.
     pub name: String,
@@ -97,11 +97,11 @@ pub struct Assignment {
 pub struct Member {
     /// Its name: a file, or a member of a binary archive with its folder.
     pub name: String,
-    /// How many assignments were read in it; `None` where it holds no machine data and was left alone.
+    /// Number of assignments read; `None` if it contains no machine data and was ignored.
     pub assignments: Option<usize>,
 }
 
-/// An assignment as a reader found it.
+/// An assignment as read.
 pub(super) struct Line {
     pub(super) place: Place,
     pub(super) number: Option<u32>,
@@ -110,7 +110,7 @@ pub(super) struct Line {
     pub(super) value: String,
 }
 
-/// What the readers of files collect.
+/// The data collected while reading files.
 #[derive(Default)]
 pub(super) struct Reading {
     pub(super) lines: Vec<Line>,

@@ -21,9 +21,9 @@ General {
     10200 INT_INCR_PER_MM int_incr_per_mm: f64 = 1_000.0; "1/mm", Range::POSITIVE, PowerOn;
     /// computational resolution of rotary axes
     10210 INT_INCR_PER_DEG int_incr_per_deg: f64 = 1_000.0; "1/deg", Range::POSITIVE, PowerOn;
-    /// basic system metric; this simulator knows no other
+    /// basic system metric; this simulator supports no other
     10240 SCALING_SYSTEM_IS_METRIC scaling_system_is_metric: bool = true; "", Range::between(1.0, 1.0), PowerOn;
-    /// mode of each mode group after power on: 0, 1 AUTOMATIC; 2 to 5 MDI; 6, 7 JOG; machine functions come by their signals (O-19)
+    /// mode of each mode group after power on: 0, 1 AUTOMATIC; 2 to 5 MDI; 6, 7 JOG; machine functions are selected by their signals (O-19)
     10720 OPERATING_MODE_DEFAULT operating_mode_default: [i32; 10] = [6; 10]; "", Range::between(0.0, 7.0), PowerOn;
     /// settings of JOG
     10735 JOG_MODE_MASK jog_mode_mask: u32 = 0; "", Range::ANY, Reset;
@@ -33,23 +33,23 @@ General {
     11320 HANDWH_IMP_PER_LATCH handwh_imp_per_latch: [f64; 6] = [1.0; 6]; "", Range::POSITION, PowerOn;
     /// sizes of the fixed increments
     11330 JOG_INCR_SIZE_TAB jog_incr_size_tab: [f64; 5] = [1.0, 10.0, 100.0, 1_000.0, 10_000.0]; "", Range::NOT_NEGATIVE, Reset;
-    /// handwheel gives 1 the way, 0 the velocity
+    /// a handwheel gives 1 the distance, 0 the velocity
     11346 HANDWH_TRUE_DISTANCE handwh_true_distance: u8 = 1; "", Range::ANY, PowerOn;
     /// alarms that are suppressed; bit 29: 16772
     11410 SUPPRESS_ALARM_MASK suppress_alarm_mask: u32 = 0; "", Range::ANY, Reset;
     /// alarms that are enabled
     11411 ENABLE_ALARM_MASK enable_alarm_mask: u32 = 0; "", Range::ANY, Reset;
-    /// an alarm takes ready from 1 its channel, 0 the mode group
+    /// an alarm resets ready of 1 its channel, 0 the mode group
     11412 ALARM_REACTION_CHAN_NOREADY alarm_reaction_chan_noready: bool = false; "", Range::ANY, PowerOn;
-    /// axial feed override is coded 1 Gray, 0 binary
+    /// coding of the axial feed override: 1 Gray, 0 binary
     12000 OVR_AX_IS_GRAY_CODE ovr_ax_is_gray_code: bool = true; "", Range::ANY, PowerOn;
     /// axial feed override of each switch position
     12010 OVR_FACTOR_AX_SPEED ovr_factor_ax_speed: [f64; 31] = FEED_OVERRIDE; "factor", Range::NOT_NEGATIVE, PowerOn;
-    /// path feed override is coded 1 Gray, 0 binary
+    /// coding of the path feed override: 1 Gray, 0 binary
     12020 OVR_FEED_IS_GRAY_CODE ovr_feed_is_gray_code: bool = true; "", Range::ANY, PowerOn;
     /// path feed override of each switch position
     12030 OVR_FACTOR_FEEDRATE ovr_factor_feedrate: [f64; 31] = FEED_OVERRIDE; "factor", Range::NOT_NEGATIVE, PowerOn;
-    /// rapid traverse override is coded 1 Gray, 0 binary
+    /// coding of the rapid traverse override: 1 Gray, 0 binary
     12040 OVR_RAPID_IS_GRAY_CODE ovr_rapid_is_gray_code: bool = true; "", Range::ANY, PowerOn;
     /// rapid traverse override of each switch position
     12050 OVR_FACTOR_RAPID_TRA ovr_factor_rapid_tra: [f64; 31] = FEED_OVERRIDE.map(|factor| factor.min(1.0)); "factor", Range::NOT_NEGATIVE, PowerOn;
@@ -59,13 +59,13 @@ General {
 scope General
 }
 
-/// The override switch with 23 positions; the positions behind keep the last value.
+/// The override switch with 23 positions; the remaining positions have the last value.
 const FEED_OVERRIDE: [f64; 31] = [
     0.0, 0.01, 0.02, 0.04, 0.06, 0.08, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.05, 1.1,
     1.15, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2,
 ];
 
-/// X1, Y1, Z1, A1, B1, C1, U1, V1, W1 and, our own continuation, X2 and so on.
+/// X1, Y1, Z1, A1, B1, C1, U1, V1, W1 and, as our own continuation, X2 and so on.
 fn default_axis_names() -> [String; 31] {
     let letters = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
     std::array::from_fn(|index| format!("{}{}", letters[index % letters.len()], index / letters.len() + 1))

@@ -1,14 +1,13 @@
-//! Machine data: what the commissioning engineer told the control about the machine.
+//! Machine data: the settings with which the commissioning engineer adapts the control to the machine.
 //!
-//! The tables (`general.rs`, `setting.rs`, `channel.rs`, `axis.rs`) hold one row a datum; [`MachineData`] holds the
-//! values. A machine has two sets of them: the stored one, which files and the operator write with
-//! [`MachineData::set`], and the active one, which the control reads and which follows the stored one when a class of
-//! data becomes active, with [`MachineData::activate`]. [`Archive`] reads and writes commissioning archives.
+//! The tables (`general.rs`, `setting.rs`, `channel.rs`, `axis.rs`) contain one row per datum; [`MachineData`] contains the values. A
+//! machine has two sets of them. Files and the operator write the stored set, with [`MachineData::set`]. The control reads the active set.
+//! [`MachineData::activate`] copies a class of data from the stored set to the active set. [`Archive`] reads and writes commissioning
+//! archives.
 //!
-//! **Rotary axes.** Velocities and accelerations of a rotary axis have other defaults than those of a linear one
-//! (MD32000: 27.77 rev/min, not 10000 mm/min). Whenever MD30300 `IS_ROT_AX` changes, every such datum of the axis that
-//! still stands at the default of the old kind takes the default of the new kind. An archive sets MD30300 first and
-//! its other data after it, so what it says explicitly always stays.
+//! **Rotary axes.** Velocities and accelerations of a rotary axis have other defaults than those of a linear axis (MD32000: 27.77 rev/min,
+//! not 10000 mm/min). When MD30300 `IS_ROT_AX` changes, every such datum of the axis that still has the default of the old type takes the
+//! default of the new type. An archive sets MD30300 first and its other data after it, so explicitly given values always stay.
 
 mod archive;
 mod ascii;
@@ -59,7 +58,7 @@ pub struct MachineData {
     pub axes: PerAxis<Axis>,
 }
 
-/// The defaults of the control: linear axes, channels CHAN1 to CHAN10, of which the first has axes.
+/// The defaults of the control: linear axes, and channels CHAN1 to CHAN10, of which only the first has axes.
 impl Default for MachineData {
     fn default() -> Self {
         let mut channels = PerChannel::<Channel>::default();
@@ -74,12 +73,12 @@ impl Default for MachineData {
 }
 
 impl MachineData {
-    /// The machine axes that there can be: MD10000 has a name for each.
+    /// The possible machine axes: MD10000 has a name for each.
     pub fn axis_numbers() -> impl DoubleEndedIterator<Item = AxisNumber> {
         AxisNumber::up_to(SINUMERIK.count(Block::Axis))
     }
 
-    /// Whether it is one of them.
+    /// Whether this axis is possible.
     #[must_use]
     pub fn is_axis(axis: AxisNumber) -> bool {
         axis.number() <= SINUMERIK.count(Block::Axis)
@@ -89,12 +88,12 @@ impl MachineData {
     #[must_use]
     pub fn axis(&self, name: &str) -> Option<AxisNumber> {
         let by_name = Self::axis_numbers().find(|axis| self.axis_name(*axis) == name && !name.is_empty());
-        // The language of the archives knows no case: `ax3` is AX3. Names keep theirs.
+        // Identifiers in archives are not case-sensitive: `ax3` is AX3. Names are case-sensitive.
         let number = || AxisNumber::new(numbered(&name.to_ascii_uppercase(), "AX")?);
         by_name.or_else(|| number().filter(|axis| Self::is_axis(*axis)))
     }
 
-    /// The name of a machine axis (MD10000); empty for one that there cannot be.
+    /// The name of a machine axis (MD10000); empty for an impossible axis.
     #[must_use]
     pub fn axis_name(&self, axis: AxisNumber) -> &str {
         self.general.axconf_machax_name_tab.get(axis.index()).map_or("", String::as_str)
@@ -108,13 +107,13 @@ impl MachineData {
         if channel == ChannelNumber::FIRST { group.or(Some(ModeGroupNumber::FIRST)) } else { group }
     }
 
-    /// MD20070: an existing channel names the axis.
+    /// MD20070: whether an existing channel names the axis.
     #[must_use]
     pub fn channel_knows(&self, channel: ChannelNumber, axis: AxisNumber) -> bool {
         self.mode_group(channel).is_some() && self.channels[channel].axconf_machax_used.contains(&axis.number())
     }
 
-    /// The channel that an axis belongs to after power on: MD30550 where that channel knows it, else the lowest that does.
+    /// The channel of an axis after power on: MD30550 if that channel has the axis, else the lowest channel that has it.
     #[must_use]
     pub fn home_channel(&self, axis: AxisNumber) -> ChannelNumber {
         let master = ChannelNumber::new(self.axes[axis].axconf_assign_master_chan);
@@ -129,7 +128,7 @@ impl MachineData {
         by_name.map(|(number, _)| number).or_else(|| ChannelNumber::new(numbered(&name.to_ascii_uppercase(), "CHAN")?))
     }
 
-    /// The value there.
+    /// The value of a target.
     #[must_use]
     pub fn get(&self, target: &Target) -> Option<Value> {
         fn from<T: Table>(table: &T, target: &Target) -> Option<Value> {
@@ -145,23 +144,23 @@ impl MachineData {
         }
     }
 
-    /// Writes a value as the operator or a scenario does: read-only data are refused.
+    /// Writes a value like the operator or a scenario. Read-only data are rejected.
     ///
     /// # Errors
-    /// The datum is read-only, or the value is not of its type or not in its range. Nothing changes then.
+    /// The datum is read-only, or the value has the wrong type or is out of range. In this case nothing changes.
     pub fn set(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
         may_be_written(target)?;
         self.store(target, value)
     }
 
-    /// Whether a value could be written so.
+    /// Checks whether a value could be written with [`MachineData::set`].
     ///
     /// # Errors
     /// As [`MachineData::set`].
     pub fn check(&self, target: &Target, value: &Value) -> Result<(), Problem> {
         may_be_written(target)?;
         is_in_range(target, value)?;
-        // Only the table that has the datum is copied: clients ask this hundreds of times in a request.
+        // Only the table of the datum is copied, because clients call this hundreds of times per request.
         let stored = match (target.datum().scope, target.owner()) {
             (Scope::General, _) => store_in(&mut self.general.clone(), target, value),
             (Scope::Setting, _) => store_in(&mut self.setting.clone(), target, value),
@@ -172,7 +171,7 @@ impl MachineData {
         stored.map_err(|expected| refused(target, value, &expected))
     }
 
-    /// Writes a value as the import of an archive does.
+    /// Writes a value like the import of an archive.
     fn store(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
         is_in_range(target, value)?;
         let stored = match (target.datum().scope, target.owner()) {
@@ -195,8 +194,8 @@ impl MachineData {
         stored.map_err(|expected| refused(target, value, &expected))
     }
 
-    /// Makes stored data active: copies every datum whose class acts at this level. POWER ON takes all, RESET all but
-    /// POWER ON data, NEWCONF what is NEWCONF or immediate (O-23).
+    /// Activates stored data: copies every datum whose class takes effect at this level. POWER ON copies all data, RESET all except POWER
+    /// ON data, NEWCONF the NEWCONF and immediate data (O-23).
     pub fn activate(&mut self, stored: &Self, level: Effect) {
         self.general.activate(&stored.general, level);
         self.setting.activate(&stored.setting, level);
@@ -209,7 +208,7 @@ impl MachineData {
     }
 }
 
-/// What a datum of an axis or a channel needs.
+/// The missing part of a target without owner.
 const NO_OWNER: &str = "an axis or a channel";
 
 fn refused(target: &Target, value: &Value, expected: &str) -> Problem {
@@ -222,8 +221,8 @@ fn may_be_written(target: &Target) -> Result<(), Problem> {
     let datum = target.datum();
     if datum.read_only {
         return Err(Problem::new(
-            format!("expected a machine datum that can be written, found {datum}, which only the control writes"),
-            "leave it to the control",
+            format!("expected a writable machine datum, found {datum}, which only the control writes"),
+            "remove this assignment",
         ));
     }
     Ok(())
@@ -243,7 +242,7 @@ fn store_in<T: Table>(table: &mut T, target: &Target, value: &Value) -> Result<(
     (row.set)(table, usize::from(target.index()), value)
 }
 
-/// The number behind a prefix: `AX12`.
+/// The number after a prefix: `AX12`.
 fn numbered(name: &str, prefix: &str) -> Option<u8> {
     let digits = name.strip_prefix(prefix)?;
     (!digits.starts_with(['0', '+'])).then(|| digits.parse().ok())?

@@ -1,8 +1,8 @@
-//! Reads which value of which machine datum a name means.
+//! Parses the name of a machine datum value.
 //!
-//! People write `34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `$MA_REFP_SET_POS[2,AX3]` or `REFP_SET_POS[2,XF]`.
-//! An axis is meant by its machine axis name (MD10000, exact case) or by `AXn`, a channel by its name (MD20000) or by
-//! `CHANn`; without a channel it is channel 1, without an index it is index 0.
+//! Accepted forms are `34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `$MA_REFP_SET_POS[2,AX3]` and
+//! `REFP_SET_POS[2,XF]`. An axis is given by its machine axis name (MD10000, exact case) or by `AXn`, a channel by its
+//! name (MD20000) or by `CHANn`. The default channel is channel 1, the default index is 0.
 
 use super::MachineData;
 use super::catalogue::{by_identifier, by_number, nearest_identifier};
@@ -13,8 +13,8 @@ use crate::source::{Problem, did_you_mean};
 use crate::units::ChannelNumber;
 
 impl MachineData {
-    /// Reads which value is meant: `34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `$MA_REFP_SET_POS[2,AX3]`,
-    /// `REFP_SET_POS[2,XF]`. Without an index it is index 0, without a channel it is channel 1.
+    /// Parses the name of a value: `34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `$MA_REFP_SET_POS[2,AX3]`,
+    /// `REFP_SET_POS[2,XF]`. The default index is 0, the default channel is channel 1.
     ///
     /// # Errors
     /// The datum, axis, channel or index is unknown; the problem names the nearest known one.
@@ -23,7 +23,7 @@ impl MachineData {
     }
 }
 
-/// Reads a target; names of axes and channels are those of `data`.
+/// Parses a target with the names of axes and channels in `data`.
 fn parse(text: &str, data: &MachineData) -> Result<Target, Problem> {
     let text = text.trim();
     let (name, indices) = split_indices(text).ok_or_else(|| {
@@ -39,7 +39,7 @@ fn parse(text: &str, data: &MachineData) -> Result<Target, Problem> {
     resolve(datum, &indices, ChannelNumber::FIRST, data)
 }
 
-/// Takes `NAME[a,b]` apart; `None` where the brackets are not closed or hold more than two.
+/// Splits `NAME[a,b]`; `None` if the brackets are not closed or contain more than two items.
 pub(super) fn split_indices(text: &str) -> Option<(&str, Vec<&str>)> {
     let Some((name, rest)) = text.split_once('[') else {
         return (!text.is_empty() && !text.contains(']')).then(|| (text, Vec::new()));
@@ -50,7 +50,7 @@ pub(super) fn split_indices(text: &str) -> Option<(&str, Vec<&str>)> {
     (sound && !inside.contains(['[', ']'])).then(|| (name.trim(), indices))
 }
 
-/// The target that the brackets mean; `channel` is meant where they name none.
+/// The target given by the brackets; `channel` is the default channel.
 pub(super) fn resolve(
     datum: &'static Datum,
     indices: &[&str],
@@ -85,13 +85,13 @@ fn unknown_axis(datum: &Datum, name: &str, data: &MachineData) -> Problem {
     let names = data.general.axconf_machax_name_tab.iter().map(String::as_str);
     Problem::new(
         format!("expected a machine axis name (MD10000) or AX1 to AX31 for {datum}, found `{name}`"),
-        did_you_mean(name, names, "names are compared in exact case"),
+        did_you_mean(name, names, "names are case-sensitive"),
     )
 }
 
 fn unknown_identifier(name: &str) -> Problem {
     let cure = nearest_identifier(name).map_or_else(
-        || "the catalogue of machine data lists the known ones".to_owned(),
+        || "see the catalogue of machine data for the known ones".to_owned(),
         |near| format!("did you mean `{near}`?"),
     );
     Problem::new(format!("expected a known machine datum, found `{name}`"), cure)
@@ -100,6 +100,6 @@ fn unknown_identifier(name: &str) -> Problem {
 fn unknown_channel(datum: &Datum, name: &str) -> Problem {
     Problem::new(
         format!("expected a channel name (MD20000) or CHAN1 to CHAN10 for {datum}, found `{name}`"),
-        "names are compared in exact case",
+        "names are case-sensitive",
     )
 }

@@ -1,4 +1,4 @@
-//! General setting data, `$SN_`: what the operator sets for JOG.
+//! General setting data, `$SN_`: the operator's settings for JOG.
 
 use super::table::machine_data;
 
@@ -9,7 +9,7 @@ Setting {
     41010 JOG_VAR_INCR_SIZE jog_var_incr_size: f64 = 0.0; "mm, deg", Range::NOT_NEGATIVE, Immediate;
     /// keys in continuous JOG: 1 travel while held, 0 from one press to the next
     41050 JOG_CONT_MODE_LEVELTRIGGRD jog_cont_mode_leveltriggrd: bool = true; "", Range::ANY, Immediate;
-    /// which axes travel with a revolutional feedrate in JOG
+    /// axes that travel with a revolutional feedrate in JOG
     41100 JOG_REV_IS_ACTIVE jog_rev_is_active: u8 = 0x0E; "", Range::ANY, Immediate;
     /// velocity of keys of linear axes; 0 takes MD32020
     41110 JOG_SET_VELO jog_set_velo: f64 = 0.0; "mm/min", Range::NOT_NEGATIVE, Immediate;

@@ -1,7 +1,7 @@
-//! How a table of machine data is written: one row a datum, from which come the typed field, its default, the
+//! The macro for tables of machine data. Each row is one datum and generates the typed field, its default, the
 //! catalogue entry and the access by number.
 //!
-//! The tables themselves are `general.rs`, `channel.rs`, `axis.rs` and `setting.rs`.
+//! The tables are `general.rs`, `channel.rs`, `axis.rs` and `setting.rs`.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::{Kind, Value};
 
-/// Whose datum it is, which is its prefix in a file.
+/// The scope of a datum, which defines its prefix in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Scope {
     /// General machine data, `$MN_`.
@@ -35,8 +35,8 @@ impl Scope {
     }
 }
 
-/// When a stored value begins to act. The classes are ordered: what acts at a lower one acts at a higher one, too
-/// (O-23: NEWCONF data also become active by RESET).
+/// The time at which a stored value takes effect. The classes are ordered: data that take effect at a lower level also
+/// take effect at a higher one (O-23: NEWCONF data also become active by RESET).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Effect {
     /// At once.
@@ -60,14 +60,14 @@ impl fmt::Display for Effect {
     }
 }
 
-/// Which values a number may have.
+/// The permitted values of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// The smallest value, if there is one.
+    /// The smallest value, if any.
     pub minimum: Option<f64>,
-    /// The largest value, if there is one.
+    /// The largest value, if any.
     pub maximum: Option<f64>,
-    /// The smallest value itself is not allowed.
+    /// The smallest value itself is excluded.
     pub above_minimum: bool,
 }
 
@@ -76,7 +76,7 @@ impl Range {
     pub const ANY: Self = Self { minimum: None, maximum: None, above_minimum: false };
     /// Larger than any value of a real machine, and small enough that sums of positions in nanometres stay exact.
     const LARGEST: f64 = 1e9;
-    /// A position or a way of either sign.
+    /// A position or a distance of either sign.
     pub const POSITION: Self = Self::between(-Self::LARGEST, Self::LARGEST);
     /// Zero or more.
     pub const NOT_NEGATIVE: Self = Self::between(0.0, Self::LARGEST);
@@ -85,7 +85,7 @@ impl Range {
     /// A distance that is at least one increment.
     pub const INCREMENT: Self = Self::between(0.000_001, Self::LARGEST);
 
-    /// From one value to another, both allowed.
+    /// From one value to another, both included.
     #[must_use]
     pub const fn between(minimum: f64, maximum: f64) -> Self {
         Self { minimum: Some(minimum), maximum: Some(maximum), above_minimum: false }
@@ -115,28 +115,28 @@ impl fmt::Display for Range {
     }
 }
 
-/// A row of the catalogue: what is known of a machine datum.
+/// A row of the catalogue: the description of a machine datum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Datum {
     /// Its number, `37100`.
     pub number: u32,
     /// Its name without the prefix, `GANTRY_AXIS_TYPE`.
     pub identifier: &'static str,
-    /// Whose datum it is.
+    /// Its scope.
     pub scope: Scope,
     /// Its type.
     pub kind: Kind,
-    /// Its unit in the metric basic system with linear axes; empty where it has none.
+    /// Its unit in the metric basic system with linear axes; empty without a unit.
     pub unit: &'static str,
-    /// Which values it may have.
+    /// Its permitted values.
     pub range: Range,
-    /// How many values it has (per encoder 2, per parameter set 6, …); 1 without an index.
+    /// Number of its values (2 per encoder, 6 per parameter set, …); 1 without an index.
     pub count: u8,
-    /// When a stored value begins to act.
+    /// The time at which a stored value takes effect.
     pub effect: Effect,
-    /// Only the control writes it; an archive may carry it.
+    /// Only the control writes it. An archive may contain it.
     pub read_only: bool,
-    /// What it means.
+    /// Its meaning.
     pub doc: &'static str,
 }
 
@@ -155,13 +155,13 @@ impl Datum {
     }
 }
 
-/// A number as people write it: setting data have the numbers from 41000 to 43999, all others are machine data.
+/// A number in its usual form: 41000 to 43999 are setting data, all others are machine data.
 pub(super) fn numbered(number: u32) -> String {
     let kind = if (41_000..44_000).contains(&number) { "SD" } else { "MD" };
     format!("{kind}{number}")
 }
 
-/// A datum and the way to its field.
+/// A datum and the access to its field.
 pub(super) struct Row<T: 'static> {
     pub(super) datum: Datum,
     pub(super) get: fn(&T, usize) -> Option<Value>,
@@ -174,17 +174,17 @@ pub(super) trait Table: Default + 'static {
     /// Its rows, ascending by number.
     fn rows() -> &'static [Row<Self>];
 
-    /// The defaults of a rotary axis, which differ where a velocity or an acceleration is meant.
+    /// The defaults of a rotary axis, which differ for velocities and accelerations.
     fn rotary() -> Self;
 
-    /// Copies every datum that acts at this level.
+    /// Copies every datum that takes effect at this level.
     fn activate(&mut self, stored: &Self, level: Effect) {
         for row in Self::rows().iter().filter(|row| row.datum.effect <= level) {
             (row.copy)(self, stored);
         }
     }
 
-    /// Replaces every default of one kind of axis that still stands by the default of the other kind.
+    /// Replaces every unchanged default of one axis type by the default of the other axis type.
     fn exchange_defaults(&mut self, from: &Self, to: &Self) {
         for row in Self::rows() {
             for index in 0..usize::from(row.datum.count) {
@@ -201,11 +201,11 @@ pub(super) trait Table: Default + 'static {
     }
 }
 
-/// What a datum without an index can be.
+/// The type of a datum without an index.
 pub(super) trait Scalar: Clone {
     const KIND: Kind;
     fn value(&self) -> Value;
-    /// What was expected, where the value does not fit.
+    /// Converts a value. The error names what was expected.
     fn from_value(value: &Value) -> Result<Self, String>;
 }
 
@@ -227,7 +227,7 @@ impl Scalar for bool {
     }
 }
 
-/// A whole number type with its place in [`Kind`].
+/// A whole number type and its entry in [`Kind`].
 macro_rules! whole_number {
     ($type:ty, $kind:ident, $expected:literal) => {
         impl Scalar for $type {
@@ -273,7 +273,7 @@ impl Scalar for String {
     }
 }
 
-/// What a datum can be: one scalar, or several with an index.
+/// The type of a datum: one scalar, or several with an index.
 pub(super) trait Field: Clone {
     const KIND: Kind;
     const COUNT: u8;

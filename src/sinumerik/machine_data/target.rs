@@ -1,4 +1,4 @@
-//! Which value is meant: a machine datum, whose it is, and which of several.
+//! The address of a machine datum value: datum, owner and index.
 
 use std::fmt;
 
@@ -25,7 +25,7 @@ impl PartialOrd for Target {
     }
 }
 
-/// By scope, number, owner, index: the order in which the control exports.
+/// By scope, number, owner, index: the export order of the control.
 impl Ord for Target {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
         let key = |target: &Self| (target.datum.scope, target.datum.number, target.owner, target.index);
@@ -37,7 +37,7 @@ impl Target {
     /// The value `index` of the datum `number` of `owner`.
     ///
     /// # Errors
-    /// There is no such datum, it has another kind of owner, or fewer values.
+    /// The datum does not exist, has another kind of owner, or has fewer values.
     pub fn new(number: u32, owner: Owner, index: u8) -> Result<Self, Problem> {
         let datum = by_number(number).ok_or_else(|| unknown_number(number))?;
         let fits = match datum.scope {
@@ -48,7 +48,7 @@ impl Target {
         if !fits {
             return Err(Problem::new(
                 format!("expected {} for {datum}", owner_in_words(datum.scope)),
-                "write the axis or channel in the brackets only where the datum has one",
+                "write an axis or channel in the brackets only if the datum has one",
             ));
         }
         if index >= datum.count {
@@ -63,20 +63,20 @@ impl Target {
         self.datum
     }
 
-    /// Whose value.
+    /// The owner of the value.
     #[must_use]
     pub const fn owner(&self) -> Owner {
         self.owner
     }
 
-    /// Which of several values; 0 where there is one.
+    /// The index; 0 if there is only one value.
     #[must_use]
     pub const fn index(&self) -> u8 {
         self.index
     }
 }
 
-/// As the control exports it: `$MA_REFP_SET_POS[2,AX3]`; the channel is not shown.
+/// In the export form of the control: `$MA_REFP_SET_POS[2,AX3]`. The channel is not shown.
 impl fmt::Display for Target {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}{}", self.datum.scope.prefix(), self.datum.identifier)?;
@@ -109,6 +109,6 @@ pub(super) fn bad_index(datum: &Datum, found: &str) -> Problem {
 pub(super) fn unknown_number(number: u32) -> Problem {
     Problem::new(
         format!("expected the number of a known machine datum, found {number}"),
-        "the catalogue of machine data lists the known ones",
+        "see the catalogue of machine data for the known ones",
     )
 }

@@ -1,4 +1,4 @@
-//! Facts about machine data: the tables, targets, classes of effect, archives of both kinds, the check.
+//! Tests of machine data: tables, targets, classes of effect, both kinds of archives, and the check.
 
 use proptest::prelude::*;
 
@@ -12,7 +12,7 @@ fn archive(text: &str) -> Archive {
     Archive::read([("a.tea", text.as_bytes())]).unwrap()
 }
 
-/// The findings of a refused archive, each in one line.
+/// The findings of a rejected archive, each in one line.
 fn refused(text: &str) -> Vec<String> {
     let findings = Archive::read([("a.tea", text.as_bytes())]).unwrap_err();
     findings.iter().map(|finding| finding.to_string().replace('\n', " ")).collect()
@@ -22,7 +22,7 @@ fn axis(number: u8) -> AxisNumber {
     AxisNumber::new(number).unwrap()
 }
 
-/// Sets by text, as a scenario does.
+/// Sets a value by text, like a scenario.
 fn set(data: &mut MachineData, target: &str, value: &Value) {
     let target = data.parse_target(target).unwrap();
     data.set(&target, value).unwrap();
@@ -368,7 +368,7 @@ mod ascii_archives {
 mod writing {
     use super::*;
 
-    /// What a file says, without where it says it.
+    /// The content of a file, without places.
     fn said(archive: &Archive) -> (MachineData, Vec<Target>, Vec<(String, ChannelNumber, String)>) {
         let unknown = archive.unknown.iter().map(|one| (one.name.clone(), one.channel, one.value.clone()));
         (archive.data.clone(), archive.given.keys().copied().collect(), unknown.collect())
@@ -412,7 +412,7 @@ mod writing {
                 };
                 let target = Target::new(datum.number, owner, index % datum.count).unwrap();
                 let number = if small { (number / 1e7).round() } else { number / 1e7 };
-                // Names stay as they are: an archive that names two axes alike is another matter.
+                // Names are not changed: an archive with duplicate axis names is a separate case.
                 if datum.kind != crate::control::Kind::String && first.data.store(&target, &Value::Real(number)).is_ok() {
                     first.given.insert(target, Place::file("a.tea"));
                 }
@@ -430,7 +430,7 @@ mod writing {
 mod binary_archives {
     use super::*;
 
-    /// A member exactly as the table of the format says.
+    /// A member in the format of the table in the format description.
     fn member(internal: &str, shown: &str, folder: &str, data: &[u8]) -> Vec<u8> {
         let mut header = [0_u8; 512];
         let mut put = |at: usize, text: &str| header[at..at + text.len()].copy_from_slice(text.as_bytes());
@@ -478,7 +478,7 @@ mod binary_archives {
         assert_eq!((archive.summary.taken, archive.summary.unknown), (2, 1));
         let summary = archive.summary.to_string();
         assert!(summary.contains("m.arc(INITIAL.INI): 3 assignments"), "{summary}");
-        assert!(summary.contains(r"left: \ADRV.DIR\PS000001.TEA"), "{summary}");
+        assert!(summary.contains(r"ignored: \ADRV.DIR\PS000001.TEA"), "{summary}");
         assert!(archive.findings[0].to_string().starts_with("m.arc(INITIAL.INI):6: warning: "));
     }
 
@@ -621,7 +621,7 @@ mod checking {
         for (finding, start) in findings.iter().zip(starts) {
             assert!(finding.starts_with(start), "{finding}");
         }
-        // Equal, in another grouping, or in none: nothing.
+        // Equal data, another grouping, or no grouping: no finding.
         let equal = "$MA_FIPO_TYPE[AX1]=1\n$MA_FIPO_TYPE[AX3]=1\n";
         assert_eq!(found(&format!("{grouping}{equal}")), [""; 0]);
         assert_eq!(found(&text.replace("=12", "=13")), [""; 0]);

@@ -1,4 +1,4 @@
-//! Writing an archive in the syntax in which the control exports it.
+//! Writes an archive in the export syntax of the control.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -9,8 +9,8 @@ use crate::units::ChannelNumber;
 use super::Archive;
 
 impl Archive {
-    /// The archive as an ASCII file: what was given and what is unknown, in sections by channel. Read again it is the
-    /// same archive; values that were never given keep their defaults by not being written.
+    /// The archive as an ASCII file: given and unknown data, in sections by channel. Reading it again gives the same
+    /// archive. Values that were never given are not written and keep their defaults.
     #[must_use]
     pub fn write(&self) -> String {
         let mut sections = BTreeMap::<ChannelNumber, String>::new();
