@@ -1,8 +1,8 @@
-//! Alarms: what they mean, what they stop, how they are cancelled, and the list of those that are pending.
+//! Alarms: meaning, reactions, cancelling, and the list of pending alarms.
 //!
-//! Numbers, reactions and cancel classes are those of the Diagnostics Manual. An alarm is raised in the stage
-//! "monitoring and alarms"; its reactions act from the next cycle on and its bits are published in the same one.
-//! A new alarm is a row of [`alarms!`] and a call of [`Pending::raise`].
+//! Numbers, reactions and cancel classes follow the Diagnostics Manual. An alarm is raised in the stage "monitoring and alarms". Its bits
+//! are published in the same cycle; its reactions act from the next cycle on. To add an alarm, add a row to [`alarms!`] and a call of
+//! [`Pending::raise`].
 
 pub(super) mod not_raised;
 
@@ -14,12 +14,12 @@ use serde::{Deserialize, Serialize};
 use crate::units::AxisSet;
 use crate::variables::{AlarmNumber, Alarms, EventId, Parameter, Place, RaisedAlarm};
 
-/// What an alarm does, as flags; the names are the Diagnostics Manual's.
+/// The reactions of an alarm, as flags, with the names of the Diagnostics Manual.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reaction(u16);
 
 impl Reaction {
-    /// Nothing but its entry in the list.
+    /// No reaction except the entry in the alarm list.
     pub const NONE: Self = Self(0);
     /// NC not ready: DB10.DBX108.7 = 0, all axes stop.
     pub const NC_NOT_READY: Self = Self(1);
@@ -33,11 +33,11 @@ impl Reaction {
     pub const FOLLOW_UP: Self = Self(1 << 4);
     /// Alarm interface signals are set: DB10.DBX109.0, DB21.DBX36.6, DB31.DBX61.1.
     pub const INTERFACE_SIGNALS: Self = Self(1 << 5);
-    /// Shown.
+    /// The alarm is displayed.
     pub const DISPLAY: Self = Self(1 << 6);
     /// NC stop with the alarm: DB21.DBX36.7 = 1.
     pub const STOP: Self = Self(1 << 7);
-    /// Only the axis concerned stops.
+    /// Only the affected axis stops.
     pub const LOCAL: Self = Self(1 << 8);
 
     /// Mode group not ready, also for single axes that the PLC or a command moves.
@@ -53,7 +53,7 @@ impl Reaction {
     /// Delayed reactions act at once.
     pub const NO_DELAY: Self = Self(1 << 14);
 
-    /// Whether it has all of these.
+    /// Whether all of these reactions are set.
     #[must_use]
     pub const fn has(self, other: Self) -> bool {
         self.0 & other.0 == other.0
@@ -64,10 +64,10 @@ impl Reaction {
     }
 }
 
-/// What removes an alarm; a stronger one also removes what a weaker one would.
+/// The action that clears an alarm. A stronger action also clears the alarms of the weaker ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cancel {
-    /// Goes with its cause.
+    /// The alarm clears when its cause is gone.
     ByItself,
     /// The alarm-cancel key, or NC start.
     CancelKey,
@@ -81,7 +81,7 @@ pub enum Cancel {
     PowerOn,
 }
 
-/// As the operator says it: `RESET`, `alarm cancel`.
+/// The operator's words: `RESET`, `alarm cancel`.
 impl fmt::Display for Cancel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
@@ -122,18 +122,18 @@ impl fmt::Display for Reaction {
 /// A row of the alarm list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Alarm {
-    /// Its number, or one beyond [`AlarmNumber::OWN`].
+    /// Its number, or our own number above [`AlarmNumber::OWN`].
     pub number: AlarmNumber,
     /// Its text with `%1` to `%4`.
     pub text: &'static str,
-    /// What it does.
+    /// Its reactions.
     pub reaction: Reaction,
-    /// What removes it.
+    /// The action that clears it.
     pub cancel: Cancel,
 }
 
-/// Makes a constant and a catalogue entry of each row, `NAME number [REACTIONS] Cancel "text";`, and a list without
-/// constants of rows without names.
+/// Makes a constant and a catalogue entry of each row, `NAME number [REACTIONS] Cancel "text";`. Rows without names give a list without
+/// constants.
 macro_rules! alarms {
     ($(#[$about:meta])* $catalogue:ident: $($(#[$doc:meta])* $constant:ident $number:literal
         [$($reaction:ident)*] $cancel:ident $text:literal;)*) => {
@@ -154,20 +154,21 @@ macro_rules! alarms {
 pub(super) use alarms;
 
 alarms! {
-    /// All alarms that can be raised, ascending by number.
+    /// All alarms that the model can raise, ascending by number.
     CATALOGUE:
-    /// The PLC program stopped or faulted.
+    /// The PLC program was stopped or failed.
     PLC_SIGN_OF_LIFE 2000
         [NC_NOT_READY LOCAL CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
         "sign-of-life monitoring: the PLC program does not run";
-    /// Emergency stop; it ends with its acknowledgement together with mode group RESET.
+    /// Emergency stop. It clears with its acknowledgement together with mode group RESET.
     EMERGENCY_STOP 3000
         [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP NO_DELAY] ModeGroupReset
         "emergency stop";
-    /// MD30450 on a synchronous axis of a closed grouping: it is ignored, the leading axis' counts. %1: the machine datum.
+    /// MD30450 on a synchronous axis of a closed grouping: the value is ignored, and the value of the leading axis applies. %1: the machine
+    /// datum.
     DECLARATION_NOT_ALLOWED 4300 [DISPLAY] Reset
         "axis %2 machine datum %1: declaration not allowed";
-    /// NC start in AUTOMATIC or MDI while an axis that needs its reference point has none (MD20700).
+    /// NC start in AUTOMATIC or MDI while an axis that needs its reference point is not referenced (MD20700).
     START_WITHOUT_REFERENCE 10203 [INTERFACE_SIGNALS DISPLAY] NcStart
         "channel %1 NC start without reference point";
     /// JOG: the axis rests on a software limit switch. %3: + or −.
@@ -184,7 +185,7 @@ alarms! {
     /// Warning limit exceeded.
     GANTRY_WARNING_LIMIT 10652 [DISPLAY] ByItself
         "channel %1 axis %2 gantry warning limit exceeded";
-    /// Trip limit exceeded; the axes brake in position control and stay under control.
+    /// Trip limit exceeded. The axes brake in position control and stay in position control.
     GANTRY_TRIP_LIMIT 10653 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 gantry error limit exceeded";
     /// Waiting for synchronisation start.
@@ -193,17 +194,17 @@ alarms! {
     /// Synchronisation running.
     GANTRY_SYNCHRONISING 10655 [DISPLAY] ByItself
         "channel %1 synchronization of gantry grouping %2 running";
-    /// The leading axis asks for more than MD32000 or MD32300 of the synchronous axis.
+    /// The leading axis demands more than MD32000 or MD32300 of the synchronous axis.
     GANTRY_OVERLOADED 10656
         [MODE_GROUP_NOT_READY LOCAL CHANNEL_NOT_READY INTERFACE_SIGNALS DISPLAY] ModeGroupReset
         "channel %1 axis %2 gantry synchronized axis dynamically overloaded";
-    /// The grouping cannot be closed. %3: thousands say what (7: motion pending), the last two digits the grouping.
+    /// The grouping cannot be closed. %3: the thousands digit gives the reason (7: motion pending), the last two digits the grouping.
     IMPERMISSIBLE_AXIS_STATE 10658 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP LOCAL] Reset
         "channel %1 axis %2 impermissible axis state %3";
     /// Reference cam not reached within MD34030.
     CAM_NOT_REACHED 20000 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 reference cam not reached";
-    /// At rest after section 1 and not on the cam.
+    /// At standstill after section 1 and not on the cam.
     CAM_SIGNAL_MISSING 20001 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 cam signal missing";
     /// No zero mark within MD34060.
@@ -218,7 +219,7 @@ alarms! {
     /// A traversing key is pressed while handwheels move the axis.
     HANDWHEEL_ACTIVE 20050 [DISPLAY] ByItself
         "channel %1 axis %2 handwheel active";
-    /// Handwheels are turned while the axis is moved otherwise.
+    /// Handwheels are turned while the axis is moved by another function.
     HANDWHEEL_NOT_POSSIBLE 20051 [DISPLAY] ByItself
         "channel %1 axis %2 handwheel not possible";
     /// MD36300 exceeded on the active encoder. %3: encoder.
@@ -234,14 +235,14 @@ alarms! {
     /// Hardware limit switch. %3: + or −.
     HARDWARE_LIMIT_SWITCH 21614 [START_DISABLED DISPLAY] Reset
         "channel %1 axis %2 hardware limit switch %3";
-    /// In motion when its drive lost its power.
+    /// The drive lost its power during motion.
     FOLLOW_UP_IN_MOTION 21615 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 taken from motion into follow-up";
-    /// The active encoder tells nothing, or its cable is off.
+    /// No signal from the active encoder, or its cable is disconnected.
     ACTIVE_ENCODER_FAULT 25000
         [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] PowerOn
         "axis %1 hardware fault of the active encoder";
-    /// The encoder that is not active tells nothing.
+    /// No signal from the passive encoder.
     PASSIVE_ENCODER_FAULT 25001 [DISPLAY] Reset
         "axis %1 hardware fault of the passive encoder";
     /// As 25000, with MD36310 above 100.
@@ -251,11 +252,11 @@ alarms! {
     /// As 25001, with MD36310 above 100.
     PASSIVE_ENCODER_POLLUTION 25011 [DISPLAY] CancelKey
         "axis %1 pollution of the passive measuring system";
-    /// A zero mark of the active encoder is not where the counts say (MD36310).
+    /// A zero mark of the active encoder is not at the expected count (MD36310).
     ACTIVE_ZERO_MARK 25020
         [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] ModeGroupReset
         "axis %1 zero mark monitoring of the active encoder";
-    /// The same of the encoder that is not active.
+    /// As 25020, for the passive encoder.
     PASSIVE_ZERO_MARK 25021 [DISPLAY] CancelKey
         "axis %1 zero mark monitoring of the passive encoder";
     /// MD36200 exceeded.
@@ -278,7 +279,7 @@ alarms! {
     POSITIONING 25080
         [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
         "axis %1 positioning monitoring";
-    /// The encoders differ by more than MD36500, or the other one is dead.
+    /// The encoders differ by more than MD36500, or the other encoder has no signal.
     SWITCH_OVER_IMPOSSIBLE 25100 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "axis %1 encoder switchover not possible";
     /// MD36510 exceeded.
@@ -288,51 +289,51 @@ alarms! {
     /// 1.6 selects an encoder that the axis does not have.
     ENCODER_NOT_AVAILABLE 25110 [DISPLAY] CancelKey
         "axis %1 selected encoder not available";
-    /// The interface asks for a parameter set that there is not.
+    /// The interface requests a parameter set that does not exist.
     PARAMETER_SET_INVALID 25200 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "axis %1 requested parameter set invalid";
-    /// The drive tells of a fault.
+    /// The drive reports a fault.
     DRIVE_FAULT 25201
         [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
         "axis %1 drive fault";
-    /// The drive does not run up.
+    /// The drive does not start up.
     WAITING_FOR_DRIVE 25202 [INTERFACE_SIGNALS DISPLAY] ByItself
         "axis %1 waiting for drive";
     /// MD36050 exceeded while 2.3 = 1.
     CLAMPING 26000
         [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
         "axis %1 clamping monitoring";
-    /// The parameter set has another load gear, and the axis is in position control with an encoder behind it. %2, %3: 1 to 6.
+    /// The parameter set has another load gear, and the axis is in position control with an encoder behind that gear. %2, %3: 1 to 6.
     PARAMETER_SET_NOT_POSSIBLE 26050 [FOLLOW_UP LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "axis %1 parameter set change from %2 to %3 not possible";
-    /// Linear and rotary axes in one grouping; the manuals give no number (O-18).
+    /// Linear and rotary axes in one grouping. The manuals give no number (O-18).
     GANTRY_MIXED_AXIS_TYPES 1_000_000
         [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
         "channel %1 axis %2 gantry grouping %3 mixes linear and rotary axes";
-    /// Data that must be equal within a grouping are not, at power on (DYN-03); the manuals give no number (O-18).
+    /// Data that must be equal within a grouping differ at power on (DYN-03). The manuals give no number (O-18).
     GANTRY_UNEQUAL_DATA 1_000_001 [DISPLAY] Reset
         "channel %1 axis %2 machine datum %3 differs from that of the leading axis of gantry grouping %4";
 }
 
-/// The names of the alarms for which no source gives a number (O-18), in order of their own numbers.
+/// The names of the alarms for which no source gives a number (O-18), in the order of our own numbers.
 const OWN_NAMES: &[&str] = &["gantry-mixed-axis-types", "gantry-unequal-data"];
 
 impl Alarm {
-    /// As it is called: its number, or its name where no source gives a number.
+    /// The name of an alarm: its number, or our own name if no source gives a number.
     #[must_use]
     pub fn name(number: AlarmNumber) -> String {
         let own = number.0.checked_sub(AlarmNumber::OWN).and_then(|index| OWN_NAMES.get(index as usize));
         own.map_or_else(|| number.0.to_string(), |name| (*name).to_owned())
     }
 
-    /// The number behind a name of our own.
+    /// The number of an alarm with our own name.
     #[must_use]
     pub fn named(name: &str) -> Option<AlarmNumber> {
         let index = OWN_NAMES.iter().position(|known| *known == name)?;
         u32::try_from(index).ok().map(|index| AlarmNumber(AlarmNumber::OWN + index))
     }
 
-    /// The row of a number.
+    /// The row of this number.
     #[must_use]
     pub fn find(number: AlarmNumber) -> Option<&'static Self> {
         CATALOGUE.binary_search_by_key(&number, |alarm| alarm.number).ok().map(|index| &CATALOGUE[index])
@@ -344,11 +345,11 @@ impl Alarm {
 struct Entry {
     alarm: RaisedAlarm,
     cause: EventId,
-    /// Raised by its cause in this cycle; what goes by itself goes when nobody raises it any more.
+    /// Its cause raised it in this cycle. An alarm that clears by itself is removed in the first cycle in which nothing raises it.
     fresh: bool,
 }
 
-/// The alarms that are pending; bounded, as the list of a control is. What does not fit is the least of the troubles.
+/// The pending alarms. The list is bounded, as on a control; further alarms are dropped.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Pending {
     entries: ArrayVec<Entry, { Alarms::CAPACITY }>,
@@ -370,7 +371,7 @@ impl Pending {
         self.note_changed(added);
     }
 
-    /// Removes what this way of cancelling removes of what concerns somebody; whether that was any.
+    /// Removes the alarms that this action clears, at places for which `concerns` is true. Returns whether any were removed.
     pub(super) fn cancel(&mut self, by: Cancel, concerns: impl Fn(Place) -> bool) -> bool {
         let before = self.entries.len();
         self.entries.retain(|entry| {
@@ -382,7 +383,7 @@ impl Pending {
         removed
     }
 
-    /// Ends a cycle: what goes by itself and was not raised in it goes.
+    /// Ends a cycle: removes alarms that clear by themselves and were not raised in it.
     pub(super) fn settle(&mut self) {
         let before = self.entries.len();
         self.entries.retain(|entry| {
@@ -399,26 +400,26 @@ impl Pending {
         self.version = self.version.wrapping_add(u32::from(changed));
     }
 
-    /// Another number after each change of the list.
+    /// A number that differs after each change of the list.
     #[must_use]
     pub(super) const fn version(&self) -> u32 {
         self.version
     }
 
-    /// Whether this alarm of this place is pending.
+    /// Whether this alarm is pending at this place.
     #[must_use]
     pub(super) fn is_pending(&self, number: AlarmNumber, place: Place) -> bool {
         self.entries.iter().any(|entry| (entry.alarm.number, entry.alarm.place) == (number, place))
     }
 
-    /// The event behind an alarm of this place.
+    /// The event behind an alarm at this place.
     #[must_use]
     pub(super) fn cause(&self, number: AlarmNumber, place: Place) -> EventId {
         let of_it = |entry: &&Entry| (entry.alarm.number, entry.alarm.place) == (number, place);
         self.entries.iter().find(of_it).map_or(EventId::NONE, |entry| entry.cause)
     }
 
-    /// The axes that something is pending of.
+    /// The axes with a pending alarm.
     #[must_use]
     pub(super) fn axes(&self) -> AxisSet {
         let place = |entry: &Entry| match entry.alarm.place {
@@ -428,24 +429,24 @@ impl Pending {
         self.entries.iter().filter_map(place).collect()
     }
 
-    /// Whether the list changed since it was last asked.
+    /// Whether the list changed since the last call.
     pub(super) fn take_changed(&mut self) -> bool {
         std::mem::take(&mut self.changed)
     }
 
-    /// All that are pending with the events behind them, in order of number and place.
+    /// All pending alarms with the events behind them, in order of number and place.
     pub(super) fn iter(&self) -> impl Iterator<Item = (&RaisedAlarm, EventId)> {
         self.entries.iter().map(|entry| (&entry.alarm, entry.cause))
     }
 
-    /// The event behind the first pending alarm with this reaction that concerns this place (or all).
+    /// The event behind the first pending alarm with this reaction that concerns this place (or all places).
     #[must_use]
     #[inline]
     pub(super) fn with_reaction(&self, reaction: Reaction, place: Option<Place>) -> Option<EventId> {
         self.first(|entry, alarm| place.is_none_or(|place| entry == place) && alarm.reaction.has(reaction))
     }
 
-    /// The event behind the first pending alarm that is meant, by its place and its row.
+    /// The event behind the first pending alarm whose place and row match.
     #[must_use]
     #[inline]
     pub(super) fn first(&self, meant: impl Fn(Place, &Alarm) -> bool) -> Option<EventId> {
@@ -494,7 +495,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stronger_reset_removes_what_a_weaker_one_does_and_no_more() {
+    fn a_stronger_reset_also_clears_the_alarms_of_a_weaker_one_and_no_others() {
         let mut pending = Pending::default();
         for number in [ENABLE_RESET, GANTRY_TRIP_LIMIT, GANTRY_CONFIGURATION, GANTRY_WAITING] {
             raise(&mut pending, number);
@@ -502,14 +503,14 @@ mod tests {
         pending.cancel(Cancel::CancelKey, |_| true);
         assert!(!has(&pending, ENABLE_RESET) && has(&pending, GANTRY_TRIP_LIMIT));
         pending.cancel(Cancel::ModeGroupReset, |place| place != Place::Nck);
-        assert!(has(&pending, GANTRY_TRIP_LIMIT), "it concerns somebody else");
+        assert!(has(&pending, GANTRY_TRIP_LIMIT), "its place is excluded");
         pending.cancel(Cancel::ModeGroupReset, |_| true);
         assert!(!has(&pending, GANTRY_TRIP_LIMIT));
         assert!(has(&pending, GANTRY_CONFIGURATION) && has(&pending, GANTRY_WAITING));
     }
 
     #[test]
-    fn what_goes_by_itself_goes_in_the_first_cycle_without_its_cause() {
+    fn an_alarm_that_clears_by_itself_goes_in_the_first_cycle_without_its_cause() {
         let mut pending = Pending::default();
         raise(&mut pending, GANTRY_WARNING_LIMIT);
         pending.settle();

@@ -1,9 +1,9 @@
-//! Alarms of the Diagnostics Manual that the model cannot raise yet. They are listed, so that a person finds what a number
-//! means; a row moves to `alarms/mod.rs` when something raises it.
+//! Alarms of the Diagnostics Manual that the model cannot raise yet. They are listed so that users can look up their numbers. A row moves
+//! to `alarms/mod.rs` when the model raises it.
 //!
-//! | numbers | what the model lacks for them |
+//! | numbers | not modelled |
 //! |---|---|
-//! | 2001, 2900, 4xxx but 4300, 26014 to 26017, 26024, 26025 | machine data are judged before the control starts, and reported there |
+//! | 2001, 2900, 4xxx but 4300, 26014 to 26017, 26024, 26025 | alarms of machine data: the model checks them before the control starts and reports them there |
 //! | 10657 | extended monitoring: MD37150 bit 0 with MD37135 |
 //! | 10620, 10630, 10631, 107xx, 12550, 14xxx, 16xxx, 17xxx, 20070, 20071, 26072, 26076 | programs, blocks, the PLC's positioning axes, working areas |
 //! | 20003, 20004, 20007, 20008, 22062, 22064 | distance-coded marks, and MD34200 = 6 and 7 |
@@ -11,19 +11,19 @@
 //! | 20054, 20056, 20058 | indexing axes and revolutional feed |
 //! | 20059 | AUTOMATIC with JOG at the same time (MD10735) |
 //! | 21550 | couplings other than gantry groupings, which would retract an axis from its limit switch |
-//! | 21620 | the emergency braking ramp of a drive that stops by itself |
-//! | 22060 | a movement of an axis that no key, but a program wants out of position control |
+//! | 21620 | the emergency braking ramp of a drive that stops on its own |
+//! | 22060 | a movement that a program, not a key, requests while the axis is not in position control |
 //! | 22321, 22322 | PRESET |
 //! | 25022, 26020, 26030 | absolute encoders |
 //! | 25042 | limits of torque or force |
 //! | 25070 | drift compensation |
-//! | 26006, 26100, 26101, 26105, 26106 | drives and encoders on a bus: those of the plant are always found, and of the type that they should be |
+//! | 26006, 26100, 26101, 26105, 26106 | drives and encoders on a bus: those of the plant are always found and always have the correct type |
 
 use crate::sinumerik::alarms::{Cancel, Reaction, alarms};
 use crate::variables::AlarmNumber;
 
 alarms! {
-    /// What cannot be raised yet, ascending by number.
+    /// The alarms that the model cannot raise yet, ascending by number.
     NOT_RAISED;
     2001 [NC_NOT_READY LOCAL CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "PLC has not started up";
     2900 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY STOP NO_DELAY] PowerOn "reboot is delayed";
@@ -119,7 +119,7 @@ mod tests {
     use super::NOT_RAISED;
 
     /// `4xxx but 4300`, `26014 to 26017`, `2001`.
-    fn means(numbers: &str, number: &str) -> bool {
+    fn covers(numbers: &str, number: &str) -> bool {
         let (numbers, but) = numbers.split_once(" but ").unwrap_or((numbers, ""));
         let (first, last) = numbers.split_once(" to ").unwrap_or((numbers, numbers));
         let within = |end: &str, bound: char| end.replace('x', &bound.to_string()).parse::<u32>().unwrap();
@@ -127,16 +127,16 @@ mod tests {
     }
 
     #[test]
-    fn the_table_says_of_every_alarm_why_and_of_no_other() {
+    fn the_table_gives_a_reason_for_every_alarm_and_for_no_other() {
         let rows = include_str!("not_raised.rs").lines().filter_map(|line| line.strip_prefix("//! | "));
-        let said: Vec<_> = rows.skip(1).flat_map(|row| row.split(" | ").next().unwrap().split(", ")).collect();
+        let listed: Vec<_> = rows.skip(1).flat_map(|row| row.split(" | ").next().unwrap().split(", ")).collect();
         for alarm in NOT_RAISED {
             let number = alarm.number.0.to_string();
-            let rows = said.iter().filter(|numbers| means(numbers, &number)).count();
+            let rows = listed.iter().filter(|numbers| covers(numbers, &number)).count();
             assert_eq!(rows, 1, "alarm {number}");
         }
-        for numbers in said {
-            assert!(NOT_RAISED.iter().any(|alarm| means(numbers, &alarm.number.0.to_string())), "{numbers}");
+        for numbers in listed {
+            assert!(NOT_RAISED.iter().any(|alarm| covers(numbers, &alarm.number.0.to_string())), "{numbers}");
         }
     }
 }
