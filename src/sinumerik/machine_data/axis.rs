@@ -153,7 +153,8 @@ Axis {
     /// 0 absolute encoder, or no approach; 1 zero mark; 2 BERO; 3 distance-coded; 5 BERO as the cam; 6 second encoder; 7 spindle; 8
     /// distance-coded over four marks
     34200 ENC_REFP_MODE enc_refp_mode: [u8; 2] = [1; 2]; "", Range::between(0.0, 8.0), PowerOn;
-    /// absolute: 0 not calibrated, 1 enabled, 2 calibrated; incremental: 1 restoring enabled, 2 referenced and at standstill, 3 position restored
+    /// absolute: 0 not calibrated, 1 enabled, 2 calibrated; incremental: 1 restoring enabled, 2 referenced and at standstill, 3 position
+    /// restored
     34210 ENC_REFP_STATE enc_refp_state: [u8; 2] = [0; 2]; "", Range::between(0.0, 3.0), Immediate;
     /// number of turns that a rotary absolute encoder distinguishes
     34220 ENC_ABS_TURNS_MODULO enc_abs_turns_modulo: [i32; 2] = [4096; 2]; "rev", Range::between(1.0, 100000.0), PowerOn;
