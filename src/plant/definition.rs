@@ -1,21 +1,21 @@
-//! What `plant.toml` says about the iron. The machine reads it once, before anything runs; a scenario merges its own
-//! `[plant.XF]` tables over it first.
+//! The contents of `plant.toml`: the simulated mechanics. The machine reads the file once, before anything runs. A
+//! scenario may first merge its own `[plant.XF]` tables over it.
 //!
-//! Lengths are millimetres, angles degrees, times have a unit. Positions are in machine-frame coordinates: they belong
-//! to the iron and do not move when an axis is referenced. What depends on machine data where the file says nothing
-//! stays open here ([`Given::Unsaid`], `None`); everything else has its default.
+//! Lengths are in millimetres, angles in degrees, times have a unit. Positions are machine-frame coordinates: they
+//! belong to the mechanics and do not change when an axis is referenced. A value that depends on machine data stays
+//! undefined here if the file does not give it ([`Given::Unsaid`], `None`). All other values have a default.
 
 use std::collections::BTreeMap;
 
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
 use crate::units::{Position, Time};
 
-/// The iron of a machine.
+/// The simulated mechanics of a machine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlantDefinition {
-    /// Time from one PLC scan to the next; `None` is the NC cycle.
+    /// Time between two PLC scans; `None` means the NC cycle.
     pub plc_cycle: Option<Time>,
-    /// Who writes DB11.DBX5.2 (E-01); `None` is the control until somebody else does.
+    /// The writer of DB11.DBX5.2 (E-01); `None` means the control until another writer writes it.
     pub db11_5_2: Option<Db11Byte5Bit2>,
     /// The axes by machine axis name (MD10000).
     pub axes: BTreeMap<String, AxisPlant>,
@@ -23,33 +23,33 @@ pub struct PlantDefinition {
     pub bridges: BTreeMap<u8, Bridge>,
 }
 
-/// What DB11.DBX5.2 is (E-01).
+/// The meaning of DB11.DBX5.2 (E-01).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Db11Byte5Bit2 {
-    /// The control mirrors "active machine function REF" there.
+    /// The control mirrors "active machine function REF" to it.
     Mirror,
     /// The HMI's strobe of the machine function REF.
     HmiStrobe,
 }
 
-/// Something that a file may say, remove with `false`, or say nothing about.
+/// A value that a file may give, remove with `false`, or omit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Given<T> {
-    /// Nothing is said; machine data decide.
+    /// Omitted; machine data decide.
     #[default]
     Unsaid,
-    /// `cam = false`: there is none.
+    /// Removed with `cam = false`.
     Removed,
-    /// This one.
+    /// This value.
     Said(T),
 }
 
-/// The iron of one axis.
+/// The simulated mechanics of one axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AxisPlant {
-    /// Where the file speaks of it.
+    /// Place of its table in the file.
     pub place: Place,
-    /// Where the slide stands at power on.
+    /// Position of the slide at power on.
     pub start: Position,
     /// The drive.
     pub drive: Drive,
@@ -66,11 +66,11 @@ pub struct AxisPlant {
 /// A drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Drive {
-    /// Time constant of the real speed loop; 3 ms unless said.
+    /// Time constant of the real speed loop; default 3 ms.
     pub time_constant: Time,
-    /// Delay of each step of the start-up chain (O-20); 20 ms unless said.
+    /// Delay of each step of the start-up chain (O-20); default 20 ms.
     pub ready_after: Time,
-    /// A drive that answers over a bus with a status of its own (E-23).
+    /// A drive on a bus that reports a status of its own (E-23).
     pub intelligent: bool,
 }
 
@@ -83,13 +83,13 @@ impl Default for Drive {
 /// An encoder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EncoderPlant {
-    /// Its kind; `None`: as MD30240 and MD34200 say.
+    /// Its type; `None`: as defined by MD30240 and MD34200.
     pub kind: Option<EncoderKind>,
     /// Machine-frame position of one zero mark.
     pub zero_mark: Position,
-    /// From one zero mark to the next; `None`: as machine data say.
+    /// Distance between two zero marks; `None`: as defined by machine data.
     pub zero_mark_spacing: Option<Position>,
-    /// The smallest step it sees; 0.0001 mm or degrees unless said.
+    /// The smallest step that it detects; default 0.0001 mm or degrees.
     pub resolution: Position,
 }
 
@@ -99,14 +99,14 @@ impl Default for EncoderPlant {
     }
 }
 
-/// The kind of an encoder.
+/// The type of an encoder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EncoderKind {
-    /// Equal zero marks; the position is lost without power.
+    /// Incremental with equidistant zero marks; the position is lost without power.
     Incremental,
-    /// Knows its position always.
+    /// Absolute: its position is always known.
     Absolute,
-    /// Zero marks whose distances tell the position.
+    /// Distance-coded: the distances of the zero marks give the position.
     DistanceCoded,
 }
 
@@ -117,16 +117,16 @@ pub struct Cam {
     pub from: Position,
     /// Its upper end.
     pub to: Position,
-    /// Where its switch is wired; without it DBX12.7 is set after the PLC scan.
+    /// The input to which its switch is wired; without it DBX12.7 is set after the PLC scan.
     pub input: Option<Input>,
 }
 
 /// A hardware limit switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LimitSwitch {
-    /// Where it is hit.
+    /// Switching position.
     pub at: Position,
-    /// Where it is wired; without it DBX12.1 or DBX12.0 is set after the PLC scan.
+    /// The input to which it is wired; without it DBX12.1 or DBX12.0 is set after the PLC scan.
     pub input: Option<Input>,
 }
 
@@ -142,16 +142,16 @@ pub struct Input {
 /// The mechanical coupling of the slides of a grouping.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bridge {
-    /// Where the file speaks of it.
+    /// Place of its table in the file.
     pub place: Place,
-    /// Slide of a synchronous axis less slide of the leading axis when unstrained.
+    /// Position of a synchronous slide minus position of the leading slide, when unstrained.
     pub offset: BTreeMap<String, Position>,
-    /// 0 slides move freely, 1 rigid; between: share of a difference that the iron takes back per second.
+    /// 0: the slides move freely; 1: rigid; between: share of a difference that the mechanics remove per second.
     pub stiffness: f64,
 }
 
 impl AxisPlant {
-    /// An axis of which nothing is said.
+    /// An axis with all values at their defaults.
     #[must_use]
     pub fn new(place: Place) -> Self {
         Self {
@@ -170,15 +170,15 @@ impl PlantDefinition {
     /// Reads the text of a `plant.toml`.
     ///
     /// # Errors
-    /// The first thing that is not understood, with file and line.
+    /// The first part that cannot be read, with file and line.
     pub fn parse(text: &str, file: &str) -> Result<Self, Problem> {
         Self::read(Table::parse(text, file)?)
     }
 
-    /// Reads a tree, into which a scenario may have merged tables of its own.
+    /// Reads a tree into which a scenario may have merged its own tables.
     ///
     /// # Errors
-    /// The first thing that is not understood, with file and line.
+    /// The first part that cannot be read, with file and line.
     pub fn read(mut table: Table) -> Result<Self, Problem> {
         let mut plant = Self::default();
         if let Some(node) = table.take("machine") {
@@ -192,7 +192,7 @@ impl PlantDefinition {
             if let Some(node) = compatibility.take("db11_5_2") {
                 let here = db11_5_2(&node)?;
                 if plant.db11_5_2.is_some_and(|other| other != here) {
-                    return Err(node.expected("the same db11_5_2 as in [machine]", "say it once"));
+                    return Err(node.expected("the same db11_5_2 as in [machine]", "remove one of the two"));
                 }
                 plant.db11_5_2 = Some(here);
             }
@@ -223,7 +223,7 @@ impl PlantDefinition {
     /// Checks every axis name against the names of the machine axes (MD10000, exact case).
     ///
     /// # Errors
-    /// The first name that no machine axis has, with its place and the nearest name.
+    /// The first name that is not a machine axis, with its place and the nearest name.
     pub fn check_names(&self, names: &[&str]) -> Result<(), Problem> {
         let axes = self.axes.iter().map(|(name, axis)| (name, &axis.place));
         let bridges = self.bridges.values().flat_map(|bridge| bridge.offset.keys().map(|name| (name, &bridge.place)));
@@ -262,7 +262,7 @@ fn axis(mut table: Table, place: Place) -> Result<AxisPlant, Problem> {
     {
         return Err(plant.place.problem(
             format!("expected limit_plus above limit_minus = {}, found {}", minus.at, plus.at),
-            "exchange the two",
+            "exchange the two values",
         ));
     }
     Ok(plant)
@@ -315,8 +315,8 @@ fn cam(mut table: Table) -> Result<Cam, Problem> {
     table.finish()?;
     if from > to {
         return Err(table.place.problem(
-            format!("expected a cam whose `from` is not above its `to`, found {from} and {to}"),
-            "exchange the two",
+            format!("expected a cam with `from` at most `to`, found {from} and {to}"),
+            "exchange the two values",
         ));
     }
     Ok(Cam { from, to, input })
@@ -347,7 +347,7 @@ fn bridge(node: Node) -> Result<Bridge, Problem> {
     Ok(bridge)
 }
 
-/// A part that can be removed by `false`.
+/// A part that `false` removes.
 fn given<T>(
     node: Option<Node>,
     what: &str,
@@ -362,12 +362,12 @@ fn given<T>(
 
 fn required(table: &mut Table, key: &'static str, of: &str) -> Result<Position, Problem> {
     let node = table.take(key).ok_or_else(|| {
-        table.place.problem(format!("expected `{key}` of {of}, found nothing"), format!("write {key} = 200.0"))
+        table.place.problem(format!("expected `{key}` of {of}, found none"), format!("write {key} = 200.0"))
     })?;
     position(&node, "a position in mm or degrees")
 }
 
-/// The largest position that the control takes for a software limit switch; nothing is beyond.
+/// The largest position that the control accepts for a software limit switch; nothing is beyond it.
 const FARTHEST: f64 = 1e8;
 
 fn position(node: &Node, what: &str) -> Result<Position, Problem> {
@@ -378,7 +378,7 @@ fn position(node: &Node, what: &str) -> Result<Position, Problem> {
     Ok(Position::from_user(number))
 }
 
-/// A position that is at least one increment.
+/// A distance of at least one increment.
 fn distance(node: &Node, what: &str) -> Result<Position, Problem> {
     let distance = position(node, what)?;
     if distance <= Position::ZERO {

@@ -1,4 +1,4 @@
-//! Faults that a test can cause, and the switches of an axis, which can be stuck.
+//! Faults for tests, and the switches of an axis, which can be stuck.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,43 +15,43 @@ pub enum Switch {
     LimitMinus,
 }
 
-/// What is wrong.
+/// The kind of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum FaultKind {
     /// The slide cannot move.
     Block,
     /// The slide is displaced once.
     Push {
-        /// By this much.
+        /// Distance.
         by: Position,
     },
     /// The active encoder gains or loses counts once.
     EncoderSlip {
-        /// This many.
+        /// Distance.
         by: Position,
     },
-    /// The encoders give no zero marks.
+    /// The encoders send no zero marks.
     ZeroMarkMissing,
-    /// The drive tells of a fault, and its motor has no power.
+    /// The drive reports a fault, and its motor has no power.
     DriveFault,
-    /// An encoder tells nothing new.
+    /// An encoder sends no new values.
     EncoderFault {
-        /// 0 or 1; `None`: the active one, when it ends both.
+        /// 0 or 1; `None`: the active encoder; clearing with `None` clears both.
         encoder: Option<u8>,
     },
-    /// The motor does not turn as fast as its drive is told.
+    /// The motor is slower than its speed command.
     Friction {
         /// Share of the velocity that is lost, 0 to 1.
         by: f64,
     },
-    /// The slide moves by itself while its drive has no power.
+    /// The slide moves on its own while its drive has no power.
     Drift {
         /// Velocity in increments per second.
         by: f64,
     },
-    /// A switch stays as it is told.
+    /// A switch is stuck at a value.
     SwitchStuck {
-        /// Which.
+        /// The switch.
         which: Switch,
         /// Pressed or not.
         at: bool,
@@ -61,8 +61,8 @@ pub enum FaultKind {
 /// A fault of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fault {
-    /// Whose.
+    /// The axis.
     pub axis: AxisNumber,
-    /// What.
+    /// The kind.
     pub kind: FaultKind,
 }

@@ -1,28 +1,28 @@
-//! The plant of one machine with every default filled in.
+//! The plant of one machine, with all defaults filled in.
 
 use super::{Cam, Given, Input, LimitSwitch, PlantDefinition, Switch};
 use crate::motion::Encoder;
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 
-/// What decides a default.
+/// Data that determine defaults.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Hints {
     /// The axis exists.
     pub exists: bool,
     /// Direction of the cam search, −1 or +1; 0 for an axis without cam (MD34000).
     pub cam_direction: i8,
-    /// Distance of the zero marks of both encoders, where `plant.toml` does not say it.
+    /// Distance of the zero marks of both encoders, used if `plant.toml` does not give it.
     pub zero_mark_spacing: [Position; 2],
 }
 
-/// One axis.
+/// The simulated mechanics of one axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Iron {
-    /// Where the slide is at first power on.
+    /// Position of the slide at first power on.
     pub start: Position,
     /// The speed loop as PT1, in seconds.
     pub time_constant: f64,
-    /// Run-up of the drive after power on.
+    /// Start-up time of the drive after power on.
     pub ready_after: Time,
     /// Both encoders.
     pub encoders: [Encoder; 2],
@@ -34,14 +34,14 @@ pub struct Iron {
     pub limit_minus: Option<LimitSwitch>,
 }
 
-/// How slides hang together.
+/// A bridge: the mechanical coupling of slides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidOrSoft {
     /// The first slide, to which the others are offset.
     pub first: AxisNumber,
-    /// The others, with their offset to the first when nothing is strained.
+    /// The others, with their offset to the first when unstrained.
     pub others: Vec<(AxisNumber, Position)>,
-    /// Share of a difference that the iron takes back per second; 1 is rigid.
+    /// Share of a difference that the mechanics remove per second; 1 is rigid.
     pub stiffness: f64,
 }
 
@@ -54,17 +54,17 @@ pub struct Layout {
     pub bridges: Vec<RigidOrSoft>,
     /// Switches that are inputs of the PLC.
     pub wired: Vec<(AxisNumber, Switch, Input)>,
-    /// Axes whose cam, switch plus and switch minus the simulator itself shows to the NCK.
+    /// Axes for which the simulator itself sets the signals of cam, plus switch and minus switch.
     pub unwired: [AxisSet; 3],
 }
 
-/// Where the default cam begins, seen from the start.
+/// Distance of the default cam from the start position.
 const DEFAULT_CAM_DISTANCE: f64 = 100.0;
-/// How far the default cam reaches, so that no slide starts behind it.
+/// Length of the default cam; long enough that no slide starts behind it.
 const DEFAULT_CAM_LENGTH: f64 = 100_000.0;
 
 impl Layout {
-    /// Fills in defaults; `groupings` are number and axes, the leading axis first.
+    /// Fills in defaults. `groupings` contains number and axes of each grouping, the leading axis first.
     #[must_use]
     pub fn new(
         definition: &PlantDefinition,
@@ -83,7 +83,7 @@ impl Layout {
                 let (&first, others) = members.split_first()?;
                 let offset = |axis: AxisNumber| {
                     let name = names[axis].as_deref().unwrap_or_default();
-                    // An offset that is not said is the one that the slides have at first power on.
+                    // The default offset is the one that the slides have at first power on.
                     bridge.offset.get(name).copied().unwrap_or_else(|| start(&axes, axis) - start(&axes, first))
                 };
                 let others = others.iter().map(|&axis| (axis, offset(axis))).collect();
@@ -94,7 +94,7 @@ impl Layout {
         Self { axes, bridges, wired, unwired }
     }
 
-    /// These axes, and those that share a bridge with one of them.
+    /// These axes, and all axes that share a bridge with one of them.
     #[must_use]
     pub fn with_bridged(&self, axes: AxisSet) -> AxisSet {
         self.bridges.iter().fold(axes, |all, bridge| {
@@ -105,7 +105,7 @@ impl Layout {
     }
 }
 
-/// Which switches there are, and where they lead.
+/// The existing switches and their inputs.
 fn wires(axes: &PerAxis<Option<Iron>>) -> (Vec<(AxisNumber, Switch, Input)>, [AxisSet; 3]) {
     let (mut wired, mut unwired) = (Vec::new(), [AxisSet::NONE; 3]);
     for (axis, iron) in axes.iter() {

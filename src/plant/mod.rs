@@ -1,8 +1,10 @@
-//! THE IRON: slides, bridges, drives, encoders, cams and switches. It knows nothing of bits called "referenced".
+//! SIMULATED MECHANICS: slides, bridges, drives, encoders, cams and switches. This module has no state such as
+//! "referenced".
 //!
-//! [`PlantDefinition`] is what `plant.toml` says; [`Layout`] is that with every default filled in, for the axes of one
-//! machine; [`Plant`] is the state that moves. The machine calls [`Plant::advance`] once per position-control cycle and
-//! [`Plant::tell`] once per interpolation cycle. A new fault is an arm of [`FaultKind`] and what it does in `moving.rs`.
+//! [`PlantDefinition`] is the content of `plant.toml`. [`Layout`] is the same with all defaults filled in, for the axes
+//! of one machine. [`Plant`] is the state that moves. The machine calls [`Plant::advance`] once per position-control
+//! cycle and [`Plant::tell`] once per interpolation cycle. To add a fault, add an arm to [`FaultKind`] and its effect
+//! to `moving.rs`.
 
 mod definition;
 mod faults;
