@@ -6,14 +6,14 @@ use crate::sinumerik::parameters::mechanics::{Mechanics, PerEncoder};
 use crate::sinumerik::parameters::monitoring::{Monitoring, monitoring};
 use crate::units::{AxisNumber, ChannelNumber, Position, Time};
 
-/// What is known of a machine beside its machine data.
+/// Facts about an axis beside its machine data.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisPresence {
     /// The axis exists: it belongs to the channel, or machine data or the plant name it.
     pub exists: bool,
-    /// The archive itself says MD30350 = 0 and the axis is simulated: no signals in its data block (E-26).
+    /// The archive explicitly gives MD30350 = 0 and the axis is simulated: no signals in its data block (E-26).
     pub silent: bool,
-    /// What its iron is: that of its machine data when the machine was opened.
+    /// Its simulated mechanics: those of its machine data when the machine was opened.
     pub iron: Mechanics,
 }
 
@@ -72,7 +72,7 @@ pub struct Gantry {
 /// One axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AxisParameters {
-    /// Whether there is such an axis.
+    /// Whether the axis exists.
     pub exists: bool,
     /// No signals in its data block.
     pub silent: bool,
@@ -86,23 +86,23 @@ pub struct AxisParameters {
     pub maximum_velocity: f64,
     /// MD32300[0].
     pub maximum_acceleration: f64,
-    /// MD32301, or MD32300 where that is 0.
+    /// MD32301, or MD32300 if it is 0.
     pub jog_acceleration: f64,
-    /// MD32020, or SD41110 / SD41130 where that is not 0.
+    /// MD32020, or SD41110 / SD41130 if it is not 0.
     pub jog_velocity: f64,
     /// MD32010.
     pub jog_rapid_velocity: f64,
-    /// MD11330 and SD41010 times MD31090: the ways of INC1 to INC10000 and INCvar.
+    /// MD11330 and SD41010 times MD31090: the distances of INC1 to INC10000 and INCvar.
     pub increments: [Position; 6],
-    /// MD32080; 0 bounds nothing.
+    /// MD32080; 0 means no limit.
     pub handwheel_maximum: Position,
     /// MD32084.
     pub handwheel_stop_conditions: u32,
-    /// Position control, and what it has per parameter set.
+    /// Position control, and the data of each parameter set.
     pub dynamics: Dynamics,
     /// MD36020 in cycles.
     pub positioning_cycles: u64,
-    /// MD36060; where that is 0, what does not move at all is below it.
+    /// MD36060; if it is 0, an axis without any motion counts as below it.
     pub standstill_velocity: f64,
     /// MD36600: a hardware limit switch sets the setpoint velocity to 0 without a ramp.
     pub limit_without_ramp: bool,
@@ -191,7 +191,7 @@ fn reference(md: &Axis, maximum_velocity: f64, velocity: &impl Fn(f64) -> f64) -
     }
 }
 
-/// Bounded as a position is, so that their sums stay exact.
+/// Limited to the range of a position, so that sums stay exact.
 fn increments(data: &MachineData, md: &Axis) -> [Position; 6] {
     let [one, ten, hundred, thousand, ten_thousand] = data.general.jog_incr_size_tab;
     [one, ten, hundred, thousand, ten_thousand, data.setting.jog_var_incr_size]

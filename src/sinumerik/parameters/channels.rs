@@ -1,7 +1,7 @@
-//! Which channels there are, which axes and which mode group they have (MD10010, MD20070, MD30550).
+//! The existing channels, with their axes and mode groups (MD10010, MD20070, MD30550).
 //!
-//! Read at power on. A channel exists where MD10010 gives it a mode group; channel 1 always exists. An axis that no channel
-//! names belongs to channel 1; one that several name belongs to the one of MD30550, or to the lowest of them.
+//! Read at power on. A channel exists if MD10010 gives it a mode group; channel 1 always exists. An axis that no channel names belongs to
+//! channel 1. An axis that several channels name belongs to the channel of MD30550, otherwise to the lowest of them.
 
 use crate::sinumerik::machine_data::MachineData;
 use crate::sinumerik::parameters::axis::AxisParameters;

@@ -1,17 +1,17 @@
-//! Machine data of position control in the units of the model, and what an axis has once per parameter set.
+//! Machine data of position control in the units of the model, and the data of each parameter set.
 //!
-//! Part of [`AxisParameters`](crate::sinumerik::parameters::AxisParameters); read by position control, exact stop and monitoring.
-//! Which parameter set is active is state of the axis.
+//! Part of [`AxisParameters`](crate::sinumerik::parameters::AxisParameters); read by position control, exact stop and monitoring. The
+//! active parameter set is part of the state of the axis.
 
 use crate::motion::LONGEST_WINDOW;
 use crate::sinumerik::machine_data::Axis;
 use crate::sinumerik::parameters::mechanics::{Mechanics, Misfit, PARAMETER_SETS};
 use crate::units::{Position, Time};
 
-/// How the feed-forward's balancing delays the setpoint that the actual value is compared with (MD32620).
+/// The balancing of feedforward: how it delays the setpoint that is compared with the actual value (MD32620).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FeedForward {
-    /// 0, or left to part programs by MD32630.
+    /// 0, or controlled only by part programs because of MD32630.
     Off,
     /// 1 and 2.
     Pt1,
@@ -19,7 +19,7 @@ pub enum FeedForward {
     DeadTime,
 }
 
-/// What an axis has once per parameter set.
+/// The data of one parameter set of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParameterSet {
     /// MD32200 in 1/s.
@@ -38,31 +38,31 @@ pub struct ParameterSet {
     pub standstill_tolerance: Position,
     /// MD36200, in increments per second.
     pub velocity_limit: f64,
-    /// How the control is wrong about the iron.
+    /// The deviation of the control's mechanical data from the simulated mechanics.
     pub misfit: Option<Misfit>,
 }
 
-/// What limits the jerk of an axis.
+/// The jerk limits of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jerk {
-    /// MD32430 in increments per second cubed, while MD32420 = 1: it bounds JOG, referencing and positioning.
+    /// MD32430 in increments per second cubed, while MD32420 = 1: it limits JOG, referencing and positioning.
     pub limit: Option<f64>,
-    /// The window of every movement in cycles: MD32410 while MD32400 = 1, else 1. MD32402 has one kind.
+    /// The window of every movement in cycles: MD32410 while MD32400 = 1, else 1. All values of MD32402 act alike.
     pub window: usize,
-    /// The longest window that MD32430 asks for, in cycles; 1 for none.
+    /// The longest window that MD32430 requires, in cycles; 1 for none.
     pub longest: usize,
-    /// A braking that is harder than every acceleration of the axis is a fast stop and passes the windows by.
+    /// The largest acceleration of the axis. Braking harder than this is a fast stop and bypasses the windows.
     pub hardest: f64,
 }
 
 impl Jerk {
-    /// Any movement is filtered.
+    /// Whether any movement is filtered.
     #[must_use]
     pub const fn is_limited(&self) -> bool {
         self.window > 1 || self.longest > 1
     }
 
-    /// The window that keeps MD32430 with an acceleration, in cycles; 1 without a limit.
+    /// The window that keeps MD32430 at an acceleration, in cycles; 1 without a limit.
     #[must_use]
     pub fn window_for(&self, acceleration: f64, cycle: f64) -> usize {
         self.limit.map_or(1, |limit| whole_cycles((acceleration / (limit * cycle) - 1e-6).ceil()))
@@ -86,7 +86,7 @@ pub struct Dynamics {
 }
 
 impl Dynamics {
-    /// The setpoint of position control is another than the one that the interpolator gives, in any parameter set.
+    /// Whether the setpoint of position control differs from that of the interpolator in any parameter set.
     #[must_use]
     pub fn delays_setpoints(&self) -> bool {
         self.feed_forward != FeedForward::Off || self.sets.iter().any(|set| set.matching_time > 0.0)
@@ -102,7 +102,7 @@ impl Dynamics {
     }
 }
 
-/// The jerk filters from the machine data of an axis; `unit` is their unit of length in increments.
+/// The jerk filters from the machine data of an axis; `unit` is its unit of length in increments.
 pub(in crate::sinumerik) fn jerk(md: &Axis, unit: f64, accelerations: [f64; 2], cycle: Time) -> Jerk {
     let limited = md.jog_and_pos_jerk_enable && md.jog_and_pos_max_jerk > 0.0;
     let limit = limited.then_some(md.jog_and_pos_max_jerk * unit);
@@ -112,7 +112,7 @@ pub(in crate::sinumerik) fn jerk(md: &Axis, unit: f64, accelerations: [f64; 2], 
     Jerk { longest: jerk.window_for(hardest, cycle.seconds()), ..jerk }
 }
 
-/// From the machine data of an axis; `velocity` turns theirs into increments per second.
+/// From the machine data of an axis; `velocity` converts their velocities into increments per second.
 pub(in crate::sinumerik) fn dynamics(
     md: &Axis,
     jerk: Jerk,

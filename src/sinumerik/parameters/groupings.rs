@@ -1,4 +1,4 @@
-//! The definition of gantry groupings by MD37100, and what can be wrong with it (G1 2.2, 2.4).
+//! The definition of gantry groupings by MD37100, and its possible faults (G1 2.2, 2.4).
 //!
 //! Read at power on only (DEF-09). A grouping with a fault is not formed; its alarm stays until power off.
 
@@ -11,13 +11,13 @@ use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::units::{AxisNumber, ChannelNumber, PerAxis};
 use crate::variables::{AlarmNumber, Parameter, Place};
 
-/// How many groupings there can be (DEF-02).
+/// The largest number of groupings (DEF-02).
 pub(in crate::sinumerik) const GROUPINGS: usize = 8;
 
-/// How many synchronous axes a grouping can have (DEF-03). One more raises 10650.
+/// The largest number of synchronous axes of a grouping (DEF-03). One more raises 10650.
 pub(in crate::sinumerik) const SYNCHRONOUS_AXES: usize = 2;
 
-/// How a grouping reacts. Its alarms remember what was exceeded, and stop its axes (O-04: at the slowest rate); what arose
+/// The reactions of a grouping. Its alarms store an exceeded limit and stop its axes (O-04: at the slowest rate). A difference that arose
 /// while it was open does not count.
 const POLICY: Policy = Policy {
     first: Reaction::Report,
@@ -39,18 +39,18 @@ pub struct Definition {
     pub coupling: GantryCoupling,
 }
 
-/// An alarm that a definition raises at power on.
+/// An alarm raised by a definition at power on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// Which alarm.
+    /// The alarm.
     pub alarm: AlarmNumber,
-    /// Whose.
+    /// Its place.
     pub place: Place,
     /// Its parameters.
     pub parameters: [Parameter; 4],
 }
 
-/// A machine datum that must be equal within a grouping and is not (DYN-03).
+/// A machine datum that must be equal within a grouping and differs (DYN-03).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unequal {
     /// The number of the grouping.
@@ -59,20 +59,20 @@ pub struct Unequal {
     pub leader: AxisNumber,
     /// The synchronous axis.
     pub axis: AxisNumber,
-    /// Which datum.
+    /// The datum.
     pub datum: u32,
-    /// Of the leading axis, and of the synchronous axis.
+    /// The values of the leading axis and of the synchronous axis.
     pub values: [f64; 2],
 }
 
 /// The groupings of a machine and the faults found in their definition.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Definitions {
-    /// What could be formed.
+    /// The groupings that were formed.
     pub groupings: ArrayVec<Definition, GROUPINGS>,
-    /// What is wrong.
+    /// The faults.
     pub faults: Vec<Fault>,
-    /// What differs within the groupings that could be formed.
+    /// Unequal data of the groupings that were formed.
     pub unequal: Vec<Unequal>,
 }
 
@@ -105,7 +105,7 @@ pub(in crate::sinumerik) fn define(data: &MachineData, axes: &PerAxis<AxisParame
             continue;
         }
         if let Some(coupling) = GantryCoupling::new(leaders[0], POLICY, followers.iter().copied().map(Follower::new)) {
-            // At most eight numbers pass here.
+            // At most eight numbers are counted here.
             for &axis in &followers {
                 let [leading, own] = [leaders[0], axis].map(|axis| &data.axes[axis]);
                 let unequal = |(datum, values)| Unequal { grouping: number, leader: leaders[0], axis, datum, values };
@@ -130,7 +130,7 @@ fn check(
     // 10650 code 2: leading axis declared more than once (DEF-05); in another channel its number clashes (DEF-07).
     let (here, elsewhere): (Vec<_>, Vec<_>) = leaders.iter().skip(1).partition(|axis| home(axis) == channel);
     faults.extend(here.into_iter().map(|&axis| machine_data_fault(data, axis, 2)));
-    // 10650 code 1: wrong following-axis designation; more of them than there can be (DEF-03).
+    // 10650 code 1: wrong designation of a following axis, or more of them than allowed (DEF-03).
     faults.extend(followers.iter().skip(SYNCHRONOUS_AXES).map(|&axis| machine_data_fault(data, axis, 1)));
     let Some(&leader) = leaders.first() else {
         faults.push(configuration_fault(channel, 1_000, number));
@@ -139,7 +139,7 @@ fn check(
     if followers.is_empty() {
         faults.push(configuration_fault(channel, if followers_elsewhere { 5_000 } else { 2_000 }, number));
     }
-    // DEF-08: the synchronous axes are known wherever the leading axis is.
+    // DEF-08: the synchronous axes must be known in every channel of the leading axis.
     let unknown = |channel: ChannelNumber| {
         data.channel_knows(channel, leader) && followers.iter().any(|&axis| !data.channel_knows(channel, axis))
     };
@@ -176,7 +176,7 @@ fn machine_data_fault(data: &MachineData, axis: AxisNumber, code: i64) -> Fault 
     Fault { alarm: alarms::GANTRY_MACHINE_DATA, place: Place::Axis(axis), parameters }
 }
 
-/// 10651 with its reason: thousands say what, the last two digits the grouping.
+/// 10651 with its reason: the thousands digit gives the reason, the last two digits the grouping.
 fn configuration_fault(channel: ChannelNumber, reason: i64, number: u8) -> Fault {
     let reason = Parameter::Number(reason + i64::from(number));
     let parameters = [Parameter::Channel(channel), reason, Parameter::None, Parameter::None];

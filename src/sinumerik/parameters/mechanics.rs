@@ -1,19 +1,19 @@
-//! Gears, leadscrew, encoder lines and directions: what the control believes of the iron, and what the iron is.
+//! Gears, leadscrew, encoder lines and directions: the mechanical data of the control, and those of the simulated mechanics.
 //!
-//! The iron of a machine is what its machine data say when it is opened: an archive alone is a machine, and it is one that
-//! works. When these data are changed afterwards (they act by power on), the control converts counts and velocities with its
-//! new data, and the iron stays: actual values and drives are wrong by the ratio, as on a machine with wrong data.
-//! Read by position control and by the stage that takes what encoders tell; an axis whose data fit pays nothing.
+//! The simulated mechanics correspond to the machine data at opening: an archive alone is a working machine. When these data are changed
+//! later (they take effect at power on), the control converts counts and velocities with its new data, and the mechanics do not change.
+//! Actual values and drives are then wrong by the ratio, as on a machine with wrong data. Read by position control and by the stage that
+//! takes the encoder signals. An axis whose data match needs no extra computing time.
 //!
-//! One line of a linear scale is MD31010, of a rotary encoder MD31030 (rotary axis: 360 degrees) by MD31020, times
-//! MD31080 / MD31070, and times MD31050 / MD31060 where it sits at the motor (MD31040 = 0). One revolution of the motor is
-//! MD31030 times MD31050 / MD31060.
+//! One line of a linear scale is MD31010, of a rotary encoder MD31030 (rotary axis: 360 degrees) divided by MD31020, multiplied by MD31080
+//! / MD31070, and multiplied by MD31050 / MD31060 if the encoder is at the motor (MD31040 = 0). One revolution of the motor is MD31030
+//! multiplied by MD31050 / MD31060.
 //!
-//! MD32100 = −1 turns the traversing direction: motor and encoder, so that position control stays what it is.
-//! MD32110 = −1 turns the encoder alone: on iron that does not need it, the loop runs away.
+//! MD32100 = −1 reverses the traversing direction, for motor and encoder, so position control does not change. MD32110 = −1 reverses the
+//! encoder alone: if the mechanics do not need it, the loop is unstable and the axis runs away.
 //!
-//! Choices: the iron has the load gear of the first parameter set. A factor of 0 counts as 1. The smallest step of an
-//! encoder is the plant's `resolution`, not MD31020 by a multiplication.
+//! Choices: the mechanics have the load gear of the first parameter set. A factor of 0 counts as 1. The smallest step of an encoder is
+//! `resolution` of the plant, not MD31020 with a multiplication.
 
 use crate::motion::Feedback;
 use crate::sinumerik::machine_data::Axis;
@@ -22,20 +22,20 @@ use crate::units::Position;
 /// Values per measuring system, for index 0 and 1.
 pub(in crate::sinumerik) type PerEncoder<T> = [T; 2];
 
-/// How many parameter sets an axis has.
+/// Number of parameter sets of an axis.
 pub const PARAMETER_SETS: usize = 6;
 
-/// Ways in mm or degrees, with a sign for the direction.
+/// Distances in mm or degrees; the sign is the direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mechanics {
-    /// Of one revolution of the motor, by parameter set.
+    /// Distance of one revolution of the motor, by parameter set.
     motor: [f64; PARAMETER_SETS],
-    /// Of one line of each encoder, by parameter set.
+    /// Distance of one line of each encoder, by parameter set.
     encoders: [[f64; 2]; PARAMETER_SETS],
 }
 
 impl Mechanics {
-    /// What machine data say.
+    /// The mechanical data from machine data.
     #[must_use]
     pub fn new(md: &Axis) -> Self {
         let ratio = |above: i32, below: i32| {
@@ -63,25 +63,25 @@ impl Mechanics {
         }
     }
 
-    /// The way of one revolution of the motor in the first parameter set, in mm or degrees, without a direction.
+    /// The distance of one revolution of the motor in the first parameter set, in mm or degrees, without a direction.
     #[must_use]
     pub fn motor_revolution(&self) -> f64 {
         self.motor[0].abs()
     }
 
-    /// The way of one revolution of the motor in a parameter set, 0 to 5, in mm or degrees, with the sign of its direction.
+    /// The distance of one revolution of the motor in a parameter set, 0 to 5, in mm or degrees, with the sign of its direction.
     #[must_use]
     pub(in crate::sinumerik) fn motor_turn(&self, set: usize) -> f64 {
         self.motor.get(set).copied().unwrap_or(self.motor[0])
     }
 
-    /// The way of one line of an encoder, 0 or 1, in the first parameter set, in mm or degrees, without a direction.
+    /// The distance of one line of an encoder, 0 or 1, in the first parameter set, in mm or degrees, without a direction.
     #[must_use]
     pub fn encoder_line(&self, encoder: usize) -> f64 {
         self.encoders[0][encoder].abs()
     }
 
-    /// How it misses the iron in a parameter set; `None` where it fits.
+    /// The deviation from the simulated mechanics in a parameter set; `None` if the data match.
     #[must_use]
     pub fn misfit(&self, iron: &Self, set: usize) -> Option<Misfit> {
         let misfit = Misfit {
@@ -98,24 +98,24 @@ impl Default for Mechanics {
     }
 }
 
-/// By which factors the control is wrong about the iron.
+/// The factors by which the control's data deviate from the simulated mechanics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Misfit {
-    /// Velocity of the slide for a velocity that is commanded.
+    /// Velocity of the slide divided by the commanded velocity.
     pub command: f64,
-    /// Way that each encoder shows for a way of the slide.
+    /// Distance measured by each encoder divided by the distance of the slide.
     pub encoders: [f64; 2],
 }
 
 impl Misfit {
-    /// The way that an encoder shows.
+    /// The value measured by an encoder.
     #[must_use]
     pub fn shown(&self, encoder: usize, value: Position) -> Position {
         #[expect(clippy::cast_possible_truncation, reason = "a position for display; the cast saturates")]
         Position::new((value.increments() as f64 * self.encoders[encoder]).round() as i64)
     }
 
-    /// What the control takes encoders and drive to tell.
+    /// The signals of encoders and drive as the control interprets them.
     #[must_use]
     pub(in crate::sinumerik) fn seen(&self, feedback: &Feedback, active: usize) -> Feedback {
         let mut seen = *feedback;
@@ -133,7 +133,7 @@ impl Misfit {
 mod tests {
     use super::*;
 
-    /// Machine data of an axis, changed.
+    /// Mechanics from changed machine data of an axis.
     fn with(change: impl FnOnce(&mut Axis)) -> Mechanics {
         let mut md = Axis::default();
         change(&mut md);
@@ -151,12 +151,12 @@ mod tests {
         assert_eq!(misfit(|md| md.drive_ax_ratio_denom[1] = 3), None, "another parameter set");
     }
 
-    /// The iron: 10 mm of pitch, 2048 lines at the motor, gears 1:1.
+    /// The mechanics: 10 mm of pitch, 2048 lines at the motor, gears 1:1.
     #[test]
     fn wrong_data_miss_by_their_ratio() {
-        // Twice the pitch: every line shows twice its way, and the motor makes half the revolutions.
+        // Twice the pitch: every line counts for twice its distance, and the motor makes half the revolutions.
         assert_eq!(misfit(|md| md.leadscrew_pitch = 20.0), Some((0.5, 2.0)));
-        // A load gear of 4 motor for 1 load revolution: a motor encoder shows a quarter; the motor turns 4 times as fast.
+        // A load gear of 4 motor revolutions for 1 load revolution: a motor encoder measures a quarter; the motor turns 4 times as fast.
         assert_eq!(misfit(|md| md.drive_ax_ratio_numera[0] = 4), Some((4.0, 0.25)));
         // The lines and the measuring gear concern the encoder alone.
         assert_eq!(misfit(|md| md.enc_resol = [1024; 2]), Some((1.0, 2.0)));

@@ -1,23 +1,23 @@
-//! The limits of monitoring in the units of the model, made anew with all parameters.
+//! The limits of monitoring in the units of the model, recalculated with all parameters.
 //!
-//! Speeds of the motor and frequencies of the encoders become velocities of the axis by the ways that `mechanics.rs` knows, of
-//! the first parameter set.
+//! Motor speeds and encoder frequencies are converted into axis velocities with the distances from `mechanics.rs`, for the first parameter
+//! set.
 
 use crate::sinumerik::machine_data::Axis;
 use crate::sinumerik::parameters::mechanics::Mechanics;
 use crate::sinumerik::parameters::mechanics::PerEncoder;
 use crate::units::{Position, Time};
 
-/// What MD36310 says of an encoder.
+/// The monitoring of an encoder according to MD36310.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::sinumerik) struct ZeroMarks {
-    /// So many wrong zero marks trip; `None`: they are not watched.
+    /// Number of wrong zero marks that raises the alarm; `None`: not monitored.
     pub errors: Option<u32>,
-    /// 100: nothing of the encoder is watched.
+    /// 100: no monitoring of the encoder.
     pub off: bool,
-    /// Above 100: a fault is told as pollution, 25010 and 25011.
+    /// Above 100: a fault is reported as pollution, 25010 and 25011.
     pub pollution: bool,
-    /// MD34300: from one zero mark to the next.
+    /// MD34300: distance between two zero marks.
     pub spacing: Position,
 }
 
@@ -46,12 +46,12 @@ pub(in crate::sinumerik) struct Monitoring {
     pub encoder_difference: Option<Position>,
 }
 
-/// The limits that machine data say.
+/// The limits from machine data.
 pub(in crate::sinumerik) fn monitoring(md: &Axis, cycle: Time) -> Monitoring {
     let cycles = |seconds: f64| if seconds > 0.0 { Time::from_seconds(seconds).in_cycles(cycle) } else { 0 };
     let mechanics = Mechanics::new(md);
     let revolution = mechanics.motor_revolution() * Position::PER_USER_UNIT;
-    // MD32250 percent of the output are MD32260; 0 means that 100 percent are.
+    // MD32250 percent of the output give MD32260; 0 counts as 100 percent.
     let full_speed = if md.rated_outval > 0.0 { md.rated_velo * 100.0 / md.rated_outval } else { md.rated_velo };
     let frequency_limit =
         [0, 1].map(|encoder| md.enc_freq_limit[encoder] * mechanics.encoder_line(encoder) * Position::PER_USER_UNIT);
@@ -116,12 +116,12 @@ mod tests {
         assert_mm_per_second(limits(|_| {}).frequency_low[1], expected * 0.999);
         // A linear scale of 0.01 mm: 300 kHz are 3000 mm/s.
         assert_mm_per_second(limits(|md| md.enc_is_linear[0] = true).frequency_limit[0], 3_000.0);
-        // On a motor that turns twice per turn of the screw half the velocity; an encoder on the screw does not mind.
+        // On a motor that turns twice per turn of the screw half the velocity; no change for an encoder on the screw.
         let gear = |md: &mut Axis| md.drive_ax_ratio_numera[0] = 2;
         assert_mm_per_second(limits(gear).frequency_limit[0], expected / 2.0);
         let direct = limits(|md| (md.enc_is_direct[0], md.drive_ax_ratio_numera[0]) = (true, 2));
         assert_mm_per_second(direct.frequency_limit[0], expected);
-        // A measuring gear: three turns of the motor are one of the encoder.
+        // A measuring gear: three turns of the motor are one turn of the encoder.
         assert_mm_per_second(limits(|md| md.drive_enc_ratio_numera[0] = 3).frequency_limit[0], expected * 3.0);
     }
 

@@ -1,4 +1,4 @@
-//! Override switches: what a byte of the PLC stands for.
+//! Override switches: the override factor for a byte of the PLC.
 
 /// The factor of a byte; Gray code 0 counts as position 1 (O-21).
 #[must_use]
