@@ -1,7 +1,7 @@
-//! Commissioning: from the archive of a machine to a control that has just been switched on.
+//! Commissioning: from the archive of a machine to a control after power on.
 //!
-//! Which axes exist: those that MD20070 of a channel names where the archive says it, those with machine data of their own
-//! where it does not, and those of `plant.toml`; without any of these, the default of MD20070.
+//! The existing axes are: if the archive gives MD20070, the axes named there; otherwise the axes with machine data of their own; and in
+//! addition those of `plant.toml`. Without any of these, the default of MD20070 applies.
 
 use std::path::{Path, PathBuf};
 
@@ -27,7 +27,7 @@ impl Commissioning {
     /// Reads the files of an archive.
     ///
     /// # Errors
-    /// Everything that refuses the archive, with file and line.
+    /// The archive is rejected; the error gives file and line.
     pub fn load(files: &[PathBuf]) -> Result<Self, Problem> {
         Archive::load(files).map(|archive| Self { archive }).map_err(|findings| refusal(&findings))
     }
@@ -56,7 +56,7 @@ impl Commissioning {
             let says_so = Target::new(30350, Owner::Axis(axis), 0).is_ok_and(|target| archive.is_given(&target));
             AxisPresence {
                 exists: if any { named(axis) } else { in_channel(axis) },
-                // E-26: an axis is a real one unless the archive itself says that it shows nothing.
+                // E-26: an axis outputs its signals unless the archive explicitly disables them.
                 silent: simulated && says_so,
                 iron: Mechanics::new(&data.axes[axis]),
             }
@@ -103,17 +103,17 @@ impl Configuration for Commissioning {
     }
 }
 
-/// What is in the files of an archive, whether or not a machine can be made of it.
+/// The contents of the files of an archive, whether or not they define a usable machine.
 ///
 /// # Errors
-/// A file cannot be read, or is no file of machine data.
+/// A file cannot be read, or is not a machine data file.
 pub fn examine(path: &Path) -> Result<Examined, Problem> {
     let files = files_of(path)?;
     let archive = match Archive::load(&files) {
         Ok(archive) => archive,
         Err(findings) => {
             return match findings.as_slice() {
-                // Not a wrong datum but a file that is none.
+                // Not a wrong datum, but a file that is not an archive.
                 [Finding { severity: Severity::Error, number: None, place, what, cure, .. }] => {
                     Err(Problem { place: place.clone(), what: what.clone(), cure: cure.clone() })
                 }
@@ -135,7 +135,7 @@ pub fn examine(path: &Path) -> Result<Examined, Problem> {
 }
 
 impl MachineData {
-    /// How override switches are coded.
+    /// The coding of the override switches.
     pub(super) fn override_coding(&self) -> OverrideCoding {
         OverrideCoding {
             interface: &SINUMERIK,
@@ -146,14 +146,15 @@ impl MachineData {
     }
 }
 
-/// What machine data and plant ask for and this version does not do, so that nobody waits for it in vain.
+/// Functions that machine data or plant request and this version does not model.
 fn not_modelled(control: &Nck, names: &Names, site: &Site<'_>) -> Vec<String> {
     let mut warnings = Vec::new();
     for (index, group) in control.active().general.assign_chan_to_mode_group.iter().enumerate() {
         if *group > i32::from(ModeGroupNumber::MAX) {
             let channel = index + 1;
-            warnings
-                .push(format!("channel {channel}: MD10010 = {group} is not modelled; there are mode groups 1 and 2"));
+            warnings.push(format!(
+                "channel {channel}: MD10010 = {group} is not modelled; the model has mode groups 1 and 2"
+            ));
         }
     }
     for (number, axis) in control.parameters().existing() {
@@ -162,19 +163,22 @@ fn not_modelled(control: &Nck, names: &Names, site: &Site<'_>) -> Vec<String> {
             if mode != 1 {
                 let which = if index == 0 { "MD34200" } else { "MD34200[1]" };
                 warnings.push(format!(
-                    "axis {name}: {which} = {mode} is not modelled; incremental encoders with zero marks (1) are referenced"
+                    "axis {name}: {which} = {mode} is not modelled; the model references incremental encoders with zero marks (1)"
                 ));
             }
         }
         for (index, kind) in (site.encoders)(name).into_iter().enumerate() {
             if matches!(kind, Some(EncoderModel::Absolute | EncoderModel::DistanceCoded)) {
                 let number = index + 1;
-                warnings.push(format!("axis {name}: the kind of encoder {number} is not modelled; it is incremental"));
+                warnings.push(format!(
+                    "axis {name}: the type of encoder {number} is not modelled; an incremental encoder is used"
+                ));
             }
         }
         if axis.modulo {
-            warnings
-                .push(format!("axis {name}: MD30310, modulo, is modelled as no software limits; positions count on"));
+            warnings.push(format!(
+                "axis {name}: MD30310 (modulo) only disables the software limits in the model; positions are not reset"
+            ));
         }
         if control.active().axes[number].gantry_function_mask & 1 != 0 {
             warnings.push(format!("axis {name}: MD37150 bit 0, extended monitoring, is not modelled"));

@@ -1,11 +1,10 @@
-//! What a control shows and does not need itself.
+//! Values that a control displays and does not need itself.
 //!
-//! **Overrides.** A byte is a position of the switch in Gray code, whose factors are machine data (MD12010, MD12030, MD12050), or per cent in
-//! binary, limited by MD12100; rapid traverse is never faster than 100 %. An override that is not active counts as 100 %.
-//! Only the axial one moves something here: feed and rapid traverse override of a channel act on programs, and are shown.
+//! **Overrides.** A byte is either a switch position in Gray code, with factors from machine data (MD12010, MD12030, MD12050), or per cent
+//! in binary, limited by MD12100. Rapid traverse is never faster than 100 %. An inactive override counts as 100 %. Only the axial override
+//! affects motion here: the feed and rapid traverse overrides of a channel act on programs and are only displayed.
 //!
-//! **The speed of a motor** is the actual velocity behind pitch and gear of the active
-//! parameter set.
+//! **Motor speed** is the actual velocity converted with pitch and gear of the active parameter set.
 
 use crate::image::{AxisToNck, ChannelToNck};
 use crate::sinumerik::nck::Nck;
@@ -14,14 +13,14 @@ use crate::sinumerik::parameters::overrides::factor;
 use crate::units::AxisNumber;
 
 impl Nck {
-    /// The axial override that acts, in per cent.
+    /// The effective axial override, in per cent.
     #[must_use]
     pub fn axis_override(&self, signals: &AxisToNck) -> f64 {
         let factor = self.parameters.axis_override(signals.feed_override());
         if signals.override_active() { percent(factor) } else { 100.0 }
     }
 
-    /// Feed and rapid traverse override of a channel that act, in per cent.
+    /// The effective feed and rapid traverse overrides of a channel, in per cent.
     #[must_use]
     pub fn channel_overrides(&self, signals: &ChannelToNck) -> [f64; 2] {
         let data = &self.active().general;
@@ -44,7 +43,7 @@ impl Nck {
     }
 }
 
-/// Without the last bits of a product: 0.07 is 7 %.
+/// Rounds off the last bits of a product: 0.07 is 7 %.
 fn percent(factor: f64) -> f64 {
     (factor * 1e6).round() / 1e4
 }

@@ -1,14 +1,14 @@
-//! Who writes DB11.DBX5.2, and DBX25.2 of the second mode group (E-01): the control mirrors REF there until the HMI uses the byte.
+//! The writer of DB11.DBX5.2, and of DBX25.2 for the second mode group (E-01): the control mirrors REF there until the HMI uses the byte.
 
 use std::mem::offset_of;
 
 use crate::image::{Hmi, Location, ModeGroupHmi, Part};
 use crate::units::ModeGroupNumber;
 
-/// Whose DB11.DBX5.2 is, and DBX25.2 of the second mode group (E-01).
+/// The writer of DB11.DBX5.2, and of DBX25.2 for the second mode group (E-01).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Strobe {
-    /// What `plant.toml` fixes: the HMI's, or the control's.
+    /// The writer fixed by `plant.toml`: true for the HMI, false for the control.
     is_the_hmi_s: Option<bool>,
 }
 
@@ -17,7 +17,7 @@ impl Strobe {
         Self { is_the_hmi_s }
     }
 
-    /// The mode groups whose byte a write there makes the HMI's.
+    /// The mode groups whose byte belongs to the HMI after a write to this location.
     pub(super) fn touched_by(self, location: Location) -> impl Iterator<Item = ModeGroupNumber> {
         let of_the_hmi = location.part == Part::Hmi && self.is_the_hmi_s.is_none();
         let touched = move |byte: usize| {
@@ -27,13 +27,13 @@ impl Strobe {
         ModeGroupNumber::all().filter(move |&group| of_the_hmi && touched(strobe_byte(group)))
     }
 
-    /// The mode groups whose byte is the HMI's from the start.
+    /// The mode groups whose byte belongs to the HMI from the start.
     pub(super) fn fixed(self) -> impl Iterator<Item = ModeGroupNumber> {
         ModeGroupNumber::all().filter(move |_| self.is_the_hmi_s == Some(true))
     }
 }
 
-/// Where DB11.DBB5 lies in the HMI's part, or DBB25 of the second mode group.
+/// The offset of DB11.DBB5 in the HMI's part, or of DBB25 for the second mode group.
 fn strobe_byte(group: ModeGroupNumber) -> usize {
     let block = offset_of!(Hmi, mode_groups) + usize::from(group.number() - 1) * size_of::<ModeGroupHmi>();
     block + usize::from(5 - ModeGroupHmi::FIRST)

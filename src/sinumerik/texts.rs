@@ -1,4 +1,4 @@
-//! The words of this control: alarms, rules, names of machine data and charts of its state machines.
+//! The texts of this control: alarms, rules, names of machine data and charts of its state machines.
 
 use crate::control::{AlarmRow, Chart, Texts};
 use crate::image::{Interface, SINUMERIK};
@@ -8,7 +8,7 @@ use crate::sinumerik::referencing;
 use crate::sinumerik::rules::Rule;
 use crate::variables::{AlarmNumber, Rule as RuleText, RuleNumber};
 
-/// The words of the SINUMERIK.
+/// The texts of the SINUMERIK control.
 pub static TEXTS: Words = Words;
 
 /// See [`TEXTS`].
@@ -71,7 +71,7 @@ impl Texts for Words {
         };
         let grouping =
             Chart::of("gantry", "Gantry grouping", gantry::state::TRANSITIONS, gantry::state::Phase::text, tested);
-        // An abort is no row: it leads from wherever the approach is.
+        // An abort is not a row: it is possible in every phase.
         let approach = approach.with_step_from_anywhere(Rule::ApproachAborted, referencing::state::Phase::Idle);
         vec![approach, grouping]
     }
@@ -89,7 +89,7 @@ fn row(alarm: &Alarm, raised: bool) -> AlarmRow {
     }
 }
 
-/// What cancels an alarm, as NC variables number it.
+/// The code of the cancelling action in NC variables.
 const fn clear_info(cancel: Cancel) -> u8 {
     match cancel {
         Cancel::PowerOn => 1,

@@ -1,11 +1,11 @@
-//! Filters and delays between the commanded movement and position control, where machine data ask for them.
+//! Filters and delays between the commanded movement and position control, used if machine data require them.
 
 use serde::{Deserialize, Serialize};
 
 use crate::motion::{DeadTime, JerkFilter, Pt1};
 use crate::sinumerik::parameters::dynamics::{Dynamics, FeedForward, Jerk, ParameterSet};
 
-/// What stands between the movement that is commanded and position control, where machine data ask for it.
+/// The filters and delays of an axis between the commanded movement and position control.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct Shaping {
     /// The jerk filter of the setpoint.
@@ -28,13 +28,13 @@ impl SetpointBranch {
         self.dead_time.reset();
     }
 
-    /// The delayed setpoint is not where the setpoint is.
+    /// Whether the delayed setpoint differs from the setpoint.
     pub(in crate::sinumerik) fn is_behind(&self) -> bool {
         [self.matching.behind(), self.balancing.behind(), self.dead_time.behind()].iter().any(|way| way.abs() > 0.0)
     }
 
-    /// One position-control cycle: how far the setpoint for the comparison is behind the one of the interpolator, in
-    /// increments, and the velocity that is fed forward.
+    /// One position-control cycle. Returns the lag of the position-control setpoint behind the interpolator's setpoint,
+    /// in increments, and the velocity for feedforward.
     pub(in crate::sinumerik) fn pass(
         &mut self,
         mode: FeedForward,

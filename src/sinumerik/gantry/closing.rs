@@ -1,12 +1,12 @@
-//! Closing a grouping again (MD37140 back to 0): the states of its axes are checked, and 10658 refuses.
+//! Closing a grouping again (MD37140 back to 0): checks the states of its axes; alarm 10658 prevents closing.
 //!
-//! Called once per cycle before the units are formed, for the groupings that are open. Reads MD37140 and what the axes have
-//! before them; writes which groupings stay open. Opening, and closing itself, are in `synchronisation.rs`.
+//! Called once per cycle for open groupings, before the units are formed. Reads MD37140 and the pending movements of the axes; writes which
+//! groupings stay open. Opening and closing themselves are in `synchronisation.rs`.
 //!
-//! Choices where the manuals leave one: a movement is pending (70XX) while a setpoint moves, an axis is not at standstill, an
-//! increment waits or a key asks for a movement. A refused grouping stays open, stops with its alarm, and closes when RESET
-//! has cancelled 10658 and nothing is pending any more; else the alarm returns. 30XX and 40XX cannot come: axes are
-//! never exchanged between channels, and no PLC axis can own one of them (a grouping across channels is 10651 at power on).
+//! Choices where the manuals leave one: a movement is pending (70XX) while a setpoint moves, an axis is not at standstill, an increment is
+//! pending or a key requests a movement. A grouping that cannot close stays open and stops with its alarm. It closes when RESET has
+//! cancelled 10658 and nothing is pending; otherwise the alarm returns. 30XX and 40XX cannot occur: axes are never exchanged between
+//! channels, and no PLC axis can own one of them (a grouping across channels is 10651 at power on).
 
 use crate::control::Log;
 use crate::sinumerik::alarms::{self, Pending};
@@ -23,7 +23,7 @@ use crate::variables::{EventId, Input, Parameter, Place};
 const MOTION_PENDING: i64 = 7_000;
 
 impl State {
-    /// BRK-05 for every open grouping; whether one is kept open that was not, or the other way round.
+    /// BRK-05 for every open grouping. Returns whether the set of groupings kept open has changed.
     pub(in crate::sinumerik) fn check_closings(&mut self, parameters: &Parameters) -> bool {
         let mut changed = false;
         for index in 0..self.groupings.len() {
@@ -40,7 +40,7 @@ impl State {
 }
 
 impl Grouping {
-    /// Whether the grouping is to be open, or has to stay so.
+    /// Whether the grouping is to be opened or must stay open.
     pub(in crate::sinumerik) fn is_kept_open(&self, parameters: &Parameters) -> bool {
         self.kept_open || self.is_broken_up(parameters)
     }
@@ -49,7 +49,7 @@ impl Grouping {
         self.coupling.members().any(|axis| parameters.axes[axis].gantry.broken_up)
     }
 
-    /// A grouping that is to be closed stays open while 10658 is pending, or comes.
+    /// A grouping that is to be closed stays open while 10658 is pending or is raised.
     fn check_closing(&mut self, view: &View<'_>, alarms: &Pending, log: &mut Log) -> Wants {
         let mut wants = Wants::new();
         self.kept_open = false;

@@ -1,11 +1,11 @@
-//! Machine data that do not go with a gantry grouping, but do not forbid it either: they are shown.
+//! Reports machine data that do not match a gantry grouping but do not prevent it.
 //!
 //! Called whenever units are formed: after power on, when machine data become active, when a grouping closes.
 //!
-//! - MD30450 = 1 on a synchronous axis of a closed grouping is ignored, the leading axis' state counts; 4300 says so (DEF-11, E-21).
-//!   It comes once: at power on, when the datum becomes active, or when the grouping closes; RESET takes it away.
-//! - Data of interpolation and jerk that differ within a grouping (DYN-03) are told at power on only. The manuals give no
-//!   number for it: `gantry-unequal-data`, an entry for each datum of each synchronous axis. `machine-data check` tells the same.
+//! - MD30450 = 1 on a synchronous axis of a closed grouping is ignored, and the state of the leading axis applies; alarm 4300 reports it
+//!   (DEF-11, E-21). It is raised once: at power on, when the datum becomes active, or when the grouping closes. RESET clears it.
+//! - Data of interpolation and jerk that differ within a grouping (DYN-03) are reported at power on only. The manuals give no number: the
+//!   alarm is `gantry-unequal-data`, with an entry for each datum of each synchronous axis. `machine-data check` reports the same.
 
 use crate::sinumerik::alarms;
 use crate::sinumerik::gantry::state::Phase;
@@ -17,10 +17,10 @@ use crate::units::AxisSet;
 use crate::variables::{Input, Parameter, Place};
 
 impl State {
-    /// Shows what is new.
+    /// Reports new findings.
     pub(in crate::sinumerik) fn report_declarations(&mut self, parameters: &Parameters) {
         if !std::mem::replace(&mut self.declared.compared, true) {
-            // The latest of equal number and place is the first in the list.
+            // With equal number and place, the newest alarm comes first in the list.
             for &unequal in parameters.groupings.unequal.iter().rev() {
                 self.report_unequal(unequal, parameters);
             }

@@ -1,9 +1,9 @@
-//! Dynamic overload of a synchronous axis (10656): the leading axis asks for more than the synchronous axis can (O-05).
+//! Dynamic overload of a synchronous axis (10656): the leading axis demands more than the synchronous axis can do (O-05).
 //!
-//! Called for each synchronous axis that follows, right after it got its setpoint. Compares the setpoint with the axis' own
-//! MD32000 and MD32300 (or MD32301, where that is more: what its own keys may ask for); strictly greater raises the alarm
-//! (O-11). Braking harder than any acceleration of the one that leads is no movement of the grouping but a stop, which all axes
-//! make in the same manner, and is not compared.
+//! Called for each synchronous axis that follows, directly after it received its setpoint. Compares the setpoint with the axis' own MD32000
+//! and MD32300 (or MD32301 if it is larger, because its own keys may demand it). A strictly greater value raises the alarm (O-11). Braking
+//! harder than any acceleration of the leading axis is a stop, which all axes make in the same way, not a movement of the grouping. It is
+//! not compared.
 
 use crate::sinumerik::alarms;
 use crate::sinumerik::parameters::Parameters;
@@ -13,11 +13,11 @@ use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Place, Quantity};
 
-/// Setpoints are whole increments: the velocity that shows in them may be this much more.
+/// Setpoints are whole increments, so the velocity calculated from them may be larger by this factor.
 const ROUNDING: f64 = 1.002;
 
 impl State {
-    /// Compares the setpoint that the axis has got with its limits; `before` is its velocity in the last cycle.
+    /// Compares the new setpoint of the axis with its limits; `before` is its velocity in the last cycle.
     pub(in crate::sinumerik) fn watch_overload(&mut self, number: AxisNumber, before: f64, parameters: &Parameters) {
         let (axis, cycle) = (&parameters.axes[number], parameters.cycle.seconds());
         let velocity = self.axes[number].setpoint.velocity();
@@ -33,7 +33,7 @@ impl State {
     }
 }
 
-/// The velocity that is asked for, and the machine datum that it is beyond, as a person enters it.
+/// The demanded velocity and the machine datum that it exceeds, as entered by a user.
 #[expect(clippy::cast_possible_truncation, reason = "far within the range")]
 fn inputs(number: AxisNumber, velocity: f64, too_fast: bool, axis: &AxisParameters) -> [Input; 3] {
     let asked = Input::Length(Quantity::Velocity, number, Position::new(velocity.round() as i64));

@@ -1,4 +1,4 @@
-//! What the control remembers of gantry groupings, and the table of steps that a grouping can take.
+//! The state of gantry groupings, and the table of transitions of a grouping.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,17 +8,17 @@ use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, AxisSet, Position};
 use crate::variables::{EventId, Input, Place};
 
-/// Where a grouping is.
+/// The phase of a grouping.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Phase {
-    /// Not synchronised, and nothing is on the way.
+    /// Not synchronised, and no movement to synchronism is active.
     #[default]
     NotSynchronised,
-    /// Section 1: the leading axis is referenced.
+    /// Section 1: the leading axis is being referenced.
     ReferencingLeadingAxis,
-    /// Section 2: a synchronous axis is referenced, the leading axis follows it.
+    /// Section 2: a synchronous axis is being referenced, and the leading axis follows it.
     ReferencingSynchronousAxis,
-    /// Section 3: all referenced, the start must come from outside.
+    /// Section 3: all axes are referenced; the start must come from outside.
     WaitingForStart,
     /// Section 3: the axes move decoupled to the common position.
     Synchronising,
@@ -29,7 +29,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// What it is, in a few words.
+    /// A short text for the phase.
     #[must_use]
     pub const fn text(self) -> &'static str {
         match self {
@@ -44,7 +44,7 @@ impl Phase {
     }
 }
 
-/// Every step that a grouping can take.
+/// All transitions of a grouping.
 pub const TRANSITIONS: &[Transition<Phase, Rule>] = &[
     row(Phase::NotSynchronised, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
     row(Phase::WaitingForStart, Rule::LeadingAxisApproach, Phase::ReferencingLeadingAxis),
@@ -78,30 +78,30 @@ pub const TRANSITIONS: &[Transition<Phase, Rule>] = &[
 
 const _: () = assert!(TRANSITIONS.len() <= u64::BITS as usize);
 
-/// The place of the gantry grouping among the charts of this control.
+/// Index of the gantry grouping among the charts of this control.
 pub(in crate::sinumerik) const GROUPING_CHART: usize = 1;
 
-/// Why the warning and the trip of a synchronous axis came or went.
+/// The events that set or reset the warning and the trip of a synchronous axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct LimitCauses {
-    /// Of 101.3.
+    /// Event behind 101.3.
     pub warning: EventId,
-    /// Of 101.2.
+    /// Event behind 101.2.
     pub trip: EventId,
 }
 
-/// What monitoring found on one synchronous axis.
+/// The monitoring results of one synchronous axis.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::sinumerik) struct Monitored {
-    /// Which axis.
+    /// The axis.
     pub axis: AxisNumber,
     /// The synchronism difference.
     pub difference: Position,
-    /// Beyond MD37110: 101.3.
+    /// Above MD37110: 101.3.
     pub warning: bool,
-    /// Beyond MD37120 or MD37130: 101.2.
+    /// Above MD37120 or MD37130: 101.2.
     pub trip: bool,
-    /// Why.
+    /// The events behind both.
     pub causes: LimitCauses,
 }
 
@@ -110,38 +110,38 @@ pub(in crate::sinumerik) struct Monitored {
 pub(in crate::sinumerik) struct Grouping {
     /// Its number, 1 to 8.
     pub number: u8,
-    /// Leading and synchronous axes: which one leads now, whether they are coupled, and how far they are apart.
+    /// Leading and synchronous axes: the axis that leads now, the connection, and the differences.
     pub coupling: GantryCoupling,
-    /// Where it is.
+    /// Phase.
     pub phase: Phase,
-    /// Which synchronous axis is being referenced.
+    /// Index of the synchronous axis that is being referenced.
     pub turn: u8,
     /// Direction of the key that started the approach; 0 for channel-specific referencing.
     pub key: i8,
-    /// Section 3 was entered from section 2, without RESET and without leaving REF since (REF-15).
+    /// Section 3 was entered from section 2, and since then there was no RESET and REF stayed selected (REF-15).
     pub from_referencing: bool,
-    /// 10654 is shown; RESET takes it away (O-09).
+    /// 10654 is displayed; RESET clears it (O-09).
     pub message: bool,
-    /// The synchronising motion was waited for; 101.4 was set before it.
+    /// The grouping waited before the synchronising motion; 101.4 was set.
     pub waited_for: bool,
     /// 29.4 of the leading axis in the last cycle.
     pub start_was: bool,
     /// The axes were in follow-up in the last cycle.
     pub followed_up: bool,
-    /// Follow-up has ended and position control has not come back yet.
+    /// Follow-up has ended and position control is not yet active again.
     pub returning: bool,
-    /// Synchronism was lost by follow-up, and nothing has given it back or begun anew since.
+    /// Synchronism was lost by follow-up and has not been restored or restarted since.
     pub lost_in_operation: bool,
-    /// Closing was refused with 10658 (BRK-05).
+    /// Closing was prevented by 10658 (BRK-05).
     pub kept_open: bool,
-    /// Why each synchronous axis warns or trips, or does not any more.
+    /// The events that set or reset the warning and the trip of each synchronous axis.
     pub limit_causes: [LimitCauses; SYNCHRONOUS_AXES],
     /// The latest event of the grouping.
     pub cause: EventId,
 }
 
 impl Grouping {
-    /// As after power on: no difference, nothing referenced.
+    /// The state after power on: no difference, nothing referenced.
     #[must_use]
     pub(in crate::sinumerik) fn new(definition: &Definition) -> Self {
         Self {
@@ -163,7 +163,7 @@ impl Grouping {
         }
     }
 
-    /// The axis that is referenced in section 1 or 2.
+    /// The axis that is being referenced in section 1 or 2.
     pub(in crate::sinumerik) fn referencing(&self) -> Option<AxisNumber> {
         match self.phase {
             Phase::ReferencingLeadingAxis => Some(self.coupling.leader()),
@@ -176,13 +176,13 @@ impl Grouping {
         }
     }
 
-    /// Sections 1 and 2 are on the way.
+    /// Whether section 1 or 2 is running.
     #[must_use]
     pub(in crate::sinumerik) fn is_referencing(&self) -> bool {
         self.referencing().is_some()
     }
 
-    /// What monitoring found on each synchronous axis.
+    /// The monitoring results of each synchronous axis.
     pub(in crate::sinumerik) fn monitored(&self) -> impl Iterator<Item = Monitored> {
         self.coupling.differences().zip(&self.limit_causes).map(|((axis, difference, stage), &causes)| Monitored {
             axis,
@@ -193,7 +193,7 @@ impl Grouping {
         })
     }
 
-    /// Takes a step of the table.
+    /// Makes a transition of the table.
     pub(in crate::sinumerik) fn step(&mut self, log: &mut Log, by: Rule, inputs: [Input; 3], parent: EventId) {
         self.phase = next(TRANSITIONS, &mut log.taken.0[GROUPING_CHART], self.phase, by);
         self.cause = log.note(Place::Axis(self.coupling.leader()), by, inputs, parent);
@@ -211,17 +211,17 @@ impl Grouping {
         }
     }
 
-    /// The limits count from 0 again, until synchronism is lost in operation another time.
+    /// The limits count from 0 again, until synchronism is lost in operation again.
     pub(in crate::sinumerik) fn clear_bases(&mut self) {
         self.lost_in_operation = false;
         self.coupling.clear_bases();
     }
 }
 
-/// What has been told.
+/// The declarations already reported.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct Declared {
-    /// The data that must be equal have been looked at since power on.
+    /// The data that must be equal have been compared since power on.
     pub compared: bool,
     /// Synchronous axes of closed groupings with MD30450 = 1.
     pub concurrent: AxisSet,

@@ -1,7 +1,7 @@
 //! Monitoring of the synchronism difference (G1 2.2): warning and trip limit of each synchronous axis.
 //!
-//! Called once per cycle for each grouping, so that a difference, its alarm and its bits appear in one cycle. A difference is
-//! tested while the grouping is closed and not in follow-up, also while it is jammed in "hold".
+//! Called once per cycle for each grouping, so that a difference, its alarm and its bits appear in one cycle. A difference is monitored
+//! while the grouping is closed and not in follow-up, also while the axes are held in "hold".
 //!
 //! | the grouping | warns above | trips above |
 //! |---|---|---|
@@ -9,10 +9,10 @@
 //! | is not | MD37110 | MD37130 (MON-05) |
 //! | has lost synchronism in operation (MON-08) | base + MD37110 | base + MD37120, and MD37130 |
 //!
-//! The base is the amount of the difference when position control came back, if synchronism did not come back with it
-//! (G1 2.7.4: both limits are additional tolerances then). A smaller difference never warns or trips by it. It ends when the
-//! grouping is synchronised, or opened, or a new reference gives the positions other values. Choice where the manuals leave one:
-//! MD37110 alone does not warn as well, or the base would mean nothing to it.
+//! The base is the amount of the difference when position control came back without synchronism (G1 2.7.4: both limits are
+//! then additional tolerances). A smaller difference never causes a warning or a trip by these limits. The base ends when the
+//! grouping is synchronised or opened, or when a new reference changes the actual values. Choice where the manuals leave one:
+//! MD37110 without the base does not warn in addition; otherwise the base would have no effect on it.
 
 use crate::control::Log;
 use crate::motion::coupling::{CouplingEvent, Events, Limit, TwoStage, What};
@@ -26,7 +26,7 @@ use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
-/// The limits that count for a synchronous axis (DEF-12: its own). MON-03: 0 is no warning limit.
+/// The limits that apply to a synchronous axis (DEF-12: its own). MON-03: 0 means no warning limit.
 fn limits(own: &Gantry, synchronised: bool) -> TwoStage {
     let first = Some(own.warning_limit).filter(|&limit| limit > Position::ZERO);
     if synchronised {
@@ -83,7 +83,7 @@ impl Grouping {
         }
     }
 
-    /// Notes why a warning or a trip came or went.
+    /// Records the event that set or reset a warning or a trip.
     fn note_limit(&mut self, event: &CouplingEvent, synchronised: bool, monitored: bool, log: &mut Log) {
         let axis = event.follower;
         let gone = |rule| if monitored { rule } else { Rule::NotMonitored };

@@ -1,18 +1,19 @@
-//! MONITORING: what the control watches of itself, and the alarms that follow from states.
+//! MONITORING: the monitoring functions of the control, and the alarms that follow from states.
 //!
-//! Called once per cycle after mechanics moved and encoders told, so that a value, its alarm and its bits appear in one
-//! cycle; the reactions of an alarm act from the next cycle on. Each file watches one thing:
+//! Called once per cycle after the mechanics moved and the encoders reported, so that a value, its alarm and its bits appear
+//! in one cycle. The reactions of an alarm act from the next cycle on. Each file contains one monitoring function:
 //!
-//! | file | what | alarms |
+//! | file | monitors | alarms |
 //! |---|---|---|
 //! | `gantry/synchronism.rs` | the synchronism difference of a grouping | 10652, 10653 |
-//! | `position.rs` | an axis at rest, on its way into exact stop, clamped, and its contour | 25040, 25080, 26000, 25050 |
+//! | `position.rs` | standstill, positioning to exact stop, clamping and contour of an axis | 25040, 25080, 26000, 25050 |
 //! | `speed.rs` | actual velocity and speed setpoint | 25030, 25060 |
 //! | `encoders.rs` | frequency, faults, zero marks and differences of the encoders, and their switch-over | 21610, 21613, 25000 to 25021, 25100 to 25110 |
-//! | `drive.rs` | what a drive tells of itself | 25201, 25202 |
+//! | `drive.rs` | the status of a drive | 25201, 25202 |
 //!
-//! At a limit, strictly greater trips and equal does not (O-11). What is said to last longer than a time is counted in
-//! whole cycles and trips in the first one after that time. No counter goes on after its time, so that an axis can rest.
+//! Only a value strictly greater than a limit raises an alarm (O-11). A condition that must last longer than a time is counted
+//! in whole cycles and raises its alarm in the first cycle after that time. No counter continues after its time, so that an
+//! axis can rest.
 
 mod drive;
 mod encoders;
@@ -30,7 +31,7 @@ use crate::units::{AxisNumber, AxisSet};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 
 impl Nck {
-    /// Monitoring and alarms.
+    /// The stage "monitoring and alarms".
     pub(super) fn monitor(&mut self) {
         let awake = self.awake();
         let (parameters, state) = (&*self.parameters, &mut *self.state);
@@ -72,14 +73,14 @@ impl State {
         self.monitor_position(number, axis);
     }
 
-    /// Raises an alarm with the event behind it, which is noted when the alarm is new; `%1` is the axis.
+    /// Raises an alarm with the event behind it, which is recorded when the alarm is new; `%1` is the axis.
     fn raise_monitoring(&mut self, alarm: AlarmNumber, number: AxisNumber, rule: Rule, inputs: [Input; 3]) {
         let place = Place::Axis(number);
         let shown = [Parameter::Axis(number), Parameter::None, Parameter::None, Parameter::None];
         let cause = if self.alarms.is_pending(alarm, place) {
             EventId::NONE
         } else {
-            // What breaks does so whether the axis moves or not.
+            // A hardware fault acts whether or not the axis moves.
             let breaks = matches!(
                 rule,
                 Rule::DriveFault

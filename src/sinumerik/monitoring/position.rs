@@ -1,16 +1,16 @@
 //! Position monitoring of an axis: standstill (25040), clamping (26000), positioning (25080) and contour (25050).
 //!
-//! Standstill: when MD36040 has passed since the end of interpolation, the actual value must stay within MD36030 × MD36012 of
-//! the setpoint. That holds in position control and also in "hold" (2.1 = 0 without follow-up), where only force can
-//! move the axis; in follow-up the setpoint is the actual value, and nothing is watched. While 2.3 = 1 the tolerance is MD36050
-//! (without MD36012) and the alarm 26000; the delay is the same.
+//! Standstill: when MD36040 has passed since the end of interpolation, the actual value must stay within MD36030 × MD36012 of the setpoint.
+//! This applies in position control and also in "hold" (2.1 = 0 without follow-up), where only an external force can move the axis. In
+//! follow-up the setpoint is the actual value, and nothing is monitored. While 2.3 = 1 the tolerance is MD36050 (without MD36012) and the
+//! alarm is 26000; the delay is the same.
 //!
-//! Positioning: exact stop fine must be reached within MD36020 after the end of interpolation, in position control. A reference
-//! point approach and a synchronising motion watch that themselves and end with 20005.
+//! Positioning: exact stop fine must be reached within MD36020 after the end of interpolation, in position control. A reference point
+//! approach and a synchronising motion monitor this themselves and end with 20005.
 //!
-//! Contour: the actual value is compared with an ideal axis, which takes the same setpoints with the same gain and whose drive
-//! answers at once; position control moves it along in each of its cycles. An axis that brakes to be switched off is stopped
-//! already and is not compared, nor is one whose setpoint is not output (1.3, 20.1).
+//! Contour: the actual value is compared with an axis model, which receives the same setpoints, has the same gain, and has a drive without
+//! delay. Position control updates the model in each of its cycles. An axis that brakes to be switched off has already been stopped and is
+//! not compared. An axis whose setpoint is not output (1.3, 20.1) is not compared either.
 
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::ControllerState;
@@ -73,7 +73,7 @@ impl State {
         }
     }
 
-    /// A reference point approach, or a synchronising motion, that ends with 20005.
+    /// Whether a reference point approach or a synchronising motion is active, which ends with 20005.
     fn watches_exact_stop_itself(&self, number: AxisNumber) -> bool {
         let synchronises = self.groupings.iter().any(|grouping| {
             grouping.phase == Phase::Synchronising && grouping.coupling.members().any(|axis| axis == number)

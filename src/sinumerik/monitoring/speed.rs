@@ -1,9 +1,9 @@
 //! Velocity monitoring of an axis: actual velocity (25030) and speed setpoint (25060).
 //!
-//! The actual velocity is watched while a measuring system is active, whatever moves the axis. The speed setpoint that
-//! position control gives to the drive is limited to MD36210 in every position-control cycle
-//! ([`limited`](crate::sinumerik::axis::position_control::limited)); what it would be without the limit is judged once per
-//! interpolation cycle, from what the encoder tells at its end.
+//! The actual velocity is monitored while a measuring system is active, whatever the cause of the motion. The speed setpoint from position
+//! control to the drive is limited to MD36210 in every position-control cycle
+//! ([`limited`](crate::sinumerik::axis::position_control::limited)). The setpoint without this limit is compared once per interpolation
+//! cycle, with the encoder value at its end.
 
 use crate::sinumerik::alarms;
 use crate::sinumerik::parameters::axis::AxisParameters;

@@ -1,6 +1,6 @@
-//! OPERATION: mode groups, channels, emergency stop, and the run-up after power on.
+//! OPERATION: mode groups, channels, emergency stop, and the start-up after power on.
 //!
-//! The first stages of a cycle: what the PLC asks of the control as a whole.
+//! The first stages of a cycle: the requests of the PLC to the control as a whole.
 
 pub(super) mod emergency_stop;
 pub(super) mod modes;

@@ -1,4 +1,4 @@
-//! Run-up of the control: 104.7, then 108.5, 108.6 and 108.7, each a few cycles after the other (O-20).
+//! Start-up of the control: 104.7, then 108.5, 108.6 and 108.7, a few cycles apart (O-20).
 
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::operation::state::RunUp;
@@ -7,11 +7,11 @@ use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::variables::{EventId, Place};
 
-/// How many cycles each step takes.
+/// Duration of each step in cycles.
 const STEP: u8 = 2;
 
 impl State {
-    /// One cycle of the run-up.
+    /// One cycle of the start-up.
     pub(in crate::sinumerik) fn run_up(&mut self, parameters: &Parameters) {
         let ready = self.summary.drive_ready.has_all_of(parameters.existing);
         let run_up = &mut self.run_up;
@@ -23,7 +23,7 @@ impl State {
         }
         let steps = |r: &RunUp| (r.is_cpu_ready(), r.are_drives_cyclic(), r.are_drives_ready(), r.is_nc_ready());
         if steps(&before) != steps(run_up) {
-            // Later than the run-up itself, a drive is behind it.
+            // After the start-up, a later change comes from a drive.
             let drives = parameters.existing.iter().map(|axis| self.axes[axis].monitor.drive_cause);
             let parent = drives.max().unwrap_or(EventId::NONE);
             run_up.cause = self.log.note_plain(Place::Nck, Rule::RunUp, parent);

@@ -1,4 +1,4 @@
-//! What the control remembers of its run-up, emergency stop, mode groups and channels.
+//! The state of start-up, emergency stop, mode groups and channels.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +15,7 @@ pub(in crate::sinumerik) struct Channel {
     pub reset: bool,
     /// The latest RESET.
     pub reset_cause: EventId,
-    /// What took alarms away last: RESET, the cancel key or NC start.
+    /// The last event that cleared alarms: RESET, the cancel key or NC start.
     pub cancel_cause: EventId,
     /// NC start in the last cycle.
     pub start_was: bool,
@@ -30,7 +30,7 @@ impl Channel {
         self.referencing.is_active()
     }
 
-    /// Channel-specific referencing started this axis.
+    /// Whether channel-specific referencing started this axis.
     #[must_use]
     pub(in crate::sinumerik) const fn started(&self, axis: AxisNumber) -> bool {
         self.referencing.started(axis)
@@ -41,7 +41,7 @@ impl Channel {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct EmergencyStop {
     pub active: bool,
-    /// The event that began or ended it.
+    /// The event that started or ended it.
     pub cause: EventId,
 }
 
@@ -52,7 +52,7 @@ impl EmergencyStop {
         self.active
     }
 
-    /// The event behind it while it is active.
+    /// The event behind the emergency stop while it is active.
     #[must_use]
     pub(in crate::sinumerik) fn active_cause(self) -> Option<EventId> {
         self.active.then_some(self.cause)
@@ -72,7 +72,7 @@ pub(in crate::sinumerik) enum Mode {
 }
 
 impl Mode {
-    /// After power on, as MD10720 says.
+    /// The mode after power on according to MD10720.
     pub(in crate::sinumerik) const fn after_power_on(datum: i32) -> Self {
         match datum {
             0 | 1 => Self::Automatic,
@@ -82,7 +82,7 @@ impl Mode {
     }
 }
 
-/// What the keys mean within a mode.
+/// The function of the keys within a mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) enum MachineFunction {
     /// The mode itself.
@@ -107,12 +107,12 @@ pub(in crate::sinumerik) struct ModeGroup {
     pub mode_cause: EventId,
     /// The event behind the machine function.
     pub function_cause: EventId,
-    /// DB11.DBB5 was written from outside: the control does not mirror REF there any more (E-01).
+    /// DB11.DBB5 was written from outside: the control no longer mirrors REF there (E-01).
     pub strobe_is_the_hmi_s: bool,
 }
 
 impl ModeGroup {
-    /// As after power on.
+    /// The state after power on.
     pub(in crate::sinumerik) fn new(parameters: &Parameters, group: ModeGroupNumber) -> Self {
         Self { mode: Mode::after_power_on(parameters.mode_after_power_on[group]), ..Self::default() }
     }
@@ -135,7 +135,7 @@ impl ModeGroup {
     }
 }
 
-/// How far the control has run up.
+/// Progress of the start-up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct RunUp {
     pub cycles: u8,
@@ -163,7 +163,7 @@ impl RunUp {
         self.are_drives_cyclic() && self.drives_ready
     }
 
-    /// The run-up is over; 108.7 is this without alarms that say NC not ready.
+    /// The start-up has ended. 108.7 is this without alarms that reset NC ready.
     #[must_use]
     pub(in crate::sinumerik) const fn is_nc_ready(&self) -> bool {
         self.cycles >= 3 * STEP

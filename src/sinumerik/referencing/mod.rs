@@ -1,4 +1,4 @@
-//! REFERENCING: the reference point approach of one axis, and which axes are referenced when: by key or channel-specific.
+//! REFERENCING: the reference point approach of one axis, and the order of referencing, by key or channel-specific.
 
 pub(super) mod approach;
 pub(super) mod axes;

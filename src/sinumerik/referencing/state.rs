@@ -1,4 +1,4 @@
-//! What the control remembers of a reference point approach and of channel-specific referencing.
+//! The state of a reference point approach and of channel-specific referencing.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,12 +7,12 @@ use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, Position};
 use crate::variables::EventId;
 
-/// Channel-specific referencing (REF-23): which order number is on, and who has been started.
+/// Channel-specific referencing (REF-23): the active order number, and the axes already started.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct ChannelReferencing {
-    /// The order number of MD34110 that is being referenced; 0 when none is.
+    /// The order number of MD34110 that is being referenced; 0 if none.
     pub number: i32,
-    /// Axes that were started, as bits.
+    /// The started axes, as bits.
     pub started: u32,
     /// DBX1.0 in the last cycle.
     pub was: bool,
@@ -27,7 +27,7 @@ impl ChannelReferencing {
         self.number != 0
     }
 
-    /// It started this axis.
+    /// Whether it started this axis.
     #[must_use]
     pub(in crate::sinumerik) const fn started(&self, axis: AxisNumber) -> bool {
         self.is_active() && self.started >> axis.index() & 1 == 1
@@ -35,13 +35,13 @@ impl ChannelReferencing {
 }
 
 impl ChannelReferencing {
-    /// This axis is to be started now.
+    /// Whether this axis is to be started now.
     pub(in crate::sinumerik) const fn wants(&self, axis: AxisNumber, cycle_number: i32) -> bool {
         self.is_active() && self.number == cycle_number && !self.started(axis)
     }
 }
 
-/// Where an approach is.
+/// The phase of an approach.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Phase {
     /// No approach.
@@ -57,7 +57,7 @@ pub enum Phase {
     BrakeOffCam,
     /// Phase 2: with MD34040 to the cam edge.
     SearchEdge,
-    /// The way of MD34092 after the edge.
+    /// The distance of MD34092 after the edge.
     PassShift,
     /// To the zero mark with MD34040.
     SearchMark,
@@ -68,7 +68,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// What it is, in a few words.
+    /// A short text for the phase.
     #[must_use]
     pub const fn text(self) -> &'static str {
         match self {
@@ -86,7 +86,7 @@ impl Phase {
     }
 }
 
-/// Every step that an approach can take, but for aborts, which lead from anywhere to [`Phase::Idle`].
+/// All transitions of an approach, except aborts, which lead from any phase to [`Phase::Idle`].
 pub const TRANSITIONS: &[Transition<Phase, Rule>] = &[
     row(Phase::Idle, Rule::ApproachStarted, Phase::SearchCam),
     row(Phase::SearchCam, Rule::WithoutCam, Phase::SearchMark),
@@ -107,7 +107,7 @@ pub const TRANSITIONS: &[Transition<Phase, Rule>] = &[
 
 const _: () = assert!(TRANSITIONS.len() <= u64::BITS as usize);
 
-/// The place of the reference point approach among the charts of this control.
+/// Index of the reference point approach among the charts of this control.
 pub(in crate::sinumerik) const APPROACH_CHART: usize = 0;
 
 /// The approach of one axis.
@@ -118,15 +118,15 @@ pub(in crate::sinumerik) struct Approach {
     pub cam_direction: f64,
     /// Direction of the zero-mark search as a sign.
     pub marker_direction: f64,
-    /// Actual value where the phase began to be supervised: start of phase 1, or the cam edge.
+    /// Actual value at the start of a monitored phase: start of phase 1, or the cam edge.
     pub origin: Position,
     /// The reference point, as an actual value before it is set.
     pub target: Position,
-    /// MD34100 as 2.4 to 2.7 selected it.
+    /// The value of MD34100 that 2.4 to 2.7 selected.
     pub set_position: Position,
-    /// The cam edge was met at the wrong speed once.
+    /// The axis passed the cam edge at the wrong speed once.
     pub creep_velocity_missed: bool,
-    /// Cycles at the reference point without exact stop fine.
+    /// Number of cycles at the reference point without exact stop fine.
     pub waited: u64,
     /// The latest event.
     pub cause: EventId,
