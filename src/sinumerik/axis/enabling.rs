@@ -1,8 +1,8 @@
 //! Enabling: from drive ready to position control and back (decision O-20).
 //!
-//! Called once per cycle in the stage "enabling", after modes and RESET, before anything moves. Reads 1.4 to 1.6,
-//! 2.1 and 21.7 of each axis; axes of a closed grouping form one unit that is enabled, braked and held in the same
-//! manner (SIG-01, SIG-02). Writes the state from which 61.3, 61.5 to 61.7, 93.5, 93.7 and 102.5/.6 follow.
+//! Called once per cycle in the stage "enabling", after modes and RESET and before any motion. Reads 1.4 to 1.6, 2.1 and 21.7 of
+//! each axis. The axes of a closed grouping form one unit; they are enabled, braked and held together (SIG-01, SIG-02). Writes
+//! the state that determines 61.3, 61.5 to 61.7, 93.5, 93.7 and 102.5/.6.
 
 use crate::image::{ToNck, axis_from_nck, axis_to_nck, nck_from_nck};
 use crate::motion::Motion;
@@ -17,24 +17,24 @@ use crate::sinumerik::state::{State, Unit};
 use crate::units::AxisNumber;
 use crate::variables::{EventId, Input, Parameter, Place};
 
-/// What holds for all axes of a unit.
+/// Conditions that apply to all axes of a unit.
 struct Conditions {
     enable: bool,
     follow_up: bool,
-    /// Pulses and measuring system on every axis.
+    /// Pulses and measuring system are active on every axis.
     healthy: bool,
     alarm: EventId,
-    /// Every setpoint rests and every axis stands.
+    /// Every setpoint and every axis is at rest.
     standing: bool,
     moving: bool,
-    /// The signal that took the enable away.
+    /// The signal that removed the enable.
     missing: Input,
     /// The axis and cause of alarm 21612.
     culprit: (AxisNumber, i64),
 }
 
 impl State {
-    /// The measuring systems that 1.5 and 1.6 select; parking is common to all axes of a unit.
+    /// Selects measuring systems by 1.5 and 1.6. Parking applies to all axes of a unit.
     pub(in crate::sinumerik) fn select_measuring_systems(
         &mut self,
         parameters: &Parameters,
@@ -58,7 +58,7 @@ impl State {
         }
     }
 
-    /// The measuring system that is selected; a second one that there is not changes nothing.
+    /// The selected measuring system. Selecting a second one that does not exist has no effect.
     fn selected(&self, number: AxisNumber, parameters: &Parameters, to_nck: &ToNck) -> Option<u8> {
         let (signals, count) = (&to_nck.axes[number], parameters.axes[number].encoders);
         if signals.position_measuring_system_1() && count >= 1 {
@@ -113,7 +113,7 @@ impl State {
         }
     }
 
-    /// One step of the chain for every axis.
+    /// One step of the enabling sequence for every axis.
     pub(in crate::sinumerik) fn enable(&mut self, parameters: &Parameters, to_nck: &ToNck, resting: &Resting) {
         for number in resting.deciding().iter() {
             self.axes[number].monitor.clamped = to_nck.axes[number].clamping_in_progress();
@@ -133,7 +133,7 @@ impl State {
                 let cause = [channel, Parameter::Axis(axis), Parameter::Number(cause), Parameter::None];
                 self.alarms.raise(alarms::ENABLE_RESET, Place::Axis(axis), cause, event);
             }
-            // The axis that is switched off first switches all of them off: they stop in the same manner (SIG-01).
+            // The first axis that is switched off switches off all of them: they stop together (SIG-01).
             let disable_cycles =
                 unit.members().map(|axis| parameters.axes[axis].servo_disable_cycles).min().unwrap_or_default();
             for axis in unit.members() {
@@ -147,7 +147,7 @@ impl State {
         }
     }
 
-    /// 21615: the drive of an axis in motion lost its power; it cannot be braked, and 21612 switches it to follow-up.
+    /// 21615: the drive of an axis in motion lost its power. The axis cannot be braked, and 21612 switches it to follow-up.
     fn tell_follow_up_in_motion(&mut self, number: AxisNumber) {
         let cause = self.axes[number].causes.drive;
         let event = self.log.note_plain(Place::Axis(number), Rule::FollowUpInMotion, cause);
@@ -206,7 +206,7 @@ impl State {
                 } else if !axis.drive_ready {
                     (axis_from_nck::drive_ready, 4)
                 } else {
-                    // The drive is ready, and its pulses are on their way.
+                    // The drive is ready, and its pulses are being enabled.
                     (axis_from_nck::pulses_enabled, 4)
                 };
                 Some((axis_signal(number, missing, false), cause))
@@ -242,13 +242,13 @@ impl State {
         let parked = self.axes[number].measuring_system.is_none();
         let off = matches!(control, ControllerState::Off | ControllerState::SwitchingOn(_));
         let follow_up = off && (conditions.follow_up && !conditions.enable || conditions.alarm.is_some() || parked);
-        // Follow-up lasts until position control takes over, so that it takes over at the actual value.
+        // Follow-up lasts until position control is active, so that control starts at the actual value.
         let follow_up = follow_up || before.follow_up && matches!(control, ControllerState::SwitchingOn(_));
         self.axes[number].enabling.control = control;
         self.axes[number].enabling.follow_up = follow_up;
         let after = self.axes[number].enabling;
         if before.controllers() != after.controllers() || before.follow_up != after.follow_up {
-            // What began to switch off goes on to do so, also when its reason is gone.
+            // Switching off continues even if its reason is gone.
             let goes_off = matches!(before.control, ControllerState::Braking(_));
             let (rule, parent) = if wanted && goes_off {
                 (Rule::ControllerOff, self.axes[number].causes.enabling)
@@ -275,15 +275,15 @@ impl State {
 }
 
 impl Axis {
-    /// Without position control, the axis makes no other motion than what that leaves it; `emergency_deceleration` brakes it
-    /// towards being switched off.
+    /// Without position control the axis makes only the motion of this state; `emergency_deceleration` brakes it before it is
+    /// switched off.
     pub(in crate::sinumerik) fn brake_without_control(&mut self, emergency_deceleration: f64) {
         if let Some(motion) = self.motion_without_control(emergency_deceleration) {
             self.motion = motion;
         }
     }
 
-    /// The motion of an axis that is not in position control, or that brakes towards being switched off.
+    /// The motion of an axis that is not in position control, or that brakes before it is switched off.
     fn motion_without_control(&self, emergency_deceleration: f64) -> Option<Motion> {
         match self.enabling.control {
             ControllerState::On => None,

@@ -1,10 +1,11 @@
 //! Hardware and software limit switches.
 //!
-//! Hardware (12.0 minus, 12.1 plus): alarm 21614 on the axis, and all axes of its unit brake (MON-14) as MD36600 says, with their
-//! ramp or with setpoint 0; afterwards only the opposite direction moves. An approach or a synchronising motion ends there.
+//! Hardware (12.0 minus, 12.1 plus): alarm 21614 on the axis. All axes of its unit brake (MON-14) according to MD36600, with
+//! their ramp or with setpoint 0. Afterwards only the opposite direction moves. An approach or a synchronising motion ends there.
 //!
-//! Software (MD36100 and MD36110, or the second pair by 12.2 and 12.3): the leading axis only (MON-13), once it is referenced,
-//! and no modulo axis. JOG brakes so that the axis rests exactly on the limit, with 10621 until it is moved away.
+//! Software (MD36100 and MD36110, or the second pair selected by 12.2 and 12.3): for the leading axis only (MON-13), when it is
+//! referenced, and not for modulo axes. JOG brakes so that the axis stops exactly on the limit; 10621 is pending until it is
+//! moved away.
 
 use crate::image::{ToNck, axis_to_nck};
 use crate::motion::Motion;
@@ -17,22 +18,22 @@ use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, ChannelNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 
-/// Setpoint 0 at once: no ramp.
+/// Setpoint 0 at once, without a ramp.
 const WITHOUT_RAMP: f64 = 1e18;
 
-/// What a movement in JOG meets.
+/// The software limit ahead of a movement in JOG.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::sinumerik) enum Ahead {
-    /// No software limit acts.
+    /// No software limit is active.
     Free,
-    /// One lies ahead.
+    /// A limit is ahead.
     At(Position),
-    /// The axis rests on it or is beyond it.
+    /// The axis is on the limit or beyond it.
     Reached,
 }
 
 impl State {
-    /// The hardware limit switches of a unit, and their alarms.
+    /// Monitors the hardware limit switches of a unit and raises their alarms.
     pub(in crate::sinumerik) fn watch_limit_switches(&mut self, unit: &Unit, to_nck: &ToNck) {
         for number in unit.members() {
             let signals = &to_nck.axes[number];
@@ -72,12 +73,12 @@ impl State {
         self.alarms.raise(alarm, Place::Axis(number), parameters, cause);
     }
 
-    /// The axis of the unit with a hardware limit switch that a movement in this direction leads further onto.
+    /// The axis of the unit that a movement in this direction would move further onto its hardware limit switch.
     pub(in crate::sinumerik) fn limited_by(&self, unit: &Unit, direction: i8) -> Option<AxisNumber> {
         unit.members().find(|&axis| self.axes[axis].limits.blocks(direction))
     }
 
-    /// Any hardware limit switch of the unit that is pressed: the signal, and the event of it.
+    /// Any pressed hardware limit switch of the unit: its signal and its event.
     pub(in crate::sinumerik) fn on_limit_switch(&self, unit: &Unit) -> Option<(Input, EventId)> {
         [1, -1].into_iter().find_map(|direction| {
             let axis = self.limited_by(unit, direction)?;
@@ -86,7 +87,7 @@ impl State {
         })
     }
 
-    /// The unit brakes because of a hardware limit switch, as MD36600 of the axis on it says.
+    /// Brakes the unit because of a hardware limit switch, according to MD36600 of the axis on the switch.
     pub(in crate::sinumerik) fn brake_at_limit(&mut self, unit: &Unit, parameters: &Parameters) {
         let pressed = |axis: &AxisNumber| self.axes[*axis].limits.minus || self.axes[*axis].limits.plus;
         if unit.members().filter(pressed).any(|axis| parameters.axes[axis].limit_without_ramp) {
@@ -96,7 +97,7 @@ impl State {
         }
     }
 
-    /// The software limit of an axis in a direction, if it acts.
+    /// The software limit of an axis in a direction, if it is active.
     fn software_limit(
         &self,
         number: AxisNumber,
@@ -116,7 +117,7 @@ impl State {
         })
     }
 
-    /// The software limit that a movement in JOG meets in this direction.
+    /// The software limit ahead of a movement in JOG in this direction.
     pub(in crate::sinumerik) fn software_limit_ahead(
         &self,
         number: AxisNumber,
@@ -133,7 +134,7 @@ impl State {
         }
     }
 
-    /// 10621 while the leading axis of a unit rests on its software limit or is beyond it.
+    /// 10621 while the leading axis of a unit is on its software limit or beyond it.
     pub(in crate::sinumerik) fn watch_software_limits(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let number = unit.leader();
         for direction in [-1, 1] {

@@ -1,7 +1,7 @@
-//! AXIS: what the control remembers of one machine axis, and the stages that run for every axis: enabling, measuring systems,
-//! parameter sets, limit switches, axis signals, position control.
+//! AXIS: the state of one machine axis, and the stages that run for every axis: enabling, measuring systems, parameter sets,
+//! limit switches, axis signals, position control.
 //!
-//! `state.rs` holds what is remembered; the other files are stages, in the order in which a cycle calls them.
+//! `state.rs` contains the state; the other files are stages, in the order in which a cycle calls them.
 
 pub(super) mod enabling;
 pub(super) mod limits;

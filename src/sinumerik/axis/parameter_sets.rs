@@ -1,12 +1,13 @@
-//! Parameter sets of position control, and data sets of drives: what 9.0 to 9.2 and 21.0 to 21.4 of an axis select.
+//! Parameter sets of position control and data sets of drives, selected by 9.0 to 9.2 and 21.0 to 21.4 of an axis.
 //!
-//! Called once per cycle after measuring systems are selected. Each axis has its own selection, also in a grouping (SIG-05).
-//! Writes the active parameter set, from which 69.0 to 69.2 follow, and the data set that a ready drive has taken
-//! (93.0 to 93.4). Servo gain, feed-forward, adaptation, exact stop windows and limits of the set act from this cycle on.
+//! Called once per cycle after the selection of measuring systems. Each axis has its own selection, also in a grouping (SIG-05).
+//! Writes the active parameter set, which determines 69.0 to 69.2, and the data set accepted by a ready drive (93.0 to 93.4).
+//! Servo gain, feedforward, adaptation, exact stop windows and limits of the set act from this cycle on.
 //!
-//! Choices: the selections 6 and 7, which are no parameter set, raise 25200 and change nothing. A set with another load gear
-//! (MD31050, MD31060) by which an encoder counts otherwise is refused with 26050 in position control; without, it is taken: the display
-//! goes on from where it is, and the reference is lost. 9.3 forbids a change by the NC, and there is none. A data set of a drive has no effect on the model.
+//! Choices: the selections 6 and 7 are not parameter sets; they raise 25200 and change nothing. A set with another load gear
+//! (MD31050, MD31060) that changes the scale of an encoder is rejected with 26050 in position control. Without position control
+//! it is accepted: the displayed value does not change, and the reference is lost. 9.3 disables a change by the NC, and the NC
+//! makes none. A data set of a drive has no effect on the model.
 
 use crate::image::{ToNck, axis_to_nck};
 use crate::sinumerik::alarms;
@@ -20,7 +21,7 @@ use crate::units::AxisNumber;
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 
 impl State {
-    /// What the PLC selects for every axis.
+    /// Applies the selection of the PLC for every axis.
     pub(in crate::sinumerik) fn select_parameter_sets(
         &mut self,
         parameters: &Parameters,
@@ -81,7 +82,7 @@ impl State {
             if !jumps[encoder] {
                 continue;
             }
-            // The display goes on from where it is; the reference is worth nothing any more.
+            // The displayed value does not change; the reference is lost.
             let value = &mut self.feedback[number].encoders[encoder].value;
             let was = *value;
             *value = Misfit { encoders: [after[encoder] / before[encoder]; 2], command: 1.0 }.shown(encoder, was);
@@ -102,7 +103,7 @@ impl State {
     }
 }
 
-/// DBX9.0 to 9.2 of an axis, as they ask for a set.
+/// DBX9.0 to 9.2 of an axis for a requested set.
 fn requested(number: AxisNumber, set: u8) -> [Input; 3] {
     [0, 1, 2].map(|bit| axis_signal_bit(number, axis_to_nck::controller_parameter_set, bit, set >> bit & 1 == 1))
 }

@@ -1,17 +1,18 @@
-//! Axis disable 1.3, delete distance-to-go 2.2 and ramp-function generator fast stop 20.1: what they do to a unit.
+//! Axis disable 1.3, delete distance-to-go 2.2 and ramp-function generator fast stop 20.1: their effects on a unit.
 //!
-//! Called once per cycle for each unit: [`State::take_axis_signals`] before it is moved, [`State::stop_by_ramp_function_generator`]
-//! when its motions are commanded. Axis disable acts on the leading axis, for all axes of its unit, and has no effect on a
-//! synchronous axis (SIG-03); delete distance-to-go acts on the leading axis, and has no effect on a synchronous axis
-//! (SIG-04); the fast stop of any axis acts on all of its unit (SIG-07), and shows as 92.1 on each of them.
+//! Called once per cycle for each unit: [`State::take_axis_signals`] before it is moved,
+//! [`State::stop_by_ramp_function_generator`] when its motions are commanded. Axis disable acts on the leading axis, for all axes
+//! of its unit, and has no effect on a synchronous axis (SIG-03). Delete distance-to-go acts on the leading axis and has no
+//! effect on a synchronous axis (SIG-04). The fast stop of any axis acts on the whole unit (SIG-07) and is displayed as 92.1 on
+//! each axis.
 //!
-//! Choices where the manuals leave one. **Axis disable**: setpoint and display go on while position control holds each
-//! axis where its setpoint was; it ends when 1.3 is 0 and the setpoints rest: then they take the place that was held,
-//! so that nothing moves. An approach or a synchronising motion neither starts nor goes on (20005). **Delete
-//! distance-to-go**: its rising edge ends an increment or the way of a handwheel; a movement without an end (continuous,
-//! reference point approach) has none to delete. **Fast stop**: the drives brake to speed 0 by themselves, position control
-//! stays active and its setpoint follows the actual value; increments and ways of handwheels are dropped, an
-//! approach ends with 20005; a key that acts while it is held goes on when 20.1 goes.
+//! Choices where the manuals leave one. **Axis disable**: setpoint and display continue while position control holds each axis at
+//! its previous setpoint. It ends when 1.3 is 0 and the setpoints are at rest: then the setpoints take the held position, so that
+//! nothing moves. An approach or a synchronising motion neither starts nor continues (20005). **Delete distance-to-go**: its
+//! rising edge ends an increment or a handwheel movement. A movement without an end (continuous, reference point approach) has no
+//! distance to delete. **Fast stop**: the drives brake to speed 0 on their own, position control stays active and its setpoint
+//! follows the actual value. Increments and handwheel movements are dropped, an approach ends with 20005, and a key that is still
+//! held continues its movement when 20.1 is reset.
 
 use crate::image::{ToNck, axis_from_nck, axis_to_nck};
 use crate::motion::Motion;
@@ -23,7 +24,7 @@ use crate::units::AxisNumber;
 use crate::variables::{EventId, Input, Place};
 
 impl State {
-    /// Takes the signals of one unit.
+    /// Reads the signals of one unit.
     pub(in crate::sinumerik) fn take_axis_signals(&mut self, unit: &Unit, to_nck: &ToNck) {
         let leader = unit.leader();
         let stopped_by = unit.members().find(|&axis| to_nck.axes[axis].ramp_function_generator_fast_stop());
@@ -47,7 +48,7 @@ impl State {
         }
     }
 
-    /// Axis disable, from its beginning to the rest of the setpoints after it.
+    /// Axis disable, from its start until the setpoints are at rest after it.
     fn disable(&mut self, unit: &Unit, disable: bool) {
         let leader = unit.leader();
         let rest = unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest());
@@ -83,7 +84,7 @@ impl State {
         self.traverse(number, 0, 0, event);
     }
 
-    /// What forbids an approach or a synchronising motion of a unit: axis disable, or the fast stop.
+    /// The signal that disables an approach or a synchronising motion of a unit: axis disable or the fast stop.
     pub(in crate::sinumerik) fn motion_forbidden(&self, unit: &Unit) -> Option<Input> {
         let leader = unit.leader();
         if self.axes[leader].signals.disabled_at.is_some() {
@@ -95,7 +96,7 @@ impl State {
             .then(|| axis_signal(leader, axis_from_nck::ramp_function_generator_disable_active, true))
     }
 
-    /// With the fast stop the setpoint follows the axis, whatever else was commanded.
+    /// During the fast stop the setpoint follows the axis, whatever else is commanded.
     pub(in crate::sinumerik) fn stop_by_ramp_function_generator(&mut self, unit: &Unit) {
         if self.axes[unit.leader()].signals.fast_stop {
             for axis in unit.members() {

@@ -1,7 +1,7 @@
-//! Traverse request (64.4, 64.5) and traverse command (64.6, 64.7), and the event behind each edge of them.
+//! Traverse request (64.4, 64.5) and traverse command (64.6, 64.7), and the event behind each of their edges.
 //!
-//! Called by all stages that move an axis. What moves it may have begun in an earlier cycle: when the command goes or comes again
-//! later, an event of this cycle says why, and names the beginning as what led to it.
+//! Called by all stages that move an axis. A movement may have begun in an earlier cycle. When the command is reset or set again
+//! later, an event of this cycle gives the reason, and refers to the beginning of the movement as its cause.
 
 use crate::image::{Signal, axis_from_nck, axis_to_nck, mode_group_from_nck};
 use crate::sinumerik::inputs::{axis_signal, mode_group_signal, nck_signal};
@@ -11,7 +11,7 @@ use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity};
 
-/// What stops every movement of a channel.
+/// The reason that stops every movement of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::sinumerik) enum Stop {
     /// Emergency stop.
@@ -23,14 +23,14 @@ pub(in crate::sinumerik) enum Stop {
 }
 
 impl Stop {
-    /// The event that began it.
+    /// The event that started it.
     pub(in crate::sinumerik) const fn cause(self) -> EventId {
         match self {
             Self::Emergency(cause) | Self::Reset(cause) | Self::Alarm(_, cause) => cause,
         }
     }
 
-    /// The rule by which it stops, and what was tested.
+    /// The rule of the stop, and the tested input.
     pub(in crate::sinumerik) fn tested(self) -> (Rule, Input) {
         use crate::image::nck_from_nck::emergency_stop_active;
         match self {
@@ -48,7 +48,7 @@ pub(in crate::sinumerik) const fn command_signal(direction: i8) -> Signal {
 }
 
 impl State {
-    /// Shows what is wanted (64.4, 64.5) and commanded (64.6, 64.7), with the event behind a change.
+    /// Sets request (64.4, 64.5) and command (64.6, 64.7), with the event behind a change.
     pub(in crate::sinumerik) fn traverse(&mut self, number: AxisNumber, request: i8, command: i8, cause: EventId) {
         let axis = &mut self.axes[number];
         if (axis.traverse_request, axis.traverse_command) != (request, command) {
@@ -58,7 +58,7 @@ impl State {
         }
     }
 
-    /// The same for an axis whose keys lost their meaning with the mode.
+    /// The same for an axis whose keys have no function because of the mode.
     pub(in crate::sinumerik) fn traverse_without_jog(&mut self, unit: &Unit) {
         let number = unit.leader();
         let axis = &self.axes[number];
@@ -76,8 +76,8 @@ impl State {
         self.traverse(number, 0, 0, cause);
     }
 
-    /// The same for a movement that goes on by itself, an approach or a synchronising motion: `begun` is its latest event, `begins`
-    /// what is tested when it begins to move later than that, `target` where it leads.
+    /// The same for an automatic movement, an approach or a synchronising motion. `begun` is its latest event, `begins` the
+    /// condition tested when motion begins later than that, `target` its target.
     pub(in crate::sinumerik) fn traverse_on(
         &mut self,
         number: AxisNumber,

@@ -1,21 +1,22 @@
-//! Handwheels 1 to 3: their pulses, which axis they move, and how far.
+//! Handwheels 1 to 3: their pulses, the axes that they move, and the distances.
 //!
-//! Called once per cycle: [`State::turn_handwheels`] before the units, [`State::take_handwheels`] from `jog/mod.rs` while an axis is
-//! jogged; the wheels themselves are turned from outside. Reads DBX4.0 to 4.2 and 7.0 of the axis, and the selection of the
-//! HMI in DB10.DBB100 to 102 (for a machine axis, 100.7 = 1), which acts like 4.0 to 4.2, as the basic program carries it over;
-//! shows the counters in DB10.DBB68 to 70, DBX64.0 to 64.2 and 67.0. A pulse is an increment of the active machine function
-//! (MD11330 or SD41010 times MD31090, at most MD32080) divided by MD11320; a handwheel of a synchronous axis of a closed
-//! grouping moves nothing (MIS-01), and that of its leading axis moves the grouping (MIS-02).
+//! Called once per cycle: [`State::turn_handwheels`] before the units, [`State::take_handwheels`] from `jog/mod.rs` while an axis
+//! is jogged. Turning comes from outside. Reads DBX4.0 to 4.2 and 7.0 of the axis, and the selection of the HMI in DB10.DBB100 to
+//! 102 (for a machine axis, 100.7 = 1), which acts like 4.0 to 4.2 because the basic program transfers it. Writes the counters in
+//! DB10.DBB68 to 70, DBX64.0 to 64.2 and 67.0. A pulse is an increment of the active machine function (MD11330 or SD41010 times
+//! MD31090, at most MD32080) divided by MD11320. A handwheel of a synchronous axis of a closed grouping moves nothing (MIS-01);
+//! that of its leading axis moves the grouping (MIS-02).
 //!
-//! Stop conditions are MD32084: bit 0 override 0 %, bit 2 feed stop and feed disable, bit 3 clamping (2.3), bits 4 and 5
-//! missing controller and pulse enable; 1 drops the way and ignores pulses, 0 keeps the way and collects pulses.
-//! Its bit 6 takes MD32000 as the largest velocity, else that of the keys; with bit 7 the override counts as 100 %, but 0 % holds.
+//! Stop conditions are in MD32084: bit 0 override 0 %, bit 2 feed stop and feed disable, bit 3 clamping (2.3), bits 4 and 5
+//! missing controller and pulse enable; 1 drops the distance and ignores pulses, 0 keeps the distance and collects pulses. Bit 6
+//! selects MD32000 as the largest velocity, otherwise the velocity of the keys; with bit 7 the override counts as 100 %, but 0 %
+//! still holds.
 //!
-//! Choices where the manuals leave one: with continuous, a pulse has no way and nothing moves; of several handwheels
-//! that are assigned to an axis, 1 counts before 2 before 3; pulses that lead beyond a software limit are ignored; without path mode (MD11346 = 0 or 2) the
-//! rest of the way is dropped 100 ms after the last pulse; the inversion acts at once on the pulses that follow; a
-//! handwheel that is taken from an axis drops its way; 20051 stays until the key has ended its movement; a key that meets a
-//! moving handwheel (20050) moves nothing until it is released and pressed again.
+//! Choices where the manuals leave one: with continuous, a pulse has no distance and nothing moves. Of several handwheels
+//! assigned to an axis, 1 has priority over 2 and 2 over 3. Pulses that lead beyond a software limit are ignored. Without path
+//! mode (MD11346 = 0 or 2) the remaining distance is dropped 100 ms after the last pulse. The inversion acts at once on the
+//! following pulses. A handwheel that is deselected drops its distance. 20051 stays until the key has ended its movement. A key
+//! that is pressed while a handwheel moves the axis (20050) moves nothing until it is released and pressed again.
 
 use crate::image::{AxisToNck, NckHmi, Signal, axis_to_nck, nck_hmi};
 use crate::sinumerik::alarms;
@@ -36,26 +37,26 @@ const ACTIVATED_AND_SELECTED: [(Signal, Signal); 3] = [
     (axis_to_nck::activate_handwheel_3, nck_hmi::handwheel_3_selected),
 ];
 
-/// What a stop condition does to handwheels.
+/// The effect of a stop condition on handwheels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Hold {
-    /// There is none.
+    /// No stop condition is active.
     None,
-    /// The way is kept, pulses are collected.
+    /// The distance is kept, pulses are collected.
     Interrupt,
-    /// The way is dropped, pulses are ignored.
+    /// The distance is dropped, pulses are ignored.
     Abort,
 }
 
 impl Nck {
-    /// Turns a handwheel, 1 to 3, by pulses that spread evenly over cycles; what is left of its last turn is turned with it.
+    /// Turns a handwheel, 1 to 3, by pulses that are spread evenly over cycles. The rest of its last turn is included.
     pub fn turn_handwheel(&mut self, number: u8, pulses: i32, cycles: u64) {
         if let Some(handwheel) = self.state.handwheels.get_mut(usize::from(number.saturating_sub(1))) {
             handwheel.turn(pulses.into(), i64::try_from(cycles).unwrap_or(i64::MAX));
         }
     }
 
-    /// Takes which machine axes the HMI selects.
+    /// Reads the machine axes selected by the HMI.
     #[inline]
     pub fn select_handwheels(&mut self, hmi: &NckHmi) {
         let selected = [
@@ -77,7 +78,7 @@ impl State {
         }
     }
 
-    /// What handwheels add to the way of an axis, and whether they may.
+    /// Adds the pulses of handwheels to the distance of an axis, if this is permitted.
     pub(in crate::sinumerik) fn take_handwheels(
         &mut self,
         number: AxisNumber,
@@ -88,7 +89,7 @@ impl State {
         for (bit, handwheel) in self.handwheels.iter().enumerate() {
             active |= u8::from(handwheel.selected == Some(number)) << bit;
         }
-        // One handwheel moves an axis: 1 before 2 before 3.
+        // Only one handwheel moves an axis, with priority 1, 2, 3.
         active &= active.wrapping_neg();
         if active == 0 && self.axes[number].jogging.handwheels == 0 {
             return;
@@ -118,7 +119,7 @@ impl State {
         let hold = self.handwheel_hold(number, axis_parameters, signals);
         let jogging = &mut self.axes[number].jogging;
         let increment = limited(jogging.function.way(axis_parameters), axis_parameters.handwheel_maximum);
-        // Counted while it matters only, so that an axis that stands under a handwheel rests.
+        // Counted only while needed, so that an axis with an assigned handwheel can rest.
         jogging.still = if moved || !jogging.movement.is_by_handwheel() { 0 } else { jogging.still + 1 };
         let drops = parameters.handwheel_drops_rest && jogging.still > parameters.handwheel_still_cycles;
         if hold == Hold::Abort || drops {
@@ -129,7 +130,7 @@ impl State {
             return;
         }
         let exact = detents * increment.increments() as f64 * if inverted { -1.0 } else { 1.0 } + jogging.carry;
-        // No way of a machine, but sums of positions stay exact.
+        // Larger than any distance of a machine; sums of positions stay exact.
         let exact = exact.clamp(-1e15, 1e15);
         #[expect(clippy::cast_possible_truncation, reason = "bounded above")]
         let way = Position::new(exact.round() as i64);
@@ -156,7 +157,7 @@ impl State {
         }
     }
 
-    /// The signals that assign these handwheels, and the one that turns their direction round.
+    /// The signals that assign these handwheels, and the one that inverts their direction.
     fn selection_inputs(&self, number: AxisNumber, handwheels: u8, signals: &AxisToNck) -> [Input; 3] {
         let handwheel = handwheels.trailing_zeros().min(2) as usize;
         let (activated, selects) = ACTIVATED_AND_SELECTED[handwheel];
@@ -193,7 +194,7 @@ impl State {
         })
     }
 
-    /// 20050 and 20051: a key meets a handwheel that moves the axis, or the other way round.
+    /// 20050 and 20051: a key is pressed while a handwheel moves the axis, or the opposite.
     pub(in crate::sinumerik) fn raise_handwheel_alarms(&mut self, number: AxisNumber, key: i8) {
         let jogging = &mut self.axes[number].jogging;
         let cause = jogging.handwheel_cause;
@@ -208,7 +209,7 @@ impl State {
     }
 }
 
-/// The velocity of a handwheel's way, with the override.
+/// The velocity of a handwheel movement, with the override.
 #[must_use]
 pub(in crate::sinumerik) fn velocity(parameters: &AxisParameters, key_velocity: f64, factor: f64) -> f64 {
     let bit = |bit: u8| parameters.handwheel_stop_conditions >> bit & 1 == 1;
@@ -218,7 +219,7 @@ pub(in crate::sinumerik) fn velocity(parameters: &AxisParameters, key_velocity: 
     (velocity * factor).min(parameters.maximum_velocity)
 }
 
-/// An increment of a size of at most `maximum`, where that is not 0.
+/// An increment limited to `maximum`, unless that is 0.
 fn limited(increment: Position, maximum: Position) -> Position {
     if maximum == Position::ZERO || increment.abs() <= maximum {
         increment

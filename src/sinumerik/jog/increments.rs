@@ -1,16 +1,16 @@
-//! Machine functions of JOG, INC1 to INC10000, INCvar and continuous: which one is active, and what a press of a traversing
-//! key begins and ends.
+//! Machine functions of JOG, INC1 to INC10000, INCvar and continuous: the active one, and the movements that a press of a
+//! traversing key starts and ends.
 //!
 //! Called once per cycle: [`State::select_group_functions`] and [`State::select_functions`] before the units,
 //! [`Jogging::take_keys`] from `jog/mod.rs` while an axis is jogged. Reads DBX5.0 to 5.6 of the axis, or DB11.DBX2.0 to 2.6 (22.0
-//! to 22.6) for all axes of a mode group where DB10.DBX57.0 = 1; shows DBX65.0 to 65.6, and DB11.DBX8.0 to 8.6 (28.0 to 28.6)
-//! where 57.0 = 1. An increment is MD11330 (INCvar: SD41010) times MD31090; a negative MD31090 turns it round.
+//! to 22.6) for all axes of a mode group if DB10.DBX57.0 = 1. Writes DBX65.0 to 65.6, and DB11.DBX8.0 to 8.6 (28.0 to 28.6) if
+//! 57.0 = 1. An increment is MD11330 (INCvar: SD41010) times MD31090; a negative MD31090 inverts it.
 //!
-//! Choices where the manuals leave one: no request means continuous, and of several requests the smallest increment counts;
-//! what is selected acts on the next press of a key, a movement that runs goes on as it began; an increment
-//! counts from the setpoint, and begins at rest, so that a key pressed while the axis still brakes waits for that;
-//! only a press begins an increment: a key that was held before JOG, that is left over of two, or that comes back with
-//! 4.4 = 0 begins none; what ends an increment early (the key, MD11300; 4.4; 2.2; RESET; a stop; a limit) drops the rest of it.
+//! Choices where the manuals leave one: no request means continuous, and of several requests the smallest increment applies. A
+//! selection acts on the next press of a key; a running movement continues unchanged. An increment counts from the setpoint and
+//! begins at standstill, so a key that is pressed while the axis brakes waits for standstill. Only a press starts an increment: a
+//! key that was held before JOG, that remains pressed of two keys, or that becomes active again with 4.4 = 0 starts none. An
+//! event that ends an increment early (the key, MD11300; 4.4; 2.2; RESET; a stop; a limit) drops the rest of it.
 
 use crate::image::{ToNck, nck_to_nck};
 use crate::sinumerik::inputs::{axis_signal, mode_group_signal, nck_signal};
@@ -41,7 +41,7 @@ impl State {
         }
     }
 
-    /// The machine function of the axes; in JOG without another machine function only.
+    /// The machine function of the axes; only in JOG without another machine function.
     pub(in crate::sinumerik) fn select_functions(
         &mut self,
         parameters: &Parameters,

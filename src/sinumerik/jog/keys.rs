@@ -1,12 +1,12 @@
 //! JOG: traversing keys with rapid traverse, override, feed stop and feed disable.
 //!
-//! Called once per cycle for each unit in the stage "referencing and gantry", while JOG is active without REF. Keys of
-//! a synchronous axis of a closed grouping are ignored without alarm (MIS-01): only the first axis of a unit is asked.
-//! `increments.rs` says what a press of a key begins and ends, `handwheel.rs` what handwheels add.
+//! Called once per cycle for each unit in the stage "referencing and gantry", while JOG is active without REF. Keys of a
+//! synchronous axis of a closed grouping are ignored without an alarm (MIS-01): only the keys of the first axis of a unit are
+//! read. `increments.rs` defines the movements that a press of a key starts and ends, `handwheels.rs` those of handwheels.
 //!
-//! Traverse request (64.4, 64.5) is what is wanted, traverse command (64.6, 64.7) what is commanded: override 0 %, feed stop,
-//! feed disable, RESET, an alarm that stops and a limit take the command and leave the request. What has an end
-//! goes on to it after feed stop, feed disable and 0 %, and is dropped by everything else that stops.
+//! Traverse request (64.4, 64.5) shows the requested movement, traverse command (64.6, 64.7) the commanded one. Override 0 %,
+//! feed stop, feed disable, RESET, an alarm that stops, and a limit reset the command and keep the request. A movement with an
+//! end continues to it after feed stop, feed disable and 0 %; every other stop drops it.
 
 use crate::image::{AxisToNck, Signal, ToNck, axis_from_nck, axis_to_nck, channel_to_nck};
 use crate::motion::Motion;
@@ -22,7 +22,7 @@ use crate::sinumerik::state::{State, Unit};
 use crate::units::AxisNumber;
 use crate::variables::{EventId, Input, Place, Quantity};
 
-/// The direction of the traversing keys: +1, −1, or 0 for none, both, or keys that are disabled (4.4).
+/// The direction of the traversing keys: +1, −1, or 0 if no key, both keys or disabled keys (4.4) are pressed.
 #[must_use]
 pub(in crate::sinumerik) fn key_direction(signals: &AxisToNck) -> i8 {
     let (plus, minus) = (signals.traversing_key_plus(), signals.traversing_key_minus());
@@ -40,7 +40,7 @@ pub(in crate::sinumerik) const fn key_signal(direction: i8) -> Signal {
 }
 
 impl State {
-    /// What holds every movement of a unit: override factor 0, feed stop on any of its axes (SIG-06), feed disable.
+    /// Determines whether a movement of a unit is held: override factor 0, feed stop on any of its axes (SIG-06), feed disable.
     pub(in crate::sinumerik) fn take_feed(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let disabled = to_nck.channels[unit.channel].feed_disable();
         let stopper = unit.members().find(|&axis| to_nck.axes[axis].feed_stop());
@@ -49,7 +49,7 @@ impl State {
         let holder = if disabled { channel_signal(unit.channel, channel_to_nck::feed_disable, true) } else { holder };
         for axis in unit.members() {
             let signals = &to_nck.axes[axis];
-            // O-21: the axial override acts while 1.7 = 1, else 100 %.
+            // O-21: the axial override acts while 1.7 = 1; otherwise it is 100 %.
             let factor =
                 if signals.override_active() { parameters.axis_override(signals.feed_override()) } else { 1.0 };
             self.axes[axis].feed_factor = factor;
@@ -77,14 +77,14 @@ impl State {
         self.raise_handwheel_alarms(number, key);
         let axis = &self.axes[number];
         if let Some(stop) = self.stop(unit.channel, parameters) {
-            // The unit brakes as it was told (O-04).
+            // The unit brakes as commanded (O-04).
             let (rule, input) = stop.tested();
             self.stop_jogging(number, parameters, signals, rule, [input, Input::None, Input::None], stop.cause());
             return;
         }
         let direction = axis.jogging.movement.direction(axis.setpoint.position);
         if let Some(pressed) = self.limited_by(unit, direction) {
-            // Towards a pressed switch nothing moves; away from it everything does.
+            // Nothing moves towards a pressed switch; every movement away from it is permitted.
             self.brake_at_limit(unit, parameters);
             let limits = self.axes[pressed].limits;
             let inputs = [limits.input(pressed, direction), Input::None, Input::None];
@@ -127,7 +127,7 @@ impl State {
         self.show_jogging(number, direction, command, if held { Rule::MotionBlocked } else { rule }, signals);
     }
 
-    /// Something stops, by this rule: what has an end is dropped, a key that acts while it is held stays visible.
+    /// Stops by this rule. A movement with an end is dropped; the request of a held key stays visible.
     fn stop_jogging(
         &mut self,
         number: AxisNumber,
@@ -143,7 +143,7 @@ impl State {
         }
         let request = axis.jogging.movement.direction(axis.setpoint.position);
         if axis.traverse_command == 0 && axis.traverse_request != request {
-            // It stands already: only what is wanted is another thing.
+            // The axis is already at standstill: only the request changes.
             let rule = if request == 0 { Rule::KeyReleased } else { Rule::MotionBlocked };
             let event = self.log.note(Place::Axis(number), rule, key_inputs(number, axis, signals), cause);
             self.traverse(number, request, 0, event);
@@ -178,7 +178,7 @@ impl State {
         let event = if axis.jogging.movement.is_by_handwheel() {
             self.log.note_plain(Place::Axis(number), rule, axis.jogging.handwheel_cause)
         } else {
-            // What begins a movement has nothing to do with the one before.
+            // The event that starts a movement does not depend on the previous movement.
             let begins = axis.traverse_request == 0;
             let parent = if begins { EventId::NONE } else { axis.causes.motion };
             self.log.note(Place::Axis(number), rule, key_inputs(number, axis, signals), parent)
@@ -188,7 +188,8 @@ impl State {
 }
 
 impl Axis {
-    /// A way that waited begins, one whose end is reached ends; whether one ended. An increment begins at rest.
+    /// Starts a waiting distance and ends one whose target is reached. Returns whether one ended. An increment begins at
+    /// standstill.
     fn begin_or_end_way(&mut self) -> bool {
         let rests = self.setpoint.is_at_rest();
         if let Movement::Pending(way, by) = self.jogging.movement
@@ -216,7 +217,7 @@ impl Axis {
         }
     }
 
-    /// Commands the movement; what leads beyond a software limit is dropped.
+    /// Commands the movement. A distance that leads beyond a software limit is dropped.
     fn follow_keys(&mut self, direction: i8, velocity: f64, ahead: Ahead, acceleration: f64) {
         self.motion = match (self.jogging.movement, ahead) {
             (Movement::None | Movement::Pending(..), _) => return,
@@ -236,12 +237,12 @@ impl Axis {
     }
 }
 
-/// The keys, and what of the axis itself holds its movement.
+/// The keys, and the signals of the axis itself that hold its movement.
 fn key_inputs(number: AxisNumber, axis: &Axis, signals: &AxisToNck) -> [Input; 3] {
     let holds = if signals.feed_stop() {
         axis_signal(number, axis_to_nck::feed_stop, true)
     } else if axis.feed_factor <= 0.0 {
-        // The override that acts is 0 %.
+        // The effective override is 0 %.
         axis_signal(number, axis_to_nck::override_active, true)
     } else {
         axis.feed_holder

@@ -1,4 +1,4 @@
-//! What the control remembers of traversing keys, increments and handwheels.
+//! The state of traversing keys, increments and handwheels.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::units::{AxisNumber, Position};
 use crate::variables::EventId;
 
-/// How many handwheels there are.
+/// Number of handwheels.
 pub(in crate::sinumerik) const HANDWHEELS: usize = 3;
 
 /// A machine function of JOG.
@@ -22,7 +22,7 @@ pub(in crate::sinumerik) enum Function {
 }
 
 impl Function {
-    /// As requested; of several the smallest increment, without any continuous.
+    /// The requested function: of several the smallest increment, without a request continuous.
     pub(in crate::sinumerik) fn requested(bits: u8) -> Self {
         match u8::try_from((bits & 0x3F).trailing_zeros()) {
             Ok(bit @ 0..=5) => Self::Increment(bit),
@@ -30,7 +30,7 @@ impl Function {
         }
     }
 
-    /// As it is shown.
+    /// The bits that display it.
     #[must_use]
     pub(in crate::sinumerik) const fn bits(self) -> u8 {
         1 << self.bit()
@@ -43,7 +43,7 @@ impl Function {
         }
     }
 
-    /// The signal of an axis that requests it.
+    /// The signal of an axis that requests this function.
     pub(in crate::sinumerik) const fn of_axis(self) -> Signal {
         const REQUESTS: [Signal; 7] = [
             axis_to_nck::machine_function_increment_1,
@@ -57,7 +57,7 @@ impl Function {
         REQUESTS[self.bit() as usize]
     }
 
-    /// The signal of a mode group that requests it.
+    /// The signal of a mode group that requests this function.
     pub(in crate::sinumerik) const fn of_mode_group(self) -> Signal {
         const REQUESTS: [Signal; 7] = [
             mode_group_to_nck::machine_function_increment_1,
@@ -71,7 +71,7 @@ impl Function {
         REQUESTS[self.bit() as usize]
     }
 
-    /// The way of one increment, with its sign; zero for continuous.
+    /// The distance of one increment, with its sign; zero for continuous.
     #[must_use]
     pub(in crate::sinumerik) fn way(self, parameters: &AxisParameters) -> Position {
         match self {
@@ -81,7 +81,7 @@ impl Function {
     }
 }
 
-/// What moves an axis by a way.
+/// The source of a movement by a distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) enum By {
     /// A traversing key: +1 or −1.
@@ -90,22 +90,22 @@ pub(in crate::sinumerik) enum By {
     Handwheel,
 }
 
-/// What an axis does in JOG.
+/// The movement of an axis in JOG.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) enum Movement {
     /// Nothing.
     #[default]
     None,
-    /// It moves while a key says so: +1 or −1.
+    /// It moves while a key is active: +1 or −1.
     Continuous(i8),
-    /// It is to move by a way, and has not begun.
+    /// A movement by a distance is pending.
     Pending(Position, By),
     /// It moves to a target.
     Path(Position, By),
 }
 
 impl Movement {
-    /// The direction of it: +1, −1 or 0.
+    /// The direction of the movement: +1, −1 or 0.
     #[must_use]
     pub(in crate::sinumerik) fn direction(self, setpoint: Position) -> i8 {
         let way = match self {
@@ -117,13 +117,13 @@ impl Movement {
         i8::try_from(way.increments().signum()).unwrap_or(0)
     }
 
-    /// Handwheels move.
+    /// Whether handwheels move the axis.
     #[must_use]
     pub(in crate::sinumerik) const fn is_by_handwheel(self) -> bool {
         matches!(self, Self::Pending(_, By::Handwheel) | Self::Path(_, By::Handwheel))
     }
 
-    /// The way that is left of a movement that has an end.
+    /// The remaining distance of a movement with an end.
     #[must_use]
     pub(in crate::sinumerik) fn distance_to_go(self, setpoint: Position) -> Position {
         match self {
@@ -134,39 +134,39 @@ impl Movement {
     }
 }
 
-/// What keys and handwheels do to one axis.
+/// The effect of keys and handwheels on one axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct Jogging {
     /// The active machine function.
     pub function: Function,
-    /// As it is shown: nothing outside of JOG.
+    /// The displayed machine function: none outside of JOG.
     pub shown: u8,
-    /// Why.
+    /// The event behind it.
     pub function_cause: EventId,
     /// Plus and minus key in the last cycle.
     pub keys: [bool; 2],
     /// Plus and minus key pressed in this cycle.
     pub pressed: [bool; 2],
-    /// The key that is held began something that has ended; it must be released first.
+    /// The movement of the held key has ended; the key must be released first.
     pub spent: bool,
-    /// What the axis does.
+    /// The movement of the axis.
     pub movement: Movement,
     /// Handwheels that move this axis, as bits.
     pub handwheels: u8,
-    /// Why.
+    /// The event behind the assignment.
     pub handwheel_cause: EventId,
-    /// The direction of the handwheels is turned round, 67.0.
+    /// The direction of the handwheels is inverted, 67.0.
     pub inverted: bool,
-    /// The fraction of an increment that pulses have left over.
+    /// The remaining fraction of an increment.
     pub carry: f64,
-    /// Cycles without a pulse.
+    /// Number of cycles without a pulse.
     pub still: u64,
     /// Handwheels were turned while a key moved the axis.
     pub refused: bool,
 }
 
 impl Jogging {
-    /// Sees which keys were pressed since the last cycle; in every mode, so that a key that is held is none that is pressed.
+    /// Detects the keys pressed since the last cycle, in every mode, so that a held key does not count as pressed.
     #[inline]
     pub(in crate::sinumerik) fn watch_keys(&mut self, signals: &AxisToNck) {
         let keys = [signals.traversing_key_plus(), signals.traversing_key_minus()];
@@ -175,7 +175,7 @@ impl Jogging {
         self.spent &= keys[0] || keys[1];
     }
 
-    /// Nothing is jogged: another mode, REF, or no leading axis of its unit.
+    /// Ends jogging: another mode, REF, or not the leading axis of the unit.
     #[inline]
     pub(in crate::sinumerik) fn end(&mut self) {
         self.movement = Movement::None;
@@ -185,13 +185,14 @@ impl Jogging {
         self.carry = 0.0;
     }
 
-    /// A key is pressed that moves nothing because handwheels move the axis.
+    /// A key is pressed but moves nothing because handwheels move the axis.
     #[must_use]
     pub(in crate::sinumerik) const fn key_meets_handwheel(&self, direction: i8) -> bool {
         direction != 0 && self.movement.is_by_handwheel()
     }
 
-    /// What the traversing keys begin and end; `direction` is +1, −1, or 0 for none, both, or keys that 4.4 disables.
+    /// Starts and ends movements by the traversing keys. `direction` is +1, −1, or 0 if no key, both keys or keys disabled by 4.4
+    /// are pressed.
     pub(in crate::sinumerik) fn take_keys(&mut self, direction: i8, disabled: bool, way: Position, modes: KeyModes) {
         let pressed = !disabled && (self.pressed[0] || self.pressed[1]);
         let begins = if direction != 0 && self.pressed[usize::from(direction < 0)] { direction } else { 0 };
@@ -206,7 +207,7 @@ impl Jogging {
                     Movement::Pending(if begins > 0 { way } else { -way }, By::Key(begins))
                 }
                 Function::Increment(_) => {
-                    // What is held when an increment is selected moves nothing afterwards either.
+                    // A key that is held when an increment is selected does not start it.
                     self.spent |= direction != 0;
                     Movement::None
                 }
@@ -240,26 +241,26 @@ impl Jogging {
 /// The machine function that a mode group selects for all its axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct GroupFunction {
-    /// Which one, while it does.
+    /// The selected function, while one is selected.
     pub function: Option<Function>,
-    /// Why.
+    /// The event behind it.
     pub cause: EventId,
 }
 
 /// One handwheel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct Handwheel {
-    /// Pulses that one turn has.
+    /// Number of pulses of a turn.
     pub pulses: i64,
-    /// Over how many cycles they spread.
+    /// Number of cycles over which they are spread.
     pub cycles: i64,
-    /// How many of these have passed.
+    /// Number of cycles that have passed.
     pub passed: i64,
     /// Pulses in this cycle.
     pub moved: i64,
     /// All pulses so far, as the interface counts them.
     pub counter: u8,
-    /// The machine axis for which the HMI selects it.
+    /// The machine axis for which the HMI selects the handwheel.
     pub selected: Option<AxisNumber>,
 }
 
@@ -269,7 +270,7 @@ impl Handwheel {
         *self = Self { pulses: left + pulses, cycles: cycles.max(1), passed: 0, ..*self };
     }
 
-    /// Pulses of the turn after so many cycles.
+    /// Number of pulses after this many cycles of the turn.
     pub(in crate::sinumerik) const fn share(&self, passed: i64) -> i64 {
         if self.cycles == 0 { 0 } else { self.pulses.saturating_mul(passed) / self.cycles }
     }
@@ -292,7 +293,7 @@ impl Handwheel {
 mod tests {
     use super::*;
 
-    /// 7 pulses over 3 cycles: 7/3, 14/3, 7 whole pulses after each, so 2, 2 and 3 in them; then none.
+    /// 7 pulses over 3 cycles: 7/3, 14/3 and 7 give the whole pulses after each cycle, so 2, 2 and 3 pulses in them, then none.
     #[test]
     fn pulses_spread_evenly_and_none_is_lost() {
         for sign in [1, -1] {
