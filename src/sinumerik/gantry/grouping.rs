@@ -1,14 +1,14 @@
-//! The gantry grouping: referencing in sections 1 to 3, waiting, synchronisation, and the loss of synchronism
-//! (G1 2.3.1, figure 2-2 is missing there; [`TRANSITIONS`] is our reconstruction from its text).
+//! The gantry grouping: referencing in sections 1 to 3, waiting, synchronisation, and the loss of synchronism (G1 2.3.1; figure
+//! 2-2 is missing there, and [`TRANSITIONS`] is our reconstruction from its text).
 //!
-//! Called once per cycle for each grouping in the stage "referencing and gantry". Reads REF, traversing keys of the
-//! leading axis, 29.4 and 29.5 of the leading axis; writes the motions of all its axes. The stage asks the grouping what it
-//! wants, in the order of the cycle, and carries it out. Section 3 is in `synchronisation.rs`, monitoring in `synchronism.rs`.
+//! Called once per cycle for each grouping in the stage "referencing and gantry". Reads REF, traversing keys of the leading axis,
+//! 29.4 and 29.5 of the leading axis; writes the motions of all its axes. The stage calls the grouping in the order of the cycle
+//! and executes its requests. Section 3 is in `synchronisation.rs`, monitoring in `synchronism.rs`.
 //!
-//! Choices where the manuals leave one: 29.4 acts by its rising edge while the grouping waits (O-01), and not while
-//! an axis of the grouping is not in position control; the key is held through sections 1 and 2 but not 3 (O-02); the
-//! override acts in section 3 and 0 % holds (O-03); 101.4 stays until 101.5 (O-07); RESET takes the display of 10654
-//! away and leaves 101.4 (O-09); a synchronising motion that does not end in exact stop fine within MD36020 ends with 20005.
+//! Choices where the manuals leave one: 29.4 acts by its rising edge while the grouping waits (O-01), and not while an axis of
+//! the grouping is not in position control. The key is held through sections 1 and 2 but not 3 (O-02). The override acts in
+//! section 3, and 0 % holds (O-03). 101.4 stays until 101.5 (O-07). RESET clears the display of 10654 and keeps 101.4 (O-09). A
+//! synchronising motion that does not reach exact stop fine within MD36020 ends with 20005.
 
 use crate::control::Log;
 use crate::image::{ToNck, mode_group_from_nck};
@@ -79,7 +79,7 @@ impl State {
         if idle && self.is_jogging(unit) {
             self.jog(unit, parameters, to_nck);
         } else if idle {
-            // A key that moved the grouping lost its meaning with the mode.
+            // The key of a moving grouping has no function in the new mode.
             self.traverse_without_jog(unit);
         }
     }
@@ -118,7 +118,7 @@ impl State {
         self.carry_out(&wants);
     }
 
-    /// Every axis brakes together with the others, unless a later stage commands something else.
+    /// All axes brake together, unless a later stage commands something else.
     fn brake_grouping(&mut self, index: usize, parameters: &Parameters) {
         let own = |axis| parameters.axes[axis].maximum_acceleration;
         for (axis, deceleration) in self.groupings[index].coupling.stop(own) {
@@ -134,7 +134,7 @@ impl State {
         Permit { granted, hindrance }
     }
 
-    /// What forbids a synchronising motion: what was tested, and the event behind it.
+    /// The reason that disables a synchronising motion: the tested input, and the event behind it.
     fn hindrance(&self, unit: &Unit, parameters: &Parameters) -> (Input, EventId) {
         if let Some(stop) = self.stop(unit.channel, parameters) {
             return (stop.tested().1, stop.cause());
@@ -153,7 +153,7 @@ impl State {
         self.on_limit_switch(unit).unwrap_or((Input::None, EventId::NONE))
     }
 
-    /// Asks a grouping what it wants, and does it.
+    /// Calls a grouping and executes its requests.
     pub(in crate::sinumerik) fn ask(
         &mut self,
         index: usize,
@@ -214,7 +214,7 @@ impl Grouping {
         wants
     }
 
-    /// After a reference point of sections 1 and 2: the next synchronous axis (O-10: ascending), or section 3.
+    /// After a reference point in sections 1 and 2: continues with the next synchronous axis (O-10: ascending) or with section 3.
     fn next_section(&mut self, view: &View<'_>, event: EventId, locked: bool, log: &mut Log) -> Wants {
         let (by, turn) = if self.phase == Phase::ReferencingLeadingAxis {
             (Rule::LeadingAxisReferenced, 0)
@@ -230,7 +230,7 @@ impl Grouping {
         self.step(log, by, [Input::None; 3], event);
         self.turn = turn;
         self.coupling.lead_with(next);
-        // MD37150 bit 1: direction by its own MD34010, or the leading axis'.
+        // MD37150 bit 1: direction of its own MD34010, or of the leading axis.
         let axes = &view.parameters.axes;
         let own = !axes[next].gantry.direction_of_leading_axis;
         let direction = axes[if own { next } else { leader }].reference.cam_direction;
@@ -238,7 +238,7 @@ impl Grouping {
         Wants::from_iter([Want::StartApproach { axis: next, direction, cause }, Want::Rest { axis: leader, cause }])
     }
 
-    /// RESET: sections 1 and 2 start anew with the leading axis (REF-12), section 3 with 29.4 (REF-13, O-09).
+    /// RESET: sections 1 and 2 start again with the leading axis (REF-12), section 3 with 29.4 (REF-13, O-09).
     fn reset(&mut self, event: EventId, log: &mut Log) -> Wants {
         let mut wants = Wants::new();
         if let Some(number) = self.referencing() {
@@ -252,7 +252,7 @@ impl Grouping {
         wants
     }
 
-    /// No axis of the grouping is commanded to travel any more.
+    /// Ends the travel requests and travel commands of all axes of the grouping.
     pub(in crate::sinumerik) fn rest(&self, cause: EventId, wants: &mut Wants) {
         wants.extend(self.coupling.members().map(|axis| Want::Rest { axis, cause }));
     }

@@ -1,5 +1,5 @@
-//! Setpoints and coupling: what was commanded becomes a setpoint, and the axes of a closed grouping take the movement
-//! of the one that leads, in the same cycle (DYN-01): the filtered one, where its jerk is limited.
+//! Setpoints and coupling: executes the commanded motions. The axes of a closed grouping take the movement of the axis that leads
+//! in the same cycle (DYN-01); if its jerk is limited, they take the filtered movement.
 
 use arrayvec::ArrayVec;
 
@@ -19,7 +19,7 @@ impl State {
         for axis in unit.members() {
             self.axes[axis].before = self.axes[axis].setpoint.position;
         }
-        // A unit that loses its enables brakes together, by the shortest of its emergency ramps.
+        // A unit that loses its enables brakes together, with the shortest of its emergency ramps.
         let emergency = |axis: AxisNumber| parameters.axes[axis].emergency_deceleration;
         match unit.grouping.map(usize::from) {
             None => self.axes[unit.leader()].brake_without_control(emergency(unit.leader())),
@@ -39,7 +39,7 @@ impl State {
         }
     }
 
-    /// The one that leads moves, and the others follow it where position control is on.
+    /// The axis that leads moves, and the others follow it if they are in position control.
     fn set_coupled_setpoints(&mut self, index: usize, parameters: &Parameters, cycle: f64) {
         let (leads, leader) = (self.groupings[index].coupling.leads_now(), self.groupings[index].coupling.leader());
         let before = self.axes[leads].setpoint.position;
@@ -47,7 +47,7 @@ impl State {
         let axis = &self.axes[leads];
         let moves = axis.enabling.moves();
         let (request, command) = (axis.traverse_request, axis.traverse_command);
-        // Braking harder than any acceleration, and towards being switched off, is a stop that all axes make alike.
+        // A stop is braking harder than any acceleration, or braking before switching off. All axes make it in the same way.
         let stops = !axis.enabling.is_on() || axis.motion.is_fast(parameters.axes[leads].dynamics.jerk.hardest);
         let movement = axis.setpoint.moved_from(before);
         let led: ArrayVec<_, SYNCHRONOUS_AXES> = self.groupings[index].coupling.lead(movement).collect();
@@ -61,7 +61,7 @@ impl State {
             } else {
                 self.axes[axis].execute(self.shaping[axis].as_deref_mut(), &parameters.axes[axis], cycle);
             }
-            // SIG-09: when the leading axis is traversed, its command shows on the synchronous axes, too.
+            // SIG-09: the travel command of the leading axis is also displayed on the synchronous axes.
             let mirrored = if leads == leader { (request, command) } else { (0, 0) };
             let led = &self.axes[axis];
             if (led.traverse_request, led.traverse_command) != mirrored {

@@ -1,7 +1,7 @@
-//! Section 3 of a grouping: comparing positions, waiting, the decoupled motion; and what takes synchronism away or gives
-//! it back outside of it (G1 2.3.1, 2.3.2).
+//! Section 3 of a grouping: comparing positions, waiting, and the decoupled motion. Also the loss and the return of synchronism
+//! outside of section 3 (G1 2.3.1, 2.3.2).
 //!
-//! Called by `grouping.rs` once per cycle for each grouping. The choices are written there.
+//! Called by `grouping.rs` once per cycle for each grouping. The choices are described there.
 
 use crate::control::Log;
 use crate::image::{Signal, axis_from_nck, axis_to_nck};
@@ -16,7 +16,7 @@ use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
 impl Grouping {
-    /// Section 3: start by itself, or wait (REF-06, REF-07, REF-11).
+    /// Section 3: starts automatically, or waits (REF-06, REF-07, REF-11).
     pub(in crate::sinumerik) fn compare_positions(
         &mut self,
         view: &View<'_>,
@@ -28,7 +28,7 @@ impl Grouping {
         self.from_referencing = true;
         let all = log.note_plain(Place::Axis(leader), Rule::AllReferenced, event);
         if let Some((axis, difference)) = self.out_of_trip_limit(view) {
-            // E-13: beyond MD37130 nothing is ready to be started; monitoring trips in this cycle.
+            // E-13: beyond MD37130 the grouping is not ready to be started; monitoring trips in this cycle.
             let limit = view.parameters.axes[axis].gantry.trip_limit_not_synchronised;
             let measured = Input::Length(Quantity::SynchronismDifference, axis, difference);
             let inputs = [measured, Input::Datum(37130, Some(axis), limit.user()), Input::None];
@@ -59,19 +59,19 @@ impl Grouping {
         }
     }
 
-    /// What each synchronous axis is apart from the leading axis, whatever its difference counts from.
+    /// The distance of each synchronous axis from the leading axis, independent of the base of its difference.
     fn misalignments<'a>(&'a self, view: &'a View<'_>) -> impl Iterator<Item = (AxisNumber, Position)> + 'a {
         self.coupling.followers().filter_map(|axis| Some((axis, self.coupling.misalignment(axis, view.axes)?)))
     }
 
-    /// The first synchronous axis that is apart by more than MD37130.
+    /// The first synchronous axis whose distance exceeds MD37130.
     fn out_of_trip_limit(&self, view: &View<'_>) -> Option<(AxisNumber, Position)> {
         let limit = |axis: AxisNumber| view.parameters.axes[axis].gantry.trip_limit_not_synchronised;
         self.misalignments(view).find(|&(axis, difference)| difference.abs() > limit(axis))
     }
 
-    /// The common position: MD34100 of the leading axis after referencing, else its actual position (REF-15). A
-    /// leading axis that has not come to rest there returns to it, or its actual value would not be that of the others.
+    /// The common position: MD34100 of the leading axis after referencing, otherwise its actual position (REF-15). A leading axis
+    /// that is not at rest there returns to it; otherwise its actual value would differ from the others.
     fn decouple(&mut self, view: &View<'_>) {
         let leader = self.coupling.leader();
         let axis = &view.axes[leader];
@@ -122,7 +122,7 @@ impl Grouping {
         };
         for (axis, motion) in commands {
             let setpoint = view.axes[axis].setpoint.position;
-            // A movement that an override of 0 % or feed stop holds is still wanted.
+            // A movement that feed stop or an override of 0 % holds is still requested.
             let request = match motion {
                 Motion::GoTo { target, .. } => (target - setpoint).increments().signum(),
                 Motion::Brake { .. } | Motion::Run { .. } | Motion::Track | Motion::Hold => 0,
@@ -152,7 +152,7 @@ impl Grouping {
         self.rest(if log.is_of_this_cycle(cause) { cause } else { self.cause }, wants);
     }
 
-    /// All axes are at their target: synchronised, and the coupling acts again (REF-10).
+    /// All axes are at their target: the grouping is synchronised, and the coupling acts again (REF-10).
     fn close_synchronised(&mut self, target: Position, view: &View<'_>, log: &mut Log, wants: &mut Wants) {
         let target = Input::Length(Quantity::Position, self.coupling.leader(), target);
         self.step(log, Rule::Synchronised, [target, Input::None, Input::None], self.cause);
@@ -163,7 +163,7 @@ impl Grouping {
         }));
     }
 
-    /// What takes synchronism or readiness away, and what gives it back outside of section 3.
+    /// The loss of synchronism or readiness, and the return of synchronism outside of section 3.
     pub(in crate::sinumerik) fn watch_synchronism(
         &mut self,
         view: &View<'_>,
@@ -207,7 +207,7 @@ impl Grouping {
             _ => {}
         }
         if followed_up && follower.is_none() {
-            // Differences that are not absolute count anew.
+            // Differences that are not absolute count from the present positions.
             self.coupling.count_anew(axes);
             self.returning = true;
             self.coupling.clear_bases();
@@ -215,24 +215,24 @@ impl Grouping {
         if unreferenced.is_some() {
             self.clear_bases();
         }
-        // Where an enable is missing on another axis, follow-up ends in hold.
+        // If an enable is missing on another axis, follow-up ends in hold.
         let back = self.coupling.members().all(|axis| axes[axis].enabling.is_on());
         if back && std::mem::take(&mut self.returning) {
             self.restore_synchronism(view, locked, log, wants);
             if self.lost_in_operation {
-                // Where synchronism is not back, what is apart now is the base of the limits (MON-08).
+                // If synchronism is not restored, the present difference is the base of the limits (MON-08).
                 self.coupling.keep_bases(axes);
             }
         }
     }
 
-    /// Not ready any more; a synchronising motion ends with it.
+    /// The grouping is no longer ready; this also ends a synchronising motion.
     fn end_ready(&mut self, input: Input, cause: EventId, log: &mut Log, wants: &mut Wants) {
         self.step(log, Rule::ReadyNoMore, [input, Input::None, Input::None], cause);
         self.rest(if log.is_of_this_cycle(cause) { cause } else { self.cause }, wants);
     }
 
-    /// A synchronous axis whose difference is beyond its trip limit, and the event behind it.
+    /// A synchronous axis whose difference exceeds its trip limit, and the event behind it.
     fn tripped(&self) -> Option<(AxisNumber, EventId)> {
         self.monitored().find(|monitored| monitored.trip).map(|monitored| (monitored.axis, monitored.causes.trip))
     }
@@ -245,7 +245,7 @@ impl Grouping {
         }
     }
 
-    /// Back in position control after follow-up: synchronism is restored where every difference is within the standstill tolerance
+    /// Back in position control after follow-up: synchronism is restored if every difference is within the standstill tolerance
     /// (SYN-06) and 29.5 is 0 (E-18).
     fn restore_synchronism(&mut self, view: &View<'_>, locked: bool, log: &mut Log, wants: &mut Wants) {
         if self.phase != Phase::WaitingForStart || locked {
@@ -278,7 +278,7 @@ impl Grouping {
         }
     }
 
-    /// The messages of section 3, raised in each cycle that they hold.
+    /// The messages of section 3, raised in each cycle in which they apply.
     pub(in crate::sinumerik) fn message(&self, view: &View<'_>) -> Option<Want> {
         let leader = self.coupling.leader();
         let axis = &view.parameters.axes[leader];

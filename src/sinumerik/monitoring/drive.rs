@@ -1,7 +1,8 @@
-//! What a drive tells of itself: a fault (25201), or that it is not ready for too long (25202).
+//! Monitoring of a drive: its fault (25201), and a missing ready signal (25202).
 //!
-//! A fault takes 93.5 and, through the pulses, 93.7 away; 21612 with cause 4 comes too where it meets a motion. A drive that
-//! has not run up within [`PATIENCE`] of 108.5 (drives in cyclic operation) is waited for with 25202; the manuals give no time.
+//! A fault resets 93.5 and, through the pulses, 93.7; if the axis is in motion, 21612 with cause 4 is raised as well. 25202 is
+//! raised for a drive that has not started up within [`PATIENCE`] after 108.5 (drives in cyclic operation). The manuals give no
+//! time.
 
 use crate::sinumerik::alarms;
 use crate::sinumerik::parameters::Parameters;
@@ -10,7 +11,7 @@ use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Time};
 use crate::variables::{Input, Place};
 
-/// How long a drive may run up without a message.
+/// Start-up time of a drive without a message.
 const PATIENCE: Time = Time::from_millis(1_000);
 
 impl State {

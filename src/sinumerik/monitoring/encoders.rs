@@ -1,17 +1,18 @@
-//! Encoder monitoring: frequency (21610), faults (25000, 25001, 25010, 25011), zero marks (25020, 25021), the difference of
-//! two encoders (25105), and what makes a switch-over impossible (25100, 25110).
+//! Encoder monitoring: frequency (21610), faults (25000, 25001, 25010, 25011), zero marks (25020, 25021), the difference of two
+//! encoders (25105), and reasons that prevent a switch-over (25100, 25110).
 //!
-//! Frequency: beyond MD36300 the encoder is not trusted: 60.2 or 60.3 is 1 until it is below MD36302 again, and its
-//! reference is lost; the alarm comes for the active encoder only. The axis brakes in position control.
+//! Frequency: above MD36300 the encoder value is not used: 60.2 or 60.3 is 1 until the frequency is below MD36302, and its
+//! reference is lost. The alarm is raised for the active encoder only. The axis brakes in position control.
 //!
-//! Faults: position control does not act on a dead encoder: the drive is given the speed 0. The reference of the encoder is lost,
-//! of a passive one, too. MD36310 = 100 switches this off, above 100 the alarms are those of pollution.
+//! Faults: position control does not use an encoder without a signal; the speed command of the drive is 0. The reference of the
+//! encoder is lost, also that of a passive one. MD36310 = 100 switches this monitoring off; above 100 the alarms are those of
+//! pollution.
 //!
-//! Zero marks: the distance of two zero marks must be a multiple of MD34300; what slipped in between is found at the next
-//! one. MD36310 (less 100 above 100) says how many wrong ones trip; the count begins anew with the alarm.
+//! Zero marks: the distance of two zero marks must be a multiple of MD34300; lost counts are detected at the next zero mark.
+//! MD36310 (minus 100 if above 100) is the number of wrong zero marks that raises the alarm; counting restarts with the alarm.
 //!
-//! Switch-over: two referenced encoders must not differ by more than MD36500; one that is not referenced has no position that
-//! could differ. A second measuring system that MD30200 does not have changes nothing.
+//! Switch-over: two referenced encoders must not differ by more than MD36500. An encoder that is not referenced has no position
+//! to compare. Selecting a second measuring system that does not exist according to MD30200 has no effect.
 
 use crate::sinumerik::alarms;
 use crate::sinumerik::parameters::axis::AxisParameters;
@@ -95,7 +96,7 @@ impl State {
         let spacing = watched.spacing.increments();
         let remainder = (mark - before).increments().rem_euclid(spacing);
         let slipped = Position::new(remainder.min(spacing - remainder));
-        // Two marks are each caught to half a count.
+        // Two zero marks are each latched with an accuracy of half a count.
         let one_count = Position::new(2 * self.feedback[number].half_count[encoder].increments() + 1);
         if slipped <= one_count {
             return;
@@ -116,7 +117,7 @@ impl State {
         }
     }
 
-    /// The reference of a measuring system is lost; synchronism goes with it in the next cycle.
+    /// The reference of a measuring system is lost. Synchronism is lost in the next cycle.
     fn lose_reference(&mut self, number: AxisNumber, encoder: usize, cause: EventId) {
         let axis = &mut self.axes[number];
         if std::mem::take(&mut axis.referenced[encoder]) {
@@ -134,7 +135,7 @@ impl State {
         [0, 1].map(|encoder| self.feedback[number].encoders[encoder].value + axis.offset[encoder])
     }
 
-    /// Whether the switch-over to another measuring system cannot be done, with its alarm.
+    /// Whether the switch-over to another measuring system is impossible; raises the alarm.
     pub(in crate::sinumerik) fn switch_over_fails(
         &mut self,
         number: AxisNumber,
@@ -159,7 +160,7 @@ impl State {
         self.raise_monitoring(alarms::SWITCH_OVER, number, Rule::MeasuringSystem, [Input::None; 3]);
     }
 
-    /// Measuring system 2 is selected, and there is none.
+    /// Measuring system 2 is selected and does not exist.
     pub(in crate::sinumerik) fn tell_missing_encoder(&mut self, number: AxisNumber, parameters: &AxisParameters) {
         let count = Input::Datum(30200, Some(number), f64::from(parameters.encoders));
         let inputs = [count, Input::None, Input::None];
