@@ -1,4 +1,4 @@
-//! The control behind the trait that the machine steps: bytes become this control's structures, commands its calls.
+//! Implements the trait that the machine steps: converts bytes to the structures of this control, and commands to its calls.
 
 use std::any::Any;
 
@@ -14,10 +14,10 @@ use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position};
 use crate::variables::{AlarmNumber, EventId, Events, Place, Variables};
 
-/// How many handwheels there are.
+/// Number of handwheels.
 const HANDWHEELS: u8 = 3;
 
-/// The parts have the lengths of this control's interface: the memory was made for it.
+/// The parts have the lengths of this control's interface, because the memory was created for it.
 const LENGTHS: &str = "the memory of a machine has the interface of its control";
 
 fn to_nck(plc: PlcSide<'_>) -> &ToNck {
@@ -33,7 +33,7 @@ impl Control for Nck {
             }
             ControlCommand::Handwheel { number, .. } if !(1..=HANDWHEELS).contains(number) => Err(Problem::new(
                 format!("expected a handwheel from 1 to 3, found {number}"),
-                "there are handwheels 1, 2 and 3",
+                "use handwheel 1, 2 or 3",
             )),
             ControlCommand::Handwheel { .. }
             | ControlCommand::Activate
@@ -48,7 +48,7 @@ impl Control for Nck {
     fn command(&mut self, command: &ControlCommand) {
         match command {
             ControlCommand::Store { target, value } => {
-                // Checked when it was queued; a later command of the same step may have renamed its axis.
+                // The command was checked when it was queued. A later command of the same step may have renamed its axis.
                 if let Ok(target) = self.stored().parse_target(target) {
                     let _ = self.store(&target, value);
                 }
@@ -206,7 +206,7 @@ impl Data for Nck {
 }
 
 impl Nck {
-    /// Who leads whom in a gantry grouping, as the stored data say it; `None` where no axis belongs to it.
+    /// The leading and synchronous axes of a gantry grouping according to the stored data; `None` if no axis belongs to it.
     fn grouping_in_words(&self, grouping: u8, names: &Names) -> Option<String> {
         let with = |code: u8| {
             let of_code = |(axis, _): &(AxisNumber, &str)| self.active().axes[*axis].gantry_axis_type == code;

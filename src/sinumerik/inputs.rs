@@ -1,4 +1,4 @@
-//! What causes name: signals of this control as inputs of a decision.
+//! The inputs of causes: signals of this control that were tested in a decision.
 
 use crate::image::Signal;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
@@ -10,7 +10,7 @@ pub(super) const fn axis_signal(axis: AxisNumber, signal: Signal, value: bool) -
     signal_of(Place::Axis(axis), signal, 0, value)
 }
 
-/// A bit of a signal of several bits of an axis; `index` counts from its lowest bit.
+/// A bit of a multi-bit signal of an axis; `index` counts from its lowest bit.
 #[must_use]
 pub(super) const fn axis_signal_bit(axis: AxisNumber, signal: Signal, index: u8, value: bool) -> Input {
     signal_of(Place::Axis(axis), signal, index, value)

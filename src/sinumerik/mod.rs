@@ -1,24 +1,25 @@
 //! THE CONTROL of the gantry manual (G1): machine data, mode group, channel, enabling, JOG, reference point approach,
 //! gantry groupings, alarms.
 //!
-//! The machine calls [`Nck`] in this order, once per interpolation cycle, and that order is the specification:
-//! [`Nck::decide`] takes what the PLC wrote and commands setpoints (run-up, modes, emergency stop, RESET, handwheels,
-//! measuring systems, parameter sets, enabling, referencing and gantry or JOG, setpoints, coupling);
-//! [`Nck::velocity_command`] is position control, while drives and mechanics move; [`Nck::observe`] takes what encoders
-//! and drives tell and monitors it; [`Nck::publish`] writes the NCK's half of the interface and the variables. The control
-//! reads [`ToNck`], the HMI's selection of handwheels, and nothing else. Axes that rest are left out, and nothing is decided for those that only move (`resting.rs`).
+//! The machine calls [`Nck`] in this order, once per interpolation cycle. This order is the specification:
+//! [`Nck::decide`] reads what the PLC wrote and commands setpoints (start-up, modes, emergency stop, RESET, handwheels,
+//! measuring systems, parameter sets, enabling, referencing and gantry or JOG, setpoints, coupling).
+//! [`Nck::velocity_command`] is position control, while drives and mechanics move. [`Nck::observe`] takes the signals of encoders
+//! and drives and monitors them. [`Nck::publish`] writes the NCK's half of the interface and the variables. The control
+//! reads only [`ToNck`] and the HMI's selection of handwheels. Axes at rest are skipped, and axes that only move need no
+//! decisions (`resting.rs`).
 //!
-//! | I want to add | I do |
+//! | to add | do this |
 //! |---|---|
-//! | a machine datum | a row in `machine_data/`, a field in `parameters/axis.rs` where the model needs it |
-//! | an alarm | a row in `alarms/mod.rs`, a `raise` where it happens |
-//! | a rule that causes an edge | a row in `rules.rs`, a `note` where it is decided |
-//! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `referencing/state.rs` or `gantry/state.rs` |
-//! | something that all axes depend on | a field of `Shared` in `resting.rs`, or nobody wakes for it |
-//! | something that an axis remembers | a field of `Axis` in `axis/state.rs`, in `has_decisions_of` or in `has_movement_of`, too |
-//! | a decision that depends on where an axis is | an arm of `decisions_follow_movement` there |
-//! | something to watch | a file in `monitoring/`, a row in its table |
-//! | a signal that the control shows, and its cause | a row in `publish/` |
+//! | a machine datum | add a row in `machine_data/`, and a field in `parameters/axis.rs` if the model needs it |
+//! | an alarm | add a row in `alarms/mod.rs`, and call `raise` at the place of its cause |
+//! | a rule that causes an edge | add a row in `rules.rs`, and call `note` at the place of the decision |
+//! | a step of referencing or of the gantry | add a row in `TRANSITIONS` of `referencing/state.rs` or `gantry/state.rs` |
+//! | a dependency of all axes | add a field of `Shared` in `resting.rs`; otherwise no axis wakes when it changes |
+//! | a state of an axis | add a field of `Axis` in `axis/state.rs`, and compare it in `has_decisions_of` or `has_movement_of` |
+//! | a decision that depends on the position of an axis | add an arm of `decisions_follow_movement` there |
+//! | a monitoring function | add a file in `monitoring/`, and a row in its table |
+//! | a signal of the control, and its cause | add a row in `publish/` |
 
 mod alarms;
 mod awake;

@@ -1,8 +1,8 @@
 //! Emergency stop with its handshake (DB10.DBX56.1, 56.2, 106.1; E-06 names the bits).
 //!
-//! Called before RESET in the control's part of a cycle. 56.1 = 1 begins it: alarm 3000 (NC not ready, mode group not ready),
+//! Called before RESET in the control's part of a cycle. 56.1 = 1 starts it: alarm 3000 (NC not ready, mode group not ready),
 //! 106.1 = 1, all axes brake on the ramp of MD36610, are switched off after MD36620 at the latest, and follow up. It ends when
-//! 56.1 is 0 and acknowledge 56.2 and mode group RESET (DB11.DBX0.7, of every mode group that has channels) are 1 together; neither
+//! 56.1 is 0 and both acknowledge 56.2 and mode group RESET (DB11.DBX0.7, of every mode group that has channels) are 1. Neither
 //! alone ends it.
 
 use crate::image::{ToNck, mode_group_to_nck, nck_to_nck};
@@ -30,7 +30,7 @@ impl State {
             self.emergency_stop = EmergencyStop { active: true, cause };
         } else if !requested && acknowledged && reset && self.emergency_stop.active {
             let pressed = |group| mode_group_signal(group, mode_group_to_nck::mode_group_reset, true);
-            // There is room for one; without RESET of the others it would not have ended.
+            // An event names one mode group; without RESET of the other groups the emergency stop would not have ended.
             let group = parameters.existing_mode_groups().next().map_or(Input::None, pressed);
             let inputs = [
                 nck_signal(nck_to_nck::emergency_stop, false),

@@ -1,9 +1,10 @@
 //! The mode groups: modes and machine functions.
 //!
-//! Called first in the control's part of a cycle. Requests are levels (O-19): the highest of JOG, MDA, AUTO that is 1
-//! is taken, all 0 keeps the mode, DBX0.4 inhibits a change. Machine functions act within their mode: TEACH IN in MDA, REF and
-//! REPOS in JOG; REF wins over REPOS. REPOS moves an axis back to where a program was interrupted; as long as no program has
-//! been, its keys move nothing. MD10720 names the mode after power on, JOG where it does not.
+//! Called first in the control's part of a cycle. Requests are levels (O-19): the highest of JOG, MDA, AUTO that is 1 is
+//! selected; if all are 0, the mode does not change; DBX0.4 inhibits a change. Machine functions act within their mode: TEACH IN
+//! in MDA, REF and REPOS in JOG; REF has priority over REPOS. REPOS moves an axis back to the position at which a program was
+//! interrupted. As no program can be interrupted yet, its keys move nothing. MD10720 defines the mode after power on; the default
+//! is JOG.
 
 use crate::image::{Signal, ToNck, mode_group_from_nck, mode_group_to_nck};
 use crate::sinumerik::inputs::mode_group_signal;
@@ -15,7 +16,7 @@ use crate::units::ModeGroupNumber;
 use crate::variables::{EventId, Input, Place};
 
 impl State {
-    /// Modes and machine functions as requested.
+    /// Selects modes and machine functions as requested.
     pub(in crate::sinumerik) fn select_modes(&mut self, parameters: &Parameters, to_nck: &ToNck) {
         for group in parameters.existing_mode_groups() {
             self.select_mode(group, to_nck);
@@ -74,12 +75,12 @@ impl State {
         }
     }
 
-    /// The mode group that a unit belongs to.
+    /// The mode group of a unit.
     pub(in crate::sinumerik) fn mode_group(&self, unit: &Unit) -> &ModeGroup {
         &self.mode_groups[unit.mode_group]
     }
 
-    /// Somebody else wrote DBB5 of a mode group in DB11: it is the HMI's from now on (E-01).
+    /// Another writer wrote DBB5 of a mode group in DB11: from now on it belongs to the HMI (E-01).
     pub(in crate::sinumerik) fn strobe_written(&mut self, group: ModeGroupNumber) {
         if !self.mode_groups[group].strobe_is_the_hmi_s {
             self.mode_groups[group].strobe_is_the_hmi_s = true;

@@ -1,9 +1,9 @@
-//! The channels: RESET, the alarm-cancel key, NC start, and the states that they show.
+//! The channels: RESET, the alarm-cancel key, NC start, and the displayed states.
 //!
-//! RESET of a channel is the rising edge of DB21.DBX7.7 or of DB11.DBX0.7 of its mode group; while either is 1 nothing of it
-//! starts to move. It cancels the channel's alarms of class RESET; those of class mode group RESET go when RESET is pressed in
-//! all channels of the group at once. The alarm-cancel key concerns all channels. As long as no NC program can be selected,
-//! NC start does no more than to cancel alarms and to be refused without a reference point (10203).
+//! RESET of a channel is the rising edge of DB21.DBX7.7 or of DB11.DBX0.7 of its mode group. While either is 1, none of its axes
+//! starts to move. RESET cancels the channel's alarms of class RESET; alarms of class mode group RESET clear when RESET is
+//! pressed in all channels of the group at the same time. The alarm-cancel key concerns all channels. As no NC program can be
+//! selected yet, NC start only cancels alarms, or is refused without a reference point (10203).
 
 use crate::image::{ToNck, channel_from_nck, channel_to_nck, mode_group_to_nck};
 use crate::sinumerik::alarms::{self, Alarm, Cancel, Reaction};
@@ -44,7 +44,7 @@ impl Nck {
 }
 
 impl State {
-    /// RESET of a channel; whether it begins in this cycle.
+    /// RESET of a channel. Returns whether it begins in this cycle.
     fn reset(
         &mut self,
         channel: ChannelNumber,
@@ -113,7 +113,7 @@ impl State {
         }
     }
 
-    /// What stops every movement of a channel: RESET, or an alarm that says NC stop, NC not ready or mode group not ready.
+    /// The reason that stops every movement of a channel: RESET, or an alarm with NC stop, NC not ready or mode group not ready.
     pub(in crate::sinumerik) fn stop(&self, channel: ChannelNumber, parameters: &Parameters) -> Option<Stop> {
         if let Some(cause) = self.emergency_stop.active_cause() {
             return Some(Stop::Emergency(cause));
@@ -130,7 +130,7 @@ impl State {
         stops.or_else(not_ready).map(|(number, cause)| Stop::Alarm(number, cause))
     }
 
-    /// The alarm that takes "mode group ready" from a group; one that concerns a single axis does not stop the others.
+    /// The alarm that resets "mode group ready" of a group. An alarm that concerns a single axis does not stop the others.
     pub(in crate::sinumerik) fn mode_group_not_ready(
         &self,
         group: ModeGroupNumber,
@@ -149,13 +149,14 @@ impl State {
         self.alarms.first(|place, alarm| alarm.reaction.has(reaction) && parameters.concerns_channel(place, channel))
     }
 
-    /// The axes that need their reference point for NC start have it: those with MD34110 above −1, where MD20700 is not 0.
+    /// Whether the axes that need their reference point for NC start are referenced: those with MD34110 above −1, unless MD20700
+    /// is 0.
     pub(in crate::sinumerik) fn is_referenced(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
         self.summary.referenced.has_all_of(parameters.channels[channel].reference_needed)
     }
 }
 
-/// Whether an alarm of this place takes "mode group ready" from a group.
+/// Whether an alarm at this place resets "mode group ready" of a group.
 fn takes_ready(group: ModeGroupNumber, parameters: &Parameters, place: Place, alarm: &Alarm) -> bool {
     let only_channel = parameters.only_channel_not_ready && alarm.reaction.has(Reaction::CHANNEL_NOT_READY);
     let not_ready = alarm.reaction.has(Reaction::MODE_GROUP_NOT_READY) && !only_channel;

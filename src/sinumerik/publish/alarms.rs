@@ -1,4 +1,4 @@
-//! Why alarms came and went, and the events of a cycle, for the record.
+//! The events behind raised and cleared alarms, and the events of a cycle, for the record.
 
 use crate::sinumerik::alarms::{self, Alarm, Cancel};
 use crate::sinumerik::gantry::state::Grouping;
@@ -18,7 +18,8 @@ impl Nck {
             .map_or(EventId::NONE, |(_, cause)| cause)
     }
 
-    /// The event that took an alarm away: of one that goes by itself, what its place did last; else RESET, a key or power on.
+    /// The event that cleared an alarm: for an alarm that clears by itself, the latest event of its place; otherwise RESET, a key
+    /// or power on.
     #[must_use]
     pub fn cleared_cause(&self, number: AlarmNumber, place: Place) -> EventId {
         let state = &*self.state;

@@ -1,4 +1,4 @@
-//! What an axis shows: DB31 to DB61, with 101.x of gantry axes.
+//! The signals of an axis: DB31 to DB61, with 101.x of gantry axes.
 
 use crate::image::axis_from_nck;
 use crate::sinumerik::alarms::Reaction;
@@ -14,7 +14,7 @@ use crate::units::{AxisNumber, Position};
 use crate::variables::{Input, Place, Quantity};
 
 impl State {
-    /// DB31 to DB61, of one axis: what a movement alone can change.
+    /// DB31 to DB61 of one axis: the signals that a movement alone can change.
     #[inline]
     pub(super) fn show_movement(&self, number: AxisNumber, parameters: &AxisParameters, rows: &mut impl Rows) {
         let axis = &self.axes[number];
@@ -95,7 +95,7 @@ impl State {
                 Some(_) => drive().max(causes.measuring_system).max(cancelled()),
             }))
         });
-        // A parked axis has no actual value that it could follow.
+        // A parked axis has no actual value to follow.
         let follows_up = axis.enabling.follow_up && axis.measuring_system.is_some();
         let enabling = || Why::Event(causes.enabling);
         rows.bit(axis_from_nck::follow_up_active, follows_up, || match axis.measuring_system {
@@ -135,7 +135,7 @@ impl State {
         rows.bit(axis_from_nck::position_measuring_system_2_activated, active == Some(1), measuring_system);
     }
 
-    /// The axis whose movement an axis makes: the one that leads its grouping now, or itself.
+    /// The axis that causes the movement of an axis: the one that leads its grouping now, or the axis itself.
     fn mover(&self, number: AxisNumber) -> AxisNumber {
         let is_of = |grouping: &&Grouping| {
             grouping.coupling.is_closed() && grouping.coupling.members().any(|axis| axis == number)
@@ -145,7 +145,7 @@ impl State {
 
     /// 101.x of the leading axis of a grouping.
     pub(super) fn show_leading_axis(&self, grouping: &Grouping, rows: &mut impl Rows) {
-        // O-07: 101.4 stays through a motion that was waited for; one that began by itself never set it.
+        // O-07: 101.4 stays during a motion that was started from outside; an automatic start never set it.
         let started = grouping.phase == Phase::Synchronising && grouping.waited_for;
         let ready = grouping.phase == Phase::WaitingForStart || started;
         let (phase, defined) = (|| Why::Event(grouping.cause), || Why::Event(self.definition_cause));
@@ -165,7 +165,7 @@ impl State {
         rows.bit(axis_from_nck::gantry_axis, true, || Why::Event(self.definition_cause));
     }
 
-    /// 101.x of an axis, whichever place it has in a grouping.
+    /// 101.x of an axis, for any position in a grouping.
     pub(super) fn show_gantry_axis(&self, number: AxisNumber, rows: &mut impl Rows) {
         for grouping in &self.groupings {
             if grouping.coupling.leader() == number {

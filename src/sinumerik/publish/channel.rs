@@ -1,4 +1,4 @@
-//! What a channel shows: DB21 to DB30.
+//! The signals of a channel: DB21 to DB30.
 
 use std::cmp::Reverse;
 
@@ -14,16 +14,16 @@ use crate::units::{AxisNumber, ChannelNumber};
 use crate::variables::{EventId, Input};
 
 impl State {
-    /// "At least one axis is being traversed in JOG", or referenced.
+    /// "At least one axis is being traversed in JOG", or is being referenced.
     pub(super) fn is_channel_active(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
         !self.summary.in_motion.and(parameters.channels[channel].axes).is_empty()
     }
 
-    /// DB21 to DB30, of one channel.
+    /// DB21 to DB30 of one channel.
     pub(super) fn show_channel(&self, channel: ChannelNumber, parameters: &Parameters, rows: &mut impl Rows) {
         let active = self.is_channel_active(channel, parameters);
         let motion = || self.activity(|of| of == channel, active, parameters);
-        // The first alarm with the reaction that a signal sums up; once there is none any more, what cancelled the last.
+        // The first alarm with the reaction of a group signal; without one, the event that cancelled the last alarm.
         let alarm = |reaction| self.channel_alarm(channel, reaction, parameters);
         let or_cancelled = |alarm: Option<EventId>| alarm.unwrap_or(self.channels[channel].cancel_cause);
         rows.bit(channel_from_nck::referencing_active, self.channels[channel].is_referencing(), || {
@@ -54,7 +54,7 @@ impl State {
         });
     }
 
-    /// Why channels are active, or not.
+    /// The event that started or ended the activity of channels.
     pub(super) fn activity(
         &self,
         channels: impl Fn(ChannelNumber) -> bool + Copy,
@@ -63,7 +63,7 @@ impl State {
     ) -> Why {
         let of_channels = parameters.existing().filter(|(_, axis)| channels(axis.channel)).map(|(number, _)| number);
         let counts = |axis: &AxisNumber| !active || self.summary.in_motion.contains(*axis);
-        // The one that was moved or stopped last; of axes that move together the first.
+        // The axis that started or stopped last; the first of axes that move together.
         let order = |axis: &AxisNumber| {
             let commanded = active && self.axes[*axis].traverse_command != 0;
             (commanded, self.axes[*axis].causes.motion, Reverse(*axis))

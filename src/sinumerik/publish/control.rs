@@ -1,4 +1,4 @@
-//! What the control as a whole shows, and its mode groups: DB10 and DB11.
+//! The signals of the control as a whole and of its mode groups: DB10 and DB11.
 
 use crate::image::{mode_group_from_nck, mode_group_hmi, nck_from_nck};
 use crate::sinumerik::alarms::Reaction;
@@ -38,7 +38,7 @@ impl State {
         });
     }
 
-    /// DB11, of one mode group.
+    /// DB11 of one mode group.
     pub(super) fn show_mode_group(&self, number: ModeGroupNumber, parameters: &Parameters, rows: &mut impl Rows) {
         let (group, jog) = (&self.mode_groups[number], &self.group_functions[number]);
         let (mode, function) = (|| Why::Event(group.mode_cause), || Why::Event(group.function_cause));
@@ -68,7 +68,7 @@ impl State {
         );
     }
 
-    /// What it mirrors to the bytes of the HMI in DB11, of one mode group.
+    /// The values mirrored to the bytes of the HMI in DB11, for one mode group.
     pub(super) fn show_selection(&self, number: ModeGroupNumber, rows: &mut impl Rows) {
         let group = &self.mode_groups[number];
         rows.bit(mode_group_hmi::ref_selected, group.is_referencing(), || Why::Event(group.function_cause));
@@ -78,7 +78,7 @@ impl State {
         self.alarms.with_reaction(reaction, None).unwrap_or_else(|| self.cancel_event())
     }
 
-    /// What took alarms away last, in any channel.
+    /// The last event that cleared alarms, in any channel.
     pub(super) fn cancel_event(&self) -> EventId {
         self.channels.iter().map(|(_, channel)| channel.cancel_cause).max().unwrap_or(EventId::NONE)
     }

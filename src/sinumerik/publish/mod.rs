@@ -1,10 +1,10 @@
-//! Publication: the NCK's half of the interface and the variables, written once per cycle, at its end; and the event behind each bit
-//! of it, asked for when the bit has changed.
+//! Publication: the NCK's half of the interface and the variables, written once at the end of each cycle. Also the event behind
+//! each bit, determined when the bit has changed.
 //!
-//! Each block is a table of rows ([`rows`]): a row names a signal, its value and its cause. States have their events; for what
-//! follows from a value at the moment (exact stop, standstill) an event is noted when its edge is seen.
+//! Each block is a table of rows ([`rows`]): a row gives a signal, its value and its cause. States have their own events. A value
+//! that follows directly from the present state (exact stop, standstill) gets an event when its edge is detected.
 //!
-//! Signals are set axis by axis (SIG-09). What somebody else wrote into a bit of the NCK is overwritten here (SIG-11).
+//! Signals are set axis by axis (SIG-09). A value that another writer wrote into a bit of the NCK is overwritten here (SIG-11).
 
 mod alarms;
 mod axis;
@@ -94,7 +94,7 @@ impl Nck {
             Some(Why::Event(event)) => event,
             Some(Why::Tested(rule, inputs, parent)) => state.log.note(place, rule, inputs, parent),
         };
-        // What nothing has changed yet is as power on left it.
+        // A value that has not changed yet has its state from power on.
         if cause.is_some() { cause } else { state.as_after_power_on }
     }
 }
@@ -139,7 +139,7 @@ impl State {
             (movement, _) => movement.distance_to_go(setpoint),
         };
         AxisValues {
-            // With axis disable the display goes on with the setpoint (SIG-03).
+            // During axis disable the displayed value follows the setpoint (SIG-03).
             position: if axis.signals.disabled_at().is_some() { axis.setpoint.position } else { axis.actual },
             setpoint: axis.setpoint.position,
             velocity: axis.velocity * 60.0 / Position::PER_USER_UNIT / per_user_unit,

@@ -1,24 +1,24 @@
-//! The rows of a block: each names a signal once, with its value and with what is behind the value.
+//! The rows of a block: each gives a signal once, with its value and the reason for the value.
 //!
-//! A block is a function over [`Rows`]. Publication runs it with [`Written`], which takes the values and asks for no cause. When a
-//! bit has changed, the same function runs with [`Asked`], which takes the cause of that bit and no value.
+//! A block is a function over [`Rows`]. Publication runs it with [`Written`], which takes the values and evaluates no cause. When
+//! a bit has changed, the same function runs with [`Asked`], which takes the cause of that bit and no value.
 
 use crate::image::Signal;
 use crate::sinumerik::rules::Rule;
 use crate::variables::{EventId, Input};
 
-/// What is behind the value of a signal.
+/// The reason for the value of a signal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Why {
-    /// An event that was noted where the value was decided.
+    /// An event that was recorded when the value was decided.
     Event(EventId),
-    /// The value follows from these inputs at the moment: an event is noted for its edge.
+    /// The value follows directly from these inputs; an event is recorded for its edge.
     Tested(Rule, [Input; 3], EventId),
 }
 
 /// Takes the rows of a block.
 pub(super) trait Rows {
-    /// Signals that lie side by side in one byte, from the first one to the last one, with the value of all of them.
+    /// Adjacent signals of one byte, from the first to the last, with their common value.
     fn group(&mut self, first: Signal, last: Signal, value: u8, why: impl FnOnce() -> Why);
 
     /// A signal of one bit.
@@ -64,7 +64,7 @@ impl Rows for Written<'_> {
     }
 }
 
-/// Finds what is behind one bit of a block.
+/// Finds the reason for one bit of a block.
 pub(super) struct Asked {
     byte: u16,
     bit: u8,
@@ -76,7 +76,7 @@ impl Asked {
         Self { byte, bit, why: None }
     }
 
-    /// What the rows said; `None` where none of them has this bit.
+    /// The reason given by the rows; `None` if no row has this bit.
     pub(super) const fn found(&self) -> Option<Why> {
         self.why
     }

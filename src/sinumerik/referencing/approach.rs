@@ -1,15 +1,14 @@
 //! Reference point approach of one axis with an incremental encoder (R1; G1 2.3.1 runs it for each gantry axis).
 //!
-//! Called once per cycle for the axis that is being referenced. Reads its cam (12.7), its reference point value bits
-//! (2.4 to 2.7), the zero mark that the encoder caught, override and feed; writes the motion of the axis. Every phase
-//! repeats its command in each cycle, so that override and feed stop need no states of their own; every phase ends
-//! with success, with an alarm, or with an abort. [`TRANSITIONS`] is the table by which the code runs: a step that is not in it
-//! cannot be taken.
+//! Called once per cycle for the axis that is being referenced. Reads its cam (12.7), its reference point value bits (2.4 to
+//! 2.7), the zero mark latched by the encoder, override and feed; writes the motion of the axis. Every phase repeats its command
+//! in each cycle, so override and feed stop need no states of their own. Every phase ends with success, with an alarm, or with an
+//! abort. [`TRANSITIONS`] is the table of the possible transitions; no other transition can be made.
 //!
-//! Choices where the manuals leave one: the search direction after the cam is opposite to MD34010 (E-19); an
-//! approach that begins on the cam leaves it with MD34040 for MD34050 = 0 and with MD34020 for MD34050 = 1; a cam
-//! that is never left within MD34030 ends with alarm 20000; 20006 comes when the cam edge is met at the wrong speed
-//! for the second time. NC stop is not read; an axis that is held by force is stopped by contour monitoring (25050).
+//! Choices where the manuals leave one: the search direction after the cam is opposite to MD34010 (E-19). An approach that begins
+//! on the cam leaves it with MD34040 for MD34050 = 0 and with MD34020 for MD34050 = 1. If the cam is not left within MD34030,
+//! alarm 20000 ends the approach. 20006 is raised when the axis passes the cam edge at the wrong speed for the second time. NC
+//! stop is not read. Contour monitoring (25050) stops an axis that is blocked.
 
 use crate::control::Log;
 use crate::control::next;
@@ -24,18 +23,18 @@ use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity};
 
-/// How an approach went on in this cycle.
+/// The result of an approach in this cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::sinumerik) enum Outcome {
-    /// It goes on.
+    /// It continues.
     Running,
-    /// The reference point is reached: the place where the axis is gets another value by this much.
+    /// The reference point is reached: the actual value at the present position is shifted by this distance.
     Referenced(Position, EventId),
     /// It ended with an alarm.
     Failed(AlarmNumber, EventId),
 }
 
-/// What an approach looks at in a cycle.
+/// The inputs of an approach in a cycle.
 struct View<'a> {
     number: AxisNumber,
     axis: &'a Axis,
@@ -45,31 +44,31 @@ struct View<'a> {
 }
 
 impl Approach {
-    /// Where it is.
+    /// Its phase.
     #[must_use]
     pub(in crate::sinumerik) const fn phase(&self) -> Phase {
         self.phase
     }
 
-    /// Whether one is running.
+    /// Whether an approach is running.
     #[must_use]
     pub(in crate::sinumerik) fn is_running(&self) -> bool {
         self.phase != Phase::Idle
     }
 
-    /// The latest event of it.
+    /// Its latest event.
     #[must_use]
     pub(in crate::sinumerik) const fn cause(&self) -> EventId {
         self.cause
     }
 
-    /// MD34100 as it was selected for the latest approach.
+    /// The value of MD34100 selected for the latest approach.
     #[must_use]
     pub(in crate::sinumerik) const fn set_position(&self) -> Position {
         self.set_position
     }
 
-    /// Ends it, from wherever it is.
+    /// Aborts the approach in any phase.
     pub(in crate::sinumerik) fn abort(&mut self) {
         self.phase = Phase::Idle;
     }
@@ -79,7 +78,7 @@ impl Approach {
         self.cause = log.note(Place::Axis(number), by, inputs, self.cause);
     }
 
-    /// Starts towards the cam, in the direction of a sign; `cause` is the event that asked for it.
+    /// Starts towards the cam; `cam_direction` is a sign, `cause` the event that requested the approach.
     pub(in crate::sinumerik) fn start(&mut self, log: &mut Log, direction: f64, actual: Position, cause: EventId) {
         let phase = next(TRANSITIONS, &mut log.taken.0[APPROACH_CHART], Phase::Idle, Rule::ApproachStarted);
         *self = Self {
@@ -92,7 +91,7 @@ impl Approach {
         };
     }
 
-    /// One cycle: the motion that the axis is to make, and how it went on.
+    /// One cycle: the motion of the axis, and the result.
     pub(in crate::sinumerik) fn run(
         &mut self,
         log: &mut Log,
@@ -183,7 +182,7 @@ impl Approach {
         Outcome::Running
     }
 
-    /// From the cam towards the edge: for MD34050 = 0 it is left at creep velocity, for 1 it is left first.
+    /// From the cam towards the edge: for MD34050 = 0 the cam is left at creep velocity; for MD34050 = 1 it is left first.
     fn turn(&mut self, log: &mut Log, view: &View<'_>, falling: Rule, cam: [Input; 3]) {
         if view.parameters.reference.marker_reverse[view.encoder] {
             self.marker_direction = self.cam_direction;
@@ -195,7 +194,7 @@ impl Approach {
         }
     }
 
-    /// What ends an approach in any phase: feed disable; 0 % while the override does not act (phase 2).
+    /// The event that ends an approach in any phase: feed disable, or 0 % while the override does not act (phase 2).
     fn interrupted(&mut self, log: &mut Log, view: &View<'_>) -> Option<Outcome> {
         let creeping = matches!(self.phase, Phase::LeaveCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark);
         let input = if view.axis.feed_disabled {
@@ -208,12 +207,12 @@ impl Approach {
         Some(self.fail(log, view, alarms::APPROACH_ABORTED, [input, Input::None, Input::None]))
     }
 
-    /// The axis was on the cam when the approach began: it has not moved yet.
+    /// The axis was on the cam when the approach began and has not moved yet.
     fn set_off_on_cam(&self, axis: &Axis) -> bool {
         !self.creep_velocity_missed && axis.setpoint.is_at_rest()
     }
 
-    /// The cam edge that starts the search, if it is met at creep velocity.
+    /// The cam edge that starts the search, if the axis passes it at creep velocity.
     fn edge(&mut self, log: &mut Log, view: &View<'_>, cam: [Input; 3]) -> Outcome {
         let reference = &view.parameters.reference;
         let creep = reference.marker_velocity[view.encoder];
@@ -233,7 +232,7 @@ impl Approach {
         Outcome::Running
     }
 
-    /// MD34092 delays the search, by whole cycles; MD34092 = 0 delays nothing.
+    /// MD34092 delays the search by whole cycles; with MD34092 = 0 there is no delay.
     fn pass_shift(&mut self, log: &mut Log, view: &View<'_>) {
         let shift = view.parameters.reference.cam_shift[view.encoder];
         if self.phase == Phase::PassShift && (view.axis.actual - self.origin).abs() >= shift {
@@ -286,7 +285,7 @@ impl Approach {
         Outcome::Failed(alarm, self.cause)
     }
 
-    /// What the phase commands. The override acts in phases 1 and 3 only, feed stop in all.
+    /// The command of the phase. The override acts in phases 1 and 3 only, feed stop in all.
     fn motion(&self, view: &View<'_>) -> Motion {
         let (parameters, reference) = (view.parameters, &view.parameters.reference);
         let acceleration = parameters.maximum_acceleration;
@@ -312,7 +311,7 @@ impl Approach {
     }
 }
 
-/// MD34100 as 2.4 to 2.7 select it; none set means value 1.
+/// The value of MD34100 selected by 2.4 to 2.7; if no bit is set, value 1.
 fn selected(view: &View<'_>) -> Position {
     let signals = view.signals;
     let values = &view.parameters.reference.set_position;

@@ -1,9 +1,9 @@
-//! Which axis is referenced when: by the traversing key, or by the channel; and what an approach means for the rest.
+//! Starts the referencing of axes, by the traversing key or by the channel, and applies its effects on other functions.
 //!
-//! Called in the stage "referencing and gantry". A key that is held starts one approach; it must be released before
-//! it starts another, also when it was pressed while the approach ran or while JOG was active without REF. A
-//! key that is pressed before the axes are in position control stays pending until they are. Channel-specific referencing
-//! (33.0 = 1) waits for an axis of its turn that cannot start (1.3, parked, MD34200 other than 1) until RESET or until REF is left.
+//! Called in the stage "referencing and gantry". A held key starts one approach. It must be released before it starts another
+//! one, also if it was pressed while the approach ran or while JOG was active without REF. A key that is pressed before the axes
+//! are in position control stays pending until they are. Channel-specific referencing (33.0 = 1) waits for an axis that cannot
+//! start in its turn (1.3, parked, MD34200 other than 1) until RESET or until REF is left.
 
 use crate::image::{ToNck, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck};
 use crate::sinumerik::alarms;
@@ -18,7 +18,7 @@ use crate::units::{AxisNumber, ChannelNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 
 impl State {
-    /// An axis that belongs to no closed grouping.
+    /// An axis that is not in a closed grouping.
     pub(in crate::sinumerik) fn run_single(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let number = unit.leader();
         self.brake(unit, parameters);
@@ -66,7 +66,7 @@ impl State {
         }
     }
 
-    /// A key that jogs, or is pressed while an approach is on its way, must be released before it starts one.
+    /// A key that jogs, or is pressed during an approach, must be released before it starts an approach.
     pub(in crate::sinumerik) fn watch_key(&mut self, unit: &Unit, busy: bool, to_nck: &ToNck) {
         let number = unit.leader();
         let jogging = self.is_jogging(unit);
@@ -82,7 +82,7 @@ impl State {
         self.axes[number].key_used = pressed && used;
     }
 
-    /// An approach of the unit's first axis is asked for, by its key in the right direction or by the channel.
+    /// The request for an approach of the unit's first axis, by its key in the correct direction or by the channel.
     pub(in crate::sinumerik) fn approach_wanted(
         &mut self,
         unit: &Unit,
@@ -106,7 +106,7 @@ impl State {
             let cause = referencing.cause;
             return Some((forward, self.log.note_plain(Place::Axis(number), Rule::ApproachStartedByChannel, cause)));
         }
-        // The other key: no start, no alarm. Without a cam both directions are right.
+        // The other key: no start, no alarm. Without a cam both directions are correct.
         let right = key != 0 && (key == forward || !reference.cam_is_active);
         if !right || self.axes[number].key_used {
             return None;
@@ -122,7 +122,7 @@ impl State {
         Some((key, event))
     }
 
-    /// Begins an approach: the reference of its measuring system is gone.
+    /// Begins an approach: the reference of its measuring system is lost.
     pub(in crate::sinumerik) fn start_approach(&mut self, number: AxisNumber, direction: f64, cause: EventId) {
         let axis = &mut self.axes[number];
         let encoder = usize::from(axis.measuring_system.unwrap_or(0));
@@ -133,7 +133,7 @@ impl State {
         axis.approach.start(&mut self.log, direction, axis.actual, cause);
     }
 
-    /// One cycle of an approach; the motion of its axis is commanded.
+    /// One cycle of an approach. Commands the motion of its axis.
     pub(in crate::sinumerik) fn run_approach(
         &mut self,
         number: AxisNumber,
@@ -148,7 +148,7 @@ impl State {
         axis.approach = approach;
         axis.motion = motion;
         let direction = motion.direction(axis.setpoint.position);
-        // A movement that feed stop or an override of 0 % holds is still wanted.
+        // A movement that feed stop or an override of 0 % holds is still requested.
         let held = axis.feed_held || motion.is_held();
         let request = if direction == 0 && held { axis.traverse_request } else { direction };
         let cam = axis_to_nck::deceleration_reference_point_approach;
@@ -158,7 +158,7 @@ impl State {
         outcome
     }
 
-    /// What ends an approach from outside: an alarm that stops, RESET, leaving REF, a missing enable, the key.
+    /// The event that ends an approach from outside: an alarm that stops, RESET, leaving REF, a missing enable, the key.
     pub(in crate::sinumerik) fn approach_interrupted(
         &mut self,
         number: AxisNumber,
@@ -168,7 +168,7 @@ impl State {
         to_nck: &ToNck,
     ) -> Option<(Option<AlarmNumber>, EventId)> {
         let parent = self.axes[number].approach.cause();
-        // A missing enable is named even where alarm 21612, which stops everything, came in the same cycle.
+        // A missing enable is reported even if alarm 21612, which stops every movement, was raised in the same cycle.
         if !self.channels[unit.channel].reset
             && let Some(off) = unit.members().find(|&axis| !to_nck.axes[axis].controller_enable())
         {
@@ -181,7 +181,7 @@ impl State {
             let inputs = [input, Input::None, Input::None];
             return Some((None, self.log.now(Place::Axis(number), stop.cause(), Rule::ApproachAborted, inputs)));
         }
-        // A hardware limit switch in the way ends the approach; its own alarm says so.
+        // A hardware limit switch in the direction of travel ends the approach with its own alarm.
         let direction = unit.members().map(|axis| self.axes[axis].traverse_command).find(|&command| command != 0);
         let direction = direction.unwrap_or(0);
         if let Some(pressed) = self.limited_by(unit, direction) {
@@ -200,7 +200,7 @@ impl State {
         let (alarm, input) = if let Some(off) = unit.members().find(|&axis| !self.axes[axis].enabling.is_on()) {
             let axis = &self.axes[off];
             if axis.enabling.controllers()[2] {
-                // It brakes in position control, towards being switched off.
+                // The axis brakes in position control before it is switched off.
                 let cause = axis.causes.enabling;
                 let event = self.log.note_plain(Place::Axis(number), Rule::ApproachAborted, cause);
                 return Some((Some(alarms::APPROACH_ABORTED), event));
@@ -210,7 +210,7 @@ impl State {
             (Some(alarms::APPROACH_ABORTED), forbidden)
         } else if key != 0 && parameters.jog_mode && pressed != key {
             let released = axis_signal(number, key_signal(key), false);
-            // The datum that makes the approach end with its key.
+            // The datum with which the key ends the approach.
             let held = Input::Datum(11300, None, 1.0);
             let inputs = [released, held, Input::None];
             let event = self.log.note(Place::Axis(number), Rule::ApproachAborted, inputs, parent);
@@ -223,7 +223,7 @@ impl State {
         Some((alarm, self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, parent)))
     }
 
-    /// The measuring system was switched, or lost, under a running approach (REF-33).
+    /// The measuring system was switched or lost during an approach (REF-33).
     pub(in crate::sinumerik) fn abort_approach(&mut self, number: AxisNumber, event: EventId) {
         self.axes[number].approach.abort();
         self.raise_axis_alarm(alarms::APPROACH_ABORTED, number, event);
@@ -234,7 +234,7 @@ impl State {
         }
     }
 
-    /// The place where the axis is has another actual value from now on, and the axis is referenced.
+    /// Shifts the actual value at the present position; the axis is referenced.
     pub(in crate::sinumerik) fn set_reference(&mut self, number: AxisNumber, shift: Position, event: EventId) {
         let axis = &mut self.axes[number];
         axis.shift(shift);
@@ -248,8 +248,8 @@ impl State {
         self.value_shifted(number, shift);
     }
 
-    /// The actual value of an axis became another without a movement: no synchronism difference comes from it, unless
-    /// both axes are referenced (O-12).
+    /// The actual value of an axis changed without a movement. This causes no synchronism difference, unless both axes are
+    /// referenced (O-12).
     pub(in crate::sinumerik) fn value_shifted(&mut self, number: AxisNumber, shift: Position) {
         for grouping in &mut self.groupings {
             grouping.coupling.value_shifted(number, shift, &self.axes);
@@ -286,7 +286,8 @@ impl State {
         }
     }
 
-    /// Orders and ends it: MD34110 = 1 first, together; n after all of n − 1. 33.0 goes with the last reference.
+    /// Orders and ends it: axes with MD34110 = 1 start first, together; axes with n start after all with n − 1. 33.0 is reset
+    /// with the last reference.
     pub(in crate::sinumerik) fn order_channel_referencing(&mut self, parameters: &Parameters) {
         for (channel, group) in parameters.existing_channels() {
             if !self.channels[channel].is_referencing() {
@@ -317,7 +318,7 @@ impl State {
         self.units.iter().filter(move |unit| unit.channel == channel).filter(whole)
     }
 
-    /// The next order number above this one that an axis has which can be started; 0 when there is none.
+    /// The next order number above this one with an axis that can be started; 0 if there is none.
     fn next_cycle_number(&self, channel: ChannelNumber, above: i32, parameters: &Parameters) -> i32 {
         self.referenced_by(channel)
             .map(|unit| parameters.axes[unit.leader()].reference.cycle_number)
@@ -326,7 +327,7 @@ impl State {
             .unwrap_or(0)
     }
 
-    /// Whether all axes of an order number are done, and whether one was aborted.
+    /// Whether all axes of an order number have finished, and whether one was aborted.
     fn channel_referencing_progress(&self, channel: ChannelNumber, parameters: &Parameters) -> (bool, bool) {
         let (mut finished, mut failed) = (true, false);
         let number = self.channels[channel].referencing.number;
