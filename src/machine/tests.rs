@@ -1,4 +1,4 @@
-//! What a step promises about order: who sees whom in which cycle, and what survives power off.
+//! Tests of the order in a step: in which cycle each part receives the data of the others, and what survives power off.
 
 use crate::control::Owner;
 
@@ -38,7 +38,7 @@ fn get(machine: &Machine, name: &str) -> u64 {
     machine.memory().read(at(machine, name))
 }
 
-/// Queues a write, of a bit of the NCK as well.
+/// Queues a write, also of a bit of the NCK.
 fn set(machine: &mut Machine, name: &str, value: u64) {
     let location = at(machine, name);
     machine.queue(Command::Write { location, value }).unwrap();
@@ -82,7 +82,7 @@ fn a_write_acts_in_the_next_step_and_the_control_answers_in_the_same_one() {
 #[test]
 fn the_control_sees_the_plc_of_this_cycle_and_the_plc_sees_the_control_of_the_last_one() {
     let mut machine = ready();
-    // In its third scan the program asks for REF; M1.0 is what it sees of 7.2.
+    // In its third scan the program requests REF; M1.0 shows its view of 7.2.
     machine.load_program(
         program("ref", (), |(), io| {
             count_scans(&mut (), io);
@@ -103,7 +103,7 @@ fn the_control_sees_the_plc_of_this_cycle_and_the_plc_sees_the_control_of_the_la
 
 #[test]
 fn the_plc_program_sees_the_inputs_of_this_cycle() {
-    // The cam of X is wired to I3.4 and the slide stands on it; XF has its cam unwired, and stands on it too.
+    // The cam of X is wired to I3.4, and the slide is on the cam. The cam of XF is not wired, and its slide is on the cam, too.
     let mut machine = example_with("[X]\nstart = 300.0\n[X.cam]\ninput = \"I3.4\"\n[XF]\nstart = 300.0\n");
     machine.load_program(
         program("cams", (), |(), io| {
@@ -116,7 +116,7 @@ fn the_plc_program_sees_the_inputs_of_this_cycle() {
     );
     machine.step();
     assert_eq!((get(&machine, "I3.4"), get(&machine, "DB31.DBX12.7")), (1, 1));
-    // What is not wired is set after the scan: the program sees it one scan later.
+    // A switch that is not wired is set after the scan: the program sees it one scan later.
     assert_eq!((get(&machine, "DB33.DBX12.7"), get(&machine, "M1.3")), (1, 0));
     machine.step();
     assert_eq!(get(&machine, "M1.3"), 1);
@@ -175,13 +175,13 @@ fn what_somebody_else_writes_into_a_bit_of_the_nck_lasts_until_its_next_publicat
         })
         .boxed(),
     );
-    // 101.5 = 1, 101.7 = 0, and a bit of an axis that there is not; MB200 is plain memory.
+    // 101.5 = 1, 101.7 = 0, and a bit of an axis that does not exist; MB200 is plain memory.
     set(&mut machine, "DB31.DBX101.5", 1);
     set(&mut machine, "DB31.DBX101.7", 0);
     set(&mut machine, "DB40.DBX60.4", 1);
     set(&mut machine, "MB200", 0x5A);
     machine.step();
-    // The scan comes before the publication and sees what was written.
+    // The scan comes before the publication and sees the written values.
     assert_eq!(get(&machine, "M1.0"), 1);
     assert_eq!((get(&machine, "DB31.DBB101"), get(&machine, "DB40.DBX60.4")), (0b1100_0000, 0));
     run(&mut machine, 5);
@@ -213,7 +213,7 @@ fn power_on_restarts_interface_and_plc_memory_and_keeps_slides_faults_and_machin
     assert_eq!(other, Position::from_user(120.25));
     machine.queue(Command::PowerOn).unwrap();
     machine.step();
-    // Memory, forces and the chain of the run-up start anew; the drives coast at most a cycle.
+    // Memory, forces and the start-up sequence start again; the drives coast at most one cycle.
     assert_eq!((get(&machine, "MB10"), get(&machine, "X.traversing_key_plus")), (0, 0));
     assert_eq!(
         (get(&machine, "DB10.DBX108.7"), get(&machine, "DB31.DBX61.5"), get(&machine, "DB11.DBX0.2")),
@@ -234,8 +234,8 @@ fn power_on_restarts_interface_and_plc_memory_and_keeps_slides_faults_and_machin
     assert_eq!(machine.variables().axes[xf].slide, other, "still blocked");
 }
 
-/// What the PLC itself wrote is gone, whatever a client wrote into its memory too; the axes keep their reference, NC and panel their
-/// halves.
+/// The values that the PLC wrote are reset, even if a client also wrote to its memory. The axes keep their reference, and NC and
+/// panel keep their halves.
 #[test]
 fn a_cold_restart_begins_plc_memory_and_program_anew_and_a_warm_one_does_not() {
     let mut machine = example();
@@ -259,7 +259,7 @@ fn a_cold_restart_begins_plc_memory_and_program_anew_and_a_warm_one_does_not() {
     run(&mut machine, 1);
     assert_eq!(all(&machine), [1, 0, 0, 0, 0]);
     assert!(!machine.is_plc_stopped());
-    // Own bits of the NCK are not the PLC's: JOG is active still.
+    // The NCK's own bits do not belong to the PLC: JOG is still active.
     assert_eq!(get(&machine, "DB11.DBX6.2"), 1);
 }
 
@@ -309,8 +309,7 @@ fn db11_dbx5_2_mirrors_ref_until_somebody_else_writes_the_byte() {
     set(&mut machine, "DB11.DBX1.2", 1);
     run(&mut machine, 1);
     assert_eq!((get(&machine, "DB11.DBX7.2"), get(&machine, "DB11.DBX5.2")), (1, 1));
-    // An HMI strobes DBX5.0: from now on the byte is its own.
-    // That is logged once.
+    // An HMI strobes DBX5.0: from now on the byte belongs to the HMI. This is logged once.
     let mut logged = 0;
     for (signal, value, byte) in
         [("DB11.DBB5", 1, 1), ("DB11.DBX1.2", 0, 1), ("DB11.DBB5", 2, 2), ("DB11.DBX1.2", 1, 2)]
@@ -333,7 +332,7 @@ fn plant_toml_fixes_db11_dbx5_2_either_way() {
             set(&mut machine, "DB11.DBX1.2", 1);
             run(&mut machine, 2);
             assert_eq!(get(&machine, "DB11.DBX5.2"), u64::from(mirrors), "{fixed}, {round}");
-            // Writing the byte changes nothing in who it belongs to.
+            // Writing the byte again does not change its owner.
             set(&mut machine, "DB11.DBB5", 1);
             run(&mut machine, 2);
             assert_eq!(get(&machine, "DB11.DBX5.2"), u64::from(mirrors), "{fixed}, {round}, written");
@@ -360,7 +359,7 @@ fn a_simulated_axis_is_silent_only_where_the_archive_says_so() {
         run(&mut machine, 100);
         let (active, moves) = (get(&machine, "DB31.DBX61.5"), get(&machine, "DB31.DBX64.7"));
         assert_eq!((active, moves), (shown, shown), "{line}");
-        // It moves all the same.
+        // The axis moves nevertheless.
         assert!(machine.variables().axes[AxisNumber::FIRST].position > Position::from_user(1.0), "{line}");
     }
     std::fs::remove_dir_all(&directory).unwrap();
@@ -412,7 +411,7 @@ fn leading_and_synchronous_axis_move_by_the_same_increments_in_every_cycle() {
     assert_eq!(setpoint(&machine, "X"), before.0);
 }
 
-/// DYN-01, in sections 1 and 2: whoever leads, the other one moves by the same increments in the same cycle.
+/// DYN-01, in sections 1 and 2: the following axis moves by the same increments in the same cycle, whichever axis leads.
 #[test]
 fn while_referencing_both_axes_move_by_the_same_increments_whoever_leads() {
     let mut machine = ready();
@@ -429,7 +428,7 @@ fn while_referencing_both_axes_move_by_the_same_increments_whoever_leads() {
         }
         before = after;
     }
-    // The two reference points give the places other values; nothing else does.
+    // Only the two reference points change the actual values at the present positions.
     assert_eq!(jumps, [(1, 0), (1, 1)]);
 }
 
@@ -437,7 +436,7 @@ fn while_referencing_both_axes_move_by_the_same_increments_whoever_leads() {
 #[test]
 fn a_lost_enable_stops_all_axes_in_the_same_manner_whichever_axis_loses_it() {
     let mut machine = ready();
-    // Other servo disable delays and emergency ramps: the unit has one manner of stopping for all that.
+    // Other servo disable delays and emergency ramps: the unit still stops in one way.
     store(&mut machine, "36620[XF]", DatumValue::Real(0.02));
     store(&mut machine, "36610[XF]", DatumValue::Real(0.2));
     machine.queue(Command::PowerOn).unwrap();
@@ -467,7 +466,7 @@ fn a_lost_enable_stops_all_axes_in_the_same_manner_whichever_axis_loses_it() {
     assert_eq!(machine.variables().axes[AxisNumber::FIRST].velocity.abs().to_bits(), 0.0_f64.to_bits());
 }
 
-/// Machine data that are legal and senseless: the loop is unstable, and the axis runs away.
+/// Permitted but unsuitable machine data: the loop is unstable, and the axis runs away.
 #[test]
 fn an_axis_that_runs_away_stays_within_numbers_that_can_be_reckoned_with() {
     let mut machine = example();
@@ -480,7 +479,7 @@ fn an_axis_that_runs_away_stays_within_numbers_that_can_be_reckoned_with() {
     run(&mut machine, 50);
     set(&mut machine, "X.traversing_key_plus", 1);
     run(&mut machine, 500);
-    // Without position control in follow-up, the setpoint goes wherever the axis is.
+    // Without position control in follow-up, the setpoint equals the actual value.
     force(&mut machine, "X.follow_up_mode", 1);
     force(&mut machine, "X.controller_enable", 0);
     run(&mut machine, 500);
@@ -489,7 +488,7 @@ fn an_axis_that_runs_away_stays_within_numbers_that_can_be_reckoned_with() {
     assert!(values.slide.abs() < farthest && values.position.abs() < farthest, "{values:?}");
 }
 
-/// MD36060 = 0 is legal: an axis that does not move at all is stationary.
+/// MD36060 = 0 is permitted: an axis without any motion is stationary.
 #[test]
 fn without_a_standstill_tolerance_an_axis_at_rest_is_stationary_and_is_referenced() {
     let mut machine = example();
@@ -507,7 +506,7 @@ fn without_a_standstill_tolerance_an_axis_at_rest_is_stationary_and_is_reference
     assert_eq!((get(&machine, "DB31.DBX60.4"), get(&machine, "DB33.DBX60.4")), (1, 1));
 }
 
-/// O-12: a measuring system that is not referenced says nothing about a difference that was none before.
+/// O-12: a measuring system that is not referenced gives no information about a difference that did not exist before.
 #[test]
 fn a_switch_to_an_unreferenced_measuring_system_makes_no_synchronism_difference() {
     let mut machine = example();

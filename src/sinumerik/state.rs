@@ -1,6 +1,6 @@
-//! All that the control remembers from one cycle to the next: plain data, saved and restored as it is.
+//! The state of the control between cycles: plain data, saved and restored without change.
 //!
-//! Each topic has a `state.rs` with its part; the other files of a topic are stages that read and change it.
+//! Each topic has a `state.rs` with its part of the state. The other files of a topic are stages that read and change it.
 
 use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
@@ -26,7 +26,7 @@ pub(super) struct Unit {
     pub axes: [AxisNumber; 1 + SYNCHRONOUS_AXES],
     pub count: u8,
     pub set: AxisSet,
-    /// Which grouping it is.
+    /// The grouping, if it is one.
     pub grouping: Option<u8>,
     pub channel: ChannelNumber,
     pub mode_group: ModeGroupNumber,
@@ -59,7 +59,7 @@ impl Unit {
     }
 }
 
-/// What of all axes goes into the signals of channels and of the NCK.
+/// A summary of all axes for the signals of channels and of the NCK.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Summary {
     pub drive_ready: AxisSet,
@@ -69,7 +69,7 @@ pub(super) struct Summary {
     pub in_motion: AxisSet,
 }
 
-/// All that the control remembers from one cycle to the next: plain data, without machine data.
+/// The state of the control between cycles: plain data, without machine data.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct State {
     pub log: Log,
@@ -78,7 +78,7 @@ pub(super) struct State {
     pub emergency_stop: EmergencyStop,
     pub channels: PerChannel<Channel>,
     pub axes: PerAxis<Axis>,
-    /// Filters and delays of setpoints, where machine data ask for them.
+    /// Filters and delays of setpoints, if machine data require them.
     pub shaping: PerAxis<Option<Box<Shaping>>>,
     pub groupings: ArrayVec<Grouping, GROUPINGS>,
     pub units: ArrayVec<Unit, { AxisNumber::MAX as usize }>,
@@ -88,13 +88,13 @@ pub(super) struct State {
     pub handwheels: [Handwheel; HANDWHEELS],
     pub group_functions: PerModeGroup<GroupFunction>,
     pub power_on_cause: EventId,
-    /// What is as power on left it.
+    /// The event of power on, for everything that has not changed since.
     pub as_after_power_on: EventId,
     pub definition_cause: EventId,
     pub plc_missing: bool,
     pub plc_cause: EventId,
     pub declared: Declared,
-    /// Somebody else wrote into the NCK's half; the next publication overwrites all of it (SIG-11).
+    /// Another writer wrote into the NCK's half. The next publication overwrites all of it (SIG-11).
     pub overwritten: bool,
 }
 
@@ -128,7 +128,7 @@ impl State {
         state
     }
 
-    /// The first cycle after power on notes it: what it shows is of this cycle.
+    /// Recorded in the first cycle after power on, because its signals belong to this cycle.
     pub(super) fn note_power_on(&mut self) {
         if self.power_on_cause.is_some() {
             return;
@@ -138,7 +138,8 @@ impl State {
         self.definition_cause = self.log.note_plain(Place::Nck, Rule::GroupingDefined, self.power_on_cause);
     }
 
-    /// Closed groupings and single axes; an open grouping is single axes that are still run as a grouping.
+    /// Forms the units: closed groupings and single axes. The axes of an open grouping are single axes, and the grouping still
+    /// runs.
     pub(super) fn form_units(&mut self, parameters: &Parameters) {
         self.units.clear();
         let mut taken = AxisSet::NONE;
@@ -160,7 +161,7 @@ impl State {
         self.mode_group(unit).is_jogging()
     }
 
-    /// Every axis is in position control, and nothing stops.
+    /// Whether every axis is in position control and nothing stops the unit.
     pub(super) fn unit_can_move(&self, unit: &Unit, parameters: &Parameters) -> bool {
         let free = self.stop(unit.channel, parameters).is_none() && self.motion_forbidden(unit).is_none();
         free && unit.members().all(|axis| self.axes[axis].enabling.is_on())
