@@ -1,14 +1,14 @@
-//! The rules by which the control acts, each with the place where it is written.
+//! The rules of the control, each with the place where it is documented.
 //!
-//! Every transition of a state machine and every signal edge names one of these as its cause. A new rule is a new
-//! row here; it prints as `id: text, inputs`, with an empty text where the inputs say it all.
+//! Every transition of a state machine and every signal edge names one of these rules as its cause. To add a rule, add a row
+//! here. It is printed as `id: text, inputs`; the text is empty if the inputs are sufficient.
 
 use crate::variables::{Rule as Text, RuleNumber};
 
-/// Makes the enum and its table, so that a number always finds its text.
+/// Makes the enum and its table, so that every number has a text.
 macro_rules! rules {
     ($($name:ident $id:literal $text:literal;)*) => {
-        /// A rule that allowed something to happen.
+        /// A rule that allowed a change.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(u16)]
         pub enum Rule {
@@ -23,8 +23,8 @@ rules! {
     // Start-up and enabling.
     PowerOn "power on" "power was switched on";
     AsAfterPowerOn "power on" "as after power on";
-    RunUp "O-20" "run-up of control and drives";
-    DriveReady "O-20" "the drive has run up";
+    RunUp "O-20" "start-up of control and drives";
+    DriveReady "O-20" "the drive has started up";
     DriveLost "drive" "the drive is not ready";
     PulsesEnabled "O-20" "pulses enabled";
     PulsesDisabled "O-20" "pulses disabled";
@@ -35,10 +35,10 @@ rules! {
     MeasuringSystem "REF-33" "measuring system selected";
     Parking "SYN-01" "both measuring systems off";
     FollowUpByParking "SYN-01" "follow-up of a parked axis";
-    ParameterSet "SIG-05" "parameter set that 9.0 to 9.2 select";
-    ParameterSetRefused "25200" "9.0 to 9.2 select a parameter set that there is not";
-    ParameterSetJumps "26050" "the parameter set that 9.0 to 9.2 select has another load gear: the actual value would jump";
-    DriveDataSet "SIG-05" "data set of the drive that 21.0 to 21.4 select";
+    ParameterSet "SIG-05" "parameter set selected by 9.0 to 9.2";
+    ParameterSetRefused "25200" "9.0 to 9.2 select a parameter set that does not exist";
+    ParameterSetJumps "26050" "the parameter set selected by 9.0 to 9.2 has another load gear: the actual value would jump";
+    DriveDataSet "SIG-05" "drive data set selected by 21.0 to 21.4";
     // Emergency stop.
     EmergencyStop "E-06" "emergency stop";
     EmergencyStopAcknowledged "E-06" "emergency stop acknowledged";
@@ -47,22 +47,22 @@ rules! {
     SoftwareLimit "MON-13" "on the software limit switch";
     // What stops and holds movements.
     StoppedByAlarm "ALARM" "an alarm stops the movement";
-    StoppedByReset "RESET" "RESET is pressed, nothing moves";
-    StoppedByEmergencyStop "E-06" "emergency stop, nothing moves";
+    StoppedByReset "RESET" "RESET is pressed: no movement";
+    StoppedByEmergencyStop "E-06" "emergency stop: no movement";
     HeldByFeedStop "SIG-06" "feed stop holds the movement";
     HeldByOverride "O-03" "an override of 0 % holds the movement";
-    FeedReleased "SIG-06" "feed stop holds the movement no more";
-    OverrideReleased "O-03" "the override holds the movement no more";
+    FeedReleased "SIG-06" "feed stop no longer holds the movement";
+    OverrideReleased "O-03" "the override no longer holds the movement";
     TargetReached "REF-31" "the setpoint has reached the target";
-    CommandOfLeadingAxis "SIG-09" "the traverse command of the leading axis shows here, too";
-    WithoutCommand "SIG-09" "follows a synchronous axis, without a traverse command";
+    CommandOfLeadingAxis "SIG-09" "the traverse command of the leading axis is also displayed here";
+    WithoutCommand "SIG-09" "follows a synchronous axis without a traverse command";
     ChannelActive "channel" "an axis of the channel moves or is to move";
     ChannelAtRest "channel" "no axis of the channel moves or is to move";
     // Modes.
     ModeSelected "O-19" "mode";
     MachineFunction "O-19" "machine function";
-    KeysWithoutJog "O-19" "keys move nothing in this mode or machine function";
-    StrobeOwnedByHmi "E-01" "DB11.DBB5 was written from outside and is the HMI's from now on";
+    KeysWithoutJog "O-19" "traversing keys have no effect in this mode or machine function";
+    StrobeOwnedByHmi "E-01" "DB11.DBB5 was written from outside and belongs to the HMI from now on";
     ResetDone "RESET" "RESET";
     StartRefused "10203" "NC start without reference point";
     // Jogging.
@@ -71,10 +71,10 @@ rules! {
     MotionBlocked "JOG" "motion blocked";
     IncrementSelected "INC" "machine function of JOG";
     IncrementStarted "INC" "one increment";
-    EndReached "JOG" "at the end of the way";
+    EndReached "JOG" "target of the movement reached";
     HandwheelActivated "HANDWHEEL" "handwheel assigned";
     HandwheelTurned "HANDWHEEL" "handwheel turned";
-    HandwheelDropped "HANDWHEEL" "the rest of its way is dropped";
+    HandwheelDropped "HANDWHEEL" "remaining distance of the handwheel dropped";
     // Axis signals.
     AxisDisable "SIG-03" "axis disable";
     DistanceDeleted "SIG-04" "distance-to-go deleted";
@@ -86,15 +86,15 @@ rules! {
     ApproachStartedByChannel "REF-23" "channel-specific referencing";
     ApproachStartedInGrouping "REF-04" "synchronous axis referenced after the leading axis";
     OnCamAtStart "REF-31" "on the cam at the start";
-    WithoutCam "REF-31" "MD34000 = 0: no cam, the zero mark is searched at once";
+    WithoutCam "REF-31" "MD34000 = 0: no cam, zero mark search starts at once";
     CamReached "REF-31" "cam reached";
     StoppedOnCam "REF-31" "at rest on the cam";
-    LeaveCamFirst "REF-31" "MD34050 = 1: off the cam first";
+    LeaveCamFirst "REF-31" "MD34050 = 1: leave the cam first";
     CamLeft "REF-31" "cam left";
     StoppedOffCam "REF-31" "at rest off the cam";
     CamEdge "REF-31" "cam edge";
-    CamShiftPassed "REF-31" "MD34092 passed after the cam edge";
-    CreepVelocityMissed "20006" "creep velocity not reached at the cam edge: section 1 once more";
+    CamShiftPassed "REF-31" "distance of MD34092 passed after the cam edge";
+    CreepVelocityMissed "20006" "creep velocity not reached at the cam edge: section 1 is repeated";
     ZeroMark "REF-31" "zero mark";
     ReferencePointReached "REF-31" "at the reference point";
     Referenced "REF-03" "reference point reached";
@@ -119,17 +119,17 @@ rules! {
     SynchronismLostFollowUp "SYN-05" "follow-up";
     SynchronismLostReference "SYN-01" "reference lost";
     ReadyAgain "O-09" "all axes referenced, not synchronised";
-    ReadyNoMore "E-13" "not ready for synchronisation any more";
+    ReadyNoMore "E-13" "no longer ready for synchronisation";
     Opened "BRK-01" "grouping opened";
     Closed "BRK-05" "grouping closed";
     ClosingRefused "BRK-05" "the grouping stays open: a movement of the axis is pending";
-    ConcurrentAxisIgnored "DEF-11" "no meaning on a synchronous axis, that of the leading axis counts";
-    UnequalData "DYN-03" "not as the leading axis has it";
-    Overloaded "DYN-02" "the leading axis asks for more than the synchronous axis can";
-    NotMonitored "BRK-02" "not watched while the grouping is open or follows up";
+    ConcurrentAxisIgnored "DEF-11" "ignored on a synchronous axis, the value of the leading axis applies";
+    UnequalData "DYN-03" "differs from the value of the leading axis";
+    Overloaded "DYN-02" "the leading axis demands more than the synchronous axis can do";
+    NotMonitored "BRK-02" "not monitored while the grouping is open or in follow-up";
     WarningLimit "MON-02" "above the warning limit";
-    WarningLimitBeyondBase "MON-08" "further apart than at the return to position control by more than the warning limit";
-    TripLimitBeyondBase "MON-08" "further apart than at the return to position control by more than the trip limit";
+    WarningLimitBeyondBase "MON-08" "difference exceeds its value at the return to position control by more than the warning limit";
+    TripLimitBeyondBase "MON-08" "difference exceeds its value at the return to position control by more than the trip limit";
     WarningGone "MON-02" "not above the warning limit";
     TripLimitSynchronised "MON-04" "above the trip limit";
     TripLimitNotSynchronised "MON-05" "above the trip limit";
@@ -137,24 +137,24 @@ rules! {
     // Alarms and states that follow from values.
     EnableLostInMotion "21612" "enable reset during motion";
     PlcMissing "2000" "no sign of life from the PLC program";
-    StandstillMonitoring "25040" "pushed out of the standstill tolerance";
-    ClampingMonitoring "26000" "pushed out of the clamping tolerance";
+    StandstillMonitoring "25040" "actual position outside the standstill tolerance";
+    ClampingMonitoring "26000" "actual position outside the clamping tolerance";
     PositioningMonitoring "25080" "exact stop fine not reached within MD36020";
-    ContourMonitoring "25050" "the axis does not go where position control makes an ideal axis go";
-    VelocityMonitoring "25030" "faster than the velocity limit";
-    SpeedSetpointMonitoring "25060" "position control wants more speed than the drive is given, for longer than MD36220";
-    FrequencyExceeded "21610" "too fast for the encoder";
-    FrequencyNormal "21610" "slow enough for the encoder again";
-    EncoderFault "25000" "the encoder tells nothing";
-    EncoderPollution "25010" "the encoder tells nothing, and MD36310 above 100 takes that for pollution";
-    ZeroMarkMonitoring "25020" "a zero mark is not where the counts say";
-    EncodersDiffer "25105" "the measuring systems do not agree";
-    SwitchOverImpossible "25100" "the other measuring system is dead or too far off";
-    EncoderMissing "25110" "measuring system 2 is selected, and the axis has none";
-    FollowUpInMotion "21615" "in motion when the drive lost its power";
-    DriveFault "25201" "the drive tells of a fault";
+    ContourMonitoring "25050" "actual position deviates from the axis model";
+    VelocityMonitoring "25030" "actual velocity above the velocity limit";
+    SpeedSetpointMonitoring "25060" "speed setpoint above its limit (MD36210) for longer than MD36220";
+    FrequencyExceeded "21610" "encoder frequency limit exceeded";
+    FrequencyNormal "21610" "encoder frequency below its limit again";
+    EncoderFault "25000" "no encoder signal";
+    EncoderPollution "25010" "no encoder signal, reported as pollution because MD36310 is above 100";
+    ZeroMarkMonitoring "25020" "zero mark not at the expected count";
+    EncodersDiffer "25105" "the measuring systems differ";
+    SwitchOverImpossible "25100" "the other measuring system has no signal or differs too much";
+    EncoderMissing "25110" "measuring system 2 is selected, but the axis does not have one";
+    FollowUpInMotion "21615" "the drive lost its power during motion";
+    DriveFault "25201" "the drive reports a fault";
     DriveReadyAgain "25201" "the drive is ready again";
-    DriveNotReady "25202" "the drive does not run up";
+    DriveNotReady "25202" "the drive does not start up";
     AlarmCancelled "ALARM" "alarm cancelled";
     ExactStop "exact stop" "";
     ExactStopInMotion "exact stop" "the axis moves or is to move";

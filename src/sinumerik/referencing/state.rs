@@ -75,13 +75,13 @@ impl Phase {
             Self::Idle => "no approach",
             Self::SearchCam => "phase 1: towards the cam",
             Self::BrakeOnCam => "braking on the cam",
-            Self::LeaveCam => "off the cam",
+            Self::LeaveCam => "leaving the cam",
             Self::BrakeOffCam => "braking off the cam",
             Self::SearchEdge => "phase 2: to the cam edge",
-            Self::PassShift => "the way of MD34092",
+            Self::PassShift => "distance of MD34092",
             Self::SearchMark => "phase 2: to the zero mark",
             Self::GoToReferencePoint => "phase 3: to the reference point",
-            Self::ExactStop => "until exact stop fine",
+            Self::ExactStop => "waiting for exact stop fine",
         }
     }
 }
