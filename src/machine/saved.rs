@@ -83,7 +83,7 @@ impl Machine {
                 "expected a saved machine with the same interface, found another interface".to_owned(),
             ));
         }
-        // Program and control keep their state when they refuse. The program is restored last, so that nothing has changed then.
+        // Program and control keep their state when they refuse. The program is restored last, so an error changes nothing.
         let mut restored = self.control.clone_box();
         restored.restore(remembered)?;
         match (&mut self.program, &saved.program) {

@@ -57,7 +57,7 @@ impl Setpoint {
         self.velocity
     }
 
-    /// Whether it stands still.
+    /// Whether it is at rest.
     #[must_use]
     pub fn is_at_rest(&self) -> bool {
         self.velocity.abs() < 1e-9 && !self.held_back

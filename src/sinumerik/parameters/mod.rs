@@ -1,7 +1,7 @@
-//! Active machine data in the units of the model: what the stages of a cycle work with.
+//! Active machine data in the units of the model, as used by the stages of a cycle.
 //!
-//! Made anew whenever machine data become active (power on, RESET, NEWCONF); read by every stage, written by none.
-//! Lengths are whole increments, velocities increments per second, times whole cycles.
+//! Recalculated whenever machine data become active (power on, RESET, NEWCONF). Every stage reads them, none writes them. Lengths
+//! are whole increments, velocities increments per second, times whole cycles.
 
 pub(super) mod axis;
 pub(super) mod channels;
@@ -22,16 +22,16 @@ use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis,
 
 use crate::variables::Place;
 
-/// Everything that is active.
+/// All active parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameters {
     /// The interpolation cycle, MD10050 × MD10070.
     pub cycle: Time,
-    /// How many position-control cycles make one, MD10070 / MD10060.
+    /// Number of position-control cycles in it, MD10070 / MD10060.
     pub servo_cycles: u32,
-    /// One of them, in seconds.
+    /// Duration of a position-control cycle, in seconds.
     pub servo_cycle: f64,
-    /// MD11412: alarms that could say "mode group not ready" or "channel not ready" say the second only.
+    /// MD11412: alarms with "mode group not ready" or "channel not ready" only cause "channel not ready".
     pub only_channel_not_ready: bool,
     /// MD11300: keys act as long as they are pressed, in INC and in the reference point approach.
     pub jog_mode: bool,
@@ -39,9 +39,9 @@ pub struct Parameters {
     pub key_modes: KeyModes,
     /// MD11320: pulses per detent of each handwheel.
     pub handwheel_pulses: [f64; 3],
-    /// MD11346 is 0 or 2: a handwheel that stands drops the rest of its way.
+    /// MD11346 is 0 or 2: a handwheel at standstill drops its remaining distance.
     pub handwheel_drops_rest: bool,
-    /// After how many cycles without a pulse a handwheel stands.
+    /// Number of cycles without a pulse after which a handwheel counts as being at standstill.
     pub handwheel_still_cycles: u64,
     /// MD12000.
     pub axis_override_is_gray: bool,
@@ -61,7 +61,7 @@ pub struct Parameters {
     pub existing: AxisSet,
     /// The axes.
     pub axes: PerAxis<AxisParameters>,
-    /// The groupings that MD37100 defines, and what is wrong with them.
+    /// The groupings defined by MD37100, and the faults of their definition.
     pub groupings: Definitions,
 }
 
@@ -124,7 +124,7 @@ fn servo_cycles(data: &MachineData) -> u32 {
     ratio.max(1).unsigned_abs()
 }
 
-/// How keys act.
+/// The modes of the traversing keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KeyModes {
     /// MD11300: an increment runs while its key is held, else to its end.
@@ -150,7 +150,7 @@ impl Parameters {
         self.channels[channel].mode_group.unwrap_or(ModeGroupNumber::FIRST)
     }
 
-    /// Whether what happens at a place concerns a channel.
+    /// Whether an event at a place concerns a channel.
     #[must_use]
     pub fn concerns_channel(&self, place: Place, channel: ChannelNumber) -> bool {
         match place {
@@ -161,7 +161,7 @@ impl Parameters {
         }
     }
 
-    /// Whether what happens at a place concerns a mode group.
+    /// Whether an event at a place concerns a mode group.
     #[must_use]
     pub fn concerns_mode_group(&self, place: Place, group: ModeGroupNumber) -> bool {
         match place {

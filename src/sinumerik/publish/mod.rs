@@ -26,7 +26,7 @@ use crate::units::{AxisNumber, AxisSet, Position};
 use crate::variables::{AxisValues, EventId, Place, Variables};
 
 impl Nck {
-    /// Writes what the control shows. Of `restless` axes the iron has not come to rest.
+    /// Writes the published blocks. The mechanics of the axes `restless` are not at rest.
     pub fn publish(&mut self, from_nck: &mut FromNck, hmi: &mut Hmi, variables: &mut Variables, restless: AxisSet) {
         let (mut shown, mut decided) = (self.awake(), self.decided());
         let (parameters, state) = (&*self.parameters, &mut *self.state);
