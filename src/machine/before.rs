@@ -1,14 +1,14 @@
-//! The memory as the last record saw it.
+//! The memory at the time of the last record.
 
 use super::written::{FIXED, Written};
 use crate::image::{Memory, Part};
 
-/// The memory as the last record saw it, and what was written from outside since.
+/// The memory at the time of the last record, and the writes from outside since then.
 #[derive(Debug)]
 pub(super) struct Before {
     pub(super) parts: Vec<(Part, Vec<u8>)>,
     pub(super) written: Written,
-    /// The PLC's half is another one than at the end of the last cycle.
+    /// The PLC's half differs from that at the end of the last cycle.
     pub(super) plc_wrote: bool,
     /// Power was switched off and on in this step.
     pub(super) power_on: bool,
@@ -22,7 +22,7 @@ impl Before {
         Self { parts, written: Written::new(), plc_wrote: true, power_on: false }
     }
 
-    /// Nothing, for a machine that does not go on.
+    /// Empty, for a machine that does not run.
     pub(super) const fn without_room() -> Self {
         Self { parts: Vec::new(), written: Written::new(), plc_wrote: true, power_on: false }
     }

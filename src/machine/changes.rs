@@ -1,4 +1,4 @@
-//! What changed in a step, for the record: whole parts are compared first, then their bytes.
+//! Finds the changes of a step for the record. Whole parts are compared first, then their bytes.
 
 use super::Machine;
 use super::written::{FIXED, Force};
@@ -9,7 +9,7 @@ use crate::units::AxisSet;
 use crate::variables::{EventId, Place};
 
 impl Machine {
-    /// What the PLC's half has other than at the end of the last cycle.
+    /// The differences of the PLC's half from the end of the last cycle.
     pub(super) fn plc_changes(&mut self) -> Changes {
         let before = self.before.parts.iter().find(|(part, _)| *part == Part::ToNck);
         let now: &[u8] = &self.state.memory.to_nck;
@@ -25,7 +25,7 @@ impl Machine {
         Changes { axes, shared }
     }
 
-    /// Writes from outside that the PLC program overwrote in this step.
+    /// Records the writes from outside that the PLC program overwrote in this step.
     pub(super) fn note_overwritten(&mut self) {
         for location in self.before.written.settle(&self.state.memory) {
             let bits = if location.width < 8 { location.mask() << location.bit } else { 0xFF };
@@ -133,7 +133,7 @@ impl Machine {
         }
     }
 
-    /// The signal of a switch that is not wired to an input.
+    /// Whether the bit is the signal of a switch that is not wired to an input.
     fn is_switch(&self, offset: u32, bit: u8) -> bool {
         let is_here = |location: &Location| (location.offset, location.bit) == (offset, bit);
         self.definition.unwired.iter().any(|(_, _, location)| is_here(location))
@@ -163,7 +163,7 @@ impl Machine {
     }
 }
 
-/// Whose block a byte is in, and which byte of the block it is.
+/// The block of a byte, and the number of the byte in the block.
 fn place_of(interface: &'static Interface, part: Part, offset: u32) -> Option<(Place, u16)> {
     let found = interface.signals_at(part, offset)?;
     Some((Place::of_block(found.block, found.number)?, found.byte))

@@ -1,4 +1,4 @@
-//! One step, and the PLC in it.
+//! One step, including the PLC.
 
 use super::Machine;
 use super::state::State;
@@ -11,15 +11,15 @@ use crate::units::{AxisSet, PerAxis};
 use crate::variables::{AxisValues, Variables};
 
 impl Machine {
-    /// One interpolation cycle. The order of the stages is the specification of who sees whom when.
+    /// One interpolation cycle. The order of the stages defines in which cycle each part receives the data of the others.
     pub fn step(&mut self) {
         self.state.cycle += 1;
         self.state.time += self.cycle_time();
-        // What waited outside.
+        // Queued commands.
         self.take_commands();
-        // Plant senses: wired switches are inputs of the PLC.
+        // Plant signals: wired switches are inputs of the PLC.
         self.sense_wired_switches();
-        // PLC scan, when its time has come; cams that are not wired; forces.
+        // PLC scan, if it is due; cams that are not wired; forces.
         self.scan();
         self.note_overwritten();
         self.sense_unwired_switches();
@@ -115,12 +115,12 @@ impl Machine {
         for part in 1..=count {
             let command = |axis, counts| self.control.velocity_command(axis, counts, part, count);
             let changed = self.state.plant.advance(layout, moving, servo_cycle, command);
-            // Those that did not move, and are commanded nothing else, would not in the other parts either.
+            // Axes that did not move and have an unchanged command do not move in the other parts either.
             moving = layout.with_bridged(moving.without(self.control.still()).with(changed));
         }
     }
 
-    /// What drives and encoders tell.
+    /// Takes the feedback of drives and encoders.
     pub(super) fn sense(&mut self, axes: AxisSet) {
         self.state.plant.press_switches(&self.definition.layout, axes);
         for axis in axes.iter() {
@@ -129,7 +129,7 @@ impl Machine {
     }
 }
 
-/// The variables of a machine that was just switched on: where its slides are is known before the first cycle.
+/// The variables of a machine after power on: the positions of its slides are known before the first cycle.
 pub(super) fn first_variables(feedback: &PerAxis<Feedback>) -> Variables {
     let mut variables = Variables::default();
     for (axis, values) in variables.axes.iter_mut() {

@@ -1,14 +1,14 @@
-//! What was written from outside in a step, by place: who changed a bit is asked for each bit that changed, and a client may write
+//! The writes from outside in a step, by location. The writer is looked up for each bit that changed, and a client may write
 //! thousands of bytes at once.
 
 use serde::{Deserialize, Serialize};
 
 use crate::image::{Location, Memory, Part};
 
-/// Room for writes in one step before the list has to grow.
+/// Capacity for writes in one step before the list has to grow.
 const WRITES: usize = 256;
 
-/// A forced place.
+/// A forced location.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Force {
     pub(super) location: Location,
@@ -19,10 +19,10 @@ pub(super) struct Force {
 #[derive(Debug)]
 pub(super) struct Written {
     writes: Vec<Force>,
-    /// For each byte what was written last: the fixed parts in the order of [`FIXED`], then own blocks in theirs. Empty until
-    /// something is to be written: most machines that are forked are never written to.
+    /// The last write to each byte: the fixed parts in the order of [`FIXED`], then the PLC's own blocks in their order. Empty
+    /// until the first write, because most forked machines are never written to.
     places: Vec<(Part, Vec<Bits>)>,
-    /// Which of the writes the PLC program overwrote, last first.
+    /// The writes that the PLC program overwrote, last first.
     overwritten: Vec<usize>,
 }
 
@@ -43,7 +43,7 @@ impl Written {
         Self { writes: Vec::new(), places: Vec::new(), overwritten: Vec::new() }
     }
 
-    /// Makes room for writes to a memory such as this, so that a step has to make none.
+    /// Allocates memory for writes to a memory of this layout, so that a step does not allocate.
     pub(super) fn make_room(&mut self, memory: &Memory) {
         if self.places.is_empty() {
             let own = memory.blocks.iter().map(|block| Part::Block(block.number));
@@ -69,8 +69,8 @@ impl Written {
         }
     }
 
-    /// Looks at all writes once the PLC program has run: which of them it overwrote, in order. What another write of the same cycle
-    /// replaced, the PLC did not.
+    /// Compares all writes after the PLC program has run, and returns those that it overwrote, in order. A write that another
+    /// write of the same cycle replaced does not count as overwritten by the PLC.
     pub(super) fn settle(&mut self, memory: &Memory) -> impl Iterator<Item = Location> {
         let Self { writes, places, overwritten } = self;
         overwritten.clear();
@@ -90,7 +90,7 @@ impl Written {
         overwritten.iter().rev().map(|index| writes[*index].location)
     }
 
-    /// What was written to a bit last, if something was; known once they are settled.
+    /// The last write to a bit, if any; known after [`Written::settle`].
     pub(super) fn bit(&self, part: Part, offset: u32, bit: u8) -> Option<bool> {
         let (_, bytes) = self.places.get(index_of(&self.places, part)?)?;
         let bits = bytes.get(offset as usize)?;
@@ -142,7 +142,7 @@ mod tests {
     }
 
     proptest! {
-        /// As whoever compares each write with all later ones finds it.
+        /// Compared with a search of all later writes for each write.
         #[test]
         fn the_last_write_of_a_bit_counts(
             writes in prop::collection::vec((location(), any::<u32>()), 0..12),

@@ -1,4 +1,4 @@
-//! The state of the iron: slides that drives move, bridges that pull them together, and faults.
+//! The state of the simulated mechanics: slides moved by drives, bridges that pull them together, and faults.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,9 +10,9 @@ use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Slide {
     position: Position,
-    /// Where it was at the last [`Plant::tell`].
+    /// Its position at the last [`Plant::tell`].
     told: Position,
-    /// What the encoders count there: most slides rest most of the time.
+    /// The encoder counts at that position, kept because most slides rest most of the time.
     counts: [Position; 2],
     drive: Drive,
     encoders: [Encoder; 2],
@@ -20,9 +20,9 @@ struct Slide {
     blocked: bool,
     zero_mark_missing: bool,
     drive_fault: bool,
-    /// What a dead encoder goes on telling.
+    /// The constant signal of an encoder with a fault.
     dead: [Option<Position>; 2],
-    /// Share of the velocity that is left.
+    /// Remaining share of the velocity.
     grip: f64,
     /// Velocity without power.
     drift: f64,
@@ -30,38 +30,38 @@ struct Slide {
     stuck: [Option<bool>; 3],
 }
 
-/// The iron of a machine.
+/// The simulated mechanics of a machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plant {
     slides: PerAxis<Option<Slide>>,
-    /// Those that became another than they were, since [`Plant::restless`] was last asked.
+    /// Axes that changed since the last call of [`Plant::restless`].
     #[serde(skip, default = "all")]
     changed: AxisSet,
-    /// Those that became so before that, in the cycle before: a zero mark that they told of is passed.
+    /// Axes that changed in the cycle before that: a reported zero mark has been passed.
     #[serde(skip, default = "all")]
     changed_before: AxisSet,
-    /// Those whose drives may not have run up yet.
+    /// Axes whose drives may not have started up yet.
     #[serde(skip, default = "all")]
     running_up: AxisSet,
-    /// Whose cam, switch plus and switch minus are pressed; follows from the slides.
+    /// The axes with pressed cam, plus switch and minus switch; derived from the slides.
     #[serde(skip)]
     pressed: [AxisSet; 3],
 }
 
-/// Of a plant that was restored nothing is known yet.
+/// After restoring, every axis counts as changed.
 const fn all() -> AxisSet {
     AxisSet::ALL
 }
 
 impl Plant {
-    /// Everything at its start, switched on.
+    /// A plant at its start positions, switched on.
     #[must_use]
     pub fn new(layout: &Layout) -> Self {
         let slides = PerAxis::from_fn(|axis| layout.axes[axis].as_ref().map(Slide::new));
         Self { slides, changed: all(), changed_before: all(), running_up: all(), pressed: [AxisSet::NONE; 3] }
     }
 
-    /// Power off and on: slides and faults stay, drives run up anew, encoders count from where they are.
+    /// Power off and on: slides and faults stay, drives start up again, encoders count from the present positions.
     pub fn power_on(&mut self, layout: &Layout) {
         (self.changed, self.running_up) = (all(), all());
         for (axis, slide) in self.slides.iter_mut() {
@@ -99,7 +99,7 @@ impl Plant {
         }
     }
 
-    /// A fault ends; what was displaced once stays displaced.
+    /// A fault ends. A single displacement stays.
     pub fn clear_fault(&mut self, fault: Fault) {
         let Some(slide) = &mut self.slides[fault.axis] else {
             return;
@@ -121,11 +121,10 @@ impl Plant {
         }
     }
 
-    /// One position-control cycle: each drive answers its command, slides move, bridges pull.
+    /// One position-control cycle: each drive responds to its command, slides move, bridges pull.
     ///
-    /// A command of `None` is a drive without power: its motor is braked as fast as its speed loop would.
-    /// Only these axes are moved; those that share a bridge with one of them are to be among them. Returns which of them became
-    /// another than they were.
+    /// A command of `None` is a drive without power: its motor brakes as fast as its speed loop would. Only these axes are moved;
+    /// axes that share a bridge with one of them must be included. Returns the axes that changed.
     pub fn advance(
         &mut self,
         layout: &Layout,
@@ -151,8 +150,8 @@ impl Plant {
         changed
     }
 
-    /// A bridge takes back its share of a difference, half on each slide, all of it on the one that can move. Returns whether there
-    /// was one.
+    /// A bridge removes its share of a difference, half of it on each slide, or all of it on the only slide that can move.
+    /// Returns whether there was a difference.
     fn pull(&mut self, first: AxisNumber, other: AxisNumber, offset: Position, stiffness: f64, cycle: f64) -> bool {
         let (Some(a), Some(b)) = (self.slides[first], self.slides[other]) else {
             return false;
@@ -190,25 +189,25 @@ impl Plant {
         true
     }
 
-    /// Those of these axes that are not as they were when this was last asked, once a cycle.
+    /// Those of these axes that changed since the last call, which is made once per cycle.
     pub fn restless(&mut self, axes: AxisSet) -> AxisSet {
         self.changed_before = self.changed;
         self.changed = self.changed.without(axes);
         self.changed_before.and(axes)
     }
 
-    /// Those of these axes whose drive or encoders tell something else than in the cycle before.
+    /// Those of these axes whose drive or encoder signals differ from the previous cycle.
     #[must_use]
     pub fn news(&self, axes: AxisSet) -> AxisSet {
         self.changed.with(self.changed_before).and(axes)
     }
 
-    /// What drive and encoders of an axis tell since the last call.
+    /// The signals of drive and encoders of an axis since the last call.
     pub fn tell(&mut self, axis: AxisNumber) -> Feedback {
         self.slides[axis].as_mut().map_or_else(Feedback::default, Slide::tell)
     }
 
-    /// The drives run up.
+    /// Start-up of the drives.
     pub fn run_up(&mut self, axes: AxisSet, cycle: Time) {
         for axis in axes.and(self.running_up).iter() {
             match &mut self.slides[axis] {
@@ -221,13 +220,13 @@ impl Plant {
         }
     }
 
-    /// The axes whose switch is pressed, as of the last [`Plant::press_switches`].
+    /// The axes with this switch pressed, as of the last [`Plant::press_switches`].
     #[must_use]
     pub fn pressed(&self, switch: Switch) -> AxisSet {
         self.pressed[switch as usize]
     }
 
-    /// Slides press the switches where they are; these axes may have moved.
+    /// Slides press the switches at their positions; these axes may have moved.
     pub fn press_switches(&mut self, layout: &Layout, axes: AxisSet) {
         for axis in axes.iter() {
             for switch in [Switch::Cam, Switch::LimitPlus, Switch::LimitMinus] {
@@ -272,7 +271,7 @@ impl Slide {
         }
     }
 
-    /// The counts of both encoders at the moment.
+    /// The present counts of both encoders.
     fn values(&self) -> [Position; 2] {
         if self.position == self.told {
             return self.counts;
@@ -280,7 +279,7 @@ impl Slide {
         [0, 1].map(|index| self.dead[index].unwrap_or_else(|| self.encoders[index].value(self.position)))
     }
 
-    /// What drive and encoders tell since the last call.
+    /// The signals of drive and encoders since the last call.
     fn tell(&mut self) -> Feedback {
         Feedback {
             encoders: self.signals(),
@@ -310,22 +309,22 @@ impl Slide {
         signals
     }
 
-    /// It is somewhere else, within the way that a slide can have.
+    /// Displaces the slide, within its permitted range.
     fn push(&mut self, by: Position) {
         self.position = within_reach(self.position.increments().saturating_add(by.increments()));
     }
 
-    /// The encoders count from somewhere else.
+    /// Updates the encoder counts after a displacement.
     fn count(&mut self) {
         self.counts = [0, 1].map(|index| self.dead[index].unwrap_or_else(|| self.encoders[index].value(self.told)));
     }
 
-    /// An encoder tells nothing new from now on.
+    /// An encoder sends no new values from now on.
     fn kill(&mut self, encoder: usize) {
         self.dead[encoder] = self.dead[encoder].or(Some(self.counts[encoder]));
     }
 
-    /// It counts on from where it stopped: what was moved meanwhile is lost.
+    /// The encoder counts on from its last value: movement in the meantime is lost.
     fn revive(&mut self, encoder: usize) {
         if let Some(value) = self.dead[encoder].take() {
             let lost = value - self.encoders[encoder].value(self.told);
@@ -334,7 +333,7 @@ impl Slide {
         }
     }
 
-    /// A command of `None` is a drive without power. Returns whether it is another than before.
+    /// A command of `None` is a drive without power. Returns whether anything changed.
     fn advance(&mut self, command: Option<f64>, time_constant: f64, cycle: f64) -> bool {
         let before = (self.position, self.drive);
         match command {
@@ -362,7 +361,7 @@ mod tests {
         Position::from_user(value)
     }
 
-    /// One axis at 5 mm with zero marks every 10 mm, run up.
+    /// One axis at 5 mm with zero marks every 10 mm, started up.
     fn plant() -> (Layout, Plant, AxisNumber) {
         let axis = AxisNumber::new(1).unwrap();
         let names = PerAxis::from_fn(|number| (number == axis).then(|| "X".to_owned()));
@@ -424,7 +423,7 @@ mod tests {
         plant.fault(dead, Some(0));
         assert_eq!(plant.tell(axis).encoder_faults, [true, false]);
         plant.fault(Fault { axis, kind: FaultKind::Push { by: mm(6.0) } }, Some(0));
-        // Past the zero mark at 10 mm: only encoder 2 tells of it.
+        // Past the zero mark at 10 mm: only encoder 2 reports it.
         let [first, second] = plant.tell(axis).encoders;
         assert_eq!((first.value, first.zero_mark), (mm(0.0), None));
         assert_eq!((second.value, second.zero_mark), (mm(6.0), Some(mm(5.0))));

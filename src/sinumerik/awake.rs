@@ -1,45 +1,46 @@
-//! When axes wake and when they rest: the calls of [`Resting`](crate::sinumerik::resting::Resting) in a cycle.
+//! Waking and resting of axes: the calls of [`Resting`](crate::sinumerik::resting::Resting) in a cycle.
 
 use crate::control::Changes;
 use crate::sinumerik::nck::Nck;
 use crate::units::AxisSet;
 
 impl Nck {
-    /// Moves, monitors and shows every axis in every cycle, also those that rest. The results are the same.
+    /// Moves, monitors and publishes every axis in every cycle, including axes at rest. The results are the same.
     pub fn never_rest(&mut self) {
         self.resting.never = true;
         self.resting.wake_all();
     }
 
-    /// Decides everything for every axis in every cycle, too. The results are the same.
+    /// Also makes all decisions for every axis in every cycle. The results are the same.
     pub fn decide_always(&mut self) {
         self.resting.always = true;
         self.resting.wake_all();
     }
 
-    /// Something happened to the machine: every axis is computed in the next cycle.
+    /// The machine was changed from outside: every axis is computed in the next cycle.
     pub fn wake_all(&mut self) {
         self.resting.wake_all();
     }
 
-    /// The axes that are computed in this cycle: an alarm that comes in the middle of it concerns all of them from there on.
+    /// The axes that are computed in this cycle. An alarm that is raised during the cycle concerns all of them from there on.
     #[must_use]
     pub fn awake(&self) -> AxisSet {
         if self.state.alarms_wake(&self.resting) { self.parameters.existing } else { self.resting.awake }
     }
 
-    /// The axes for which was decided in this cycle, or of which something else than their movement is new.
+    /// The axes for which decisions were made in this cycle, or for which something other than their movement has changed.
     pub(super) fn decided(&self) -> AxisSet {
         self.resting.deciding_now(&self.state).with(self.state.log.news)
     }
 
-    /// The axes for which position control asks for the same in all its cycles, as long as their encoders tell the same.
+    /// The axes with a constant position-control command in all position-control cycles, while their encoders report the same
+    /// values.
     #[must_use]
     pub fn still(&self) -> AxisSet {
         self.resting.still
     }
 
-    /// After the stages that concern all axes: which of them are computed in this cycle, and for which is decided.
+    /// After the stages that concern all axes: determines the axes to compute in this cycle, and those that need decisions.
     pub(super) fn wake(&mut self, changes: Changes) {
         let (state, resting) = (&*self.state, &mut *self.resting);
         let same = resting.shared.is_of(state, &self.parameters);
@@ -51,7 +52,7 @@ impl Nck {
         }
         resting.deciding = resting.deciding.with(changes.axes).and(self.parameters.existing);
         resting.awake = resting.awake.with(resting.deciding).and(self.parameters.existing);
-        // Until position control says otherwise.
+        // Until position control changes it.
         (resting.still, resting.heard) = (AxisSet::ALL, AxisSet::NONE);
         (resting.awake_units, resting.deciding_units) = (0, 0);
         for (index, unit) in state.units.iter().enumerate() {
@@ -67,21 +68,21 @@ impl Nck {
         }
     }
 
-    /// At the end of a cycle: an axis rests that came out of it as it went in, and whose mechanics rest. Nothing is decided in the
-    /// next cycle for an axis of which only the movement is another one.
+    /// At the end of a cycle: an axis rests if the cycle did not change it and its mechanics are at rest. An axis of which only
+    /// the movement has changed needs no decisions in the next cycle.
     pub(super) fn rest(&mut self, restless: AxisSet) {
         let (state, resting) = (&mut *self.state, &mut *self.resting);
         let pending = state.alarms.axes();
         let news = std::mem::take(&mut state.log.news);
         let (mut awake, mut deciding) = (restless.with(pending).with(news), pending.with(news));
         if state.alarms_wake(resting) {
-            // An alarm that has just gone by itself held other axes in this cycle, and will not in the next.
+            // An alarm that has just cleared by itself held other axes in this cycle, and will not in the next.
             resting.wake_all();
             (awake, deciding) = (AxisSet::ALL, AxisSet::ALL);
         }
         resting.alarm_version = state.alarms.version();
         if resting.axes.is_empty() {
-            // There was nothing to compare with.
+            // There is no previous state to compare with.
             resting.axes.extend(state.axes.iter().map(|(_, axis)| axis.clone()));
             resting.wake_all();
             (awake, deciding) = (AxisSet::ALL, AxisSet::ALL);
@@ -94,7 +95,7 @@ impl Nck {
                 deciding.set(number, true);
                 before.clone_from(axis);
             }
-            // Where the mechanics moved there is nothing to compare: the movement is another one.
+            // If the mechanics moved, no comparison is needed: the movement has changed.
             let moved = restless.contains(number);
             let moves = moved || resting.heard.contains(number) || !axis.has_movement_of(before);
             if !moves {
@@ -116,7 +117,7 @@ impl Nck {
             if !resting.awake.and(axes).is_empty() && now != before {
                 resting.units_stale |= now.phase != before.phase;
                 before.clone_from(now);
-                // It may have been opened or closed: other stages decide about its axes then.
+                // It may have been opened or closed, and then other stages decide about its axes.
                 deciding = deciding.with(axes);
             }
         }

@@ -1,4 +1,4 @@
-//! The control as the machine calls it: machine data, and the order of the stages in a cycle.
+//! The control as called by the machine: machine data, and the order of the stages in a cycle.
 
 use std::sync::Arc;
 
@@ -20,8 +20,8 @@ use crate::variables::{EventId, Place};
 
 /// The control.
 ///
-/// Machine data have a stored and an active set (DEF-09, REF-22): a file or an operator changes the stored one, and
-/// the class of a datum says when it begins to act.
+/// Machine data have a stored and an active set (DEF-09, REF-22). A file or an operator changes the stored set. The class of a
+/// datum defines when its value becomes active.
 #[derive(Debug)]
 pub struct Nck {
     pub(super) stored: Arc<MachineData>,
@@ -31,7 +31,7 @@ pub struct Nck {
     pub(super) state: Box<State>,
     pub(super) resting: Box<Resting>,
     strobe: Strobe,
-    /// The cancel key was pressed at the edge of this cycle; the stage takes it back, so that no saved machine has it.
+    /// The cancel key was pressed at the edge of this cycle. The stage resets it, so no saved machine contains it.
     cancel_key: bool,
 }
 
@@ -59,7 +59,7 @@ struct SavedNck {
 }
 
 impl Nck {
-    /// A control that has just been switched on.
+    /// A control after power on.
     #[must_use]
     pub(super) fn new(data: MachineData, presence: PerAxis<AxisPresence>, strobe: Strobe) -> Self {
         let stored = Arc::new(data);
@@ -78,7 +78,7 @@ impl Nck {
         }
     }
 
-    /// Power off and on: stored machine data become active, everything else starts anew.
+    /// Power off and on: stored machine data become active, everything else starts again.
     pub fn power_on(&mut self) {
         let cycle = self.state.log.cycle;
         self.active = Arc::clone(&self.stored);
@@ -91,28 +91,28 @@ impl Nck {
         self.fix_strobes();
     }
 
-    /// What the stages work with.
+    /// The data that the stages work with.
     #[must_use]
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
     }
 
-    /// The machine data that act.
+    /// The active machine data.
     #[must_use]
     pub fn active(&self) -> &MachineData {
         &self.active
     }
 
-    /// The machine data as they are stored.
+    /// The stored machine data.
     #[must_use]
     pub fn stored(&self) -> &MachineData {
         &self.stored
     }
 
-    /// Stores a machine datum; it acts when its class says.
+    /// Stores a machine datum. It takes effect as its class defines.
     ///
     /// # Errors
-    /// The value does not fit the datum, or only the control writes it; nothing has changed then.
+    /// The value does not fit the datum, or only the control may write it. In this case nothing has changed.
     pub fn store(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
         Arc::make_mut(&mut self.stored).set(target, value)?;
         if target.datum().effect == Effect::Immediate {
@@ -126,7 +126,7 @@ impl Nck {
         self.activate(Effect::NewConf);
     }
 
-    /// Makes the stored data of a class and of those below it active.
+    /// Activates the stored data of a class and of the lower classes.
     pub(super) fn activate(&mut self, level: Effect) {
         if Arc::ptr_eq(&self.stored, &self.active) {
             return;
@@ -156,19 +156,19 @@ impl Nck {
         self.state.axes[axis].measuring_system
     }
 
-    /// Which steps of referencing and of the groupings this control has taken.
+    /// The transitions of referencing and of the groupings that this control has made.
     #[must_use]
     pub fn taken_transitions(&self) -> Taken {
         self.state.log.taken
     }
 
-    /// Where the reference point approach of an axis is.
+    /// The phase of the reference point approach of an axis.
     #[must_use]
     pub fn approach_phase(&self, axis: AxisNumber) -> crate::sinumerik::ApproachPhase {
         self.state.axes[axis].approach.phase()
     }
 
-    /// Where the gantry grouping of this number is.
+    /// The phase of the gantry grouping of this number.
     #[must_use]
     pub fn grouping_phase(&self, number: u8) -> Option<crate::sinumerik::GroupingPhase> {
         let grouping = self.state.groupings.iter().find(|grouping| grouping.number == number)?;
@@ -202,7 +202,7 @@ impl Nck {
         }
     }
 
-    /// Takes what the PLC wrote, and which of it is new, and commands setpoints.
+    /// Reads the data of the PLC and their changes, and commands setpoints.
     pub fn decide(&mut self, cycle: u64, to_nck: &ToNck, changes: Changes) {
         let cancel_key = std::mem::take(&mut self.cancel_key);
         self.state.log.cycle = cycle;
@@ -247,7 +247,7 @@ impl Nck {
         state.order_channel_referencing(parameters);
     }
 
-    /// Takes what encoders and drives of these axes tell, and monitors it. The others tell what they told before.
+    /// Takes the feedback of encoders and drives of these axes, and monitors it. The feedback of the other axes has not changed.
     pub fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet) {
         let (parameters, state) = (&*self.parameters, &mut *self.state);
         for number in told.with(self.resting.deciding_now(state)).and(parameters.existing).iter() {
@@ -271,7 +271,7 @@ impl Nck {
         for number in awake.iter() {
             let axis = &self.state.axes[number];
             summary.standing.set(number, axis.stands(&self.parameters.axes[number]));
-            // An approach that waits at rest is on its way, too.
+            // An approach that waits at standstill also counts as motion.
             summary.in_motion.set(number, axis.is_in_motion() || axis.approach.is_running());
         }
         for number in awake.and(decided).iter() {
@@ -282,7 +282,7 @@ impl Nck {
         self.state.summary = summary;
     }
 
-    /// Everything that it remembers, as bytes.
+    /// The complete state, as bytes.
     pub(super) fn save(&self) -> Vec<u8> {
         let saved = SavedNck {
             stored: MachineData::clone(&self.stored),
@@ -292,15 +292,15 @@ impl Nck {
         postcard::to_stdvec(&saved).expect("plain data can always be written")
     }
 
-    /// Takes back what [`Nck::save`] gave.
+    /// Restores the state from [`Nck::save`].
     ///
     /// # Errors
-    /// The bytes are no saved control of this version; nothing has changed then.
+    /// The bytes are not a saved control of this version. In this case nothing has changed.
     pub(super) fn restore(&mut self, saved: &[u8]) -> Result<(), Problem> {
         let saved: SavedNck = postcard::from_bytes(saved).map_err(|error| {
             Problem::new(
                 format!("expected a saved control, found damaged bytes: {error}"),
-                "restore what `save` of this version gave, on the same machine",
+                "restore bytes from `save` of this version, on the same machine",
             )
         })?;
         let same = saved.stored == saved.active;

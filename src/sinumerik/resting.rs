@@ -1,17 +1,18 @@
-//! Axes that rest are not computed again, and nothing is decided twice.
+//! Skips axes at rest and repeated decisions.
 //!
-//! A cycle of the control is a function of its state, of what the PLC wrote and of what encoders and drives told. An axis
-//! whose state came out of a cycle as it went in, and that gets the same inputs again, comes out of the next one as it is: it
-//! rests, and the stages leave it out until something that it depends on is another one.
+//! A cycle of the control is a function of its state, of the data from the PLC, and of the feedback of encoders and drives. If a
+//! cycle does not change the state of an axis, and its inputs stay the same, the next cycle does not change it either. The axis
+//! then rests, and the stages skip it until something that it depends on changes.
 //!
-//! An axis that only moves is awake, and no decision is made for it: the stages that read signals and command a movement are
-//! left out, and it goes on with the movement that was commanded. They are a function of signals, of what was decided before, and
-//! of three things about a movement: whether the setpoint rests, on which side of its target it is, and, where
-//! [`Axis::decisions_follow_movement`] says so, of all of it. Axes of a closed grouping are decided in every cycle in which they are awake.
+//! An axis that only moves is awake, but needs no decisions: the stages that read signals and command a movement are skipped, and
+//! the commanded movement continues. These stages are a function of signals, of earlier decisions, and of three facts about a
+//! movement: whether the setpoint rests, on which side its target is, and, if [`Axis::decisions_follow_movement`] is true, the
+//! whole movement. Axes of a closed grouping get decisions in every cycle in which they are awake.
 //!
-//! What all axes depend on (modes, channels, handwheels, run-up, emergency stop, machine data, an alarm that comes or goes)
-//! wakes all; an alarm that stays keeps its own axis awake, which may have to raise it again. Nothing that can be seen depends
-//! on which axes rest ([`Nck::decide_always`](crate::sinumerik::Nck::decide_always) computes everything always, and tests compare both).
+//! A change of anything that all axes depend on (modes, channels, handwheels, start-up, emergency stop, machine data, an alarm
+//! that is raised or cleared) wakes all axes. A pending alarm keeps its own axis awake, because the axis may have to raise it
+//! again. No visible result depends on which axes rest ([`Nck::decide_always`](crate::sinumerik::Nck::decide_always) computes
+//! everything in every cycle, and tests compare both).
 
 use arrayvec::ArrayVec;
 
@@ -25,7 +26,7 @@ use crate::sinumerik::parameters::groupings::GROUPINGS;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, AxisSet, PerAxis, PerChannel, PerModeGroup};
 
-/// What every axis depends on.
+/// The data that every axis depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Shared {
     run_up: RunUp,
@@ -48,32 +49,33 @@ impl Shared {
     }
 }
 
-/// Which axes rest, and what the last cycle left.
+/// The axes at rest, and the state at the end of the last cycle.
 #[derive(Debug)]
 pub(super) struct Resting {
     /// The axes that are computed in this cycle.
     pub awake: AxisSet,
-    /// Their units, a bit for each place in the list of units.
+    /// Their units, as bits by index in the list of units.
     pub awake_units: u32,
-    /// Those of them for which is decided in this cycle.
+    /// Those that need decisions in this cycle.
     pub deciding: AxisSet,
     /// Their units.
     pub deciding_units: u32,
-    /// The axes for which position control asks for the same in all its cycles, as long as their encoders tell the same.
+    /// The axes with a constant position-control command in all position-control cycles, while their encoders report the same
+    /// values.
     pub still: AxisSet,
-    /// The axes that were told something else by their drives or encoders in this cycle.
+    /// The axes with changed feedback of drive or encoders in this cycle.
     pub heard: AxisSet,
-    /// Where the movement of each was at the end of the cycle before.
+    /// The course of each movement at the end of the previous cycle.
     pub ways: PerAxis<Way>,
     /// No axis rests.
     pub never: bool,
-    /// No axis rests, and everything is decided in every cycle.
+    /// No axis rests, and all decisions are made in every cycle.
     pub always: bool,
     /// Groupings may have been opened or closed.
     pub units_stale: bool,
     pub alarm_version: u32,
     pub shared: Shared,
-    /// What was decided about each axis and how it moved; nothing yet where nothing is known.
+    /// The decisions and the movement of each axis at the end of the last cycle; empty if unknown.
     pub axes: Vec<Axis>,
     pub groupings: ArrayVec<Grouping, GROUPINGS>,
 }
@@ -99,14 +101,14 @@ impl Resting {
         }
     }
 
-    /// The state is another one, after power on or restored: what was before is nothing to compare with.
+    /// Starts again after power on or restoring: there is no earlier state to compare with.
     pub(super) fn begin_anew(&mut self, state: &State) {
         let mut axes = std::mem::take(&mut self.axes);
         axes.clear();
         *self = Self { never: self.never, always: self.always, axes, ..Self::new(state) };
     }
 
-    /// That of a copy of the control: no axis rests, and it costs little.
+    /// The initial value for a copy of the control: no axis rests. It needs little memory.
     pub(super) fn anew(&self, state: &State) -> Self {
         Self { never: self.never, always: self.always, ..Self::new(state) }
     }
@@ -118,23 +120,23 @@ impl Resting {
         self.units_stale = true;
     }
 
-    /// An axis was told something else by its drive or encoders.
+    /// The feedback of drive or encoders of an axis has changed.
     pub(super) fn hear(&mut self, axis: AxisNumber) {
         self.awake.set(axis, true);
         self.heard.set(axis, true);
     }
 
-    /// The axes for which is decided in this cycle.
+    /// The axes that need decisions in this cycle.
     pub(super) const fn deciding(&self) -> AxisSet {
         self.deciding
     }
 
-    /// The axes for which is decided in this cycle: all of them as soon as an alarm came or went in it.
+    /// The axes that need decisions in this cycle: all of them as soon as an alarm was raised or cleared in it.
     pub(super) fn deciding_now(&self, state: &State) -> AxisSet {
         if state.alarms_wake(self) { AxisSet::ALL } else { self.deciding }
     }
 
-    /// Groupings were opened or closed, or machine data became active, since this was last asked.
+    /// Whether groupings were opened or closed, or machine data became active, since the last call.
     pub(super) fn take_units_stale(&mut self) -> bool {
         std::mem::take(&mut self.units_stale)
     }
@@ -152,29 +154,29 @@ impl State {
         }
     }
 
-    /// An alarm came or went: that can stop every axis.
+    /// Whether an alarm was raised or cleared, which can stop every axis.
     pub(super) fn alarms_wake(&self, resting: &Resting) -> bool {
         self.alarms.version() != resting.alarm_version
     }
 
-    /// The first unit from this place on for which is decided in this cycle.
+    /// The first unit from this index on that needs decisions in this cycle.
     pub(super) fn next_deciding(&self, from: usize, resting: &Resting) -> Option<usize> {
         self.next_unit(from, resting.deciding_units, resting)
     }
 
-    /// The first unit from this place on that is computed in this cycle.
+    /// The first unit from this index on that is computed in this cycle.
     pub(super) fn next_awake(&self, from: usize, resting: &Resting) -> Option<usize> {
         self.next_unit(from, resting.awake_units, resting)
     }
 
     fn next_unit(&self, from: usize, units: u32, resting: &Resting) -> Option<usize> {
-        // An alarm of a unit before concerns those behind it in the same cycle.
+        // An alarm of an earlier unit concerns the later units in the same cycle.
         let rest = if self.alarms_wake(resting) { u32::MAX } else { units };
         let index = (rest & u32::MAX.checked_shl(u32::try_from(from).ok()?)?).trailing_zeros() as usize;
         (index < self.units.len()).then_some(index)
     }
 
-    /// The setpoint of a single axis rests, and what it is commanded to do leaves it where it is.
+    /// The setpoint of a single axis is at rest, and its command does not change it.
     pub(super) fn stays(&self, unit: &Unit) -> bool {
         let (axis, shaping) = (&self.axes[unit.leader()], &self.shaping[unit.leader()]);
         let commanded = matches!(axis.motion, Motion::Brake { .. } | Motion::Hold);
@@ -182,7 +184,7 @@ impl State {
         unit.grouping.is_none() && commanded && rests && shaping.is_none()
     }
 
-    /// Whether is decided for a unit in this cycle.
+    /// Whether a unit needs decisions in this cycle.
     pub(super) fn decides(&self, index: usize, resting: &Resting) -> bool {
         resting.deciding_units >> index & 1 == 1 || self.alarms_wake(resting)
     }

@@ -1,20 +1,19 @@
-//! Position control: fine interpolation, dynamic response adaptation, feed-forward, servo gain.
+//! Position control: fine interpolation, dynamic response adaptation, feedforward, servo gain.
 //!
-//! Called by the machine MD10070 / MD10060 times in each interpolation cycle, after the stage "setpoints", for every axis. Reads
-//! setpoints, encoders and the active parameter set; writes nothing but the delays of the setpoint branch.
+//! The machine calls it MD10070 / MD10060 times in each interpolation cycle, after the stage "setpoints", for every axis. Reads
+//! setpoints, encoders and the active parameter set; writes only the delays of the setpoint branch.
 //!
-//! Position control compares the setpoint and the actual value of one instant, the end of the position-control cycle before: the
-//! following error that is shown is the one that it works on, v / Kv at steady speed.
+//! Position control compares setpoint and actual value of the same time, the end of the previous position-control cycle. The
+//! displayed following error is the one used for control, v / Kv at steady speed.
 //!
-//! The setpoint branch: MD32900 delays the whole of it by MD32910 (PT1). Behind that, MD32610 times the setpoint velocity goes
-//! to the drive, and what the actual value is compared with is delayed by the balancing time, PT1 or dead time; a drive with the
-//! time constant that MD32810 says leaves nothing to be corrected. At steady speed the following error (setpoint of the
-//! interpolator minus actual value) is v · (MD32910 + MD32810) + (1 − MD32610) · v / Kv with feed-forward, and
-//! v / Kv + v · MD32910 without.
+//! The setpoint branch: MD32900 delays the whole branch by MD32910 (PT1). After this delay, MD32610 times the setpoint velocity
+//! goes to the drive, and the setpoint that is compared with the actual value is delayed by the balancing time, as PT1 or dead
+//! time. If the time constant of the drive equals MD32810, nothing remains to be corrected. At steady speed the following error
+//! (setpoint of the interpolator minus actual value) is v · (MD32910 + MD32810) + (1 − MD32610) · v / Kv with feedforward, and v
+//! / Kv + v · MD32910 without.
 //!
-//! Choices: an axis that needs no delay has none, and pays for none. An axis without power, and one whose setpoint
-//! is not put out (1.3, 20.1, an encoder fault), starts its branch anew.
-//! MD32620 = 2 and 4 act by their speed part; MD32650 does nothing.
+//! Choices: an axis without a delay needs no memory and no time for it. An axis without power, and an axis whose setpoint is not
+//! output (1.3, 20.1, an encoder fault), restarts its branch. MD32620 = 2 and 4 act with their speed part; MD32650 has no effect.
 
 use crate::motion::velocity_command;
 use crate::sinumerik::axis::shaping::SetpointBranch;
@@ -27,8 +26,8 @@ use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
 
 impl Nck {
-    /// Position control of an axis in part `part` of `count` of the interpolation cycle: the velocity that its drive is to
-    /// have; `None` for a drive without power.
+    /// Position control of an axis in part `part` of `count` of the interpolation cycle. Returns the velocity command for the
+    /// drive; `None` for a drive without power.
     pub fn velocity_command(
         &mut self,
         number: AxisNumber,
@@ -67,7 +66,7 @@ impl Nck {
             axis.branch = branch.pass(parameters.dynamics.feed_forward, set, movement, cycle);
             axis.unsettled = axis.unsettled.wrapping_add(u32::from(branch.is_behind()));
         }
-        // Of the time at which the actual value was taken.
+        // At the time at which the actual value was taken.
         let setpoint = axis.finely_interpolated(part - 1, count);
         let wanted = axis.velocity_wanted(set, setpoint, actual, axis.half_count);
         let ideal = axis.velocity_wanted(set, setpoint, axis.monitor.model(), Position::ZERO);
@@ -80,7 +79,7 @@ impl Nck {
 }
 
 impl State {
-    /// Memory for the filters and delays that the active machine data ask for; what is in use already stays as it is.
+    /// Allocates the filters and delays required by the active machine data; those already in use stay unchanged.
     pub(in crate::sinumerik) fn prepare_position_control(&mut self, parameters: &Parameters) {
         let cycle = parameters.servo_cycle;
         for (number, axis) in parameters.existing() {
@@ -100,7 +99,7 @@ impl State {
     }
 }
 
-/// What of it the drive is given: MD36210.
+/// The part of it that the drive receives: limited to MD36210.
 #[must_use]
 pub(in crate::sinumerik) fn limited(velocity: f64, parameters: &AxisParameters) -> f64 {
     let limit = parameters.monitoring.speed_setpoint_limit;
@@ -108,7 +107,7 @@ pub(in crate::sinumerik) fn limited(velocity: f64, parameters: &AxisParameters) 
 }
 
 impl Axis {
-    /// The velocity that position control asks for with an actual value.
+    /// The velocity command of position control for an actual value.
     #[must_use]
     pub(in crate::sinumerik) fn velocity_wanted(
         &self,
@@ -122,7 +121,7 @@ impl Axis {
         velocity_command(deviation - behind, set.gain, half_count, feed_forward)
     }
 
-    /// Its setpoint branch starts anew.
+    /// Restarts the setpoint branch.
     fn reset_branch(&mut self, branch: Option<&mut SetpointBranch>) {
         if let Some(branch) = branch {
             branch.reset();

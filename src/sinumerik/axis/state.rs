@@ -1,4 +1,4 @@
-//! What the control remembers of one machine axis.
+//! The state of one machine axis.
 
 use serde::{Deserialize, Serialize};
 
@@ -36,20 +36,20 @@ pub(in crate::sinumerik) struct Causes {
 /// One machine axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct Axis {
-    /// Where it is to be.
+    /// Setpoint.
     pub setpoint: Setpoint,
     /// The setpoint before this cycle, from which it is finely interpolated.
     pub before: Position,
-    /// What this cycle commands.
+    /// The motion command of this cycle.
     pub motion: Motion,
     /// Counts the cycles in which a filter or delay of its setpoint has not run out.
     pub unsettled: u32,
-    /// How far position control's setpoint is behind the one of the interpolator, in increments, and the velocity that is fed
-    /// forward, in the last position-control cycle.
+    /// Lag of the position-control setpoint behind that of the interpolator, in increments, and the velocity for feedforward, in
+    /// the last position-control cycle.
     pub branch: (f64, f64),
     /// The active parameter set, 0 to 5.
     pub parameter_set: u8,
-    /// The data set that its drive has taken.
+    /// The data set that its drive has accepted.
     pub drive_data_set: u8,
     /// The target of a [`Motion::GoTo`] is reached, and the setpoint rests on it.
     pub arrived: bool,
@@ -57,7 +57,7 @@ pub(in crate::sinumerik) struct Axis {
     pub offset: [Position; 2],
     /// Which measuring system is referenced.
     pub referenced: [bool; 2],
-    /// Which measuring system is active, 0 or 1; without one the axis is parked.
+    /// The active measuring system, 0 or 1; `None` for a parked axis.
     pub measuring_system: Option<u8>,
     /// Actual value in the machine coordinate system.
     pub actual: Position,
@@ -69,9 +69,9 @@ pub(in crate::sinumerik) struct Axis {
     pub half_count: Position,
     /// True position, for display.
     pub slide: Position,
-    /// The drive has run up.
+    /// The drive has started up.
     pub drive_ready: bool,
-    /// The way to position control and back.
+    /// Enabling of position control.
     pub enabling: Enabling,
     /// Reference point approach.
     pub approach: Approach,
@@ -79,9 +79,9 @@ pub(in crate::sinumerik) struct Axis {
     pub key_used: bool,
     /// Direction of the key that started the approach; 0 for channel-specific referencing.
     pub approach_key: i8,
-    /// Motion wanted, 64.4 and 64.5: +1, −1 or 0.
+    /// Travel request, 64.4 and 64.5: +1, −1 or 0.
     pub traverse_request: i8,
-    /// Motion commanded, 64.6 and 64.7: +1, −1 or 0.
+    /// Travel command, 64.6 and 64.7: +1, −1 or 0.
     pub traverse_command: i8,
     /// Factor of the axial override.
     pub feed_factor: f64,
@@ -89,17 +89,17 @@ pub(in crate::sinumerik) struct Axis {
     pub feed_held: bool,
     /// Feed disable of its channel.
     pub feed_disabled: bool,
-    /// The signal that holds it, of itself or of another axis of its unit; in the cycle in which it lets go, that signal with 0.
+    /// The signal that holds it, of this axis or of another axis of its unit; in the cycle of its release, that signal with 0.
     pub feed_holder: Input,
     /// Hardware limit switches.
     pub limits: LimitSwitches,
-    /// What monitoring remembers.
+    /// Monitoring.
     pub monitor: AxisMonitor,
-    /// What keys and handwheels do.
+    /// Keys and handwheels.
     pub jogging: Jogging,
     /// Axis disable, ramp-function generator fast stop, delete distance-to-go.
     pub signals: AxisSignals,
-    /// Why.
+    /// The events behind its signals.
     pub causes: Causes,
 }
 
@@ -143,7 +143,7 @@ impl Default for Axis {
 }
 
 impl Axis {
-    /// What was decided about it is what was decided about the other; its movement may be another one.
+    /// Whether the decisions about both axes are equal; their movements may differ.
     pub(in crate::sinumerik) fn has_decisions_of(&self, other: &Self) -> bool {
         (self.motion, self.enabling, self.traverse_request, self.traverse_command)
             == (other.motion, other.enabling, other.traverse_request, other.traverse_command)
@@ -159,14 +159,14 @@ impl Axis {
             && self.approach == other.approach
     }
 
-    /// It moves as the other does, where drive and encoders told the same of both.
+    /// Whether both axes have the same movement, if drive and encoders reported the same for both.
     pub(in crate::sinumerik) fn has_movement_of(&self, other: &Self) -> bool {
         (self.setpoint, self.before, self.arrived) == (other.setpoint, other.before, other.arrived)
             && (self.branch, self.unsettled) == (other.branch, other.unsettled)
             && self.monitor == other.monitor
     }
 
-    /// Moves as the other does, from now on.
+    /// Takes over the movement of the other axis.
     pub(in crate::sinumerik) fn take_movement_of(&mut self, other: &Self) {
         (self.setpoint, self.before, self.unsettled) = (other.setpoint, other.before, other.unsettled);
         (self.branch, self.arrived) = (other.branch, other.arrived);
@@ -174,12 +174,12 @@ impl Axis {
         (self.half_count, self.slide, self.monitor) = (other.half_count, other.slide, other.monitor);
     }
 
-    /// Where its movement is.
+    /// The course of its movement.
     pub(in crate::sinumerik) fn way(&self) -> Way {
         Way { rests: self.setpoint.is_at_rest(), ahead: self.motion.direction(self.setpoint.position) }
     }
 
-    /// What is decided about it depends on where it is: an approach, axis disable, handwheels, follow-up.
+    /// Whether its decisions depend on its position: an approach, axis disable, handwheels, follow-up.
     pub(in crate::sinumerik) fn decisions_follow_movement(&self) -> bool {
         self.approach.is_running()
             || self.signals.disabled_at.is_some()
@@ -187,7 +187,7 @@ impl Axis {
             || self.motion == Motion::Track
     }
 
-    /// Takes what drive and encoders tell.
+    /// Takes the feedback of drive and encoders.
     pub(in crate::sinumerik) fn sense(&mut self, feedback: &Feedback) {
         self.velocity = feedback.velocity;
         self.slide = feedback.slide;
@@ -201,13 +201,13 @@ impl Axis {
         }
     }
 
-    /// The active measuring system is referenced.
+    /// Whether the active measuring system is referenced.
     #[must_use]
     pub(in crate::sinumerik) fn is_referenced(&self) -> bool {
         self.measuring_system.is_some_and(|active| self.referenced[usize::from(active)])
     }
 
-    /// What it has once per parameter set, of the active one.
+    /// The data of the active parameter set.
     #[must_use]
     pub(in crate::sinumerik) fn active_set<'a>(&self, parameters: &'a AxisParameters) -> &'a ParameterSet {
         &parameters.dynamics.sets[usize::from(self.parameter_set)]
@@ -219,19 +219,19 @@ impl Axis {
         self.signals.disabled_at().unwrap_or(self.setpoint.position) - self.actual
     }
 
-    /// The setpoint rests and the velocity is below MD36060.
+    /// Whether the setpoint rests and the velocity is below MD36060.
     #[must_use]
     pub(in crate::sinumerik) fn stands(&self, parameters: &AxisParameters) -> bool {
         self.setpoint.is_at_rest() && self.velocity.abs() < parameters.standstill_velocity
     }
 
-    /// The axis moves or is to move.
+    /// Whether the axis moves or is commanded to move.
     #[must_use]
     pub(in crate::sinumerik) fn is_in_motion(&self) -> bool {
         self.traverse_command != 0 || !self.setpoint.is_at_rest()
     }
 
-    /// Gives the place where it is another actual value: nothing moves.
+    /// Shifts the actual value at the present position: nothing moves.
     pub(in crate::sinumerik) fn shift(&mut self, by: Position) {
         if let Some(active) = self.measuring_system {
             self.offset[usize::from(active)] += by;
@@ -242,7 +242,7 @@ impl Axis {
         }
     }
 
-    /// Executes what the cycle commands, through the filters that the axis has.
+    /// Executes the command of the cycle, with the filters of the axis.
     pub(in crate::sinumerik) fn execute(
         &mut self,
         shaping: Option<&mut Shaping>,
@@ -256,7 +256,7 @@ impl Axis {
             self.arrived = command(&mut self.setpoint);
             return;
         };
-        // What takes the axis out of its movement does not wait for a filter.
+        // A stop by the enabling sequence does not wait for a filter.
         let fast = matches!(self.enabling.control, ControllerState::Braking(_))
             || motion.is_fast(parameters.dynamics.jerk.hardest);
         let first = motion.acceleration().map(|rate| parameters.dynamics.jerk.window_for(rate, cycle));
@@ -279,33 +279,33 @@ impl coupling::Axes for PerAxis<Axis> {
     }
 }
 
-/// What of a movement leads to another decision when it changes.
+/// The facts of a movement that lead to another decision when they change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::sinumerik) struct Way {
     /// The setpoint rests.
     rests: bool,
-    /// Where its target is, or where it runs: +1, −1 or 0.
+    /// Direction of its target or of its motion: +1, −1 or 0.
     ahead: i8,
 }
 
-/// How many cycles each step of the chain takes, so that brake and timer logic meets a real order.
+/// Duration of each step of the enabling sequence in cycles, so that brake and timer logic sees a realistic order.
 pub(in crate::sinumerik) const STEP: u8 = 2;
 
-/// How far an axis is on its way to position control.
+/// The state of position control.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) enum ControllerState {
     /// No position control.
     #[default]
     Off,
-    /// The controllers switch on one after another; how many cycles so far.
+    /// The controllers switch on one after another; number of cycles so far.
     SwitchingOn(u8),
     /// In position control.
     On,
-    /// Braking after the enable went; how many cycles are left before it is switched off anyway (MD36620).
+    /// Braking after the enable was removed; number of cycles until the axis is switched off in any case (MD36620).
     Braking(u64),
 }
 
-/// The state of the chain.
+/// The state of the enabling sequence.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct Enabling {
     /// Position control.
@@ -339,7 +339,7 @@ impl Enabling {
         self.pulses_enabled() && self.moves()
     }
 
-    /// In position control, also while braking towards being switched off.
+    /// In position control, also while braking before switching off.
     #[must_use]
     pub(in crate::sinumerik) const fn moves(&self) -> bool {
         matches!(self.control, ControllerState::On | ControllerState::Braking(_))
@@ -352,7 +352,7 @@ impl Enabling {
     }
 }
 
-/// The limit switches of an axis as the last cycle saw them.
+/// The limit switches of an axis in the last cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct LimitSwitches {
     pub minus: bool,
@@ -361,7 +361,7 @@ pub(in crate::sinumerik) struct LimitSwitches {
 }
 
 impl LimitSwitches {
-    /// The switch of this axis that lies in a direction, as it is.
+    /// The switch of this axis in a direction, with its present value.
     pub(in crate::sinumerik) const fn input(self, axis: AxisNumber, direction: i8) -> Input {
         if direction > 0 {
             axis_signal(axis, axis_to_nck::hardware_limit_switch_plus, self.plus)
@@ -370,7 +370,7 @@ impl LimitSwitches {
         }
     }
 
-    /// A movement in this direction leads further onto a switch.
+    /// Whether a movement in this direction leads further onto a switch.
     pub(in crate::sinumerik) const fn blocks(self, direction: i8) -> bool {
         direction > 0 && self.plus || direction < 0 && self.minus
     }
@@ -381,9 +381,9 @@ impl LimitSwitches {
 pub(in crate::sinumerik) struct AxisSignals {
     /// The unit is stopped by 20.1: 92.1.
     pub fast_stop: bool,
-    /// Why.
+    /// The event behind it.
     pub fast_stop_cause: EventId,
-    /// Where position control holds the axis while its setpoint is not output.
+    /// The position at which position control holds the axis while its setpoint is not output.
     pub disabled_at: Option<Position>,
     /// 2.2 in the last cycle.
     pub delete_was: bool,
@@ -397,20 +397,20 @@ impl AxisSignals {
         self.disabled_at
     }
 
-    /// What position control works on is not the setpoint: axis disable, or the fast stop.
+    /// Whether position control does not use the setpoint: axis disable, or the fast stop.
     #[must_use]
     pub(in crate::sinumerik) const fn withholds_setpoint(&self) -> bool {
         self.fast_stop || self.disabled_at.is_some()
     }
 
-    /// The same place gets another value.
+    /// Shifts the coordinate of the present position.
     pub(in crate::sinumerik) fn shift(&mut self, by: Position) {
         if let Some(held) = &mut self.disabled_at {
             *held += by;
         }
     }
 
-    /// Position control holds another place: the actual value.
+    /// Makes position control hold the actual value.
     pub(in crate::sinumerik) fn hold_at(&mut self, actual: Position) {
         if self.disabled_at.is_some() {
             self.disabled_at = Some(actual);
