@@ -130,8 +130,8 @@ pub trait Control: Send + Sync + Debug {
         AxisSet::NONE
     }
 
-    /// Takes the feedback of drives and encoders of the axes `told`, and monitors it. The feedback of the other axes has not changed.
-    fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet);
+    /// Takes the feedback of drives and encoders of the axes `changed`, and monitors it. The feedback of the other axes has not changed.
+    fn observe(&mut self, feedback: &PerAxis<Feedback>, changed: AxisSet);
 
     /// Writes the control's half of the interface and the variables. The mechanics of the axes `restless` are not at rest.
     fn publish(&mut self, out: ControlSide<'_>, variables: &mut Variables, restless: AxisSet);

@@ -31,10 +31,10 @@ impl Machine {
         let axes = self.definition.layout.with_bridged(self.control.awake());
         self.move_axes(axes);
         self.displace();
-        let told = self.state.plant.news(axes);
-        self.sense(told);
+        let changed = self.state.plant.news(axes);
+        self.sense(changed);
         // Monitoring and alarms, publication, record.
-        self.control.observe(&self.state.feedback, told);
+        self.control.observe(&self.state.feedback, changed);
         let restless = self.state.plant.restless(axes);
         let State { memory, variables, .. } = &mut self.state;
         let out = ControlSide { from_nck: &mut memory.from_nck, hmi: &mut memory.hmi };
@@ -124,7 +124,7 @@ impl Machine {
     pub(super) fn sense(&mut self, axes: AxisSet) {
         self.state.plant.press_switches(&self.definition.layout, axes);
         for axis in axes.iter() {
-            self.state.feedback[axis] = self.state.plant.tell(axis);
+            self.state.feedback[axis] = self.state.plant.feedback(axis);
         }
     }
 }

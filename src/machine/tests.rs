@@ -165,7 +165,7 @@ fn a_write_that_the_plc_program_overwrites_is_noticed_in_the_same_cycle() {
 
 /// SIG-11
 #[test]
-fn what_somebody_else_writes_into_a_bit_of_the_nck_lasts_until_its_next_publication() {
+fn a_foreign_write_to_a_bit_of_the_nck_lasts_until_its_next_publication() {
     let mut machine = ready();
     machine.load_program(
         program("look", (), |(), io| {
@@ -237,7 +237,7 @@ fn power_on_restarts_interface_and_plc_memory_and_keeps_slides_faults_and_machin
 /// The values that the PLC wrote are reset, even if a client also wrote to its memory. The axes keep their reference, and NC and
 /// panel keep their halves.
 #[test]
-fn a_cold_restart_begins_plc_memory_and_program_anew_and_a_warm_one_does_not() {
+fn a_cold_restart_resets_plc_memory_and_program_and_a_warm_one_does_not() {
     let mut machine = example();
     let count = |count: &mut u8, io: &mut PlcIo<'_>| {
         *count += 1;
@@ -304,7 +304,7 @@ fn an_override_counts_as_100_per_cent_unless_it_is_active() {
 }
 
 #[test]
-fn db11_dbx5_2_mirrors_ref_until_somebody_else_writes_the_byte() {
+fn db11_dbx5_2_mirrors_ref_until_another_writer_writes_the_byte() {
     let mut machine = ready();
     set(&mut machine, "DB11.DBX1.2", 1);
     run(&mut machine, 1);
@@ -413,7 +413,7 @@ fn leading_and_synchronous_axis_move_by_the_same_increments_in_every_cycle() {
 
 /// DYN-01, in sections 1 and 2: the following axis moves by the same increments in the same cycle, whichever axis leads.
 #[test]
-fn while_referencing_both_axes_move_by_the_same_increments_whoever_leads() {
+fn while_referencing_both_axes_move_by_the_same_increments_whichever_leads() {
     let mut machine = ready();
     set(&mut machine, "DB11.DBX1.2", 1);
     set(&mut machine, "X.traversing_key_plus", 1);

@@ -17,7 +17,7 @@ pub struct Hints {
 
 /// The simulated mechanics of one axis.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Iron {
+pub struct AxisMechanics {
     /// Position of the slide at first power on.
     pub start: Position,
     /// The speed loop as PT1, in seconds.
@@ -36,7 +36,7 @@ pub struct Iron {
 
 /// A bridge: the mechanical coupling of slides.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RigidOrSoft {
+pub struct SlideCoupling {
     /// The first slide, to which the others are offset.
     pub first: AxisNumber,
     /// The others, with their offset to the first when unstrained.
@@ -49,9 +49,9 @@ pub struct RigidOrSoft {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     /// The existing axes.
-    pub axes: PerAxis<Option<Iron>>,
+    pub axes: PerAxis<Option<AxisMechanics>>,
     /// The bridges.
-    pub bridges: Vec<RigidOrSoft>,
+    pub bridges: Vec<SlideCoupling>,
     /// Switches that are inputs of the PLC.
     pub wired: Vec<(AxisNumber, Switch, Input)>,
     /// Axes for which the simulator itself sets the signals of cam, plus switch and minus switch.
@@ -74,7 +74,7 @@ impl Layout {
     ) -> Self {
         let axes = PerAxis::from_fn(|number| {
             let name = names[number].as_deref().filter(|_| hints[number].exists)?;
-            Some(iron(definition, name, hints[number]))
+            Some(axis_mechanics(definition, name, hints[number]))
         });
         let bridges = groupings
             .iter()
@@ -87,7 +87,7 @@ impl Layout {
                     bridge.offset.get(name).copied().unwrap_or_else(|| start(&axes, axis) - start(&axes, first))
                 };
                 let others = others.iter().map(|&axis| (axis, offset(axis))).collect();
-                Some(RigidOrSoft { first, others, stiffness: bridge.stiffness })
+                Some(SlideCoupling { first, others, stiffness: bridge.stiffness })
             })
             .collect();
         let (wired, unwired) = wires(&axes);
@@ -106,14 +106,14 @@ impl Layout {
 }
 
 /// The existing switches and their inputs.
-fn wires(axes: &PerAxis<Option<Iron>>) -> (Vec<(AxisNumber, Switch, Input)>, [AxisSet; 3]) {
+fn wires(axes: &PerAxis<Option<AxisMechanics>>) -> (Vec<(AxisNumber, Switch, Input)>, [AxisSet; 3]) {
     let (mut wired, mut unwired) = (Vec::new(), [AxisSet::NONE; 3]);
-    for (axis, iron) in axes.iter() {
-        let Some(iron) = iron else { continue };
+    for (axis, mechanics) in axes.iter() {
+        let Some(mechanics) = mechanics else { continue };
         let switches = [
-            (Switch::Cam, iron.cam.as_ref().map(|cam| cam.input)),
-            (Switch::LimitPlus, iron.limit_plus.as_ref().map(|limit| limit.input)),
-            (Switch::LimitMinus, iron.limit_minus.as_ref().map(|limit| limit.input)),
+            (Switch::Cam, mechanics.cam.as_ref().map(|cam| cam.input)),
+            (Switch::LimitPlus, mechanics.limit_plus.as_ref().map(|limit| limit.input)),
+            (Switch::LimitMinus, mechanics.limit_minus.as_ref().map(|limit| limit.input)),
         ];
         for (switch, input) in switches {
             match input {
@@ -126,11 +126,11 @@ fn wires(axes: &PerAxis<Option<Iron>>) -> (Vec<(AxisNumber, Switch, Input)>, [Ax
     (wired, unwired)
 }
 
-fn start(axes: &PerAxis<Option<Iron>>, axis: AxisNumber) -> Position {
-    axes[axis].as_ref().map_or(Position::ZERO, |iron| iron.start)
+fn start(axes: &PerAxis<Option<AxisMechanics>>, axis: AxisNumber) -> Position {
+    axes[axis].as_ref().map_or(Position::ZERO, |mechanics| mechanics.start)
 }
 
-fn iron(definition: &PlantDefinition, name: &str, hints: Hints) -> Iron {
+fn axis_mechanics(definition: &PlantDefinition, name: &str, hints: Hints) -> AxisMechanics {
     let default = super::AxisPlant::new(crate::source::Place::file("defaults"));
     let said = definition.axes.get(name).unwrap_or(&default);
     let encoders = [0, 1].map(|index| {
@@ -143,7 +143,7 @@ fn iron(definition: &PlantDefinition, name: &str, hints: Hints) -> Iron {
         Given::Removed => None,
         Given::Unsaid => default_cam(said.start, hints.cam_direction),
     };
-    Iron {
+    AxisMechanics {
         start: said.start,
         time_constant: said.drive.time_constant.seconds(),
         ready_after: said.drive.ready_after,

@@ -3,7 +3,7 @@
 //!
 //! [`PlantDefinition`] is the content of `plant.toml`. [`Layout`] is the same with all defaults filled in, for the axes
 //! of one machine. [`Plant`] is the state that moves. The machine calls [`Plant::advance`] once per position-control
-//! cycle and [`Plant::tell`] once per interpolation cycle. To add a fault, add an arm to [`FaultKind`] and its effect
+//! cycle and [`Plant::feedback`] once per interpolation cycle. To add a fault, add an arm to [`FaultKind`] and its effect
 //! to `moving.rs`.
 
 mod definition;
@@ -15,5 +15,5 @@ pub use definition::{
     AxisPlant, Bridge, Cam, Db11Byte5Bit2, Drive, EncoderKind, EncoderPlant, Given, Input, LimitSwitch, PlantDefinition,
 };
 pub use faults::{Fault, FaultKind, Switch};
-pub use layout::{Hints, Iron, Layout, RigidOrSoft};
+pub use layout::{AxisMechanics, Hints, Layout, SlideCoupling};
 pub use moving::Plant;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Fault, FaultKind, Iron, Layout, Switch};
+use super::{AxisMechanics, Fault, FaultKind, Layout, Switch};
 use crate::motion::{Drive, Encoder, EncoderSignal, Feedback, within_reach};
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 
@@ -10,8 +10,8 @@ use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Slide {
     position: Position,
-    /// Its position at the last [`Plant::tell`].
-    told: Position,
+    /// Its position at the last [`Plant::feedback`].
+    reported: Position,
     /// The encoder counts at that position, kept because most slides rest most of the time.
     counts: [Position; 2],
     drive: Drive,
@@ -65,9 +65,9 @@ impl Plant {
     pub fn power_on(&mut self, layout: &Layout) {
         (self.changed, self.running_up) = (all(), all());
         for (axis, slide) in self.slides.iter_mut() {
-            if let (Some(slide), Some(iron)) = (slide, &layout.axes[axis]) {
+            if let (Some(slide), Some(mechanics)) = (slide, &layout.axes[axis]) {
                 slide.drive = Drive::default();
-                slide.ready_in = iron.ready_after;
+                slide.ready_in = mechanics.ready_after;
                 for (encoder, dead) in slide.encoders.iter_mut().zip(&mut slide.dead) {
                     encoder.restart(slide.position);
                     *dead = dead.map(|_| Position::ZERO);
@@ -134,9 +134,9 @@ impl Plant {
     ) -> AxisSet {
         let mut changed = AxisSet::NONE;
         for axis in axes.iter() {
-            if let (Some(slide), Some(iron)) = (&mut self.slides[axis], &layout.axes[axis]) {
+            if let (Some(slide), Some(mechanics)) = (&mut self.slides[axis], &layout.axes[axis]) {
                 let command = command(axis, slide.values()).filter(|_| !slide.drive_fault);
-                changed.set(axis, slide.advance(command, iron.time_constant, cycle));
+                changed.set(axis, slide.advance(command, mechanics.time_constant, cycle));
             }
         }
         for bridge in layout.bridges.iter().filter(|bridge| axes.contains(bridge.first)) {
@@ -203,8 +203,8 @@ impl Plant {
     }
 
     /// The signals of drive and encoders of an axis since the last call.
-    pub fn tell(&mut self, axis: AxisNumber) -> Feedback {
-        self.slides[axis].as_mut().map_or_else(Feedback::default, Slide::tell)
+    pub fn feedback(&mut self, axis: AxisNumber) -> Feedback {
+        self.slides[axis].as_mut().map_or_else(Feedback::default, Slide::feedback)
     }
 
     /// Start-up of the drives.
@@ -237,7 +237,7 @@ impl Plant {
     }
 
     fn is_pressed(&self, layout: &Layout, axis: AxisNumber, switch: Switch) -> bool {
-        let (Some(slide), Some(iron)) = (&self.slides[axis], &layout.axes[axis]) else {
+        let (Some(slide), Some(mechanics)) = (&self.slides[axis], &layout.axes[axis]) else {
             return false;
         };
         if let Some(stuck) = slide.stuck[switch as usize] {
@@ -245,22 +245,22 @@ impl Plant {
         }
         let position = slide.position;
         match switch {
-            Switch::Cam => iron.cam.as_ref().is_some_and(|cam| cam.from <= position && position <= cam.to),
-            Switch::LimitPlus => iron.limit_plus.as_ref().is_some_and(|limit| position >= limit.at),
-            Switch::LimitMinus => iron.limit_minus.as_ref().is_some_and(|limit| position <= limit.at),
+            Switch::Cam => mechanics.cam.as_ref().is_some_and(|cam| cam.from <= position && position <= cam.to),
+            Switch::LimitPlus => mechanics.limit_plus.as_ref().is_some_and(|limit| position >= limit.at),
+            Switch::LimitMinus => mechanics.limit_minus.as_ref().is_some_and(|limit| position <= limit.at),
         }
     }
 }
 
 impl Slide {
-    fn new(iron: &Iron) -> Self {
+    fn new(mechanics: &AxisMechanics) -> Self {
         Self {
-            position: iron.start,
-            told: iron.start,
-            counts: iron.encoders.map(|encoder| encoder.value(iron.start)),
+            position: mechanics.start,
+            reported: mechanics.start,
+            counts: mechanics.encoders.map(|encoder| encoder.value(mechanics.start)),
             drive: Drive::default(),
-            encoders: iron.encoders,
-            ready_in: iron.ready_after,
+            encoders: mechanics.encoders,
+            ready_in: mechanics.ready_after,
             blocked: false,
             zero_mark_missing: false,
             drive_fault: false,
@@ -273,14 +273,14 @@ impl Slide {
 
     /// The present counts of both encoders.
     fn values(&self) -> [Position; 2] {
-        if self.position == self.told {
+        if self.position == self.reported {
             return self.counts;
         }
         [0, 1].map(|index| self.dead[index].unwrap_or_else(|| self.encoders[index].value(self.position)))
     }
 
     /// The signals of drive and encoders since the last call.
-    fn tell(&mut self) -> Feedback {
+    fn feedback(&mut self) -> Feedback {
         Feedback {
             encoders: self.signals(),
             half_count: [self.encoders[0].half_count(), self.encoders[1].half_count()],
@@ -293,18 +293,18 @@ impl Slide {
     }
 
     fn signals(&mut self) -> [EncoderSignal; 2] {
-        if self.position == self.told {
+        if self.position == self.reported {
             return self.counts.map(|value| EncoderSignal { value, zero_mark: None });
         }
         let signals = [0, 1].map(|index| {
-            let mut signal = self.encoders[index].signal(self.told, self.position);
+            let mut signal = self.encoders[index].signal(self.reported, self.position);
             signal.value = self.dead[index].unwrap_or(signal.value);
             if self.zero_mark_missing || self.dead[index].is_some() {
                 signal.zero_mark = None;
             }
             signal
         });
-        self.told = self.position;
+        self.reported = self.position;
         self.counts = signals.map(|signal| signal.value);
         signals
     }
@@ -316,7 +316,7 @@ impl Slide {
 
     /// Updates the encoder counts after a displacement.
     fn count(&mut self) {
-        self.counts = [0, 1].map(|index| self.dead[index].unwrap_or_else(|| self.encoders[index].value(self.told)));
+        self.counts = [0, 1].map(|index| self.dead[index].unwrap_or_else(|| self.encoders[index].value(self.reported)));
     }
 
     /// An encoder sends no new values from now on.
@@ -327,7 +327,7 @@ impl Slide {
     /// The encoder counts on from its last value: movement in the meantime is lost.
     fn revive(&mut self, encoder: usize) {
         if let Some(value) = self.dead[encoder].take() {
-            let lost = value - self.encoders[encoder].value(self.told);
+            let lost = value - self.encoders[encoder].value(self.reported);
             self.encoders[encoder].slip(lost);
             self.count();
         }
@@ -384,14 +384,18 @@ mod tests {
     }
 
     #[test]
-    fn a_drive_with_a_fault_is_not_ready_and_does_not_answer() {
+    fn a_drive_with_a_fault_is_not_ready_and_does_not_respond() {
         let (layout, mut plant, axis) = plant();
-        assert!(plant.tell(axis).drive_ready && !plant.tell(axis).drive_fault);
+        assert!(plant.feedback(axis).drive_ready && !plant.feedback(axis).drive_fault);
         plant.fault(Fault { axis, kind: FaultKind::DriveFault }, Some(0));
         advance(&mut plant, &layout, axis, Some(1e9), 10);
-        assert!(!plant.tell(axis).drive_ready && plant.tell(axis).drive_fault && plant.tell(axis).slide == mm(5.0));
+        assert!(
+            !plant.feedback(axis).drive_ready
+                && plant.feedback(axis).drive_fault
+                && plant.feedback(axis).slide == mm(5.0)
+        );
         plant.clear_fault(Fault { axis, kind: FaultKind::DriveFault });
-        assert!(plant.tell(axis).drive_ready && !plant.tell(axis).drive_fault);
+        assert!(plant.feedback(axis).drive_ready && !plant.feedback(axis).drive_fault);
     }
 
     #[test]
@@ -399,10 +403,10 @@ mod tests {
         let (layout, mut plant, axis) = plant();
         plant.fault(Fault { axis, kind: FaultKind::Friction { by: 0.25 } }, Some(0));
         advance(&mut plant, &layout, axis, Some(8e6), 200);
-        assert!((plant.tell(axis).velocity - 6e6).abs() < 1.0, "{}", plant.tell(axis).velocity);
+        assert!((plant.feedback(axis).velocity - 6e6).abs() < 1.0, "{}", plant.feedback(axis).velocity);
         plant.clear_fault(Fault { axis, kind: FaultKind::Friction { by: 0.0 } });
         advance(&mut plant, &layout, axis, Some(8e6), 200);
-        assert!((plant.tell(axis).velocity - 8e6).abs() < 1.0, "{}", plant.tell(axis).velocity);
+        assert!((plant.feedback(axis).velocity - 8e6).abs() < 1.0, "{}", plant.feedback(axis).velocity);
     }
 
     #[test]
@@ -410,26 +414,26 @@ mod tests {
         let (layout, mut plant, axis) = plant();
         plant.fault(Fault { axis, kind: FaultKind::Drift { by: -1e6 } }, Some(0));
         advance(&mut plant, &layout, axis, Some(0.0), 500);
-        assert_eq!(plant.tell(axis).slide, mm(5.0));
+        assert_eq!(plant.feedback(axis).slide, mm(5.0));
         // 1 mm/s for 500 cycles of 2 ms.
         advance(&mut plant, &layout, axis, None, 500);
-        assert_eq!(plant.tell(axis).slide, mm(4.0));
+        assert_eq!(plant.feedback(axis).slide, mm(4.0));
     }
 
     #[test]
-    fn a_dead_encoder_tells_the_same_and_counts_on_from_there() {
+    fn an_encoder_with_a_fault_keeps_its_value_and_counts_on_from_there() {
         let (_, mut plant, axis) = plant();
         let dead = Fault { axis, kind: FaultKind::EncoderFault { encoder: None } };
         plant.fault(dead, Some(0));
-        assert_eq!(plant.tell(axis).encoder_faults, [true, false]);
+        assert_eq!(plant.feedback(axis).encoder_faults, [true, false]);
         plant.fault(Fault { axis, kind: FaultKind::Push { by: mm(6.0) } }, Some(0));
         // Past the zero mark at 10 mm: only encoder 2 reports it.
-        let [first, second] = plant.tell(axis).encoders;
+        let [first, second] = plant.feedback(axis).encoders;
         assert_eq!((first.value, first.zero_mark), (mm(0.0), None));
         assert_eq!((second.value, second.zero_mark), (mm(6.0), Some(mm(5.0))));
         plant.clear_fault(dead);
         plant.fault(Fault { axis, kind: FaultKind::Push { by: mm(1.0) } }, Some(0));
-        assert_eq!(plant.tell(axis).encoders.map(|signal| signal.value), [mm(1.0), mm(7.0)]);
-        assert_eq!(plant.tell(axis).encoder_faults, [false; 2]);
+        assert_eq!(plant.feedback(axis).encoders.map(|signal| signal.value), [mm(1.0), mm(7.0)]);
+        assert_eq!(plant.feedback(axis).encoder_faults, [false; 2]);
     }
 }

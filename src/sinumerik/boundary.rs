@@ -76,8 +76,8 @@ impl Control for Nck {
         Self::still(self)
     }
 
-    fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet) {
-        Self::observe(self, feedback, told);
+    fn observe(&mut self, feedback: &PerAxis<Feedback>, changed: AxisSet) {
+        Self::observe(self, feedback, changed);
     }
 
     fn publish(&mut self, out: ControlSide<'_>, variables: &mut Variables, restless: AxisSet) {

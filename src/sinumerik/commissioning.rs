@@ -58,7 +58,7 @@ impl Commissioning {
                 exists: if any { named(axis) } else { in_channel(axis) },
                 // E-26: an axis outputs its signals unless the archive explicitly disables them.
                 silent: simulated && says_so,
-                iron: Mechanics::new(&data.axes[axis]),
+                mechanics: Mechanics::new(&data.axes[axis]),
             }
         })
     }

@@ -248,9 +248,9 @@ impl Nck {
     }
 
     /// Takes the feedback of encoders and drives of these axes, and monitors it. The feedback of the other axes has not changed.
-    pub fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet) {
+    pub fn observe(&mut self, feedback: &PerAxis<Feedback>, changed: AxisSet) {
         let (parameters, state) = (&*self.parameters, &mut *self.state);
-        for number in told.with(self.resting.deciding_now(state)).and(parameters.existing).iter() {
+        for number in changed.with(self.resting.deciding_now(state)).and(parameters.existing).iter() {
             let axis = &mut state.axes[number];
             let seen = match &axis.active_set(&parameters.axes[number]).misfit {
                 None => feedback[number],

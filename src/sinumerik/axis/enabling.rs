@@ -51,7 +51,7 @@ impl State {
                 let wanted = self.selected(axis, parameters, to_nck).filter(|_| !parked);
                 let second = signals.position_measuring_system_2() && !signals.position_measuring_system_1();
                 if second && parameters.axes[axis].encoders == 1 {
-                    self.tell_missing_encoder(axis, &parameters.axes[axis]);
+                    self.report_missing_encoder(axis, &parameters.axes[axis]);
                 }
                 self.switch_measuring_system(axis, wanted, &parameters.axes[axis], to_nck);
             }
@@ -83,7 +83,7 @@ impl State {
             return;
         }
         if self.axes[number].measuring_system.is_some() && wanted.is_some() {
-            self.tell_switch_over(number);
+            self.report_switch_over(number);
         }
         let signals = &to_nck.axes[number];
         let inputs = [
@@ -141,14 +141,14 @@ impl State {
                     (self.axes[axis].enabling.controllers()[2], !self.axes[axis].setpoint.is_at_rest());
                 self.step_control(axis, &conditions, disable_cycles);
                 if was_on && moved && !self.axes[axis].enabling.pulses_enabled() {
-                    self.tell_follow_up_in_motion(axis);
+                    self.report_follow_up_in_motion(axis);
                 }
             }
         }
     }
 
     /// 21615: the drive of an axis in motion lost its power. The axis cannot be braked, and 21612 switches it to follow-up.
-    fn tell_follow_up_in_motion(&mut self, number: AxisNumber) {
+    fn report_follow_up_in_motion(&mut self, number: AxisNumber) {
         let cause = self.axes[number].causes.drive;
         let event = self.log.note_plain(Place::Axis(number), Rule::FollowUpInMotion, cause);
         self.raise_axis_alarm(alarms::FOLLOW_UP_IN_MOTION, number, event);

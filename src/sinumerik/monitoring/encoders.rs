@@ -156,12 +156,12 @@ impl State {
     }
 
     /// The switch-over was done.
-    pub(in crate::sinumerik) fn tell_switch_over(&mut self, number: AxisNumber) {
+    pub(in crate::sinumerik) fn report_switch_over(&mut self, number: AxisNumber) {
         self.raise_monitoring(alarms::SWITCH_OVER, number, Rule::MeasuringSystem, [Input::None; 3]);
     }
 
     /// Measuring system 2 is selected and does not exist.
-    pub(in crate::sinumerik) fn tell_missing_encoder(&mut self, number: AxisNumber, parameters: &AxisParameters) {
+    pub(in crate::sinumerik) fn report_missing_encoder(&mut self, number: AxisNumber, parameters: &AxisParameters) {
         let count = Input::Datum(30200, Some(number), f64::from(parameters.encoders));
         let inputs = [count, Input::None, Input::None];
         self.raise_monitoring(alarms::ENCODER_NOT_AVAILABLE, number, Rule::EncoderMissing, inputs);

@@ -14,7 +14,7 @@ pub struct AxisPresence {
     /// The archive explicitly gives MD30350 = 0 and the axis is simulated: no signals in its data block (E-26).
     pub silent: bool,
     /// Its simulated mechanics: those of its machine data when the machine was opened.
-    pub iron: Mechanics,
+    pub mechanics: Mechanics,
 }
 
 /// The reference point approach of one axis.
@@ -152,7 +152,7 @@ pub(super) fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresenc
         increments: increments(data, md),
         handwheel_maximum: Position::from_user(md.handwh_max_incr_size),
         handwheel_stop_conditions: md.handwh_stop_cond,
-        dynamics: dynamics(md, jerk, &presence.iron, &velocity),
+        dynamics: dynamics(md, jerk, &presence.mechanics, &velocity),
         positioning_cycles: cycles(md.positioning_time),
         standstill_velocity: velocity(md.standstill_velo_tol).max(f64::MIN_POSITIVE),
         limit_without_ramp: md.brake_mode_choice == 1,

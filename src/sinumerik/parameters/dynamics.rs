@@ -116,7 +116,7 @@ pub(in crate::sinumerik) fn jerk(md: &Axis, unit: f64, accelerations: [f64; 2], 
 pub(in crate::sinumerik) fn dynamics(
     md: &Axis,
     jerk: Jerk,
-    iron: &Mechanics,
+    actual: &Mechanics,
     velocity: &impl Fn(f64) -> f64,
 ) -> Dynamics {
     let switched_by_programs = md.ffw_activation_mode != 0;
@@ -139,7 +139,7 @@ pub(in crate::sinumerik) fn dynamics(
             exact_stop_fine: window(md.stop_limit_fine),
             standstill_tolerance: window(md.standstill_pos_tol),
             velocity_limit: velocity(md.ax_velo_limit[set]),
-            misfit: mechanics.misfit(iron, set),
+            misfit: mechanics.misfit(actual, set),
         }
     });
     Dynamics { jerk, feed_forward, sets }

@@ -83,10 +83,10 @@ impl Mechanics {
 
     /// The deviation from the simulated mechanics in a parameter set; `None` if the data match.
     #[must_use]
-    pub fn misfit(&self, iron: &Self, set: usize) -> Option<Misfit> {
+    pub fn misfit(&self, actual: &Self, set: usize) -> Option<Misfit> {
         let misfit = Misfit {
-            command: iron.motor[0] / self.motor[set],
-            encoders: [0, 1].map(|encoder| self.encoders[set][encoder] / iron.encoders[0][encoder]),
+            command: actual.motor[0] / self.motor[set],
+            encoders: [0, 1].map(|encoder| self.encoders[set][encoder] / actual.encoders[0][encoder]),
         };
         (misfit != Misfit { command: 1.0, encoders: [1.0; 2] }).then_some(misfit)
     }

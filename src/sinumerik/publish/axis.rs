@@ -60,7 +60,7 @@ impl State {
         });
     }
 
-    /// DB31 to DB61, of one axis, but for what a movement alone can change, and for 101.x.
+    /// DB31 to DB61 of one axis, except the signals that a movement alone can change, and 101.x.
     #[inline]
     pub(super) fn show_axis(
         &self,

@@ -251,8 +251,8 @@ impl Control for Platform {
         self.0.feedback[axis].drive_ready.then(|| velocity_command(deviation, GAIN, Position::ZERO, 0.0))
     }
 
-    fn observe(&mut self, feedback: &PerAxis<Feedback>, told: AxisSet) {
-        told.iter().for_each(|axis| self.0.feedback[axis] = feedback[axis]);
+    fn observe(&mut self, feedback: &PerAxis<Feedback>, changed: AxisSet) {
+        changed.iter().for_each(|axis| self.0.feedback[axis] = feedback[axis]);
     }
 
     fn publish(&mut self, out: ControlSide<'_>, variables: &mut Variables, _: AxisSet) {
