@@ -137,7 +137,7 @@ impl Machine {
         self.definition.names.axis(name)
     }
 
-    /// The control. [`downcast`](Control::downcast) gives access to a specific type.
+    /// The control. `downcast` gives access to a specific type.
     #[must_use]
     pub fn control(&self) -> &(dyn Control + 'static) {
         &*self.control

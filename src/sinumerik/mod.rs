@@ -6,7 +6,7 @@
 //! measuring systems, parameter sets, enabling, referencing and gantry or JOG, setpoints, coupling).
 //! [`Nck::velocity_command`] is position control, while drives and mechanics move. [`Nck::observe`] takes the signals of encoders
 //! and drives and monitors them. [`Nck::publish`] writes the NCK's half of the interface and the variables. The control
-//! reads only [`ToNck`] and the HMI's selection of handwheels. Axes at rest are skipped, and axes that only move need no
+//! reads only `ToNck` and the HMI's selection of handwheels. Axes at rest are skipped, and axes that only move need no
 //! decisions (`resting.rs`).
 //!
 //! | to add | do this |

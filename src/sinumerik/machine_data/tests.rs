@@ -344,7 +344,7 @@ mod ascii_archives {
     }
 
     #[test]
-    fn the_refusal_tells_the_first_mistake_and_how_many_more() {
+    fn a_refusal_names_the_first_mistake_and_counts_the_others() {
         let findings = Archive::read([("a.tea", b"INCH\nG0\n".as_slice())]).unwrap_err();
         let problem = refusal(&findings).to_string();
         assert!(problem.starts_with("a.tea:1: expected METRIC") && problem.contains("1 more"), "{problem}");
