@@ -33,7 +33,7 @@
 //!
 //! ```text
 //!  machine data ──> sinumerik ──┐             ┌── closures of a user
-//!  (.tea .arc)          │       ├──> image <──┤
+//!  (.tea .arc)      (a control) ├──> image <──┤
 //!                    motion     └──> variables└── plc: built-in programs
 //!                       │                │
 //!  plant.toml ──────> plant ───────── machine ──> trace ──> scenario ──> golden
@@ -113,6 +113,7 @@
 //! | a signal | a row in `db10.rs`, `db11.rs`, `db21.rs` or `db31.rs` of `image/sinumerik/`, in address order | accessor, constant, docs, symbol, trace column; the build rejects overlaps |
 //! | an interface of another control | a static [`image::Interface`] with its tables, as in `tests/machine/own_interface.rs` | symbols, addresses, presets, mapped image; the build rejects gaps and bytes of another writer |
 //! | the value of a signal and its cause | a row in `sinumerik/publish/` | golden traces that show it |
+//! | another control | a module with its [`control::Control`], [`control::Configuration`] and [`control::Texts`], a line in `controls/mod.rs`; `tests/machine/second_control.rs` has a tiny one | its machines run in scenarios, traces, S7 |
 //! | a machine datum | a row in `sinumerik/machine_data/`, a field in `sinumerik/parameters/axis.rs` | its number and name are read, checked and written |
 //! | an alarm | a row in `sinumerik/alarms/mod.rs`, a `raise` at the place of its condition | `alarm(N)` in scenarios, its text in traces |
 //! | a rule | a row in `sinumerik/rules.rs`, a `note` at the place of the decision | the cause of an edge |
