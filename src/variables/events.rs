@@ -96,16 +96,19 @@ pub struct Event {
     pub parent: EventId,
 }
 
+/// The number of events that are kept.
+const CAPACITY: usize = 128;
+
 /// The latest events, in a ring buffer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Events {
-    ring: ArrayVec<Event, { Events::CAPACITY }>,
+    ring: ArrayVec<Event, CAPACITY>,
     last: u32,
 }
 
 impl Events {
     /// The number of events that are kept.
-    pub const CAPACITY: usize = 128;
+    pub const CAPACITY: usize = CAPACITY;
 
     /// Records an event and returns its number.
     pub fn push(&mut self, cycle: u64, place: Place, rule: RuleNumber, inputs: [Input; 3], parent: EventId) -> EventId {
