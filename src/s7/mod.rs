@@ -13,7 +13,7 @@
 //! let directory = Directory::of(&memory, names.profile);
 //! let mut station = Bridge::new(&memory, &variables, &names, &directory);
 //! let (mut session, mut answers) = (Session::new(Settings::default()), Answers::default());
-//! The connection request of most clients and its confirm: 22 bytes each; the confirm repeats the TSAPs.
+//! // The connection request of most clients and its confirm: 22 bytes each; the confirm repeats the TSAPs.
 //! let request = [3, 0, 0, 22, 17, 0xE0, 0, 0, 0, 1, 0, 0xC0, 1, 10, 0xC1, 2, 1, 0, 0xC2, 2, 1, 2];
 //! session.receive(&request, &mut station, &mut answers);
 //! assert_eq!(answers.bytes()[5], 0xD0);

@@ -10,7 +10,7 @@
 //! if plc.read(&ready).await? == Value::Bit(true) {
 //!     plc.write(&"DB31.DBX29.4".parse()?, &Value::Bit(true)).await?;
 //! }
-//! Any number of items: as few requests as the negotiated PDU permits; each item has its own result.
+//! // Any number of items: as few requests as the negotiated PDU permits; each item has its own result.
 //! let many = ["DB31.DBD78:REAL".parse()?, "MB0..500".parse()?, "DB99.DBW0".parse()?];
 //! for (variable, value) in many.iter().zip(plc.read_all(&many).await) {
 //!     println!("{variable}: {value:?}");
