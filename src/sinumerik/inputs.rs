@@ -7,33 +7,34 @@ use crate::variables::{Input, Place, SignalBit};
 /// A signal of an axis as an input.
 #[must_use]
 pub(super) const fn axis_signal(axis: AxisNumber, signal: Signal, value: bool) -> Input {
-    signal_of(Place::Axis(axis), signal, 0, value)
+    Input::Bit(bit_of(Place::Axis(axis), signal), value)
 }
 
-/// A bit of a multi-bit signal of an axis; `index` counts from its lowest bit.
+/// A signal of several bits of an axis as an input.
 #[must_use]
-pub(super) const fn axis_signal_bit(axis: AxisNumber, signal: Signal, index: u8, value: bool) -> Input {
-    signal_of(Place::Axis(axis), signal, index, value)
+pub(super) const fn axis_number(axis: AxisNumber, signal: Signal, value: u8) -> Input {
+    Input::Number(bit_of(Place::Axis(axis), signal), value)
 }
 
 /// A signal of a channel as an input.
 #[must_use]
 pub(super) const fn channel_signal(channel: ChannelNumber, signal: Signal, value: bool) -> Input {
-    signal_of(Place::Channel(channel), signal, 0, value)
+    Input::Bit(bit_of(Place::Channel(channel), signal), value)
 }
 
 /// A signal of a mode group as an input.
 #[must_use]
 pub(super) const fn mode_group_signal(group: ModeGroupNumber, signal: Signal, value: bool) -> Input {
-    signal_of(Place::ModeGroup(group), signal, 0, value)
+    Input::Bit(bit_of(Place::ModeGroup(group), signal), value)
 }
 
 /// A signal of the NCK as an input.
 #[must_use]
 pub(super) const fn nck_signal(signal: Signal, value: bool) -> Input {
-    signal_of(Place::Nck, signal, 0, value)
+    Input::Bit(bit_of(Place::Nck, signal), value)
 }
 
-const fn signal_of(place: Place, signal: Signal, index: u8, value: bool) -> Input {
-    Input::Bit(SignalBit { place, byte: signal.byte, bit: signal.bit + index }, value)
+/// The lowest bit of a signal.
+const fn bit_of(place: Place, signal: Signal) -> SignalBit {
+    SignalBit { place, byte: signal.byte, bit: signal.bit }
 }

@@ -1,8 +1,8 @@
 //! Causes as text: the rule that allowed a transition, and the inputs that it tested, with their values.
 
-use super::printable::signal_at;
+use super::printable::signal_name;
 use crate::units::Position;
-use crate::variables::{AlarmNumber, AxisValue, Describe, Event, Input, Quantity, axis_name, place_name, six_decimals};
+use crate::variables::{AlarmNumber, AxisValue, Describe, Event, Input, Quantity, axis_name, six_decimals};
 
 /// The rule, its text if the inputs do not express it, and the inputs: `REF-11: MD37110[XF] = 0`,
 /// `REF-31: reference cam reached, X.deceleration_reference_point_approach = 1`.
@@ -17,14 +17,8 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
     let names = describe.names();
     match *input {
         Input::None => None,
-        Input::Bit(signal, value) => {
-            let owner = place_name(signal.place, names);
-            let name = signal_at(signal, names.interface()).map_or_else(
-                || format!("{owner} byte {} bit {}", signal.byte, signal.bit),
-                |known| format!("{owner}.{}", known.name),
-            );
-            Some(format!("{name} = {}", u8::from(value)))
-        }
+        Input::Bit(bit, value) => Some(format!("{} = {}", signal_name(bit, names), u8::from(value))),
+        Input::Number(bit, value) => Some(format!("{} = {value}", signal_name(bit, names))),
         Input::Datum(number, None, value) => Some(format!("{} = {value}", describe.datum_name(number))),
         Input::Datum(number, Some(axis), value) => {
             Some(format!("{}[{}] = {value}", describe.datum_name(number), axis_name(axis, names)))

@@ -8,7 +8,7 @@ use super::lines::{Line, LineKind};
 use super::printable::signal_at;
 use crate::image::Names;
 use crate::units::Time;
-use crate::variables::{AlarmNumber, Describe, Event, Input, Place, place_name, six_decimals};
+use crate::variables::{AlarmNumber, Describe, Event, Input, Place, SignalBit, place_name, six_decimals};
 
 /// An event: a transition of the control, with its rule, its inputs and the event that led to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +31,7 @@ pub(super) struct Cause {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum CauseInput {
     /// A signal by address, and by symbol if it has one.
-    Signal { address: String, symbol: Option<String>, value: bool },
+    Signal { address: String, symbol: Option<String>, value: u8 },
     /// A machine datum, in the notation of scenarios: `37110[XF]`.
     Datum(String, f64),
     /// A value that is not a signal, with six decimals.
@@ -45,13 +45,8 @@ impl CauseInput {
         let names = describe.names();
         Some(match *input {
             Input::None => return None,
-            Input::Bit(bit, value) => {
-                let signal = signal_at(bit, names.interface())?;
-                let (_, number) = bit.place.block();
-                let location = names.interface().location(signal, number)?;
-                let address = names.address(location).to_string();
-                Self::Signal { address, symbol: names.symbol(location), value }
-            }
+            Input::Bit(bit, value) => Self::signal(bit, value.into(), names)?,
+            Input::Number(bit, value) => Self::signal(bit, value, names)?,
             Input::Datum(number, axis, value) => {
                 let axis = axis.map(|axis| format!("[{}]", place_name(Place::Axis(axis), names)));
                 Self::Datum(format!("{number}{}", axis.unwrap_or_default()), value)
@@ -62,6 +57,14 @@ impl CauseInput {
             }
             Input::Alarm(number) => Self::Alarm(describe.alarm_name(AlarmNumber(number))),
         })
+    }
+
+    fn signal(bit: SignalBit, value: u8, names: &Names) -> Option<Self> {
+        let signal = signal_at(bit, names.interface())?;
+        let (_, number) = bit.place.block();
+        let location = names.interface().location(signal, number)?;
+        let address = names.address(location).to_string();
+        Some(Self::Signal { address, symbol: names.symbol(location), value })
     }
 }
 

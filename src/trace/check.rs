@@ -9,11 +9,11 @@ use std::fmt;
 
 use super::because::because;
 use super::places::Places;
-use super::printable::mask_in_byte;
+use super::printable::{mask_in_byte, signal_at, signal_name};
 use super::{By, Change, Row, Trace, Watch};
-use crate::image::{Format, Interface, Kind, Location, Memory, Part, Signal, Writer};
+use crate::image::{Format, Interface, Location, Memory, Part};
 use crate::units::Time;
-use crate::variables::{Describe, Event, Input, SignalBit, place_name};
+use crate::variables::{Describe, Event, Input, SignalBit};
 
 /// A cause that is not true, or says nothing.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,8 +37,10 @@ pub enum CauseFault {
     Empty,
     /// The event happened in another cycle, at this time.
     AnotherCycle(Time),
-    /// It names this signal with the value that is given; the signal had the other one.
-    Untrue(String, bool),
+    /// It names this signal with the first value; the signal had the second one.
+    Untrue(String, u64, u64),
+    /// It names these bits, which are no signal.
+    Unknown(String),
 }
 
 impl fmt::Display for CauseFinding {
@@ -48,9 +50,8 @@ impl fmt::Display for CauseFinding {
             CauseFault::Missing => f.write_str("no cause")?,
             CauseFault::Empty => f.write_str("the cause names nothing that was tested")?,
             CauseFault::AnotherCycle(time) => write!(f, "the cause is an event of {time}")?,
-            CauseFault::Untrue(signal, value) => {
-                write!(f, "the cause names {signal} = {}, found {}", u8::from(*value), u8::from(!*value))?;
-            }
+            CauseFault::Untrue(signal, named, found) => write!(f, "the cause names {signal} = {named}, found {found}")?,
+            CauseFault::Unknown(bits) => write!(f, "the cause names {bits}, which is no signal")?,
         }
         self.because.as_ref().map_or(Ok(()), |because| write!(f, " ({because})"))
     }
@@ -108,10 +109,12 @@ impl Trace {
             faults.push(CauseFault::Empty);
         }
         for input in event.inputs {
-            if let Input::Bit(bit, value) = input
-                && !seen.had(bit, value)
-            {
-                faults.push(CauseFault::Untrue(called(bit, describe), value));
+            let Some((bit, named)) = input.signal() else { continue };
+            let (name, named) = (signal_name(bit, describe.names()), u64::from(named));
+            match seen.values(bit) {
+                None => faults.push(CauseFault::Unknown(name)),
+                Some(values) if values.contains(&named) => {}
+                Some([now, _]) => faults.push(CauseFault::Untrue(name, named, now)),
             }
         }
         faults
@@ -126,39 +129,28 @@ struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    /// Whether a signal had this value when it could be tested.
-    fn had(&self, bit: SignalBit, value: bool) -> bool {
-        let (block, number) = bit.place.block();
-        // Of this row only block, byte and bit count.
-        let signal =
-            Signal { name: "", block, byte: bit.byte, bit: bit.bit, kind: Kind::Bit, writer: Writer::Nck, doc: "" };
-        let Some(location) = self.interface.location(&signal, number) else { return false };
-        let now = self.memory.read(location) == 1;
-        let before = || {
-            let changed = self.rows.iter().find_map(|row| match row.change {
-                Change::Byte { part, offset, old, .. } if (part, offset) == (location.part, location.offset) => {
-                    Some(old >> location.bit & 1 == 1)
-                }
-                Change::Byte { .. } | Change::Alarm { .. } | Change::Overwritten { .. } => None,
-            });
-            changed.unwrap_or(now)
-        };
-        now == value || matches!(location.part, Part::FromNck | Part::Hmi) && before() == value
+    /// The values that a signal had when it could be tested: as it is now, and for a signal of the control also as it was before. `None`
+    /// if no signal begins at this bit.
+    fn values(&self, bit: SignalBit) -> Option<[u64; 2]> {
+        let (_, number) = bit.place.block();
+        let signal = signal_at(bit, self.interface)?;
+        let location = self.interface.location(signal, number)?;
+        let now = self.memory.read(location);
+        if !matches!(location.part, Part::FromNck | Part::Hmi) {
+            return Some([now; 2]);
+        }
+        let before = self.rows.iter().find_map(|row| match row.change {
+            Change::Byte { part, offset, old, .. } if (part, offset) == (location.part, location.offset) => {
+                Some(u64::from((old & mask_in_byte(location, offset)) >> location.bit))
+            }
+            Change::Byte { .. } | Change::Alarm { .. } | Change::Overwritten { .. } => None,
+        });
+        Some([now, before.unwrap_or(now)])
     }
 }
 
 const fn byte(part: Part, offset: u32) -> Location {
     Location { part, offset, bit: 0, width: 8, format: Format::Unsigned }
-}
-
-/// How a finding calls a signal.
-fn called(bit: SignalBit, describe: &dyn Describe) -> String {
-    let names = describe.names();
-    let owner = place_name(bit.place, names);
-    match super::printable::signal_at(bit, names.interface()) {
-        Some(signal) => format!("{owner}.{}", signal.name),
-        None => format!("{owner} byte {} bit {}", bit.byte, bit.bit),
-    }
 }
 
 #[cfg(test)]

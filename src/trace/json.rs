@@ -50,7 +50,7 @@ fn input(input: &CauseInput) -> String {
     match input {
         CauseInput::Signal { address, symbol, value } => {
             let symbol = symbol.as_ref().map(|symbol| format!(",\"symbol\":{}", quoted(symbol))).unwrap_or_default();
-            format!("{{\"signal\":{}{symbol},\"value\":{}}}", quoted(address), u8::from(*value))
+            format!("{{\"signal\":{}{symbol},\"value\":{}}}", quoted(address), value)
         }
         CauseInput::Datum(name, value) => {
             let value = if value.is_finite() { value.to_string() } else { "null".to_owned() };

@@ -1,7 +1,7 @@
 //! One printable item of a trace, with its address, its symbol and its value.
 
 use crate::image::{Format, Interface, Location, Memory, Names, Signal};
-use crate::variables::SignalBit;
+use crate::variables::{SignalBit, place_name};
 
 /// An item that has its own row when it changes.
 #[derive(Clone, Debug)]
@@ -51,10 +51,19 @@ pub(super) fn is_bit(address: &str) -> bool {
     address.rsplit_once('.').is_some_and(|(_, bit)| bit.len() == 1 && bit.as_bytes()[0].is_ascii_digit())
 }
 
-/// The signal of the catalogue at a bit of a block.
+/// The signal of the catalogue that begins at a bit of a block.
 pub(super) fn signal_at(bit: SignalBit, interface: &'static Interface) -> Option<&'static Signal> {
     let (block, _) = bit.place.block();
     interface.signals().find(|signal| signal.block == block && signal.byte == bit.byte && signal.bit == bit.bit)
+}
+
+/// The name of a signal in a cause: `X.traversing_key_plus`.
+pub(super) fn signal_name(bit: SignalBit, names: &Names) -> String {
+    let owner = place_name(bit.place, names);
+    match signal_at(bit, names.interface()) {
+        Some(signal) => format!("{owner}.{}", signal.name),
+        None => format!("{owner} byte {} bit {}", bit.byte, bit.bit),
+    }
 }
 
 /// The value at a location in a memory.

@@ -4,7 +4,7 @@ use super::*;
 use crate::image::{Location, Memory, Names};
 use crate::units::{AxisNumber, ChannelNumber, Position, Time};
 use crate::variables::{
-    AlarmNumber, Event, EventId, Input, Parameter, Place, RaisedAlarm, Rule, RuleNumber, Variables,
+    AlarmNumber, Event, EventId, Input, Parameter, Place, RaisedAlarm, Rule, RuleNumber, SignalBit, Variables,
 };
 
 struct Control(Names);
@@ -181,7 +181,7 @@ fn a_watch_without_a_match_is_rejected() {
 fn causes_name_signals_machine_data_and_lengths() {
     let control = Control::new();
     let x = AxisNumber::FIRST;
-    let signal = crate::variables::SignalBit { place: Place::Axis(x), byte: 4, bit: 7 };
+    let signal = SignalBit { place: Place::Axis(x), byte: 4, bit: 7 };
     let event = Event {
         id: EventId(1),
         cycle: 1,
@@ -198,10 +198,35 @@ fn causes_name_signals_machine_data_and_lengths() {
         because::because(&event, &control),
         "REF-11: X.traversing_key_plus = 1, X.synchronism_difference = -0.941000, alarm 10653"
     );
-    let told = Event { rule: RuleNumber(1), ..event };
-    assert!(because::because(&told, &control).starts_with("O-19: mode taken, X.traversing_key_plus = 1, "));
+    let with_text = Event { rule: RuleNumber(1), ..event };
+    assert!(because::because(&with_text, &control).starts_with("O-19: mode taken, X.traversing_key_plus = 1, "));
     let bare = Event { rule: RuleNumber(1), inputs: [Input::None; 3], ..event };
     assert_eq!(because::because(&bare, &control), "O-19: mode taken");
+}
+
+#[test]
+fn a_number_among_the_inputs_has_one_name_and_one_value() {
+    let control = Control::new();
+    let place = Place::Axis(AxisNumber::FIRST);
+    let input = Input::Number(SignalBit { place, byte: 9, bit: 0 }, 2);
+    let inputs = [input, Input::None, Input::None];
+    let event = Event { id: EventId(1), cycle: 11, place, rule: RuleNumber(0), inputs, parent: EventId::NONE };
+    let mut recorder = Recorder::default();
+    recorder.events([event].iter());
+    let selected = control.location("X.controller_parameter_set");
+    recorder.push(byte(selected, 11, 0, 2, By::Plc, EventId::NONE));
+    let active = control.location("X.active_controller_parameter_set");
+    recorder.push(byte(active, 11, 0, 2, By::Nck, EventId(1)));
+    let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10);
+    trace.extend(&recorder);
+    assert_eq!(because::because(&event, &control), "REF-11: X.controller_parameter_set = 2");
+    let lines = trace.json_lines(&control, &Watch::default());
+    let inputs = r#""inputs":[{"signal":"DB31.DBX9.0..2","symbol":"X.controller_parameter_set","value":2}]"#;
+    assert!(lines.contains(inputs), "{lines}");
+    for story in [trace.story(&control), Story::read(&lines).unwrap()] {
+        let why = story.why("X.active_controller_parameter_set", Time::from_millis(2)).unwrap();
+        assert!(why.contains("X.controller_parameter_set (DB31.DBX9.0..2)  0 -> 2  by plc"), "{why}");
+    }
 }
 
 #[test]

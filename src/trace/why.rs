@@ -10,7 +10,7 @@ use serde_json::Value;
 use super::causes::{Cause, CauseInput};
 use super::printable::is_bit;
 use super::record::by_in_words;
-use super::{Line, LineKind, Shown, Trace, Watch};
+use super::{Line, LineKind, Trace, Watch};
 use crate::image::Location;
 use crate::source::{Problem, did_you_mean};
 use crate::units::Time;
@@ -244,7 +244,7 @@ impl Chain<'_> {
     /// Follows a signal or an alarm to its previous edge.
     fn input(&mut self, input: &CauseInput, time: Time, depth: usize) {
         let (name, new) = match input {
-            CauseInput::Signal { address, value, .. } => (address.clone(), Shown::Bit(*value).to_string()),
+            CauseInput::Signal { address, value, .. } => (address.clone(), value.to_string()),
             CauseInput::Alarm(name) => (format!("alarm({name})"), "raised".to_owned()),
             // Measured values and machine data are in the text of the event.
             CauseInput::Datum(..) | CauseInput::Value(..) => return,
@@ -267,7 +267,7 @@ fn input(input: &Value) -> Option<CauseInput> {
     let text = |key: &str| input.get(key).and_then(Value::as_str).map(str::to_owned);
     let value = input.get("value");
     if let Some(address) = text("signal") {
-        let value = value.and_then(Value::as_u64) == Some(1);
+        let value = value.and_then(Value::as_u64).and_then(|value| u8::try_from(value).ok())?;
         return Some(CauseInput::Signal { address, symbol: text("symbol"), value });
     }
     if let Some(name) = text("machine_data") {

@@ -69,7 +69,7 @@ pub enum Input {
     /// Unused.
     #[default]
     None,
-    /// A signal.
+    /// A signal of one bit.
     Bit(SignalBit, bool),
     /// A machine datum, of an axis if it is axial.
     Datum(u32, Option<AxisNumber>, f64),
@@ -77,6 +77,20 @@ pub enum Input {
     Length(Quantity, AxisNumber, Position),
     /// An alarm.
     Alarm(u32),
+    /// A signal of several bits of one byte, by its lowest bit.
+    Number(SignalBit, u8),
+}
+
+impl Input {
+    /// The signal, by its lowest bit, and its value, if the input is a signal.
+    #[must_use]
+    pub fn signal(&self) -> Option<(SignalBit, u8)> {
+        match *self {
+            Self::Bit(bit, value) => Some((bit, value.into())),
+            Self::Number(bit, value) => Some((bit, value)),
+            Self::None | Self::Datum(..) | Self::Length(..) | Self::Alarm(_) => None,
+        }
+    }
 }
 
 /// A transition: its cycle, place, rule, inputs and parent.

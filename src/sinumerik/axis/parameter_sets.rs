@@ -11,7 +11,7 @@
 
 use crate::image::{ToNck, axis_to_nck};
 use crate::sinumerik::alarms;
-use crate::sinumerik::inputs::axis_signal_bit;
+use crate::sinumerik::inputs::axis_number;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::mechanics::Misfit;
 use crate::sinumerik::resting::Resting;
@@ -38,7 +38,8 @@ impl State {
             let axis = &mut self.axes[number];
             if axis.drive_ready && axis.drive_data_set != data_set {
                 axis.drive_data_set = data_set;
-                let event = self.log.note_plain(Place::Axis(number), Rule::DriveDataSet, EventId::NONE);
+                let input = axis_number(number, axis_to_nck::drive_data_set_selection, data_set);
+                let event = self.log.note_one(Place::Axis(number), Rule::DriveDataSet, input, EventId::NONE);
                 self.axes[number].causes.drive_data_set = event;
             }
         }
@@ -105,5 +106,5 @@ impl State {
 
 /// DBX9.0 to 9.2 of an axis for a requested set.
 fn requested(number: AxisNumber, set: u8) -> [Input; 3] {
-    [0, 1, 2].map(|bit| axis_signal_bit(number, axis_to_nck::controller_parameter_set, bit, set >> bit & 1 == 1))
+    [axis_number(number, axis_to_nck::controller_parameter_set, set), Input::None, Input::None]
 }

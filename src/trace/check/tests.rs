@@ -86,7 +86,8 @@ fn what_was_tested_and_had_its_value_is_true() {
 
 #[test]
 fn a_signal_that_had_the_other_value_is_found() {
-    let untrue = |signal: &str, value| [CauseFault::Untrue(signal.to_owned(), value)];
+    let untrue =
+        |signal: &str, value: bool| [CauseFault::Untrue(signal.to_owned(), u64::from(value), u64::from(!value))];
     assert_eq!(Run::new().findings(13, bit(4, 7, false), 0), untrue("X.traversing_key_plus", false));
     assert_eq!(Run::new().findings(13, bit(4, 6, true), 0), untrue("X.traversing_key_minus", true));
     assert_eq!(Run::new().findings(13, bit(93, 5, true), 0), untrue("X.drive_ready", true));
@@ -94,6 +95,20 @@ fn a_signal_that_had_the_other_value_is_found() {
     let mut run = Run::new();
     run.write(13, "DB31.DBX4.7", false, By::Plc, 0);
     assert_eq!(run.findings(13, bit(4, 7, true), 0), untrue("X.traversing_key_plus", true));
+}
+
+#[test]
+fn a_number_is_compared_as_a_whole_and_a_bit_inside_it_is_no_signal() {
+    let set = |value| Input::Number(SignalBit { place: Place::Axis(AxisNumber::FIRST), byte: 9, bit: 0 }, value);
+    let run = || {
+        let mut run = Run::new();
+        run.write(13, "DB31.DBX9.1", true, By::Plc, 0);
+        run
+    };
+    assert_eq!(run().findings(13, set(2), 0), []);
+    let untrue = CauseFault::Untrue("X.controller_parameter_set".to_owned(), 1, 2);
+    assert_eq!(run().findings(13, set(1), 0), [untrue]);
+    assert_eq!(run().findings(13, bit(9, 1, true), 0), [CauseFault::Unknown("X byte 9 bit 1".to_owned())]);
 }
 
 #[test]
@@ -124,7 +139,7 @@ fn a_finding_says_when_which_signal_and_what_is_wrong() {
         time: Time::from_millis(6),
         signal: "X.traverse_command_plus (DB31.DBX64.7)".to_owned(),
         because: Some("JOG: key, X.traversing_key_plus = 0".to_owned()),
-        fault: CauseFault::Untrue("X.traversing_key_plus".to_owned(), false),
+        fault: CauseFault::Untrue("X.traversing_key_plus".to_owned(), 0, 1),
     };
     assert_eq!(
         finding.to_string(),
