@@ -1,9 +1,9 @@
-//! Whether the causes that a trace gives are true: the record is replayed, and each cause is compared with it.
+//! Checks the causes in a trace: replays the record and compares each cause with it. Called after a run, on its complete trace.
 //!
-//! A cause of an edge is an event. It is true when it happened in the cycle of the edge, when it names something that was tested or
-//! an event that led to it, and when each signal that it names had the value that it names. A signal of the PLC counts as it was at
-//! the end of the cycle: inputs, scan and forces of the cycle are in it. A signal of the control counts as it was decided in the
-//! cycle or as it was published in the cycle before. Machine data, lengths and alarms among the inputs are not compared.
+//! The cause of an edge is an event. It is correct if the event happened in the cycle of the edge, if it has an input or a parent event,
+//! and if each signal among its inputs had the value in the event. For a signal of the PLC, this is the value at the end of the cycle, after
+//! inputs, scan and forces. For a signal of the control, it is the value decided in the cycle or the value published in the cycle before.
+//! Machine data, lengths and alarms among the inputs are not compared.
 
 use std::fmt;
 
@@ -15,31 +15,31 @@ use crate::image::{Format, Interface, Location, Memory, Part};
 use crate::units::Time;
 use crate::variables::{Describe, Event, Input, SignalBit};
 
-/// A cause that is not true, or says nothing.
+/// A wrong or missing cause.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CauseFinding {
     /// When the signal changed, since the start of the trace.
     pub time: Time,
     /// The signal: its symbol and its address.
     pub signal: String,
-    /// The cause as the trace gives it, where there is one.
+    /// The cause as printed in the trace, if there is one.
     pub because: Option<String>,
-    /// What is wrong with it.
+    /// The fault.
     pub fault: CauseFault,
 }
 
-/// What is wrong with a cause.
+/// The fault of a cause.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CauseFault {
     /// The edge has no event.
     Missing,
-    /// The event names neither something that was tested nor an event that led to it.
+    /// The event has neither an input nor a parent event.
     Empty,
     /// The event happened in another cycle, at this time.
     AnotherCycle(Time),
-    /// It names this signal with the first value; the signal had the second one.
+    /// The event contains this signal with the first value, but the signal had the second value.
     Untrue(String, u64, u64),
-    /// It names these bits, which are no signal.
+    /// The event contains these bits, which are no signal.
     Unknown(String),
 }
 
@@ -48,8 +48,8 @@ impl fmt::Display for CauseFinding {
         write!(f, "{} {}: ", self.time, self.signal)?;
         match &self.fault {
             CauseFault::Missing => f.write_str("no cause")?,
-            CauseFault::Empty => f.write_str("the cause names nothing that was tested")?,
-            CauseFault::AnotherCycle(time) => write!(f, "the cause is an event of {time}")?,
+            CauseFault::Empty => f.write_str("the cause has neither an input nor a parent event")?,
+            CauseFault::AnotherCycle(time) => write!(f, "the cause is an event at {time} s")?,
             CauseFault::Untrue(signal, named, found) => write!(f, "the cause names {signal} = {named}, found {found}")?,
             CauseFault::Unknown(bits) => write!(f, "the cause names {bits}, which is no signal")?,
         }
@@ -58,8 +58,8 @@ impl fmt::Display for CauseFinding {
 }
 
 impl Trace {
-    /// Compares the cause of every edge by the control, of the signals that `watch` shows, with the record. A trace that lost rows
-    /// cannot be checked from there on.
+    /// Checks the cause of each edge of the control, for the signals selected by `watch`. If the trace lost rows, the findings after them
+    /// are not reliable.
     #[must_use]
     pub fn check_causes(&self, describe: &dyn Describe, watch: &Watch) -> Vec<CauseFinding> {
         let names = describe.names();
@@ -121,7 +121,7 @@ impl Trace {
     }
 }
 
-/// The memory at the end of a cycle, and what changed in it.
+/// The memory at the end of a cycle, and the changes in this cycle.
 struct Seen<'a> {
     memory: &'a Memory,
     rows: &'a [Row],

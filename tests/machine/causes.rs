@@ -1,5 +1,5 @@
-//! The causes of the signals that people look at first are true in every golden scenario: what a cause names had the value that it
-//! names, in the cycle of the edge.
+//! In every golden scenario, the causes of the most important signals are correct: each input had the value in the cause, in the cycle of
+//! the edge.
 
 use std::path::Path;
 
@@ -32,7 +32,7 @@ fn findings(session: &Session) -> Vec<CauseFinding> {
 }
 
 #[test]
-fn every_cause_in_the_golden_scenarios_is_true() {
+fn every_cause_in_the_golden_scenarios_is_correct() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let programs = Programs::ready();
     let mut wrong = Vec::new();
@@ -43,5 +43,5 @@ fn every_cause_in_the_golden_scenarios_is_true() {
             wrong.extend(findings(finished.session()).iter().map(|finding| format!("{name}: {finding}")));
         }
     }
-    assert!(wrong.is_empty(), "{} causes are not true\n{}", wrong.len(), wrong[..wrong.len().min(20)].join("\n"));
+    assert!(wrong.is_empty(), "{} causes are wrong\n{}", wrong.len(), wrong[..wrong.len().min(20)].join("\n"));
 }

@@ -1,6 +1,6 @@
-//! A whole machine of another control, as a crate outside this one would bring it: 32 drives with blocks, signals, names, alarms,
-//! rules and a chart of its own, and nothing of the SINUMERIK. It runs through signals, closures, scenario, golden, trace, save, fork, mapped
-//! image and S7, so that the boundary of a control holds for more than one.
+//! Tests of the boundary of a control with a second control, implemented outside this crate: 32 drives with their own blocks, signals,
+//! names, alarms, rules and chart, and nothing of the SINUMERIK. It uses signals, closures, scenario, golden, trace, save, fork, mapped
+//! image and S7.
 #![cfg(all(feature = "mapped", feature = "s7"))]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -27,7 +27,7 @@ use opennck::variables::Describe;
 
 use platform::{Own, Platform, Platforms};
 
-/// Reads a machine: there is nothing in its files but a plant.
+/// Reads a machine. It has no files; its plant is empty.
 fn read(path: &Path) -> Result<(Box<dyn Configuration>, Table), Problem> {
     Ok((Box::new(Platforms), Table::empty(Place::file(&path.display().to_string()))))
 }
@@ -112,7 +112,7 @@ fn signals_closures_and_mechanics_work_with_32_axes_of_another_control() {
     let position = machine.variables().axes[last()].position;
     assert!(position.user() > 1.0 && position == machine.variables().axes[AxisNumber::FIRST].position, "{position:?}");
     assert!(machine.control().downcast::<Platform>().is_some() && machine.control().downcast::<Nck>().is_none());
-    // A program that was written for another control stops the PLC; the platform says so with its own alarm.
+    // A program for another control stops the PLC, and the platform raises its own alarm.
     machine.load_program(enable_all().boxed());
     steps(&mut machine, 2);
     assert!(machine.is_plc_stopped() && machine.plc_fault().unwrap().contains("another interface than own"));
@@ -121,7 +121,7 @@ fn signals_closures_and_mechanics_work_with_32_axes_of_another_control() {
 }
 
 #[test]
-fn a_datum_is_checked_at_the_boundary_and_acts_and_power_on_keeps_it() {
+fn a_datum_is_checked_at_the_boundary_and_kept_at_power_on() {
     let mut machine = machine();
     let speed = |value| Command::MachineDatum { target: "speed".to_owned(), value };
     let refused = machine.queue(speed(DatumValue::Real(-1.0))).unwrap_err().to_string();
@@ -135,7 +135,7 @@ fn a_datum_is_checked_at_the_boundary_and_acts_and_power_on_keeps_it() {
 }
 
 #[test]
-fn a_scenario_has_its_golden_file_and_its_words_are_those_of_its_control() {
+fn a_scenario_has_a_golden_file_with_the_texts_of_its_control() {
     let directory = directory("golden");
     let file = directory.join("last_drive.toml");
     fs::write(&file, SCENARIO.replace("profile = \"own\"\n", "")).unwrap();
@@ -148,20 +148,20 @@ fn a_scenario_has_its_golden_file_and_its_words_are_those_of_its_control() {
     let golden = fs::read_to_string(directory.join("last_drive.snap")).unwrap();
     assert!(golden.contains("A32.running"), "{golden}");
     assert!(golden.contains("DB631.DBX5.0"), "{golden}");
-    // A rule, a datum and a signal by the words of this control.
+    // A rule, a datum and a signal with the texts of this control.
     assert!(golden.contains("P-1: power and release, A32.power = 1, parameter 1 = 60"), "{golden}");
     let exercised = exercised.unwrap();
     assert_eq!(exercised.texts.name(), "own");
     let chart = &exercised.texts.charts()[0];
     let taken: Vec<_> = (0..chart.edges.len()).map(|row| exercised.taken.0[0].has(row)).collect();
     assert_eq!((chart.name, taken), ("drive", vec![true, true]));
-    // A profile of a control that this project does not know is no word of its files.
+    // Scenario files accept only profiles of the controls in `controls`.
     fs::write(&file, SCENARIO).unwrap();
     assert!(cases(&file).unwrap_err().to_string().contains("expected a profile, found `own`"));
 }
 
 #[test]
-fn a_session_traces_edges_and_why_leads_to_the_plc() {
+fn a_session_traces_edges_and_why_prints_the_rule() {
     let mut session = Session::new(machine()).with_program(power());
     session.watch(&["A32.*"]).unwrap();
     session.set("platform.release", 1).unwrap();
@@ -175,7 +175,7 @@ fn a_session_traces_edges_and_why_leads_to_the_plc() {
 }
 
 #[test]
-fn saved_restored_and_forked_it_goes_on_byte_for_byte() {
+fn a_restored_machine_and_a_fork_continue_byte_for_byte() {
     let mut machine = machine();
     machine.load_program(power());
     set(&mut machine, "platform.release", 1);
@@ -199,7 +199,7 @@ fn saved_restored_and_forked_it_goes_on_byte_for_byte() {
 }
 
 #[test]
-fn its_memory_is_mapped_and_a_plc_beside_it_writes_its_half() {
+fn a_plc_process_writes_its_half_of_the_mapped_memory() {
     let mut machine = machine();
     steps(&mut machine, 3);
     let file = directory("mapped").join("image");
@@ -220,18 +220,18 @@ fn its_memory_is_mapped_and_a_plc_beside_it_writes_its_half() {
 }
 
 #[test]
-fn s7_clients_read_and_write_its_blocks_and_nc_variables_of_another_control_are_refused() {
+fn s7_clients_read_and_write_its_blocks_and_foreign_nc_variables_are_rejected() {
     let live = Live::start(machine(), Speed::default());
-    let window = LiveServer::open(&live, &["127.0.0.1:0"], false, Limits::default()).unwrap();
+    let server = LiveServer::open(&live, &["127.0.0.1:0"], false, Limits::default()).unwrap();
     let mut client = rust7::S7Client::new();
-    let address = window.addresses()[0];
+    let address = server.addresses()[0];
     client.set_connection_port(address.port()).unwrap();
     client.connect_rack_slot(&address.ip().to_string(), 0, 2).unwrap();
     client.write_bit(rust7::S7_AREA_DB, 500, 0, 0, true).unwrap();
     client.write_bit(rust7::S7_AREA_DB, 631, 4, 7, true).unwrap();
     let is_running = |client: &mut rust7::S7Client| client.read_bit(rust7::S7_AREA_DB, 631, 5, 0).unwrap();
-    let ran = (0..2_000).any(|_| is_running(&mut client));
-    assert!(ran, "A32 has power and does not run");
+    let is_moving = (0..2_000).any(|_| is_running(&mut client));
+    assert!(is_moving, "A32 has power but does not move");
     assert!(client.read_bit(rust7::S7_AREA_DB, 31, 61, 3).is_err(), "DB31 is a block of the SINUMERIK");
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
     let refused = runtime.block_on(async {

@@ -1,4 +1,4 @@
-//! Hand-made records whose causes are true, untrue, late or empty.
+//! Tests of the check of causes, with small records: correct, wrong, late, empty and missing causes.
 
 use super::*;
 use crate::image::Names;
@@ -29,7 +29,7 @@ impl Describe for Control {
     }
 }
 
-/// DB31.DBX4.7 = 1 in cycle 12; in cycle 13 the control sets DB31.DBX64.7, and DBX61.5 goes.
+/// DB31.DBX4.7 = 1 in cycle 12; in cycle 13 the control sets DB31.DBX64.7 and resets DBX61.5.
 struct Run {
     control: Control,
     recorder: Recorder,
@@ -59,7 +59,7 @@ impl Run {
         self.recorder.push(Row { cycle, change });
     }
 
-    /// What is found of 64.7 when its event is of this cycle, with this input and this parent.
+    /// The findings for 64.7 if its event is of this cycle, with this input and this parent.
     fn findings(mut self, cycle: u64, input: Input, parent: u32) -> Vec<CauseFault> {
         let (place, rule, inputs) = (Place::Nck, RuleNumber(0), [input, Input::None, Input::None]);
         let event = Event { id: EventId(1), cycle, place, rule, inputs, parent: EventId(parent) };
@@ -73,25 +73,25 @@ impl Run {
 }
 
 #[test]
-fn what_was_tested_and_had_its_value_is_true() {
+fn a_cause_with_correct_values_is_correct() {
     assert_eq!(Run::new().findings(13, bit(4, 7, true), 0), []);
-    // A bit of the control: as it was decided now, or as it was published before.
+    // A bit of the control: as decided in this cycle, or as published in the cycle before.
     assert_eq!(Run::new().findings(13, bit(61, 5, true), 0), []);
     assert_eq!(Run::new().findings(13, bit(61, 5, false), 0), []);
     assert_eq!(Run::new().findings(13, bit(64, 7, true), 0), []);
-    // Data and lengths are not compared; an event that led to it is enough.
+    // Data and lengths are not compared; a parent event is sufficient.
     assert_eq!(Run::new().findings(13, Input::Datum(11300, None, 1.0), 0), []);
     assert_eq!(Run::new().findings(13, Input::None, 7), []);
 }
 
 #[test]
-fn a_signal_that_had_the_other_value_is_found() {
+fn a_signal_with_another_value_is_found() {
     let untrue =
         |signal: &str, value: bool| [CauseFault::Untrue(signal.to_owned(), u64::from(value), u64::from(!value))];
     assert_eq!(Run::new().findings(13, bit(4, 7, false), 0), untrue("X.traversing_key_plus", false));
     assert_eq!(Run::new().findings(13, bit(4, 6, true), 0), untrue("X.traversing_key_minus", true));
     assert_eq!(Run::new().findings(13, bit(93, 5, true), 0), untrue("X.drive_ready", true));
-    // A bit of the PLC counts as it is now, not as it was before.
+    // For a bit of the PLC, the present value counts, not the previous one.
     let mut run = Run::new();
     run.write(13, "DB31.DBX4.7", false, By::Plc, 0);
     assert_eq!(run.findings(13, bit(4, 7, true), 0), untrue("X.traversing_key_plus", true));
@@ -118,7 +118,7 @@ fn an_event_of_another_cycle_is_found() {
 }
 
 #[test]
-fn a_cause_that_says_nothing_is_found() {
+fn an_empty_or_missing_cause_is_found() {
     assert_eq!(Run::new().findings(13, Input::None, 0), [CauseFault::Empty]);
     let mut run = Run::new();
     run.write(14, "DB31.DBX64.7", false, By::Nck, 0);
@@ -126,7 +126,7 @@ fn a_cause_that_says_nothing_is_found() {
 }
 
 #[test]
-fn signals_that_are_not_asked_for_and_writes_of_others_are_not_checked() {
+fn other_signals_and_writes_from_outside_are_not_checked() {
     let mut run = Run::new();
     run.write(14, "DB31.DBX93.5", true, By::Nck, 0);
     run.write(14, "DB31.DBX64.7", false, By::Outside, 0);
@@ -134,7 +134,7 @@ fn signals_that_are_not_asked_for_and_writes_of_others_are_not_checked() {
 }
 
 #[test]
-fn a_finding_says_when_which_signal_and_what_is_wrong() {
+fn a_finding_names_time_signal_and_fault() {
     let finding = CauseFinding {
         time: Time::from_millis(6),
         signal: "X.traverse_command_plus (DB31.DBX64.7)".to_owned(),

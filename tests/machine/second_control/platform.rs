@@ -1,4 +1,4 @@
-//! The tiny control of these tests: a platform of 32 drives. A drive with power moves at one speed while the platform is released.
+//! The control of these tests: a platform of 32 drives. A drive with power moves at a common speed while the platform is released.
 
 use std::any::Any;
 use std::mem::offset_of;
@@ -24,7 +24,7 @@ use opennck::variables::{
 };
 
 signals! {
-    /// Byte 0: what the PLC orders of the platform.
+    /// Byte 0: commands of the PLC to the platform.
     pub struct PlatformToNck, platform_to_nck: Nck, Plc, 0 to 0;
 
     /// Release: 1 = drives may move.
@@ -32,7 +32,7 @@ signals! {
 }
 
 signals! {
-    /// Bytes 2 to 6: what the platform reports.
+    /// Bytes 2 to 6: status of the platform.
     pub struct PlatformFromNck, platform_from_nck: Nck, Nck, 2 to 6;
 
     /// Stopped: 1 = the PLC program is missing.
@@ -45,7 +45,7 @@ signals! {
 }
 
 signals! {
-    /// Byte 4: what the PLC orders of a drive.
+    /// Byte 4: commands of the PLC to a drive.
     pub struct DriveToNck, drive_to_nck: Axis, Plc, 4 to 4;
 
     /// Power: 1 = on.
@@ -53,7 +53,7 @@ signals! {
 }
 
 signals! {
-    /// Byte 5: what a drive reports.
+    /// Byte 5: status of a drive.
     pub struct DriveFromNck, drive_from_nck: Axis, Nck, 5 to 5;
 
     /// Running: 1 = the drive moves its axis.
@@ -123,7 +123,7 @@ static OWN: Interface = Interface::new(Tables {
     example: "A1.power",
 });
 
-/// The parts as the structures above.
+/// The layout of the parts: the structures above.
 #[derive(Debug)]
 pub(super) struct Own;
 
@@ -142,7 +142,7 @@ const CYCLE: Time = Time::from_millis(4);
 /// Gain of position control in 1/s.
 const GAIN: f64 = 16.0;
 
-/// What a drive does.
+/// The state of a drive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 enum Phase {
     #[default]
@@ -166,7 +166,7 @@ impl From<Why> for RuleNumber {
 const STEPS: &[Transition<Phase, Why>] =
     &[row(Phase::Off, Why::Started, Phase::Running), row(Phase::Running, Why::Stopped, Phase::Off)];
 
-/// All that the platform remembers.
+/// The state of the platform.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct State {
     log: Log,
@@ -203,9 +203,8 @@ impl Platform {
         }
         let why = if runs { Why::Started } else { Why::Stopped };
         state.phases[axis] = next(STEPS, &mut state.log.taken.0[0], state.phases[axis], why);
-        let bit = |place, (byte, bit), value| Input::Bit(SignalBit { place, byte, bit }, value);
         let signal = drive_to_nck::power;
-        let power = bit(Place::Axis(axis), (signal.byte, signal.bit), power);
+        let power = Input::Bit(SignalBit { place: Place::Axis(axis), byte: signal.byte, bit: signal.bit }, power);
         let inputs = [power, Input::Datum(1, None, state.speed), Input::None];
         state.causes[axis] = state.log.note(Place::Axis(axis), why, inputs, EventId::NONE);
     }
@@ -328,7 +327,7 @@ impl Control for Platform {
     }
 
     fn texts(&self) -> &'static dyn Texts {
-        &Words
+        &PlatformTexts
     }
 
     fn is_rotary(&self, _: AxisNumber) -> bool {
@@ -348,7 +347,8 @@ impl Control for Platform {
     }
 
     fn restore(&mut self, saved: &[u8]) -> Result<(), Problem> {
-        self.0 = postcard::from_bytes(saved).map_err(|error| Problem::new(error.to_string(), "save it anew"))?;
+        self.0 = postcard::from_bytes(saved)
+            .map_err(|error| Problem::new(error.to_string(), "restore bytes from `save` of a platform"))?;
         Ok(())
     }
 
@@ -373,10 +373,10 @@ impl Data for Platform {
     }
 }
 
-/// The words of the platform.
-struct Words;
+/// The texts of the platform.
+struct PlatformTexts;
 
-impl Texts for Words {
+impl Texts for PlatformTexts {
     fn name(&self) -> &'static str {
         "own"
     }
@@ -429,7 +429,7 @@ impl Texts for Words {
     }
 }
 
-/// What the files of a platform say: nothing, all platforms are alike.
+/// The configuration of a platform. It is empty: all platforms are alike.
 pub(super) struct Platforms;
 
 impl Configuration for Platforms {
