@@ -28,16 +28,16 @@ use crate::source::Problem;
 use crate::units::Time;
 
 /// Polling interval of the keeper.
-const KEEP: Duration = Duration::from_millis(10);
+const KEEPER_INTERVAL: Duration = Duration::from_millis(10);
 /// One scan adds at most this fraction of the time-out to the silence. A computer that was asleep must not make the process count as
 /// silent.
 const SHARE: u32 = 4;
 /// How long the last scans wait for their answer at the end.
-const FAREWELL: Duration = Duration::from_millis(100);
+const LAST_ANSWER: Duration = Duration::from_millis(100);
 /// How long a scan polls for its answer without sleeping.
-const AWAKE: Duration = Duration::from_micros(20);
+const POLLING: Duration = Duration::from_micros(20);
 /// How long it sleeps between polls after that.
-const NAP: Duration = Duration::from_micros(20);
+const POLL_INTERVAL: Duration = Duration::from_micros(20);
 /// Shortest and longest interval between log lines about repeated events of the other process.
 const PAUSES: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(64)];
 
@@ -150,7 +150,7 @@ impl MappedPlc {
                 Look::Nothing => {}
             }
             let waited = start.elapsed();
-            if waited > FAREWELL && self.ends.load(Ordering::Relaxed) {
+            if waited > LAST_ANSWER && self.ends.load(Ordering::Relaxed) {
                 return Ok(());
             }
             if waited > self.exchange.time_out {
@@ -160,10 +160,10 @@ impl MappedPlc {
                 drop(image);
                 return Err(self.silence());
             }
-            if waited < AWAKE {
+            if waited < POLLING {
                 std::hint::spin_loop();
             } else {
-                std::thread::sleep(NAP);
+                std::thread::sleep(POLL_INTERVAL);
             }
         }
     }
@@ -275,7 +275,7 @@ fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mp
     let mut powers = lock(image).power_requests();
     let mut was_stopped = false;
     let (mut opened, mut switched) = (RepeatedEvent::default(), RepeatedEvent::default());
-    while ended.recv_timeout(KEEP) == Err(RecvTimeoutError::Timeout) {
+    while ended.recv_timeout(KEEPER_INTERVAL) == Err(RecvTimeoutError::Timeout) {
         let mut lines = Vec::new();
         let mut clocked = shared.lend();
         let machine = &mut clocked.machine;
@@ -369,21 +369,21 @@ mod tests {
     #[test]
     fn repeated_events_are_logged_at_growing_intervals_with_their_number() {
         let begin = Instant::now();
-        let mut said = RepeatedEvent::default();
+        let mut event = RepeatedEvent::default();
         let lines: Vec<_> = (0..=700_u64)
             .filter_map(|look| {
-                said.times += 1;
+                event.times += 1;
                 let after = 10 * look;
-                Some((after, said.line("power off and on", begin + Duration::from_millis(after))?))
+                Some((after, event.line("power off and on", begin + Duration::from_millis(after))?))
             })
             .collect();
         // Every 10 ms: logged at once, after 1 s, after 2 s more, after 4 s more.
         let wanted = [(0, ""), (1000, ", 100 times"), (3000, ", 200 times"), (7000, ", 400 times")];
         assert_eq!(lines, wanted.map(|(after, times)| (after, format!("power off and on{times}"))));
         // An event after a long pause is logged like the first one.
-        said.times = 1;
+        event.times = 1;
         let later = begin + 2 * PAUSES[1];
-        assert_eq!(said.line("opened", later).as_deref(), Some("opened"));
-        assert_eq!(said.line("opened", later + PAUSES[0]), None);
+        assert_eq!(event.line("opened", later).as_deref(), Some("opened"));
+        assert_eq!(event.line("opened", later + PAUSES[0]), None);
     }
 }

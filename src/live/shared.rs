@@ -13,11 +13,11 @@ use super::seen::{Seen, View};
 use super::speed::Speed;
 
 /// How often a caller that does not wait tries the lock.
-const SOON: u32 = 40;
+const TRIES: u32 = 40;
 /// How often, at most, the stepping thread lets other threads take the lock first.
-const COURTESY: u32 = 100;
+const YIELDS_BEFORE_A_STEP: u32 = 100;
 /// How often a caller yields before it blocks on the lock.
-const PATIENCE: u32 = 20;
+const YIELDS_BEFORE_BLOCKING: u32 = 20;
 
 /// How well the schedule was kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -113,7 +113,7 @@ impl Shared {
     /// Locks the machine between two steps.
     pub(super) fn lend(&self) -> MutexGuard<'_, Clocked> {
         // A step ends sooner than the system can put a thread to sleep and wake it.
-        for _ in 0..PATIENCE {
+        for _ in 0..YIELDS_BEFORE_BLOCKING {
             match self.clocked.try_lock() {
                 Ok(lent) => return lent,
                 Err(TryLockError::Poisoned(lent)) => return lent.into_inner(),
@@ -129,7 +129,7 @@ impl Shared {
     /// Locks the machine between two steps; `None` if that takes longer than some milliseconds.
     pub(super) fn lend_soon(&self) -> Option<MutexGuard<'_, Clocked>> {
         self.waiting.fetch_add(1, Ordering::Relaxed);
-        let lent = (0..SOON).find_map(|_| match self.clocked.try_lock() {
+        let lent = (0..TRIES).find_map(|_| match self.clocked.try_lock() {
             Ok(lent) => Some(lent),
             Err(TryLockError::Poisoned(lent)) => Some(lent.into_inner()),
             Err(TryLockError::WouldBlock) => {
@@ -143,7 +143,7 @@ impl Shared {
 
     /// Locks the machine for its next step, after the threads that wait for it.
     pub(super) fn lend_for_a_step(&self) -> MutexGuard<'_, Clocked> {
-        for _ in 0..COURTESY {
+        for _ in 0..YIELDS_BEFORE_A_STEP {
             if self.waiting.load(Ordering::Relaxed) == 0 {
                 break;
             }

@@ -8,30 +8,30 @@
 use super::speed::Speed;
 
 /// After this many cycles without a pause the thread gives up its priority.
-const BREATHLESS: u32 = 50;
+const WITHOUT_PAUSE: u32 = 50;
 
 /// Whether this thread has priority.
 #[derive(Debug)]
 pub(super) struct Urgency {
     is_urgent: bool,
     /// Cycles without a pause.
-    breathless: u32,
+    without_pause: u32,
 }
 
 impl Urgency {
     /// Gives this thread priority if that is allowed.
     pub(super) fn new(speed: Speed) -> Self {
-        Self { is_urgent: speed <= Speed::default() && system::hurry(), breathless: 0 }
+        Self { is_urgent: speed <= Speed::default() && system::raise_priority(), without_pause: 0 }
     }
 
     /// A cycle has ended, with or without a pause before the next one.
     pub(super) fn note(&mut self, has_paused: bool) {
-        self.breathless = if has_paused { 0 } else { self.breathless + u32::from(self.is_urgent) };
-        if self.breathless > BREATHLESS {
-            *self = Self { is_urgent: false, breathless: 0 };
-            system::calm_down();
+        self.without_pause = if has_paused { 0 } else { self.without_pause + u32::from(self.is_urgent) };
+        if self.without_pause > WITHOUT_PAUSE {
+            *self = Self { is_urgent: false, without_pause: 0 };
+            system::reset_priority();
             tracing::warn!(
-                "{BREATHLESS} consecutive cycles took longer than the cycle time: this computer is busy, or a PLC process in lock-step is \
+                "{WITHOUT_PAUSE} consecutive cycles took longer than the cycle time: this computer is busy, or a PLC process in lock-step is \
                  slow. The machine now runs without priority; close other programs, or choose a smaller --speed"
             );
         }
@@ -53,11 +53,11 @@ mod system {
         set_thread_priority_and_policy(thread_native_id(), ThreadPriority::Crossplatform(priority), policy).is_ok()
     }
 
-    pub(super) fn hurry() -> bool {
+    pub(super) fn raise_priority() -> bool {
         set(ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::RoundRobin), 1)
     }
 
-    pub(super) fn calm_down() {
+    pub(super) fn reset_priority() {
         // 48 of 99 is a nice value of 0.
         set(ThreadSchedulePolicy::Normal(NormalThreadSchedulePolicy::Other), 48);
     }
@@ -65,9 +65,9 @@ mod system {
 
 #[cfg(not(unix))]
 mod system {
-    pub(super) fn hurry() -> bool {
+    pub(super) fn raise_priority() -> bool {
         false
     }
 
-    pub(super) fn calm_down() {}
+    pub(super) fn reset_priority() {}
 }

@@ -23,7 +23,7 @@ impl Before {
     }
 
     /// Empty, for a machine that does not run.
-    pub(super) const fn without_room() -> Self {
+    pub(super) const fn without_capacity() -> Self {
         Self { parts: Vec::new(), written: Written::new(), plc_wrote: true, power_on: false }
     }
 }

@@ -129,7 +129,7 @@ impl Machine {
     /// The present state of the machine, for reading while this machine continues.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot {
-        Snapshot(self.copy(None, Recorder::without_room(), Before::without_room()))
+        Snapshot(self.copy(None, Recorder::without_capacity(), Before::without_capacity()))
     }
 
     fn copy(&self, program: Option<Box<dyn PlcProgram>>, recorder: Recorder, before: Before) -> Self {

@@ -92,7 +92,7 @@ pub struct Recorder {
 
 impl Default for Recorder {
     fn default() -> Self {
-        Self { rows: Vec::with_capacity(Self::ROOM), events: Vec::with_capacity(Events::CAPACITY), lost: 0 }
+        Self { rows: Vec::with_capacity(Self::INITIAL_ROWS), events: Vec::with_capacity(Events::CAPACITY), lost: 0 }
     }
 }
 
@@ -100,13 +100,13 @@ impl Recorder {
     /// The number of rows that are kept between two drains: several times the number that clients can write at the edge of one step.
     pub const ROWS: usize = 16_384;
     /// The initial capacity for rows; one step without such clients writes fewer. For events it is the number of one step.
-    const ROOM: usize = 512;
+    const INITIAL_ROWS: usize = 512;
     /// The number of events that are kept between two drains.
     pub const EVENTS: usize = 1024;
 
     /// A recorder without capacity, for a machine that does not continue.
     #[must_use]
-    pub const fn without_room() -> Self {
+    pub const fn without_capacity() -> Self {
         Self { rows: Vec::new(), events: Vec::new(), lost: 0 }
     }
 
@@ -121,8 +121,8 @@ impl Recorder {
 
     /// Records the events of this cycle.
     pub fn events<'a>(&mut self, events: impl Iterator<Item = &'a Event>) {
-        let room = Self::EVENTS - self.events.len();
-        self.events.extend(events.take(room));
+        let left = Self::EVENTS - self.events.len();
+        self.events.extend(events.take(left));
     }
 
     /// The rows since the last drain.

@@ -13,7 +13,7 @@ use crate::units::Time;
 /// The port of S7 communication.
 const PORT: u16 = 102;
 /// Timeout for optional requests.
-const SOON: Duration = Duration::from_secs(1);
+const OPTIONAL_TIMEOUT: Duration = Duration::from_secs(1);
 /// The longest allowed time: one day.
 const LONGEST: Time = Time::from_millis(86_400_000);
 
@@ -104,7 +104,7 @@ impl Host {
 
     /// Connects to the NCK for optional requests, with a short timeout.
     pub(super) async fn nck_soon(&self) -> Result<Client, Failure> {
-        let timeout = self.timeout.min(SOON);
+        let timeout = self.timeout.min(OPTIONAL_TIMEOUT);
         self.connect(Options { tsaps: self.nck_tsap, timeout, ..self.options() }).await
     }
 

@@ -21,7 +21,7 @@ use crate::variables::Describe;
 /// The longest request.
 const LONGEST: usize = 8192;
 /// Time limit for a request and its answer.
-const PATIENCE: Duration = Duration::from_secs(2);
+const TIME_LIMIT: Duration = Duration::from_secs(2);
 /// Maximum number of simultaneous requests.
 const PLACES: usize = 16;
 
@@ -45,7 +45,7 @@ pub(super) async fn serve(listener: TcpListener, text: impl Fn() -> String + Sen
         let text = Arc::clone(&text);
         places.push_back(tasks.spawn(async move {
             // A request that is too slow or disconnects gets no answer.
-            let _ = timeout(PATIENCE, answer(&mut stream, &*text)).await;
+            let _ = timeout(TIME_LIMIT, answer(&mut stream, &*text)).await;
         }));
     }
 }

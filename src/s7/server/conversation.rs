@@ -39,7 +39,7 @@ const PARTS: u32 = 8;
 /// Polling interval of subscriptions.
 const PUSHES: Duration = Duration::from_millis(10);
 /// How long the server still reads from a client that is being disconnected.
-const FAREWELL: Duration = Duration::from_millis(200);
+const LAST_READS: Duration = Duration::from_millis(200);
 
 thread_local! {
     /// The buffers of this thread, while no client uses them.
@@ -90,7 +90,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
         if end == End::Closed {
             let mut unread = [0; 512];
             let rest = async { while matches!(self.stream.read(&mut unread).await, Ok(1..)) {} };
-            let _ = timeout(FAREWELL, rest).await;
+            let _ = timeout(LAST_READS, rest).await;
         }
     }
 

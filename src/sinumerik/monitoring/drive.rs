@@ -1,7 +1,7 @@
 //! Monitoring of a drive: its fault (25201), and a missing ready signal (25202).
 //!
 //! A fault resets 93.5 and, through the pulses, 93.7; if the axis is in motion, 21612 with cause 4 is raised as well. 25202 is
-//! raised for a drive that has not started up within [`PATIENCE`] after 108.5 (drives in cyclic operation). The manuals give no
+//! raised for a drive that has not started up within [`START_UP_LIMIT`] after 108.5 (drives in cyclic operation). The manuals give no
 //! time.
 
 use crate::sinumerik::alarms;
@@ -12,7 +12,7 @@ use crate::units::{AxisNumber, Time};
 use crate::variables::{Input, Place};
 
 /// Start-up time of a drive without a message.
-const PATIENCE: Time = Time::from_millis(1_000);
+const START_UP_LIMIT: Time = Time::from_millis(1_000);
 
 impl State {
     pub(in crate::sinumerik) fn monitor_drive(&mut self, number: AxisNumber, parameters: &Parameters) {
@@ -44,9 +44,9 @@ impl State {
             return;
         }
         if self.run_up.are_drives_cyclic() {
-            let (monitor, patience) = (&mut self.axes[number].monitor, PATIENCE.in_cycles(parameters.cycle));
-            monitor.drive_waits = (monitor.drive_waits + 1).min(patience + 1);
-            if monitor.drive_waits > patience {
+            let (monitor, limit) = (&mut self.axes[number].monitor, START_UP_LIMIT.in_cycles(parameters.cycle));
+            monitor.drive_waits = (monitor.drive_waits + 1).min(limit + 1);
+            if monitor.drive_waits > limit {
                 self.raise_monitoring(alarms::WAITING_FOR_DRIVE, number, Rule::DriveNotReady, [Input::None; 3]);
             }
         }

@@ -54,12 +54,12 @@ impl Scale {
         let mut quiet: Vec<(u64, u64)> = busy.windows(2).map(|pair| (pair[0], pair[1])).collect();
         // The longest interval first; of equal intervals, the first.
         quiet.sort_by_key(|(from, to)| (u64::MAX - (to - from), *from));
-        let room = right - left;
+        let width = right - left;
         let mut broken: Vec<(u64, u64)> = Vec::new();
         let mut rest = i64::try_from(last).unwrap_or(i64::MAX);
         for &(from, to) in quiet.iter().take(BREAKS) {
             let length = i64::try_from(to - from).unwrap_or(i64::MAX);
-            let even = room - BREAK * i64::try_from(broken.len()).unwrap_or(0);
+            let even = width - BREAK * i64::try_from(broken.len()).unwrap_or(0);
             // The width of this interval if the intervals before it were shortened and this one were not.
             let would_be = i128::from(length) * i128::from(even) / i128::from(rest.max(1));
             // The intervals are ordered by length, so the middle one of the rest is the median.
@@ -74,7 +74,7 @@ impl Scale {
             broken.push((from, to));
         }
         broken.sort_unstable();
-        let even = room - BREAK * i64::try_from(broken.len()).unwrap_or(0);
+        let even = width - BREAK * i64::try_from(broken.len()).unwrap_or(0);
         let mut stretches = Vec::new();
         let (mut at, mut x, mut passed) = (0, left, 0_i64);
         let breaks = i64::try_from(broken.len()).unwrap_or(0);
