@@ -106,7 +106,7 @@ impl Machine {
         }
     }
 
-    /// Position control, drives and mechanics, MD10070 / MD10060 times.
+    /// Position control, drives and mechanics, once per position-control cycle.
     fn move_axes(&mut self, axes: AxisSet) {
         let CycleTimes { interpolation: cycle, position_control: count } = self.control.cycle_times();
         let servo_cycle = cycle.seconds() / f64::from(count);

@@ -7,15 +7,13 @@ use crate::control::{
 };
 use crate::image::{FromNck, Hmi, Names, OverrideCoding, ToNck, View};
 use crate::motion::Feedback;
+use crate::sinumerik::jog::state::HANDWHEELS;
 use crate::sinumerik::machine_data::Target;
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::texts::TEXTS;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position};
 use crate::variables::{AlarmNumber, EventId, Events, Place, Variables};
-
-/// Number of handwheels.
-const HANDWHEELS: u8 = 3;
 
 /// The parts have the lengths of this control's interface, because the memory was created for it.
 const LENGTHS: &str = "the memory of a machine has the interface of its control";
@@ -31,10 +29,12 @@ impl Control for Nck {
                 let target = self.stored().parse_target(target)?;
                 self.stored().check(&target, value)
             }
-            ControlCommand::Handwheel { number, .. } if !(1..=HANDWHEELS).contains(number) => Err(Problem::new(
-                format!("expected a handwheel from 1 to 3, found {number}"),
-                "use handwheel 1, 2 or 3",
-            )),
+            ControlCommand::Handwheel { number, .. } if !(1..=HANDWHEELS).contains(&usize::from(*number)) => {
+                Err(Problem::new(
+                    format!("expected a handwheel from 1 to {HANDWHEELS}, found {number}"),
+                    "use handwheel 1, 2 or 3",
+                ))
+            }
             ControlCommand::Handwheel { .. }
             | ControlCommand::Activate
             | ControlCommand::Cancel

@@ -7,9 +7,11 @@ use serde::{Deserialize, Serialize};
 use crate::control::{Changes, Log, Taken, Value};
 use crate::image::{Location, Part, ToNck};
 use crate::motion::Feedback;
+use crate::sinumerik::gantry::state::Phase as GroupingPhase;
 use crate::sinumerik::machine_data::{Effect, MachineData, Target};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisPresence;
+use crate::sinumerik::referencing::state::Phase as ApproachPhase;
 use crate::sinumerik::resting::Resting;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
@@ -137,7 +139,7 @@ impl Nck {
         self.resting.wake_all();
     }
 
-    /// The PLC program does not run, or runs again after power on.
+    /// The PLC program does not run: alarm 2000.
     pub fn plc_missing(&mut self) {
         if !self.state.plc_missing {
             self.state.plc_missing = true;
@@ -164,13 +166,13 @@ impl Nck {
 
     /// The phase of the reference point approach of an axis.
     #[must_use]
-    pub fn approach_phase(&self, axis: AxisNumber) -> crate::sinumerik::ApproachPhase {
+    pub fn approach_phase(&self, axis: AxisNumber) -> ApproachPhase {
         self.state.axes[axis].approach.phase()
     }
 
     /// The phase of the gantry grouping of this number.
     #[must_use]
-    pub fn grouping_phase(&self, number: u8) -> Option<crate::sinumerik::GroupingPhase> {
+    pub fn grouping_phase(&self, number: u8) -> Option<GroupingPhase> {
         let grouping = self.state.groupings.iter().find(|grouping| grouping.number == number)?;
         Some(grouping.phase)
     }

@@ -7,11 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::Log;
 use crate::motion::{Feedback, Motion};
-use crate::sinumerik::alarms::{self};
+use crate::sinumerik::alarms;
 use crate::sinumerik::axis::shaping::Shaping;
 use crate::sinumerik::axis::state::Axis;
-use crate::sinumerik::gantry::state::Declared;
-use crate::sinumerik::gantry::state::{Grouping, Phase};
+use crate::sinumerik::gantry::state::{Declared, Grouping, Phase};
 use crate::sinumerik::jog::state::{GroupFunction, HANDWHEELS, Handwheel};
 use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunUp};
 use crate::sinumerik::parameters::Parameters;

@@ -19,7 +19,6 @@ use crate::sinumerik::parameters::channels::{ChannelParameters, channels};
 use crate::sinumerik::parameters::groupings::{Definitions, define};
 use crate::sinumerik::parameters::overrides::factor;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Time};
-
 use crate::variables::Place;
 
 /// All active parameters.

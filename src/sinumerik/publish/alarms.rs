@@ -1,11 +1,11 @@
-//! The events behind raised and cleared alarms, and the events of a cycle, for the record.
+//! The events behind raised and cleared alarms, for the record.
 
 use crate::sinumerik::alarms::{self, Alarm, Cancel};
 use crate::sinumerik::gantry::state::Grouping;
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::state::State;
 use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, Event, EventId, Place};
+use crate::variables::{AlarmNumber, EventId, Place};
 
 impl Nck {
     /// The event behind a pending alarm.
@@ -26,7 +26,7 @@ impl Nck {
         let cancel = Alarm::find(number).map(|alarm| alarm.cancel);
         let cause = match (number, place) {
             (alarms::EMERGENCY_STOP, _) => state.emergency_stop.cause,
-            (alarms::GANTRY_WARNING_LIMIT, Place::Axis(axis)) => state.monitored(axis, false),
+            (alarms::GANTRY_WARNING_LIMIT, Place::Axis(axis)) => state.warning_cause(axis),
             (alarms::GANTRY_WAITING | alarms::GANTRY_SYNCHRONISING, Place::Axis(axis)) => {
                 let reset = state.channels[self.parameters.axes[axis].channel].reset_cause;
                 state.grouping_of(axis).map_or(EventId::NONE, |grouping| grouping.cause.max(reset))
@@ -39,17 +39,6 @@ impl Nck {
         };
         if cause.is_some() { cause } else { state.as_after_power_on }
     }
-
-    /// The number of the latest event.
-    #[must_use]
-    pub fn last_event(&self) -> EventId {
-        self.state.log.events.last()
-    }
-
-    /// The events after this one.
-    pub fn events_since(&self, id: EventId) -> impl Iterator<Item = &Event> {
-        self.state.log.events.since(id)
-    }
 }
 
 impl State {
@@ -57,9 +46,8 @@ impl State {
         self.groupings.iter().find(|grouping| grouping.coupling.leader() == axis)
     }
 
-    fn monitored(&self, axis: AxisNumber, trip: bool) -> EventId {
+    fn warning_cause(&self, axis: AxisNumber) -> EventId {
         let mut all = self.groupings.iter().flat_map(Grouping::monitored);
-        let found = all.find(|monitored| monitored.axis == axis).map(|monitored| monitored.causes);
-        found.map_or(EventId::NONE, |causes| if trip { causes.trip } else { causes.warning })
+        all.find(|monitored| monitored.axis == axis).map_or(EventId::NONE, |monitored| monitored.causes.warning)
     }
 }
