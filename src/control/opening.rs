@@ -44,7 +44,7 @@ pub struct Site<'a> {
     /// The types of encoder 1 and 2 of an axis, if the plant defines them.
     pub encoders: &'a dyn Fn(&str) -> [Option<EncoderModel>; 2],
     /// Whether the strobe of the machine function REF belongs to the HMI (E-01); `None` if not defined.
-    pub strobe_is_the_hmi_s: Option<bool>,
+    pub hmi_owns_strobe: Option<bool>,
 }
 
 /// An opened control, and the data of its files that the rest of the machine needs.

@@ -61,7 +61,7 @@ impl Machine {
             &Site {
                 names_axis: &|name| plant.axes.contains_key(name),
                 encoders: &|name| encoders(&plant, name),
-                strobe_is_the_hmi_s: plant.db11_5_2.map(|of| of == Db11Byte5Bit2::HmiStrobe),
+                hmi_owns_strobe: plant.db11_5_2.map(|of| of == Db11Byte5Bit2::HmiStrobe),
             },
             options.profile,
         )?;

@@ -88,7 +88,7 @@ impl Configuration for Commissioning {
     fn open(&self, site: &Site<'_>, profile: Profile) -> Result<Opened, Problem> {
         let data = &self.archive.data;
         let presence = self.presence(site);
-        let control = Nck::new(data.clone(), presence, Strobe::new(site.strobe_is_the_hmi_s));
+        let control = Nck::new(data.clone(), presence, Strobe::new(site.hmi_owns_strobe));
         let names = Names {
             axes: PerAxis::from_fn(|axis| presence[axis].exists.then(|| data.axis_name(axis).to_owned())),
             channels: PerChannel::from_fn(|channel| Some(data.channels[channel].chan_name.clone())),

@@ -9,17 +9,17 @@ use crate::units::ModeGroupNumber;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Strobe {
     /// The writer fixed by `plant.toml`: true for the HMI, false for the control.
-    is_the_hmi_s: Option<bool>,
+    hmi_owns: Option<bool>,
 }
 
 impl Strobe {
-    pub(super) const fn new(is_the_hmi_s: Option<bool>) -> Self {
-        Self { is_the_hmi_s }
+    pub(super) const fn new(hmi_owns: Option<bool>) -> Self {
+        Self { hmi_owns }
     }
 
     /// The mode groups whose byte belongs to the HMI after a write to this location.
     pub(super) fn touched_by(self, location: Location) -> impl Iterator<Item = ModeGroupNumber> {
-        let of_the_hmi = location.part == Part::Hmi && self.is_the_hmi_s.is_none();
+        let of_the_hmi = location.part == Part::Hmi && self.hmi_owns.is_none();
         let touched = move |byte: usize| {
             let first = location.offset as usize;
             (first..first + location.bytes() as usize).contains(&byte)
@@ -29,7 +29,7 @@ impl Strobe {
 
     /// The mode groups whose byte belongs to the HMI from the start.
     pub(super) fn fixed(self) -> impl Iterator<Item = ModeGroupNumber> {
-        ModeGroupNumber::all().filter(move |_| self.is_the_hmi_s == Some(true))
+        ModeGroupNumber::all().filter(move |_| self.hmi_owns == Some(true))
     }
 }
 

@@ -82,8 +82,8 @@ impl State {
 
     /// Another writer wrote DBB5 of a mode group in DB11: from now on it belongs to the HMI (E-01).
     pub(in crate::sinumerik) fn strobe_written(&mut self, group: ModeGroupNumber) {
-        if !self.mode_groups[group].strobe_is_the_hmi_s {
-            self.mode_groups[group].strobe_is_the_hmi_s = true;
+        if !self.mode_groups[group].hmi_owns_strobe {
+            self.mode_groups[group].hmi_owns_strobe = true;
             self.log.note_plain(Place::ModeGroup(group), Rule::StrobeOwnedByHmi, EventId::NONE);
         }
     }

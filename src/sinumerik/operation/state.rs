@@ -108,7 +108,7 @@ pub(in crate::sinumerik) struct ModeGroup {
     /// The event behind the machine function.
     pub function_cause: EventId,
     /// DB11.DBB5 was written from outside: the control no longer mirrors REF there (E-01).
-    pub strobe_is_the_hmi_s: bool,
+    pub hmi_owns_strobe: bool,
 }
 
 impl ModeGroup {

@@ -38,7 +38,7 @@ impl Nck {
         for group in parameters.existing_mode_groups() {
             let bytes = from_nck.mode_groups[group].as_mut_bytes();
             state.show_mode_group(group, parameters, &mut Written::new(bytes, ModeGroupFromNck::FIRST));
-            if !state.mode_groups[group].strobe_is_the_hmi_s {
+            if !state.mode_groups[group].hmi_owns_strobe {
                 let bytes = hmi.mode_groups[group].as_mut_bytes();
                 state.show_selection(group, &mut Written::new(bytes, ModeGroupHmi::FIRST));
             }
