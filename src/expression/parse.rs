@@ -203,7 +203,7 @@ impl Parser<'_> {
                 })
             }
             Token::Quoted(name) => self.scope.describe().alarm_number(&name).ok_or_else(|| Problem {
-                cure: "`opennck alarms` lists the alarms of the control".to_owned(),
+                cure: "write a number; `opennck alarms` lists the alarms of the control".to_owned(),
                 ..whole
             }),
             Token::Name(name) => Err(Problem { cure: format!("put a name in quotes: alarm('{name}')"), ..whole }),
