@@ -120,7 +120,7 @@
 //! | a reaction of a coupling | a value of a type in `motion/coupling/policy.rs`, and its effect | properties in `motion/coupling/tests.rs` |
 //! | another gantry control | a `Policy` and its `Follower`s; rules and alarms for the events of `compare` | a module like `sinumerik/gantry/` |
 //! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `sinumerik/referencing/state.rs` or `gantry/state.rs` | golden traces that change |
-//! | a fault | an arm of [`FaultKind`](machine::FaultKind), its effect in `plant/moving.rs`, its name in `scenario/faults.rs` | `fault = {…}` in scenarios |
+//! | a fault | an arm of [`FaultKind`](machine::FaultKind), its effect in `plant/moving.rs`, its name in `variables/happening.rs`, its keys in `scenario/faults.rs` | `fault = {…}` in scenarios |
 //! | a PLC program | a file in `plc/programs/` and a line in `plc/registry.rs`, or your own closure | `plc = "name"` in scenarios |
 //! | a machine | a folder below `machine_data/` | `machine = "path"` in scenarios |
 //! | a scenario | a `.toml` file below `golden/<area>/`; then review and accept its trace | the `.snap` file beside it |

@@ -2,6 +2,7 @@
 
 use super::{Kind, Value};
 use crate::units::{AxisNumber, ChannelNumber};
+use crate::variables::DatumValue;
 
 /// The owner of a datum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,4 +35,9 @@ pub trait Data {
 
     /// A text datum, for example the name of an axis or channel; `None` if there is no such text.
     fn text(&self, number: u32, owner: Owner, index: u8) -> Option<&str>;
+
+    /// The stored value of a datum as users write it, `34090[XF]`, for the trace; `None` if there is no such datum.
+    fn named(&self, _target: &str) -> Option<DatumValue> {
+        None
+    }
 }

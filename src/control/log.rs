@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::transitions::Taken;
-use crate::units::AxisSet;
+use crate::units::{AxisNumber, AxisSet};
 use crate::variables::{EventId, Events, Input, Place, RuleNumber};
 
 /// The latest events and the present cycle.
@@ -19,14 +19,47 @@ pub struct Log {
     /// Axes of which something was noted in this cycle, or is known that no decision brought.
     #[serde(skip)]
     pub news: AxisSet,
+    /// The machine data that became active in this cycle, of an axis if they are axial, and the event that activated them.
+    #[serde(skip)]
+    activated: (Vec<(u32, Option<AxisNumber>)>, EventId),
 }
 
 impl Log {
+    /// A cycle begins.
+    pub fn begin(&mut self, cycle: u64) {
+        self.cycle = cycle;
+        self.activated.0.clear();
+    }
+
+    /// A machine datum became active in this cycle. Events of this cycle that test it follow from its activation.
+    pub fn activated(&mut self, number: u32, axis: Option<AxisNumber>, event: EventId) {
+        let (data, cause) = &mut self.activated;
+        data.push((number, axis));
+        *cause = event;
+    }
+
+    /// The activation behind an event that tests these inputs now.
+    fn activation(&self, inputs: &[Input; 3]) -> EventId {
+        let (data, event) = &self.activated;
+        let is_new = |input: &Input| match *input {
+            Input::Datum(number, axis, _) => data.contains(&(number, axis)),
+            Input::None
+            | Input::Bit(..)
+            | Input::Number(..)
+            | Input::Length(..)
+            | Input::Alarm(_)
+            | Input::Fault(_) => false,
+        };
+        if !data.is_empty() && inputs.iter().any(is_new) { *event } else { EventId::NONE }
+    }
+
     /// Records that a rule allowed an action.
     pub fn note(&mut self, place: Place, rule: impl Into<RuleNumber>, inputs: [Input; 3], parent: EventId) -> EventId {
         if let Place::Axis(axis) = place {
             self.news.set(axis, true);
         }
+        // The later of the two is closer to the event.
+        let parent = parent.max(self.activation(&inputs));
         self.events.push(self.cycle, place, rule.into(), inputs, parent)
     }
 

@@ -6,7 +6,7 @@
 //!
 //! The machine calls a control in this order, once per interpolation cycle:
 //!
-//! 1. [`Control::command`], for each [`ControlCommand`] that was queued, at the edge of the cycle;
+//! 1. [`Control::begin_cycle`], then [`Control::command`], for each [`ControlCommand`] that was queued, at the edge of the cycle;
 //! 2. [`Control::decide`], after the PLC scan: takes what the PLC and the HMI wrote, commands setpoints;
 //! 3. [`Control::velocity_command`], for each axis that is awake and each position-control cycle, while drives and
 //!    mechanics move;
@@ -33,7 +33,7 @@ use crate::image::{Interface, Location, Names, OverrideCoding};
 use crate::motion::Feedback;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position, Time};
-use crate::variables::{AlarmNumber, EventId, Events, Place, Rule, RuleNumber, Variables};
+use crate::variables::{AlarmNumber, DatumValue, EventId, Events, FaultName, Place, Rule, RuleNumber, Variables};
 
 /// A command to a control from outside, taken at the edge of a cycle.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,8 +64,17 @@ pub enum ControlCommand {
     PlcRestarted,
     /// A client, scenario or operator wrote these bits of the control's or the HMI's part of the interface.
     Written(Location),
-    /// The mechanics were changed: no axis rests in the next cycle.
-    Wake,
+    /// A fault of the mechanics, a drive or an encoder began or ended. No axis rests in the next cycle.
+    Fault {
+        /// The axis.
+        axis: AxisNumber,
+        /// The kind.
+        name: FaultName,
+        /// Whether it began.
+        begins: bool,
+        /// The axes that it can move: the axis, and those that a bridge connects with it.
+        affected: AxisSet,
+    },
 }
 
 /// The data written by the PLC and the HMI, as the control reads them in one cycle.
@@ -95,6 +104,15 @@ pub struct Changes {
     pub shared: bool,
 }
 
+/// A machine datum that became active, with the event that activated it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Activated {
+    /// The datum and its value now.
+    pub datum: DatumValue,
+    /// The event.
+    pub event: EventId,
+}
+
 /// The cycle times of a control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CycleTimes {
@@ -112,13 +130,21 @@ pub trait Control: Send + Sync + Debug {
     /// A datum or handwheel does not exist, or a value does not fit the datum.
     fn check(&self, command: &ControlCommand) -> Result<(), Problem>;
 
-    /// Takes a command that [`Control::check`] has accepted, at the edge of a cycle. A command has no effect if an earlier command of the
-    /// same cycle has made it impossible.
-    fn command(&mut self, command: &ControlCommand);
+    /// A cycle begins; from now on, events belong to the cycle of this number.
+    fn begin_cycle(&mut self, cycle: u64);
 
-    /// Computes the decisions of a cycle: reads the data of the PLC and the HMI, and sets the setpoints for position control. `cycle` is
-    /// the number of the cycle, `changes` the differences of the PLC's half from the previous cycle.
-    fn decide(&mut self, cycle: u64, plc: PlcSide<'_>, changes: Changes);
+    /// Takes a command that [`Control::check`] has accepted, at the edge of a cycle. A command has no effect if an earlier command of the
+    /// same cycle has made it impossible. Returns the event that was recorded for it: the root of everything that follows from it.
+    fn command(&mut self, command: &ControlCommand) -> EventId;
+
+    /// The machine data that became active since the last call.
+    fn take_activated(&mut self) -> Vec<Activated> {
+        Vec::new()
+    }
+
+    /// Computes the decisions of a cycle: reads the data of the PLC and the HMI, and sets the setpoints for position control. `changes` are
+    /// the differences of the PLC's half from the previous cycle.
+    fn decide(&mut self, plc: PlcSide<'_>, changes: Changes);
 
     /// Position control of an axis in part `part` (from 1) of `of` parts of the interpolation cycle. Returns the velocity command for the
     /// drive, in increments per second; `None` for a drive without power. `counts` are the present values of both encoders.
@@ -147,8 +173,8 @@ pub trait Control: Send + Sync + Debug {
         self.never_rest();
     }
 
-    /// Power off and on: stored data become effective, everything else starts again.
-    fn power_on(&mut self);
+    /// Power off and on: stored data become effective, everything else starts again. Returns the event recorded for it.
+    fn power_on(&mut self) -> EventId;
 
     /// The cycle times in effect.
     fn cycle_times(&self) -> CycleTimes;

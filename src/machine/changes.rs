@@ -1,12 +1,13 @@
 //! Finds the changes of a step for the record. Whole parts are compared first, then their bytes.
 
-use super::Machine;
 use super::written::{FIXED, Force};
-use crate::control::Changes;
+use super::{Machine, Switch};
+use crate::control::{Activated, Changes};
 use crate::image::{Interface, Location, Part};
+use crate::plant::Input;
 use crate::trace::{By, Change, Row};
-use crate::units::AxisSet;
-use crate::variables::{EventId, Place};
+use crate::units::{AxisNumber, AxisSet};
+use crate::variables::{EventId, Happening, Place};
 
 impl Machine {
     /// The differences of the PLC's half from the end of the last cycle.
@@ -33,6 +34,21 @@ impl Machine {
             let change = Change::Overwritten { part: location.part, offset: location.offset, bits };
             self.recorder.push(Row { cycle: self.state.cycle, change });
         }
+    }
+
+    /// Records something that is not a change of the memory.
+    pub(super) fn record_happening(&mut self, what: Happening, by: By, cause: EventId) {
+        self.recorder.push(Row { cycle: self.state.cycle, change: Change::Happened { what, by, cause } });
+    }
+
+    /// Records the machine data that became active; a datum stored in the same cycle has only this row. Returns whether there are any.
+    pub(super) fn record_activated(&mut self, by: By) -> bool {
+        let activated = self.control.take_activated();
+        for Activated { datum, event } in &activated {
+            self.recorder.forget_stored(self.state.cycle, *datum);
+            self.record_happening(Happening::DatumActive(*datum), by, *event);
+        }
+        !activated.is_empty()
     }
 
     /// Writes the record of a step.
@@ -93,6 +109,8 @@ impl Machine {
             by[usize::from(bit)] = who;
             if let (By::Nck, Some((place, byte))) = (who, owner) {
                 causes[usize::from(bit)] = self.control.cause(place, byte, bit);
+            } else if who == By::Plant {
+                causes[usize::from(bit)] = self.fault_of_switch(part, offset, bit);
             }
         }
         self.recorder
@@ -131,6 +149,22 @@ impl Machine {
             Part::Inputs => By::Plant,
             _ => By::Plc,
         }
+    }
+
+    /// The event of a fault that changed the switch behind this bit in this step.
+    fn fault_of_switch(&self, part: Part, offset: u32, bit: u8) -> EventId {
+        let (unwired, wired) = (&self.definition.unwired, &self.definition.layout.wired);
+        let is_behind = |&&(axis, switch, _): &&(AxisNumber, Switch, EventId)| {
+            let is_signal = |&(of, which, location): &(AxisNumber, Switch, Location)| {
+                (of, which) == (axis, switch) && (location.part, location.offset, location.bit) == (part, offset, bit)
+            };
+            let is_input = |&(of, which, input): &(AxisNumber, Switch, Input)| {
+                let here = (Part::Inputs, u32::from(input.byte), input.bit) == (part, offset, bit);
+                here && (of, which) == (axis, switch)
+            };
+            unwired.iter().any(is_signal) || wired.iter().any(is_input)
+        };
+        self.before.stuck.iter().rev().find(is_behind).map_or(EventId::NONE, |(.., event)| *event)
     }
 
     /// Whether the bit is the signal of a switch that is not wired to an input.

@@ -7,8 +7,9 @@ use super::{Command, Fault, FaultKind, Machine};
 use crate::control::ControlCommand;
 use crate::image::{Location, Part};
 use crate::source::Problem;
-use crate::units::AxisSet;
-use crate::variables::RParameters;
+use crate::trace::By;
+use crate::units::{AxisSet, Position};
+use crate::variables::{EventId, FaultName, Happening, RParameters};
 
 impl Machine {
     /// Queues a command for the edge of the next step.
@@ -51,6 +52,7 @@ impl Machine {
     pub(super) fn take_commands(&mut self) {
         self.before.written.clear();
         self.before.power_on = false;
+        self.before.stuck.clear();
         if self.state.queue.is_empty() {
             return;
         }
@@ -58,46 +60,107 @@ impl Machine {
         self.before.written.make_room(&self.state.memory);
         let mut queue = std::mem::take(&mut self.state.queue);
         for command in queue.drain(..) {
-            if let Some(command) = of_the_control(&command) {
-                self.control.command(&command);
-                continue;
-            }
-            match command {
-                Command::Write { location, value } => self.write(location, value),
-                Command::Force { location, value } => {
-                    self.state.forces.retain(|force| force.location != location);
-                    self.state.forces.push(Force { location, value });
-                }
-                Command::Release { location } => self.state.forces.retain(|force| !force.location.overlaps(location)),
-                Command::RParameter { channel, number, value } => {
-                    self.state.r_parameters.set(channel, number, value);
-                }
-                Command::PowerOn => self.power_on(),
-                Command::PlcStop => self.state.plc.stopped = true,
-                Command::PlcRun => {
-                    self.state.plc.restart();
-                    self.control.command(&ControlCommand::PlcRestarted);
-                }
-                Command::PlcColdRestart => {
-                    self.forget_plc_memory();
-                    self.restart_program();
-                    self.control.command(&ControlCommand::PlcRestarted);
-                }
-                // A single displacement acts after the mechanics of this step, so that encoders and monitoring detect all of it.
-                Command::Fault(fault @ Fault { kind: FaultKind::Push { .. } | FaultKind::EncoderSlip { .. }, .. }) => {
-                    self.state.displaced.push((fault, self.control.measuring_system(fault.axis)));
-                    self.control.command(&ControlCommand::Wake);
-                }
-                Command::Fault(fault) => self.break_something(fault),
-                Command::ClearFault(fault) => {
-                    self.state.plant.clear_fault(fault);
-                    self.state.plant.press_switches(&self.definition.layout, AxisSet::of(fault.axis));
-                    self.control.command(&ControlCommand::Wake);
-                }
-                Command::MachineDatum { .. } | Command::NewConf | Command::Cancel | Command::Handwheel { .. } => {}
-            }
+            self.take(&command);
         }
         self.state.queue = queue;
+    }
+
+    /// Executes a command. What it does besides a change of the memory becomes a row of the record.
+    fn take(&mut self, command: &Command) {
+        if let Some(command) = of_the_control(command) {
+            let event = self.control.command(&command);
+            self.record_command(&command, event);
+            return;
+        }
+        match *command {
+            Command::Write { location, value } => self.write(location, value),
+            Command::Force { location, value } => {
+                self.state.forces.retain(|force| force.location != location);
+                self.state.forces.push(Force { location, value });
+            }
+            Command::Release { location } => self.state.forces.retain(|force| !force.location.overlaps(location)),
+            Command::RParameter { channel, number, value } => {
+                self.state.r_parameters.set(channel, number, value);
+            }
+            Command::PowerOn => {
+                let event = self.power_on();
+                self.record_happening(Happening::PowerOn, By::Outside, event);
+                self.record_activated(By::PowerOn);
+            }
+            Command::PlcStop => {
+                let is_new = !std::mem::replace(&mut self.state.plc.stopped, true);
+                let event = self.control.command(&ControlCommand::PlcMissing);
+                if is_new {
+                    self.record_happening(Happening::PlcStopped, By::Outside, event);
+                }
+            }
+            Command::PlcRun => {
+                self.state.plc.restart();
+                let event = self.control.command(&ControlCommand::PlcRestarted);
+                self.record_happening(Happening::PlcStarted, By::Outside, event);
+            }
+            Command::PlcColdRestart => {
+                self.forget_plc_memory();
+                self.restart_program();
+                let event = self.control.command(&ControlCommand::PlcRestarted);
+                self.record_happening(Happening::PlcColdRestart, By::Outside, event);
+            }
+            // A single displacement acts after the mechanics of this step, so that encoders and monitoring detect all of it.
+            Command::Fault(fault @ Fault { kind: FaultKind::Push { .. } | FaultKind::EncoderSlip { .. }, .. }) => {
+                self.state.displaced.push((fault, self.control.measuring_system(fault.axis)));
+                self.report_fault(fault, true);
+            }
+            Command::Fault(fault) => {
+                let active = self.control.measuring_system(fault.axis);
+                self.state.plant.fault(fault, active);
+                self.state.plant.press_switches(&self.definition.layout, AxisSet::of(fault.axis));
+                self.report_fault(fault, true);
+            }
+            Command::ClearFault(fault) => {
+                self.state.plant.clear_fault(fault);
+                self.state.plant.press_switches(&self.definition.layout, AxisSet::of(fault.axis));
+                self.report_fault(fault, false);
+            }
+            Command::MachineDatum { .. } | Command::NewConf | Command::Cancel | Command::Handwheel { .. } => {}
+        }
+    }
+
+    /// Records a command that the control has taken. A datum that is active at once has one row.
+    fn record_command(&mut self, command: &ControlCommand, event: EventId) {
+        match command {
+            ControlCommand::Store { target, .. } => {
+                if !self.record_activated(By::Outside)
+                    && let Some(datum) = self.control.data().named(target)
+                {
+                    self.record_happening(Happening::DatumStored(datum), By::Outside, EventId::NONE);
+                }
+            }
+            ControlCommand::Activate => {
+                self.record_happening(Happening::DataSetActive, By::Outside, event);
+                self.record_activated(By::Nck);
+            }
+            ControlCommand::Cancel => self.record_happening(Happening::CancelKey, By::Outside, event),
+            &ControlCommand::Handwheel { number, pulses, .. } => {
+                self.record_happening(Happening::HandwheelTurned { number, pulses }, By::Outside, event);
+            }
+            ControlCommand::PlcMissing
+            | ControlCommand::PlcRestarted
+            | ControlCommand::Written(_)
+            | ControlCommand::Fault { .. } => {}
+        }
+    }
+
+    /// Reports a fault to the control and to the record.
+    fn report_fault(&mut self, fault: Fault, begins: bool) {
+        let Fault { axis, kind } = fault;
+        let (name, by) = named(kind);
+        let affected = self.definition.layout.with_bridged(AxisSet::of(axis));
+        let event = self.control.command(&ControlCommand::Fault { axis, name, begins, affected });
+        if let FaultKind::SwitchStuck { which, .. } = kind {
+            self.before.stuck.push((axis, which, event));
+        }
+        let by = by.filter(|_| begins);
+        self.record_happening(Happening::Fault { axis, name, by, begins }, By::Outside, event);
     }
 
     /// The program starts again, in OB100.
@@ -112,7 +175,7 @@ impl Machine {
         self.state.memory.write(location, value);
         self.before.written.push(location, value);
         if matches!(location.part, Part::FromNck | Part::Hmi) {
-            self.control.command(&ControlCommand::Written(location));
+            let _ = self.control.command(&ControlCommand::Written(location));
         }
     }
 
@@ -134,16 +197,9 @@ impl Machine {
         }
     }
 
-    fn break_something(&mut self, fault: Fault) {
-        let active = self.control.measuring_system(fault.axis);
-        self.state.plant.fault(fault, active);
-        self.state.plant.press_switches(&self.definition.layout, AxisSet::of(fault.axis));
-        self.control.command(&ControlCommand::Wake);
-    }
-
     /// Power off and on: interface, PLC memory and forces start again; plant, faults and stored machine data stay.
-    fn power_on(&mut self) {
-        self.control.power_on();
+    fn power_on(&mut self) -> EventId {
+        let event = self.control.power_on();
         self.state.plant.power_on(&self.definition.layout);
         self.state.memory = self.definition.memory.clone();
         self.state.variables = crate::variables::Variables::default();
@@ -152,6 +208,22 @@ impl Machine {
         self.before.power_on = true;
         self.restart_program();
         self.sense(AxisSet::ALL);
+        event
+    }
+}
+
+/// The name of a fault and its amount in user units, a drift per second as in a scenario.
+fn named(kind: FaultKind) -> (FaultName, Option<f64>) {
+    match kind {
+        FaultKind::Block => (FaultName::Block, None),
+        FaultKind::Push { by } => (FaultName::Push, Some(by.user())),
+        FaultKind::EncoderSlip { by } => (FaultName::EncoderSlip, Some(by.user())),
+        FaultKind::ZeroMarkMissing => (FaultName::ZeroMarkMissing, None),
+        FaultKind::DriveFault => (FaultName::DriveFault, None),
+        FaultKind::EncoderFault { .. } => (FaultName::EncoderFault, None),
+        FaultKind::Friction { by } => (FaultName::Friction, Some(by)),
+        FaultKind::Drift { by } => (FaultName::Drift, Some(by / Position::PER_USER_UNIT)),
+        FaultKind::SwitchStuck { .. } => (FaultName::SwitchStuck, None),
     }
 }
 

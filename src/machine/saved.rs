@@ -15,7 +15,7 @@ use crate::units::{AxisSet, PerAxis, PerChannel};
 use crate::variables::Alarms;
 
 /// Version of the format of a saved machine.
-const VERSION: u32 = 8;
+const VERSION: u32 = 9;
 
 #[derive(Serialize, Deserialize)]
 struct Saved {

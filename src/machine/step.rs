@@ -7,14 +7,16 @@ use crate::control::{ControlCommand, ControlSide, CycleTimes};
 use crate::image::AsBytes;
 use crate::motion::Feedback;
 use crate::plc::PlcIo;
+use crate::trace::By;
 use crate::units::{AxisSet, PerAxis};
-use crate::variables::{AxisValues, Variables};
+use crate::variables::{AxisValues, Happening, Variables};
 
 impl Machine {
     /// One interpolation cycle. The order of the stages defines in which cycle each part receives the data of the others.
     pub fn step(&mut self) {
         self.state.cycle += 1;
         self.state.time += self.cycle_time();
+        self.control.begin_cycle(self.state.cycle);
         // Queued commands.
         self.take_commands();
         // Plant signals: wired switches are inputs of the PLC.
@@ -26,7 +28,8 @@ impl Machine {
         self.apply_forces();
         // The control decides.
         let changes = self.plc_changes();
-        self.control.decide(self.state.cycle, self.state.plc_side(), changes);
+        self.control.decide(self.state.plc_side(), changes);
+        self.record_activated(By::Nck);
         // Position control, drives and mechanics.
         let axes = self.definition.layout.with_bridged(self.control.awake());
         self.move_axes(axes);
@@ -45,7 +48,7 @@ impl Machine {
 
     fn scan(&mut self) {
         if self.state.plc.stopped {
-            self.control.command(&ControlCommand::PlcMissing);
+            let _ = self.control.command(&ControlCommand::PlcMissing);
             return;
         }
         if self.state.plc.wait > 0 {
@@ -79,7 +82,8 @@ impl Machine {
         if let Err(fault) = startup.and_then(|()| program.scan(&mut io)) {
             self.state.plc.stopped = true;
             self.state.plc.fault = Some(fault.reason);
-            self.control.command(&ControlCommand::PlcMissing);
+            let event = self.control.command(&ControlCommand::PlcMissing);
+            self.record_happening(Happening::PlcStopped, By::Plc, event);
         }
     }
 

@@ -4,6 +4,7 @@ use super::naming::axis_named;
 use crate::machine::{Fault, FaultKind, Machine, Switch};
 use crate::source::{Node, Problem, Value, did_you_mean};
 use crate::units::Position;
+use crate::variables::FaultName;
 
 /// The fastest drift in mm or degrees per second. No real axis is faster.
 const FASTEST_DRIFT: f64 = 1e6;
@@ -68,17 +69,7 @@ pub(super) fn fault(node: Node, begins: bool, machine: &Machine) -> Result<Fault
             FaultKind::Drift { by: velocity * Position::PER_USER_UNIT }
         }
         other => {
-            let known = [
-                "block",
-                "push",
-                "drive_fault",
-                "encoder_fault",
-                "encoder_slip",
-                "friction",
-                "drift",
-                "zero_mark_missing",
-                "switch_stuck",
-            ];
+            let known = FaultName::ALL.map(FaultName::name);
             let fallback = format!("kinds are {}", known.join(", "));
             return Err(kind.expected("a kind of fault", &did_you_mean(other, known, &fallback)));
         }

@@ -3,17 +3,17 @@
 use std::any::Any;
 
 use crate::control::{
-    Changes, Control, ControlCommand, ControlSide, CycleTimes, Data, Datum, Owner, PlcSide, Taken, Texts,
+    Activated, Changes, Control, ControlCommand, ControlSide, CycleTimes, Data, Datum, Owner, PlcSide, Taken, Texts,
 };
 use crate::image::{FromNck, Hmi, Names, OverrideCoding, ToNck, View};
 use crate::motion::Feedback;
 use crate::sinumerik::jog::state::HANDWHEELS;
 use crate::sinumerik::machine_data::Target;
-use crate::sinumerik::nck::Nck;
+use crate::sinumerik::nck::{Nck, shown};
 use crate::sinumerik::texts::TEXTS;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position};
-use crate::variables::{AlarmNumber, EventId, Events, Place, Variables};
+use crate::variables::{AlarmNumber, DatumValue, EventId, Events, Place, Variables};
 
 /// The parts have the lengths of this control's interface, because the memory was created for it.
 const LENGTHS: &str = "the memory of a machine has the interface of its control";
@@ -41,11 +41,15 @@ impl Control for Nck {
             | ControlCommand::PlcMissing
             | ControlCommand::PlcRestarted
             | ControlCommand::Written(_)
-            | ControlCommand::Wake => Ok(()),
+            | ControlCommand::Fault { .. } => Ok(()),
         }
     }
 
-    fn command(&mut self, command: &ControlCommand) {
+    fn begin_cycle(&mut self, cycle: u64) {
+        self.begin(cycle);
+    }
+
+    fn command(&mut self, command: &ControlCommand) -> EventId {
         match command {
             ControlCommand::Store { target, value } => {
                 // The command was checked when it was queued. A later command of the same step may have renamed its axis.
@@ -53,19 +57,28 @@ impl Control for Nck {
                     let _ = self.store(&target, value);
                 }
             }
-            ControlCommand::Activate => self.new_conf(),
-            ControlCommand::Cancel => self.press_cancel_key(),
-            &ControlCommand::Handwheel { number, pulses, cycles } => self.turn_handwheel(number, pulses, cycles),
-            ControlCommand::PlcMissing => self.plc_missing(),
+            ControlCommand::Activate => return self.new_conf(),
+            ControlCommand::Cancel => return self.press_cancel_key(),
+            &ControlCommand::Handwheel { number, pulses, cycles } => {
+                return self.turn_handwheel(number, pulses, cycles);
+            }
+            ControlCommand::PlcMissing => return self.plc_missing(),
             ControlCommand::PlcRestarted => self.plc_restarted(),
             ControlCommand::Written(location) => self.written_from_outside(*location),
-            ControlCommand::Wake => self.wake_all(),
+            &ControlCommand::Fault { axis, name, begins, affected } => {
+                return self.note_fault(axis, name, begins, affected);
+            }
         }
+        EventId::NONE
     }
 
-    fn decide(&mut self, cycle: u64, plc: PlcSide<'_>, changes: Changes) {
+    fn take_activated(&mut self) -> Vec<Activated> {
+        Self::take_activated(self)
+    }
+
+    fn decide(&mut self, plc: PlcSide<'_>, changes: Changes) {
         self.select_handwheels(&Hmi::of_bytes(plc.hmi).expect(LENGTHS).nck);
-        Self::decide(self, cycle, to_nck(plc), changes);
+        Self::decide(self, to_nck(plc), changes);
     }
 
     fn velocity_command(&mut self, axis: AxisNumber, counts: [Position; 2], part: u32, of: u32) -> Option<f64> {
@@ -98,8 +111,8 @@ impl Control for Nck {
         Self::decide_always(self);
     }
 
-    fn power_on(&mut self) {
-        Self::power_on(self);
+    fn power_on(&mut self) -> EventId {
+        Self::power_on(self)
     }
 
     fn cycle_times(&self) -> CycleTimes {
@@ -186,6 +199,11 @@ impl Data for Nck {
         let datum = target.datum();
         let value = Self::stored(self).get(&target)?;
         Some(Datum { kind: datum.kind, read_only: datum.read_only, count: datum.count, value })
+    }
+
+    fn named(&self, target: &str) -> Option<DatumValue> {
+        let target = Self::stored(self).parse_target(target).ok()?;
+        Some(shown(Self::stored(self), &target))
     }
 
     fn text(&self, number: u32, owner: Owner, index: u8) -> Option<&str> {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::control::{Changes, Log, Taken, Value};
+use crate::control::{Activated, Changes, Owner, Taken, Value};
 use crate::image::{Location, Part, ToNck};
 use crate::motion::Feedback;
 use crate::sinumerik::gantry::state::Phase as GroupingPhase;
@@ -18,7 +18,7 @@ use crate::sinumerik::state::State;
 use crate::sinumerik::strobe::Strobe;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, PerAxis};
-use crate::variables::{EventId, Place};
+use crate::variables::{DatumValue, EventId, FaultName, Input, Place};
 
 /// The control.
 ///
@@ -33,8 +33,10 @@ pub struct Nck {
     pub(super) state: Box<State>,
     pub(super) resting: Box<Resting>,
     strobe: Strobe,
-    /// The cancel key was pressed at the edge of this cycle. The stage resets it, so no saved machine contains it.
-    cancel_key: bool,
+    /// The cancel key was pressed at the edge of this cycle: its event. The stage resets it, so no saved machine contains it.
+    cancel_key: EventId,
+    /// The machine data that became active, until the machine has recorded them.
+    activated: Vec<Activated>,
 }
 
 impl Clone for Nck {
@@ -48,6 +50,7 @@ impl Clone for Nck {
             resting: Box::new(self.resting.anew(&self.state)),
             strobe: self.strobe,
             cancel_key: self.cancel_key,
+            activated: Vec::new(),
         }
     }
 }
@@ -69,7 +72,8 @@ impl Nck {
         let state = Box::new(State::new(&parameters));
         let resting = Box::new(Resting::new(&state));
         let (active, presence) = (Arc::clone(&stored), Arc::new(presence));
-        let mut nck = Self { stored, active, presence, parameters, state, resting, strobe, cancel_key: false };
+        let (cancel_key, activated) = (EventId::NONE, Vec::new());
+        let mut nck = Self { stored, active, presence, parameters, state, resting, strobe, cancel_key, activated };
         nck.fix_strobes();
         nck
     }
@@ -81,16 +85,21 @@ impl Nck {
     }
 
     /// Power off and on: stored machine data become active, everything else starts again.
-    pub fn power_on(&mut self) {
+    pub fn power_on(&mut self) -> EventId {
         let cycle = self.state.log.cycle;
-        self.active = Arc::clone(&self.stored);
+        let before = std::mem::replace(&mut self.active, Arc::clone(&self.stored));
         self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
         let events = std::mem::take(&mut self.state.log.events);
         let taken = self.state.log.taken;
         *self.state = State::new(&self.parameters);
-        self.state.log = Log { cycle, events, taken, ..Log::default() };
+        let log = &mut self.state.log;
+        (log.cycle, log.events, log.taken) = (cycle, events, taken);
         self.resting.begin_anew(&self.state);
         self.fix_strobes();
+        let event = self.state.log.note_plain(Place::Nck, Rule::PowerOn, EventId::NONE);
+        self.note_activated(&before, Rule::DataActiveAtPowerOn, event);
+        self.state.note_after_power_on(event);
+        event
     }
 
     /// The data that the stages work with.
@@ -118,33 +127,73 @@ impl Nck {
     pub fn store(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
         Arc::make_mut(&mut self.stored).set(target, value)?;
         if target.datum().effect == Effect::Immediate {
-            self.activate(Effect::Immediate);
+            self.activate(Effect::Immediate, EventId::NONE);
         }
         Ok(())
     }
 
     /// "Set machine data active".
-    pub fn new_conf(&mut self) {
-        self.activate(Effect::NewConf);
+    pub fn new_conf(&mut self) -> EventId {
+        let event = self.state.log.note_plain(Place::Nck, Rule::SetActive, EventId::NONE);
+        self.activate(Effect::NewConf, event);
+        event
     }
 
-    /// Activates the stored data of a class and of the lower classes.
-    pub(super) fn activate(&mut self, level: Effect) {
+    /// Activates the stored data of a class and of the lower classes, after this event.
+    pub(super) fn activate(&mut self, level: Effect, cause: EventId) {
         if Arc::ptr_eq(&self.stored, &self.active) {
             return;
         }
+        let before = Arc::clone(&self.active);
         Arc::make_mut(&mut self.active).activate(&self.stored, level);
         self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
         self.state.prepare_position_control(&self.parameters);
         self.resting.wake_all();
+        self.note_activated(&before, Rule::DataActive, cause);
     }
 
-    /// The PLC program does not run: alarm 2000.
-    pub fn plc_missing(&mut self) {
+    /// Records one event for all data that became active, and remembers them for the record of the machine.
+    fn note_activated(&mut self, before: &MachineData, rule: Rule, cause: EventId) {
+        let changed = self.active.differences(before);
+        let shown = |target: &Target| shown(&self.active, target);
+        let mut inputs = [Input::None; 3];
+        let numbers = changed.iter().filter_map(|target| Some((target, shown(target).value?)));
+        for (input, (target, value)) in inputs.iter_mut().zip(numbers) {
+            *input = Input::Datum(target.datum().number, axis_of(target), value);
+        }
+        if changed.is_empty() {
+            return;
+        }
+        let event = self.state.log.note(Place::Nck, rule, inputs, cause);
+        for target in &changed {
+            self.state.log.activated(target.datum().number, axis_of(target), event);
+            self.activated.push(Activated { datum: shown(target), event });
+        }
+    }
+
+    /// The data that became active since the last call.
+    pub(super) fn take_activated(&mut self) -> Vec<Activated> {
+        std::mem::take(&mut self.activated)
+    }
+
+    /// A fault of an axis began or ended. It can move the axes `affected`, or change what their drives and encoders report.
+    pub(super) fn note_fault(&mut self, axis: AxisNumber, name: FaultName, begins: bool, affected: AxisSet) -> EventId {
+        let rule = if begins { Rule::FaultBegins } else { Rule::FaultEnds };
+        let event = self.state.log.note_one(Place::Axis(axis), rule, Input::Fault(name), EventId::NONE);
+        for number in affected.iter() {
+            self.state.axes[number].causes.fault = event;
+        }
+        self.wake_all();
+        event
+    }
+
+    /// The PLC program does not run, or runs again after power on.
+    pub fn plc_missing(&mut self) -> EventId {
         if !self.state.plc_missing {
             self.state.plc_missing = true;
             self.state.plc_cause = self.state.log.note_plain(Place::Nck, Rule::PlcMissing, EventId::NONE);
         }
+        self.state.plc_cause
     }
 
     /// The PLC program runs again; alarm 2000 stays until power off.
@@ -178,8 +227,14 @@ impl Nck {
     }
 
     /// The cancel key is pressed in this cycle.
-    pub(super) fn press_cancel_key(&mut self) {
-        self.cancel_key = true;
+    pub(super) fn press_cancel_key(&mut self) -> EventId {
+        self.cancel_key = self.state.log.note_plain(Place::Nck, Rule::CancelKey, EventId::NONE);
+        self.cancel_key
+    }
+
+    /// A cycle begins.
+    pub(super) fn begin(&mut self, cycle: u64) {
+        self.state.log.begin(cycle);
     }
 
     /// A client or a scenario wrote these bits.
@@ -205,9 +260,8 @@ impl Nck {
     }
 
     /// Reads the data of the PLC and their changes, and commands setpoints.
-    pub fn decide(&mut self, cycle: u64, to_nck: &ToNck, changes: Changes) {
+    pub fn decide(&mut self, to_nck: &ToNck, changes: Changes) {
         let cancel_key = std::mem::take(&mut self.cancel_key);
-        self.state.log.cycle = cycle;
         self.state.note_power_on();
         self.state.run_up(&self.parameters);
         self.state.select_modes(&self.parameters, to_nck);
@@ -314,5 +368,28 @@ impl Nck {
         self.state.log.taken = taken;
         self.resting.begin_anew(&self.state);
         Ok(())
+    }
+}
+
+/// The axis of an axial datum.
+fn axis_of(target: &Target) -> Option<AxisNumber> {
+    match target.owner() {
+        Owner::Axis(axis) => Some(axis),
+        Owner::Nck | Owner::Channel(_) => None,
+    }
+}
+
+/// A datum with its value in these data, for the trace.
+pub(super) fn shown(data: &MachineData, target: &Target) -> DatumValue {
+    let place = match target.owner() {
+        Owner::Nck => Place::Nck,
+        Owner::Channel(channel) => Place::Channel(channel),
+        Owner::Axis(axis) => Place::Axis(axis),
+    };
+    DatumValue {
+        number: target.datum().number,
+        place,
+        index: (target.datum().count > 1).then_some(target.index()),
+        value: data.get(target).and_then(|value| value.number()),
     }
 }

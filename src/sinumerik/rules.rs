@@ -22,6 +22,11 @@ macro_rules! rules {
 rules! {
     // Start-up and enabling.
     PowerOn "power on" "power was switched on";
+    SetActive "O-23" "set machine data active";
+    DataActive "O-23" "machine data became active";
+    DataActiveAtPowerOn "DEF-09" "machine data became active";
+    FaultBegins "fault" "a fault begins";
+    FaultEnds "fault" "a fault ends";
     AsAfterPowerOn "power on" "as after power on";
     RunUp "O-20" "start-up of control and drives";
     DriveReady "O-20" "the drive has started up";
@@ -155,6 +160,7 @@ rules! {
     DriveFault "25201" "the drive reports a fault";
     DriveReadyAgain "25201" "the drive is ready again";
     DriveNotReady "25202" "the drive does not start up";
+    CancelKey "ALARM" "alarm-cancel key";
     AlarmCancelled "ALARM" "alarm cancelled";
     ExactStop "exact stop" "";
     ExactStopInMotion "exact stop" "the axis moves or is to move";

@@ -127,14 +127,20 @@ impl State {
         state
     }
 
-    /// Recorded in the first cycle after power on, because its signals belong to this cycle.
+    /// Recorded in the first cycle of a machine, because its signals belong to this cycle.
     pub(super) fn note_power_on(&mut self) {
         if self.power_on_cause.is_some() {
             return;
         }
-        self.power_on_cause = self.log.note_plain(Place::Nck, Rule::PowerOn, EventId::NONE);
-        self.as_after_power_on = self.log.note_plain(Place::Nck, Rule::AsAfterPowerOn, self.power_on_cause);
-        self.definition_cause = self.log.note_plain(Place::Nck, Rule::GroupingDefined, self.power_on_cause);
+        let event = self.log.note_plain(Place::Nck, Rule::PowerOn, EventId::NONE);
+        self.note_after_power_on(event);
+    }
+
+    /// Records what holds from power on, and the event of power on itself.
+    pub(super) fn note_after_power_on(&mut self, power_on: EventId) {
+        self.power_on_cause = power_on;
+        self.as_after_power_on = self.log.note_plain(Place::Nck, Rule::AsAfterPowerOn, power_on);
+        self.definition_cause = self.log.note_plain(Place::Nck, Rule::GroupingDefined, power_on);
     }
 
     /// Forms the units: closed groupings and single axes. The axes of an open grouping are single axes, and the grouping still

@@ -29,6 +29,7 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
             Some(format!("{axis}.{name} = {}", six_decimals(value)))
         }
         Input::Alarm(number) => Some(format!("alarm {}", describe.alarm_name(AlarmNumber(number)))),
+        Input::Fault(fault) => Some(fault.name().to_owned()),
     }
 }
 
@@ -41,5 +42,6 @@ pub(super) fn input_name(quantity: Quantity, length: Position) -> (&'static str,
         Quantity::Distance => ("distance", length.user()),
         // Events contain user units per second; all texts show user units per minute.
         Quantity::Velocity => (AxisValue::Velocity.name(), length.user() * 60.0),
+        Quantity::VelocityCommand => ("velocity_command", length.user() * 60.0),
     }
 }

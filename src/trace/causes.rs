@@ -38,6 +38,8 @@ pub(super) enum CauseInput {
     Value(String, String),
     /// An alarm: its number, or its name if it has only a name.
     Alarm(String),
+    /// A fault, by its name in scenarios.
+    Fault(String),
 }
 
 impl CauseInput {
@@ -55,6 +57,7 @@ impl CauseInput {
                 let (name, value) = input_name(quantity, length);
                 Self::Value(format!("{}.{name}", place_name(Place::Axis(axis), names)), six_decimals(value))
             }
+            Input::Fault(fault) => Self::Fault(fault.name().to_owned()),
             Input::Alarm(number) => Self::Alarm(describe.alarm_name(AlarmNumber(number))),
         })
     }
@@ -91,6 +94,7 @@ impl Trace {
             let mut number = match &line.kind {
                 LineKind::Signal(signal) => signal.event,
                 LineKind::Alarm(alarm) => alarm.event,
+                LineKind::Happening(happening) => happening.event,
                 LineKind::Note(_) | LineKind::Value(..) => 0,
             };
             while let Some(event) = self.event_numbered(number) {

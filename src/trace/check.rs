@@ -143,7 +143,7 @@ impl Seen<'_> {
             Change::Byte { part, offset, old, .. } if (part, offset) == (location.part, location.offset) => {
                 Some(u64::from((old & mask_in_byte(location, offset)) >> location.bit))
             }
-            Change::Byte { .. } | Change::Alarm { .. } | Change::Overwritten { .. } => None,
+            Change::Byte { .. } | Change::Alarm { .. } | Change::Happened { .. } | Change::Overwritten { .. } => None,
         });
         Some([now, before.unwrap_or(now)])
     }

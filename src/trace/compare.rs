@@ -336,6 +336,12 @@ fn entry(line: usize, time: Time, value: &Value) -> Option<Entry> {
     let mut entry = Entry { line, time: Some(time), by: text("by"), because: text("because"), ..Entry::default() };
     if value.get("note").is_some() {
         entry.what = format!("# {}", text("note"));
+    } else if value.get("happened").is_some() {
+        let object = ["machine_data", "fault", "handwheel"].map(text).concat();
+        let amount = ["value", "amount", "pulses"].map(text).concat();
+        entry.what = [text("happened"), object, amount].join(" ").trim_end().to_owned();
+        entry.address = text("where");
+        entry.change = "happened".to_owned();
     } else if value.get("alarm").is_some() {
         entry.what = format!("alarm {}", text("alarm"));
         entry.address = text("where");

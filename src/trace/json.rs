@@ -3,7 +3,7 @@
 use super::causes::{Cause, CauseInput};
 use super::printable::Shown;
 use super::record::by_in_words;
-use super::{By, Line, LineKind};
+use super::{By, Detail, Line, LineKind};
 
 /// All lines; an event precedes the bits of the NCK that it explains.
 pub(super) fn lines(lines: &[Line], causes: &[Cause]) -> String {
@@ -19,13 +19,15 @@ pub(super) fn lines(lines: &[Line], causes: &[Cause]) -> String {
         }
         text += &line(one);
     }
+    // The last line can be a happening, which its event follows.
+    text.extend(causes.map(cause));
     text
 }
 
 /// Within one time, notes and writes come first, then events, then the changes that the control derived from them.
 fn follows_events(kind: &LineKind) -> bool {
     match kind {
-        LineKind::Note(_) => false,
+        LineKind::Note(_) | LineKind::Happening(_) => false,
         LineKind::Signal(signal) => signal.by == By::Nck,
         LineKind::Alarm(_) | LineKind::Value(..) => true,
     }
@@ -61,6 +63,7 @@ fn input(input: &CauseInput) -> String {
             Ok(number) => format!("{{\"alarm\":{number}}}"),
             Err(_) => format!("{{\"alarm\":{}}}", quoted(name)),
         },
+        CauseInput::Fault(name) => format!("{{\"fault\":{}}}", quoted(name)),
     }
 }
 
@@ -69,6 +72,18 @@ fn line(line: &Line) -> String {
     let mut fields = vec![("t", line.time.to_string())];
     match &line.kind {
         LineKind::Note(text) => fields.push(("note", quoted(text))),
+        LineKind::Happening(happening) => {
+            fields.push(("happened", quoted(happening.kind)));
+            fields.extend(happening.details.iter().map(|(key, detail)| (*key, self::detail(detail))));
+            fields.push(("where", quoted(&happening.place)));
+            fields.push(("by", quoted(by_in_words(happening.by))));
+            if let Some(because) = &happening.because {
+                fields.push(("because", quoted(because)));
+            }
+            if happening.event != 0 {
+                fields.push(("event", happening.event.to_string()));
+            }
+        }
         LineKind::Signal(signal) => {
             fields.push(("signal", quoted(&signal.address)));
             if let Some(symbol) = &signal.symbol {
@@ -116,6 +131,13 @@ fn line(line: &Line) -> String {
 fn object(fields: &[(&str, String)]) -> String {
     let fields: Vec<_> = fields.iter().map(|(key, value)| format!("\"{key}\":{value}")).collect();
     format!("{{{}}}\n", fields.join(","))
+}
+
+fn detail(detail: &Detail) -> String {
+    match detail {
+        Detail::Text(text) => quoted(text),
+        Detail::Number(value) => number(Shown::Number(*value)),
+    }
 }
 
 /// JSON has no infinity; an infinite REAL becomes null.

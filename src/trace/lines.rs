@@ -1,10 +1,11 @@
 //! Converts rows to lines: bytes become signals, numbers become names, in the documented order.
 //!
-//! Order within one time: notes, writes by address, bits of the NCK by address, alarms by number, values.
+//! Order within one time: notes, happenings, writes by address, bits of the NCK by address, alarms by number, values.
 
 use std::collections::BTreeMap;
 
 use super::because::because;
+use super::happened::{HappeningLine, happened};
 use super::places::Places;
 use super::printable::{Order, Printable, Shown, mask_in_byte, shown};
 use super::value::decimals;
@@ -27,6 +28,8 @@ pub struct Line {
 pub enum LineKind {
     /// A note of the scenario, or a message of the simulator.
     Note(String),
+    /// Something happened that is not a change of a signal: power on, machine data, faults, operator keys.
+    Happening(HappeningLine),
     /// A signal changed.
     Signal(SignalLine),
     /// An alarm was raised or cleared.
@@ -106,6 +109,12 @@ impl Trace {
             let mut drafts: BTreeMap<(bool, Order, u8), Draft> = BTreeMap::new();
             for row in rows {
                 draft(row, &memory, &mut places, &mut drafts);
+                if let Change::Happened { what, by, cause } = row.change {
+                    let because = self.event(cause, cycle).map(|event| because(event, describe));
+                    let event = self.event_number(cause, cycle);
+                    let line = HappeningLine { because, event, ..happened(&what, by, describe) };
+                    push(cycle, 1, LineKind::Happening(line));
+                }
                 if let Change::Overwritten { part, offset, bits } = row.change {
                     let what = places.call(part, offset, bits);
                     push(
@@ -127,7 +136,7 @@ impl Trace {
                     let because = self.event(cause, cycle).map(|event| because(event, describe));
                     let event = self.event_number(cause, cycle);
                     let Printable { symbol, address, location, .. } = printable;
-                    let rank = if by == By::Nck { 2 } else { 1 };
+                    let rank = if by == By::Nck { 3 } else { 2 };
                     let line = SignalLine { symbol, address, old, new, by, because, event, location };
                     push(cycle, rank, LineKind::Signal(line));
                 }
@@ -136,19 +145,19 @@ impl Trace {
                 .iter()
                 .filter_map(|row| match row.change {
                     Change::Alarm { alarm, raised, cause } => Some((alarm, raised, cause)),
-                    Change::Byte { .. } | Change::Overwritten { .. } => None,
+                    Change::Byte { .. } | Change::Happened { .. } | Change::Overwritten { .. } => None,
                 })
                 .collect();
             alarms.sort_by_key(|(alarm, ..)| (alarm.number, alarm.place));
             for (alarm, raised, cause) in alarms {
-                push(cycle, 3, LineKind::Alarm(self.alarm(&alarm, raised, (cause, cycle), describe)));
+                push(cycle, 4, LineKind::Alarm(self.alarm(&alarm, raised, (cause, cycle), describe)));
             }
         }
         for row in &self.values {
             let watched = &self.watched[row.index];
             let axis = place_name(Place::Axis(watched.axis), names);
             let name = format!("{axis}.{}", watched.value);
-            push(row.cycle, 4, LineKind::Value(name, row.old.map(decimals), decimals(row.new)));
+            push(row.cycle, 5, LineKind::Value(name, row.old.map(decimals), decimals(row.new)));
         }
         ranked.sort_by_key(|(cycle, rank, _)| (*cycle, *rank));
         ranked.into_iter().map(|(_, _, line)| line).collect()

@@ -6,20 +6,34 @@
 //!
 //! # JSON lines
 //!
-//! One object per line, in order of time `t` (seconds). Order within one time: notes, writes by address, events, bits of the NCK by
-//! address, alarms by number, values. Readers must ignore keys and kinds of lines that they do not know.
+//! One object per line, in order of time `t` (seconds). Order within one time: notes, happenings, writes by address, events, bits of the
+//! NCK by address, alarms by number, values. Readers must ignore keys and kinds of lines that they do not know.
 //!
 //! | line | keys after `t` |
 //! |---|---|
 //! | a signal changed | `signal` (address), `symbol` if it has one, `value`, `by`, `because` (text), `event` |
 //! | an alarm was raised or cleared | `alarm`, `state`, `where`, `parameters`, `text`, `because`, `event` |
 //! | a note | `note` |
+//! | something else happened | `happened`, its object, `where`, `by`, `because`, `event` |
 //! | a watched value changed | `symbol`, `value` |
 //! | an event of the control | `event`, `where`, `rule`, `because`, `inputs`, `parent` |
 //!
+//! What happens in addition to changes of signals is a line, too, with or without `watch`: one line for one thing. The power on that opens
+//! a machine is the start of its trace and has no line; a datum that becomes active in the cycle in which it was written has only the
+//! second of its two lines. In the text, a happening is a row (`power`, `MD37110 = 0.1`, `fault push = 0.3`); in VCD and SVG it stands
+//! among the notes.
+//!
+//! | `happened` | keys of its object |
+//! |---|---|
+//! | `power_on`, `set_machine_data_active`, `cancel_key`, `plc_stopped`, `plc_started`, `plc_cold_restart` | |
+//! | `machine_datum_stored`, `machine_datum_active` | `machine_data` (`34100[2,XF]`), `value` unless it is a text |
+//! | `fault_set`, `fault_cleared` | `fault` (`push`), `amount` if it has one |
+//! | `handwheel_turned` | `handwheel`, `pulses` |
+//!
 //! `event` is a unique number in a trace. A change names the event that caused it, an event names the event that led to it as `parent`. A
 //! trace contains only events that caused changes in it. `inputs` lists what the event tested: objects with `signal`, `symbol` and `value`,
-//! with `machine_data` (`37110[XF]`) and `value`, with `symbol` and `value` for a length or a velocity, or with `alarm`. So the chain of
+//! with `machine_data` (`37110[XF]`) and `value`, with `symbol` and `value` for a length or a velocity, with `alarm`, or with `fault`.
+//! The event of a happening is the root of what follows from it. So the chain of
 //! causes can be followed without the machine ([`Story`], `opennck why`), as far as the trace watches its signals. [`Reading`] compares two
 //! traces (`opennck diff`).
 //!
@@ -34,6 +48,7 @@ mod because;
 mod causes;
 mod check;
 mod compare;
+mod happened;
 mod history;
 mod json;
 mod lines;
@@ -51,6 +66,7 @@ mod why;
 
 pub use check::{CauseFault, CauseFinding};
 pub use compare::{Comparison, Reading};
+pub use happened::{Detail, HappeningLine};
 pub use history::Trace;
 pub use lines::{AlarmLine, Line, LineKind, SignalLine};
 pub use past::Past;

@@ -4,7 +4,7 @@
 //! between two steps.
 
 use crate::image::Part;
-use crate::variables::{Event, EventId, Events, RaisedAlarm};
+use crate::variables::{DatumValue, Event, EventId, Events, Happening, RaisedAlarm};
 
 /// The writer of a bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -48,6 +48,15 @@ pub enum Change {
         /// Whether it was raised.
         raised: bool,
         /// The event that caused it.
+        cause: EventId,
+    },
+    /// Something happened that is not a change of the memory.
+    Happened {
+        /// What happened.
+        what: Happening,
+        /// The side that it comes from.
+        by: By,
+        /// The event that was recorded for it, if any.
         cause: EventId,
     },
     /// A write from outside that the PLC program overwrote in the same cycle.
@@ -117,6 +126,23 @@ impl Recorder {
         } else {
             self.lost += 1;
         }
+    }
+
+    /// A datum becomes active in this cycle: the rows that say that it was stored in the same cycle say nothing more.
+    pub fn forget_stored(&mut self, cycle: u64, active: DatumValue) {
+        let is_of_cycle = |row: &Row| row.cycle == cycle;
+        let first = self.rows.iter().rposition(|row| !is_of_cycle(row)).map_or(0, |last| last + 1);
+        let says_so = |row: &Row| match row.change {
+            Change::Happened { what: Happening::DatumStored(stored), .. } => {
+                (stored.number, stored.place, stored.index) == (active.number, active.place, active.index)
+            }
+            Change::Happened { .. } | Change::Byte { .. } | Change::Alarm { .. } | Change::Overwritten { .. } => false,
+        };
+        let mut index = 0;
+        self.rows.retain(|row| {
+            index += 1;
+            index <= first || !says_so(row)
+        });
     }
 
     /// Records the events of this cycle.

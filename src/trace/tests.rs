@@ -4,7 +4,8 @@ use super::*;
 use crate::image::{Location, Memory, Names};
 use crate::units::{AxisNumber, ChannelNumber, Position, Time};
 use crate::variables::{
-    AlarmNumber, Event, EventId, Input, Parameter, Place, RaisedAlarm, Rule, RuleNumber, SignalBit, Variables,
+    AlarmNumber, DatumValue, Event, EventId, FaultName, Happening, Input, Parameter, Place, RaisedAlarm, Rule,
+    RuleNumber, SignalBit, Variables,
 };
 
 struct Control(Names);
@@ -117,6 +118,73 @@ fn the_text_has_one_row_a_change_in_aligned_columns() {
     assert!(!trace.text(&control, &Watch::default(), false).contains("REF-11"));
 }
 
+/// Power on, machine data, faults and keys, in two cycles.
+fn happened() -> Trace {
+    let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10);
+    let mut recorder = Recorder::default();
+    let xf = AxisNumber::new(3).unwrap();
+    let stored = DatumValue { number: 37110, place: Place::Axis(xf), index: None, value: Some(0.1) };
+    let indexed =
+        DatumValue { number: 20070, place: Place::Channel(ChannelNumber::FIRST), index: Some(2), value: None };
+    let mut push = |cycle, what, by, cause| {
+        recorder.push(Row { cycle, change: Change::Happened { what, by, cause: EventId(cause) } });
+    };
+    push(11, Happening::DatumStored(stored), By::Outside, 0);
+    push(11, Happening::PowerOn, By::Outside, 1);
+    push(11, Happening::DatumActive(indexed), By::PowerOn, 0);
+    push(12, Happening::Fault { axis: xf, name: FaultName::Push, by: Some(0.3), begins: true }, By::Outside, 2);
+    push(12, Happening::Fault { axis: xf, name: FaultName::Block, by: None, begins: false }, By::Outside, 0);
+    push(12, Happening::HandwheelTurned { number: 1, pulses: -20 }, By::Outside, 0);
+    let event = |id, cycle, input| Event {
+        id: EventId(id),
+        cycle,
+        place: Place::Nck,
+        rule: RuleNumber(1),
+        inputs: [input, Input::None, Input::None],
+        parent: EventId::NONE,
+    };
+    recorder.events([event(1, 11, Input::None), event(2, 12, Input::Fault(FaultName::Push))].iter());
+    trace.extend(&recorder);
+    trace.note(12, "a note");
+    trace
+}
+
+#[test]
+fn what_happens_besides_changes_of_signals_is_a_row() {
+    let (control, trace, watch) = (Control::new(), happened(), Watch::default());
+    let expected = "
+    time  what                  address   change    by
+   0.002  MD37110 = 0.1         XF        stored    outside
+   0.002  power                 nck       on        outside
+   0.002  MD20070[2]            CHAN1     active    power on
+   0.004  # a note
+   0.004  fault push = 0.3      XF        set       outside
+   0.004  fault block           XF        cleared   outside
+   0.004  handwheel 1 = -20     nck       turned    outside
+";
+    assert_eq!(format!("\n{}", trace.text(&control, &watch, false)), expected);
+    let expected = r#"{"t":0.002,"happened":"machine_datum_stored","machine_data":"37110[XF]","value":0.1,"where":"XF","by":"outside"}
+{"t":0.002,"happened":"power_on","where":"nck","by":"outside","because":"O-19: mode taken","event":1}
+{"t":0.002,"happened":"machine_datum_active","machine_data":"20070[2,CHAN1]","where":"CHAN1","by":"power on"}
+{"t":0.002,"event":1,"where":"nck","rule":"O-19","because":"O-19: mode taken","inputs":[]}
+{"t":0.004,"note":"a note"}
+{"t":0.004,"happened":"fault_set","fault":"push","amount":0.3,"where":"XF","by":"outside","because":"O-19: mode taken, push","event":2}
+{"t":0.004,"happened":"fault_cleared","fault":"block","where":"XF","by":"outside"}
+{"t":0.004,"happened":"handwheel_turned","handwheel":1,"pulses":-20,"where":"nck","by":"outside"}
+{"t":0.004,"event":2,"where":"nck","rule":"O-19","because":"O-19: mode taken, push","inputs":[{"fault":"push"}]}
+"#;
+    let json = trace.json_lines(&control, &watch);
+    assert_eq!(json, expected);
+    // Equal traces stay equal, another amount is a difference.
+    let read = |text: &str| Reading::read(text).unwrap();
+    assert_eq!(read(&json).compare(&read(&json)), Comparison::Same);
+    let other = json.replace("\"amount\":0.3", "\"amount\":0.4");
+    assert!(matches!(read(&json).compare(&read(&other)), Comparison::Different(_)));
+    let head = Head { title: "T".into(), machine: "m".into(), profile: None, cycle_time: Time::from_millis(2) };
+    assert!(trace.svg(&control, &watch, &head).contains("XF: fault push = 0.3 set"));
+    assert!(trace.vcd(&control, &watch).contains("XF:_fault_push_=_0.3_set"));
+}
+
 #[test]
 fn the_json_lines_have_the_promised_keys_in_the_promised_order() {
     let control = Control::new();
@@ -148,7 +216,7 @@ fn a_watch_selects_signals_plain_memory_and_values() {
         let lines = trace.lines(&control, &watch);
         let address = |line: &Line| match &line.kind {
             LineKind::Signal(signal) => Some(format!("{} {} -> {}", signal.address, signal.old, signal.new)),
-            LineKind::Note(_) | LineKind::Alarm(_) | LineKind::Value(..) => None,
+            LineKind::Note(_) | LineKind::Happening(_) | LineKind::Alarm(_) | LineKind::Value(..) => None,
         };
         lines.iter().filter_map(address).collect::<Vec<_>>()
     };

@@ -105,6 +105,17 @@ fn columns(line: &Line, causes: bool) -> Result<Columns, &Line> {
     let time = line.time.to_string();
     let row = match &line.kind {
         LineKind::Note(_) => return Err(line),
+        LineKind::Happening(happening) => {
+            let because = happening.because.clone().filter(|_| causes);
+            Columns {
+                time,
+                what: happening.what.clone(),
+                address: happening.place.clone(),
+                change: happening.change.to_owned(),
+                by: by_in_words(happening.by).to_owned(),
+                rest: because.unwrap_or_default(),
+            }
+        }
         LineKind::Signal(signal) => {
             let (what, address) = match &signal.symbol {
                 Some(symbol) => (symbol.clone(), signal.address.clone()),

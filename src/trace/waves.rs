@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use super::happened::HappeningLine;
 use super::history::ValueRow;
 use super::lines::LineKind;
 use super::printable::{order, printable, shown};
@@ -19,7 +20,7 @@ pub(super) struct Waves {
     /// The number of cycles.
     pub(super) cycles: u64,
     pub(super) rows: Vec<Wave>,
-    /// The notes, with their cycles.
+    /// The notes and happenings, with their cycles.
     pub(super) notes: Vec<(u64, String)>,
 }
 
@@ -126,6 +127,10 @@ impl Trace {
             let cycle = line.time.nanos().unsigned_abs() / self.cycle_time.nanos().max(1).unsigned_abs();
             match line.kind {
                 LineKind::Note(text) => notes.push((cycle, text)),
+                LineKind::Happening(happening) => {
+                    let HappeningLine { what, place, change, .. } = happening;
+                    notes.push((cycle, format!("{place}: {what} {change}")));
+                }
                 LineKind::Value(..) => {}
                 LineKind::Signal(signal) => {
                     let wave = rows.signal(signal.symbol.as_deref(), &signal.address, signal.location, signal.old);

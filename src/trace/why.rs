@@ -68,7 +68,7 @@ impl Edge {
     fn of(line: &Line) -> Option<Self> {
         let time = line.time;
         match &line.kind {
-            LineKind::Note(_) | LineKind::Value(..) => None,
+            LineKind::Note(_) | LineKind::Happening(_) | LineKind::Value(..) => None,
             LineKind::Signal(signal) => Some(Self {
                 time,
                 name: signal.symbol.clone().unwrap_or_else(|| signal.address.clone()),
@@ -120,6 +120,10 @@ impl Story {
         let text = |key: &str| line.get(key).and_then(Value::as_str).map(str::to_owned);
         let number = |key: &str| line.get(key).and_then(Value::as_u64).and_then(|n| u32::try_from(n).ok()).unwrap_or(0);
         let (because, event) = (text("because"), number("event"));
+        if line.get("happened").is_some() {
+            // Its event has a line of its own.
+            return;
+        }
         if let Some(address) = text("signal") {
             let new = plain(line.get("value"));
             let known = self.edges.iter().rev().find(|edge| edge.address == address).map(|edge| edge.new.clone());
@@ -247,7 +251,7 @@ impl Chain<'_> {
             CauseInput::Signal { address, value, .. } => (address.clone(), value.to_string()),
             CauseInput::Alarm(name) => (format!("alarm({name})"), "raised".to_owned()),
             // Measured values and machine data are in the text of the event.
-            CauseInput::Datum(..) | CauseInput::Value(..) => return,
+            CauseInput::Datum(..) | CauseInput::Value(..) | CauseInput::Fault(_) => return,
         };
         let mut before = self.story.edges.iter().enumerate().rev().filter(|(_, edge)| edge.time <= time);
         let found = before.find(|(_, edge)| (edge.name == name || edge.address == name) && edge.new == new);
@@ -275,6 +279,9 @@ fn input(input: &Value) -> Option<CauseInput> {
     }
     if let Some(alarm) = input.get("alarm") {
         return Some(CauseInput::Alarm(plain(Some(alarm))));
+    }
+    if let Some(fault) = text("fault") {
+        return Some(CauseInput::Fault(fault));
     }
     text("symbol").map(|name| CauseInput::Value(name, plain(value)))
 }

@@ -6,7 +6,7 @@
 use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
-use super::Place;
+use super::{FaultName, Place};
 use crate::units::{AxisNumber, Position};
 
 /// Number of an event, ascending from one; zero means "no event".
@@ -59,8 +59,10 @@ pub enum Quantity {
     Deviation,
     /// Distance travelled.
     Distance,
-    /// Velocity, in millionths of a user unit per second.
+    /// Actual velocity with its sign, in millionths of a user unit per second.
     Velocity,
+    /// Velocity that position control commands, in the same unit.
+    VelocityCommand,
 }
 
 /// An input of a decision, with its value at that time.
@@ -79,6 +81,8 @@ pub enum Input {
     Alarm(u32),
     /// A signal of several bits of one byte, by its lowest bit.
     Number(SignalBit, u8),
+    /// A fault of the place of the event.
+    Fault(FaultName),
 }
 
 impl Input {
@@ -88,7 +92,7 @@ impl Input {
         match *self {
             Self::Bit(bit, value) => Some((bit, value.into())),
             Self::Number(bit, value) => Some((bit, value)),
-            Self::None | Self::Datum(..) | Self::Length(..) | Self::Alarm(_) => None,
+            Self::None | Self::Datum(..) | Self::Length(..) | Self::Alarm(_) | Self::Fault(_) => None,
         }
     }
 }

@@ -6,12 +6,14 @@
 mod alarms;
 mod axis_value;
 mod events;
+mod happening;
 mod place;
 mod r_parameters;
 
 pub use alarms::{AlarmNumber, Alarms, Arrival, Parameter, RaisedAlarm};
 pub use axis_value::{AxisValue, six_decimals};
 pub use events::{Event, EventId, Events, Input, Quantity, Rule, RuleNumber, SignalBit};
+pub use happening::{DatumValue, FaultName, Happening};
 pub use place::{Place, axis_name, place_name};
 pub use r_parameters::RParameters;
 

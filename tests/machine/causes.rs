@@ -4,7 +4,8 @@
 use std::path::Path;
 
 use opennck::golden::{cases, scenario_files};
-use opennck::plc::Programs;
+use opennck::machine::FaultKind;
+use opennck::plc::{Programs, program};
 use opennck::scenario::Session;
 use opennck::trace::{CauseFinding, Watch};
 
@@ -44,4 +45,51 @@ fn every_cause_in_the_golden_scenarios_is_correct() {
         }
     }
     assert!(wrong.is_empty(), "{} causes are wrong\n{}", wrong.len(), wrong[..wrong.len().min(20)].join("\n"));
+}
+
+/// The chain of causes of the last edge of a signal.
+fn chain(session: &Session, signal: &str) -> String {
+    let machine = session.machine();
+    let location = machine.names().resolve(machine.memory(), signal).expect("a signal");
+    session.trace().why(location, machine.time(), machine).expect("an edge")
+}
+
+#[test]
+fn edges_name_the_machine_data_the_fault_and_the_power_on_that_they_follow_from() {
+    let plc = program("everything_on", (), |(), io| {
+        for axis in io.axes() {
+            io.to_nck.axis(axis).set_position_measuring_system_1(true);
+            io.to_nck.axis(axis).set_controller_enable(true);
+            io.to_nck.axis(axis).set_pulse_enable(true);
+        }
+    });
+    let mut gantry = Session::open("g1_example").unwrap().with_program(plc.boxed());
+    gantry.watch(&["X.axis_stationary", "X.drive_ready", "X.traverse_command_minus"]).unwrap();
+    gantry.set("X.traversing_key_minus", 1).unwrap();
+    gantry.wait("X.axis_stationary == 0 && X.velocity < -100", "5s").unwrap();
+    // MD36060 (NEWCONF): the limit of "axis stationary" is now above the velocity, which is negative in the cause, too.
+    gantry.machine_data("36060[X]", 100_000.0).unwrap();
+    gantry.new_conf().unwrap();
+    gantry.wait("X.axis_stationary", "100ms").unwrap();
+    let why = chain(&gantry, "X.axis_stationary");
+    assert!(why.contains("X.velocity = -") && why.contains("MD36060[X] = 100000"), "{why}");
+    assert!(why.contains("after O-23: machine data became active, MD36060[X] = 100000"), "{why}");
+    assert!(why.contains("after O-23: set machine data active"), "{why}");
+    gantry.fault("X", FaultKind::DriveFault).unwrap();
+    gantry.wait("X.drive_ready == 0", "100ms").unwrap();
+    let why = chain(&gantry, "X.drive_ready");
+    assert!(why.contains("after fault: a fault begins, drive_fault  [X]"), "{why}");
+    gantry.clear_fault("X", FaultKind::DriveFault).unwrap();
+    gantry.wait("X.drive_ready", "5s").unwrap();
+    let why = chain(&gantry, "X.drive_ready");
+    assert!(why.contains("after fault: a fault ends, drive_fault  [X]"), "{why}");
+    gantry.power_on().unwrap();
+    gantry.wait("X.drive_ready == 0", "1s").unwrap();
+    gantry.wait("X.drive_ready", "5s").unwrap();
+    let why = chain(&gantry, "X.drive_ready");
+    assert!(why.contains("after power on: power was switched on"), "{why}");
+    let text = gantry.text();
+    for row in ["MD36060 = 100000", "set MD active", "fault drive_fault", "power "] {
+        assert!(text.contains(row), "{row}\n{text}");
+    }
 }

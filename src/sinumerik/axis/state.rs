@@ -31,6 +31,15 @@ pub(in crate::sinumerik) struct Causes {
     pub parameter_set: EventId,
     /// 93.0 to 93.4.
     pub drive_data_set: EventId,
+    /// The last fault that began or ended and can move the axis or change what its drive and encoders report.
+    pub fault: EventId,
+}
+
+impl Causes {
+    /// The event behind a change of the actual value: the last movement or fault.
+    pub(in crate::sinumerik) fn movement(&self) -> EventId {
+        self.motion.max(self.fault)
+    }
 }
 
 /// One machine axis.

@@ -71,7 +71,7 @@ impl Grouping {
         let mut events = Events::new();
         self.coupling.compare(view.axes, &mut events);
         for event in &events {
-            self.note_limit(event, synchronised, monitored, log);
+            self.note_limit(event, synchronised, monitored, view, log);
         }
         for found in self.monitored() {
             let place = Place::Axis(found.axis);
@@ -84,7 +84,14 @@ impl Grouping {
     }
 
     /// Records the event that set or reset a warning or a trip.
-    fn note_limit(&mut self, event: &CouplingEvent, synchronised: bool, monitored: bool, log: &mut Log) {
+    fn note_limit(
+        &mut self,
+        event: &CouplingEvent,
+        synchronised: bool,
+        monitored: bool,
+        view: &View<'_>,
+        log: &mut Log,
+    ) {
         let axis = event.follower;
         let gone = |rule| if monitored { rule } else { Rule::NotMonitored };
         let (is_trip, rule, limit) = match event.what {
@@ -104,7 +111,8 @@ impl Grouping {
                 [measured, own, base.unwrap_or(Input::None)]
             }
         };
-        let cause = log.note(Place::Axis(axis), rule, inputs, EventId::NONE);
+        let behind = self.coupling.members().map(|axis| view.axes[axis].causes.movement()).max();
+        let cause = log.note(Place::Axis(axis), rule, inputs, behind.unwrap_or(EventId::NONE));
         let place = self.coupling.followers().position(|follower| follower == axis);
         if let Some(causes) = place.and_then(|place| self.limit_causes.get_mut(place)) {
             *(if is_trip { &mut causes.trip } else { &mut causes.warning }) = cause;

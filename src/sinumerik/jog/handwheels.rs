@@ -50,10 +50,13 @@ enum Hold {
 
 impl Nck {
     /// Turns a handwheel, 1 to 3, by pulses that are spread evenly over cycles. The rest of its last turn is included.
-    pub fn turn_handwheel(&mut self, number: u8, pulses: i32, cycles: u64) {
-        if let Some(handwheel) = self.state.handwheels.get_mut(usize::from(number.saturating_sub(1))) {
-            handwheel.turn(pulses.into(), i64::try_from(cycles).unwrap_or(i64::MAX));
-        }
+    pub fn turn_handwheel(&mut self, number: u8, pulses: i32, cycles: u64) -> EventId {
+        let Some(handwheel) = self.state.handwheels.get_mut(usize::from(number.saturating_sub(1))) else {
+            return EventId::NONE;
+        };
+        handwheel.turn(pulses.into(), i64::try_from(cycles).unwrap_or(i64::MAX));
+        handwheel.cause = self.state.log.note_plain(Place::Nck, Rule::HandwheelTurned, EventId::NONE);
+        handwheel.cause
     }
 
     /// Reads the machine axes selected by the HMI.

@@ -262,6 +262,8 @@ pub(in crate::sinumerik) struct Handwheel {
     pub counter: u8,
     /// The machine axis for which the HMI selects the handwheel.
     pub selected: Option<AxisNumber>,
+    /// The event of its last turn.
+    pub cause: EventId,
 }
 
 impl Handwheel {

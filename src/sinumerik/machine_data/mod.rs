@@ -194,6 +194,21 @@ impl MachineData {
         stored.map_err(|expected| refused(target, value, &expected))
     }
 
+    /// The values that differ from those of `before`.
+    #[must_use]
+    pub fn differences(&self, before: &Self) -> Vec<Target> {
+        let channels = ChannelNumber::all().filter(|&channel| self.channels[channel] != before.channels[channel]);
+        let axes = Self::axis_numbers().filter(|&axis| self.axes[axis] != before.axes[axis]);
+        let owners: Vec<_> =
+            std::iter::once(Owner::Nck).chain(channels.map(Owner::Channel)).chain(axes.map(Owner::Axis)).collect();
+        let of_owner = |owner| {
+            catalogue().flat_map(move |datum| {
+                (0..datum.count).filter_map(move |index| Target::new(datum.number, owner, index).ok())
+            })
+        };
+        owners.into_iter().flat_map(of_owner).filter(|target| self.get(target) != before.get(target)).collect()
+    }
+
     /// Activates stored data: copies every datum whose class takes effect at this level. POWER ON copies all data, RESET all except POWER
     /// ON data, NEWCONF the NEWCONF and immediate data (O-23).
     pub fn activate(&mut self, stored: &Self, level: Effect) {

@@ -17,6 +17,7 @@ const START_UP_LIMIT: Time = Time::from_millis(1_000);
 impl State {
     pub(in crate::sinumerik) fn monitor_drive(&mut self, number: AxisNumber, parameters: &Parameters) {
         let (ready, fault) = (self.feedback[number].drive_ready, self.feedback[number].drive_fault);
+        let fault_cause = self.axes[number].causes.fault;
         let was_ready = std::mem::replace(&mut self.axes[number].monitor.drive_was_ready, ready);
         if ready {
             let monitor = &mut self.axes[number].monitor;
@@ -24,7 +25,7 @@ impl State {
             if !was_ready {
                 let before = monitor.drive_cause;
                 let (rule, parent) = if before.is_some() {
-                    (Rule::DriveReadyAgain, before)
+                    (Rule::DriveReadyAgain, before.max(fault_cause))
                 } else {
                     (Rule::DriveReady, self.power_on_cause)
                 };
@@ -37,7 +38,7 @@ impl State {
         }
         if was_ready {
             let fault = self.alarms.cause(alarms::DRIVE_FAULT, Place::Axis(number));
-            let parent = if fault.is_some() { fault } else { self.axes[number].monitor.drive_cause };
+            let parent = if fault.is_some() { fault } else { self.axes[number].monitor.drive_cause.max(fault_cause) };
             self.axes[number].monitor.drive_cause = self.log.note_plain(Place::Axis(number), Rule::DriveLost, parent);
         }
         if fault {

@@ -50,11 +50,18 @@ impl State {
         }
         let exceeded = if before { speed >= low } else { speed > limit };
         if exceeded != before {
-            let (rule, datum, bound) =
-                if exceeded { (Rule::FrequencyExceeded, 36300, limit) } else { (Rule::FrequencyNormal, 36302, low) };
+            let [frequency, percent] = parameters.monitoring.frequency_data[encoder];
+            let (rule, datum, bound) = if exceeded {
+                (Rule::FrequencyExceeded, 36300, frequency)
+            } else {
+                (Rule::FrequencyNormal, 36302, percent)
+            };
             #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
-            let inputs = exceeds(number, Position::new(speed as i64), datum, Position::new(bound as i64));
-            let event = self.log.note(Place::Axis(number), rule, inputs, EventId::NONE);
+            let velocity = Position::new(self.axes[number].velocity as i64);
+            let measured = Input::Length(Quantity::Velocity, number, velocity);
+            let inputs = [measured, Input::Datum(datum, Some(number), bound), Input::None];
+            let parent = self.axes[number].causes.movement();
+            let event = self.log.note(Place::Axis(number), rule, inputs, parent);
             let monitor = &mut self.axes[number].monitor.encoders[encoder];
             (monitor.frequency_exceeded, monitor.frequency_cause) = (exceeded, event);
         }

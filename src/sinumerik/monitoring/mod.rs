@@ -80,16 +80,18 @@ impl State {
         let cause = if self.alarms.is_pending(alarm, place) {
             EventId::NONE
         } else {
+            let causes = &self.axes[number].causes;
             // A hardware fault acts whether or not the axis moves.
-            let breaks = matches!(
-                rule,
-                Rule::DriveFault
-                    | Rule::DriveNotReady
-                    | Rule::EncoderFault
-                    | Rule::EncoderPollution
-                    | Rule::EncoderMissing
-            );
-            let parent = if breaks { EventId::NONE } else { self.axes[number].causes.motion };
+            let breaks =
+                matches!(rule, Rule::DriveFault | Rule::DriveNotReady | Rule::EncoderFault | Rule::EncoderPollution);
+            // Only the selection of the PLC leads to a missing encoder.
+            let parent = if rule == Rule::EncoderMissing {
+                EventId::NONE
+            } else if breaks {
+                causes.fault
+            } else {
+                causes.movement()
+            };
             self.log.note(place, rule, inputs, parent)
         };
         self.alarms.raise(alarm, place, shown, cause);

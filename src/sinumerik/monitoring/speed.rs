@@ -17,31 +17,33 @@ impl State {
         let limits = &parameters.monitoring;
         let axis = &mut self.axes[number];
         let set = axis.active_set(parameters);
-        let speed = axis.velocity.abs();
+        let velocity = axis.velocity;
         let resting =
             axis.setpoint.is_at_rest() && axis.setpoint.position == axis.actual || axis.signals.withholds_setpoint();
         let wanted = if resting || !axis.enabling.is_powered() {
             0.0
         } else {
-            axis.velocity_wanted(set, axis.setpoint.position, axis.actual, axis.half_count).abs()
+            axis.velocity_wanted(set, axis.setpoint.position, axis.actual, axis.half_count)
         };
-        let limited = wanted > limits.speed_setpoint_limit;
+        let limited = wanted.abs() > limits.speed_setpoint_limit;
         axis.monitor.limited_cycles =
             if limited { (axis.monitor.limited_cycles + 1).min(limits.speed_setpoint_cycles + 1) } else { 0 };
         let too_long = axis.monitor.limited_cycles > limits.speed_setpoint_cycles;
-        if speed > set.velocity_limit {
-            let inputs = velocities(number, speed, 36200, set.velocity_limit);
+        if velocity.abs() > set.velocity_limit {
+            let measured = (Quantity::Velocity, velocity);
+            let inputs = velocities(number, measured, 36200, set.velocity_limit);
             self.raise_monitoring(alarms::ACTUAL_VELOCITY, number, Rule::VelocityMonitoring, inputs);
         }
         if too_long {
-            let inputs = velocities(number, wanted, 36210, limits.speed_setpoint_limit);
+            let commanded = (Quantity::VelocityCommand, wanted);
+            let inputs = velocities(number, commanded, 36210, limits.speed_setpoint_limit);
             self.raise_monitoring(alarms::SPEED_SETPOINT, number, Rule::SpeedSetpointMonitoring, inputs);
         }
     }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "velocities for display; the cast saturates")]
-fn velocities(number: AxisNumber, velocity: f64, datum: u32, limit: f64) -> [Input; 3] {
-    let measured = Input::Length(Quantity::Velocity, number, Position::new(velocity as i64));
+fn velocities(number: AxisNumber, (quantity, velocity): (Quantity, f64), datum: u32, limit: f64) -> [Input; 3] {
+    let measured = Input::Length(quantity, number, Position::new(velocity as i64));
     [measured, Input::Datum(datum, Some(number), limit * 60.0 / Position::PER_USER_UNIT), Input::None]
 }

@@ -20,17 +20,17 @@ use crate::variables::{EventId, Input, Parameter, Place};
 
 impl Nck {
     /// RESET, the cancel key and NC start; data of the classes RESET and NEWCONF become active with a RESET.
-    pub(in crate::sinumerik) fn reset_and_cancel(&mut self, to_nck: &ToNck, cancel_key: bool) {
+    pub(in crate::sinumerik) fn reset_and_cancel(&mut self, to_nck: &ToNck, cancel_key: EventId) {
         let (parameters, state) = (&*self.parameters, &mut *self.state);
-        let mut any = false;
+        let mut last = EventId::NONE;
         for (channel, group) in parameters.existing_channels() {
             state.start(channel, group, parameters, to_nck);
-            any |= state.reset(channel, group, parameters, to_nck);
+            last = last.max(state.reset(channel, group, parameters, to_nck));
         }
-        if cancel_key {
-            state.cancel(Cancel::CancelKey, None, parameters);
+        if cancel_key.is_some() {
+            state.cancel(Cancel::CancelKey, None, Input::None, cancel_key, parameters);
         }
-        if !any {
+        if !last.is_some() {
             return;
         }
         for group in parameters.existing_mode_groups() {
@@ -39,25 +39,25 @@ impl Nck {
                 state.alarms.cancel(Cancel::ModeGroupReset, |place| parameters.concerns_mode_group(place, group));
             }
         }
-        self.activate(Effect::Reset);
+        self.activate(Effect::Reset, last);
     }
 }
 
 impl State {
-    /// RESET of a channel. Returns whether it begins in this cycle.
+    /// RESET of a channel. Returns its event if it begins in this cycle.
     fn reset(
         &mut self,
         channel: ChannelNumber,
         group: ModeGroupNumber,
         parameters: &Parameters,
         to_nck: &ToNck,
-    ) -> bool {
+    ) -> EventId {
         let by_mode_group = to_nck.mode_groups[group].mode_group_reset();
         let pressed = to_nck.channels[channel].channel_reset() || by_mode_group;
         let rises = pressed && !self.channels[channel].reset;
         self.channels[channel].reset = pressed;
         if !rises {
-            return false;
+            return EventId::NONE;
         }
         let input = if by_mode_group {
             mode_group_signal(group, mode_group_to_nck::mode_group_reset, true)
@@ -75,7 +75,7 @@ impl State {
                 self.reset_grouping(index, event);
             }
         }
-        true
+        event
     }
 
     /// NC start of a channel.
@@ -85,7 +85,8 @@ impl State {
         let was = std::mem::replace(&mut self.channels[channel].start_was, start);
         let rises = start && !was;
         if rises {
-            self.cancel(Cancel::NcStart, Some(channel), parameters);
+            let pressed = channel_signal(channel, channel_to_nck::nc_start, true);
+            self.cancel(Cancel::NcStart, Some(channel), pressed, EventId::NONE, parameters);
         }
         let runs_programs = self.mode_groups[group].mode != Mode::Jog;
         if rises && runs_programs && !signals.nc_start_disable() && !self.is_referenced(channel, parameters) {
@@ -99,12 +100,19 @@ impl State {
         }
     }
 
-    /// The cancel key, or NC start of a channel.
-    fn cancel(&mut self, by: Cancel, channel: Option<ChannelNumber>, parameters: &Parameters) {
+    /// The cancel key (its event), or NC start of a channel (its signal).
+    fn cancel(
+        &mut self,
+        by: Cancel,
+        channel: Option<ChannelNumber>,
+        pressed: Input,
+        cause: EventId,
+        parameters: &Parameters,
+    ) {
         let concerns = |place| channel.is_none_or(|channel| parameters.concerns_channel(place, channel));
         if self.alarms.cancel(by, concerns) {
             let shown = channel.unwrap_or(ChannelNumber::FIRST);
-            let event = self.log.note_plain(Place::Channel(shown), Rule::AlarmCancelled, EventId::NONE);
+            let event = self.log.note_one(Place::Channel(shown), Rule::AlarmCancelled, pressed, cause);
             for (number, _) in parameters.existing_channels() {
                 if channel.is_none_or(|channel| channel == number) {
                     self.channels[number].cancel_cause = event;

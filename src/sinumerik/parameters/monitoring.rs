@@ -38,6 +38,8 @@ pub(in crate::sinumerik) struct Monitoring {
     pub frequency_limit: PerEncoder<f64>,
     /// MD36302 of it.
     pub frequency_low: PerEncoder<f64>,
+    /// MD36300 in Hz and MD36302 in per cent.
+    pub frequency_data: PerEncoder<[f64; 2]>,
     /// MD36310.
     pub zero_marks: PerEncoder<ZeroMarks>,
     /// MD36500.
@@ -63,6 +65,7 @@ pub(in crate::sinumerik) fn monitoring(md: &Axis, cycle: Time) -> Monitoring {
         speed_setpoint_cycles: cycles(md.ctrlout_limit_time),
         frequency_limit,
         frequency_low: [0, 1].map(|encoder| frequency_limit[encoder] * md.enc_freq_limit_low[encoder] / 100.0),
+        frequency_data: [0, 1].map(|encoder| [md.enc_freq_limit[encoder], md.enc_freq_limit_low[encoder]]),
         zero_marks: [0, 1].map(|encoder| {
             let said = u32::try_from(md.enc_zero_monitoring[encoder]).unwrap_or(0);
             ZeroMarks {

@@ -45,18 +45,18 @@ impl State {
             }
             let measured = Input::Length(Quantity::Deviation, number, axis.deviation());
             let limit = Input::Datum(datum, Some(number), window.user());
-            Why::Tested(Rule::ExactStop, [measured, limit, Input::None], causes.motion)
+            Why::Tested(Rule::ExactStop, [measured, limit, Input::None], causes.movement())
         };
         let (coarse, fine) = (set.exact_stop_coarse, set.exact_stop_fine);
         rows.bit(axis_from_nck::position_reached_exact_stop_coarse, within(coarse), || exact_stop(36000, coarse));
         rows.bit(axis_from_nck::position_reached_exact_stop_fine, within(fine), || exact_stop(36010, fine));
         rows.bit(axis_from_nck::axis_stationary, axis.velocity.abs() < parameters.standstill_velocity, || {
             #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
-            let velocity = Position::new(axis.velocity.abs() as i64);
+            let velocity = Position::new(axis.velocity as i64);
             let measured = Input::Length(Quantity::Velocity, number, velocity);
             let limit = parameters.standstill_velocity * 60.0 / Position::PER_USER_UNIT;
             let limit = Input::Datum(36060, Some(number), limit);
-            Why::Tested(Rule::Standstill, [measured, limit, Input::None], causes.motion)
+            Why::Tested(Rule::Standstill, [measured, limit, Input::None], causes.movement())
         });
     }
 

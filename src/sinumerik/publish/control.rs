@@ -2,7 +2,7 @@
 
 use crate::image::{mode_group_from_nck, mode_group_hmi, nck_from_nck};
 use crate::sinumerik::alarms::Reaction;
-use crate::sinumerik::jog::state::Function;
+use crate::sinumerik::jog::state::{Function, Handwheel};
 use crate::sinumerik::operation::state::{MachineFunction, Mode};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::publish::rows::{Rows, Why};
@@ -15,10 +15,16 @@ impl State {
     /// DB10.
     pub(super) fn show_nck(&self, rows: &mut impl Rows) {
         let run_up = || Why::Event(self.run_up.cause);
-        let turned = || Why::Tested(Rule::HandwheelTurned, [Input::None; 3], EventId::NONE);
-        rows.number(nck_from_nck::handwheel_1_moved, self.handwheels[0].counter, turned);
-        rows.number(nck_from_nck::handwheel_2_moved, self.handwheels[1].counter, turned);
-        rows.number(nck_from_nck::handwheel_3_moved, self.handwheels[2].counter, turned);
+        let [first, second, third] = &self.handwheels;
+        let turned = |handwheel: &Handwheel| {
+            if self.log.is_of_this_cycle(handwheel.cause) {
+                return Why::Event(handwheel.cause);
+            }
+            Why::Tested(Rule::HandwheelTurned, [Input::None; 3], handwheel.cause)
+        };
+        rows.number(nck_from_nck::handwheel_1_moved, first.counter, || turned(first));
+        rows.number(nck_from_nck::handwheel_2_moved, second.counter, || turned(second));
+        rows.number(nck_from_nck::handwheel_3_moved, third.counter, || turned(third));
         rows.bit(nck_from_nck::nc_cpu_ready, self.run_up.is_cpu_ready(), run_up);
         rows.bit(nck_from_nck::emergency_stop_active, self.emergency_stop.is_active(), || {
             Why::Event(self.emergency_stop.cause)

@@ -222,7 +222,11 @@ impl Control for Platform {
         }
     }
 
-    fn command(&mut self, command: &ControlCommand) {
+    fn begin_cycle(&mut self, cycle: u64) {
+        self.0.log.begin(cycle);
+    }
+
+    fn command(&mut self, command: &ControlCommand) -> EventId {
         match command {
             ControlCommand::Store { value, .. } => self.0.speed = value.number().unwrap_or(self.0.speed),
             ControlCommand::PlcMissing if !self.0.plc_missing.is_some() => {
@@ -231,10 +235,10 @@ impl Control for Platform {
             ControlCommand::PlcRestarted => self.0.plc_missing = EventId::NONE,
             _ => {}
         }
+        self.0.plc_missing
     }
 
-    fn decide(&mut self, cycle: u64, plc: PlcSide<'_>, _: Changes) {
-        self.0.log.cycle = cycle;
+    fn decide(&mut self, plc: PlcSide<'_>, _: Changes) {
         let to_nck = ToNck::of_bytes(plc.to_nck).unwrap();
         let release = to_nck.platform.release() && !self.0.plc_missing.is_some();
         for axis in AxisNumber::all() {
@@ -275,8 +279,9 @@ impl Control for Platform {
 
     fn never_rest(&mut self) {}
 
-    fn power_on(&mut self) {
+    fn power_on(&mut self) -> EventId {
         *self = Self::new(self.0.speed, self.0.log.clone());
+        EventId::NONE
     }
 
     fn cycle_times(&self) -> CycleTimes {
