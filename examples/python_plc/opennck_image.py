@@ -9,7 +9,7 @@
                 step["DB31.DBX29.4"] = 1
             image.answer(step)
 
-The README of OpenNCK has the layout of the file byte by byte. Two rules apply in Python:
+The page `docs/plc_in_another_process.md` describes the file byte by byte. Two rules apply in Python:
 
 * A word that the other side waits for is loaded and stored as one aligned word of 64 bits: through a memoryview cast to "Q", never
   byte by byte.

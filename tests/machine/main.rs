@@ -1,14 +1,15 @@
-//! Tests in virtual time: the machine and its files, the command line, the examples of the README.
+//! Tests in virtual time: the machine and its files, the command line, the README and the pages of `docs/`.
 //!
 //! All files form one binary, because each test binary links the library again.
 
 mod causes;
 mod cli;
 mod determinism;
+mod documents;
 mod dynamics;
+mod first_test;
 mod foreign_readers;
 mod own_interface;
-mod readme;
 mod referencing;
 mod robustness;
 mod s7;

@@ -1,4 +1,4 @@
-//! `opennck s7` as users call it, against `opennck serve`; and the commands of the README.
+//! `opennck s7` as users call it, against `opennck serve`; and the commands of the README and of `docs/`.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -264,11 +264,25 @@ fn watching_ends_when_its_output_is_closed() {
     assert_eq!(child.wait().unwrap().code(), Some(0));
 }
 
-/// The gantry recipe of the README at twenty times real time; the test waits where the recipe watches.
+/// The README and the pages of `docs/`, each with its path.
+fn pages() -> Vec<(String, String)> {
+    let project = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let docs = fs::read_dir(project.join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let mut paths: Vec<_> = docs.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect();
+    paths.push(project.join("README.md"));
+    paths.sort();
+    paths.into_iter().map(|path| (path.display().to_string(), fs::read_to_string(path).unwrap())).collect()
+}
+
+fn serving() -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/serving.md")).unwrap()
+}
+
+/// The gantry recipe of `docs/serving.md` at twenty times real time; the test waits where the recipe watches.
 #[test]
-fn the_readme_references_a_gantry() {
-    let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
-    let recipe = readme.split("### Referencing from a client").nth(1).unwrap().split("```").nth(1).unwrap();
+fn the_recipe_of_the_pages_references_a_gantry() {
+    let page = serving();
+    let recipe = page.split("### Referencing from a client").nth(1).unwrap().split("```").nth(1).unwrap();
     let served = Served::with(&["--plc", "enable_all", "--speed", "20"]);
     let wait = |symbol: &str| {
         let is_there = || rows(&served.text("read", &[symbol]))[0].contains(&"1");
@@ -294,18 +308,74 @@ fn the_readme_references_a_gantry() {
     assert_eq!(done, 7, "{recipe}");
 }
 
-/// Each line of the README that calls `opennck s7`, on a port that is free here.
+/// Each line of the pages that calls `opennck s7`, on a port that is free here.
 #[test]
-fn the_commands_of_the_readme_work() {
-    let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+fn the_client_commands_of_the_pages_work() {
     let served = Served::start();
     let mut count = 0;
-    for line in readme.lines().filter(|line| line.starts_with("opennck s7 ") && !line.starts_with("opennck s7 watch")) {
-        let line = line.split(" #").next().unwrap().replace("127.0.0.1:10102", &served.host);
-        let arguments: Vec<&str> = line.split_whitespace().skip(1).map(|word| word.trim_matches('\'')).collect();
-        let output = program(&arguments).output().unwrap();
-        assert_eq!(output.status.code(), Some(0), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-        count += 1;
+    for (path, page) in pages() {
+        let lines =
+            page.lines().filter(|line| line.starts_with("opennck s7 ") && !line.starts_with("opennck s7 watch"));
+        for line in lines {
+            let line = line.split(" #").next().unwrap().replace("127.0.0.1:10102", &served.host);
+            let arguments: Vec<&str> = line.split_whitespace().skip(1).map(|word| word.trim_matches('\'')).collect();
+            let output = program(&arguments).output().unwrap();
+            let error = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(0), "{path}: {line}: {error}");
+            count += 1;
+        }
     }
-    assert!(count >= 4, "the README shows {count} commands");
+    assert!(count >= 12, "the pages show {count} commands");
+}
+
+/// Each line of the pages that calls `opennck serve`, on a port that is free here: it starts.
+#[test]
+fn the_server_commands_of_the_pages_start() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("served_pages");
+    let mut count = 0;
+    for (path, page) in pages() {
+        for line in page.lines().filter(|line| line.starts_with("opennck serve ")) {
+            // A recording or an image of an earlier line would be refused.
+            let _ = fs::remove_dir_all(&folder);
+            fs::create_dir_all(&folder).unwrap();
+            let root = env!("CARGO_MANIFEST_DIR");
+            let here = |word: &str| match word {
+                name if Path::new(root).join(name).exists() => format!("{root}/{name}"),
+                "recipes" => format!("{root}/plc_images/recipes.toml"),
+                other => other.to_owned(),
+            };
+            let arguments: Vec<String> =
+                line.split(" #").next().unwrap().split_whitespace().skip(1).map(here).collect();
+            let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
+            let command = command.args(arguments).args(["--s7", "127.0.0.1:0"]).current_dir(&folder);
+            let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+            let lines = BufReader::new(child.stdout.take().unwrap()).lines();
+            let started = lines.map_while(Result::ok).any(|line| line.contains("S7 on 127.0.0.1:"));
+            let _ = child.kill();
+            let _ = child.wait();
+            assert!(started, "{path}: {line}");
+            count += 1;
+        }
+    }
+    assert!(count >= 6, "the pages show {count} servers");
+}
+
+/// NC variables in Python, as `docs/serving.md` shows; where there is no Python, nothing is tested.
+#[test]
+#[cfg(unix)]
+fn the_python_function_of_the_pages_reads_nc_variables() {
+    let page = serving();
+    let code = page.split("```python\n").skip(1).find(|block| block.contains("subprocess")).unwrap();
+    let served = Served::with(&["--plc", "enable_all"]);
+    let code = code.split("```").next().unwrap().replace("127.0.0.1:10102", &served.host);
+    let folder = Path::new(env!("CARGO_BIN_EXE_opennck")).parent().unwrap().display();
+    let path = format!("{folder}:{}", std::env::var("PATH").unwrap_or_default());
+    let Ok(output) = Command::new("python3").args(["-c", &code]).env("PATH", path).output() else { return };
+    let shown = code.lines().last().and_then(|line| line.split_once("  # ")).unwrap().1;
+    assert_eq!(
+        String::from_utf8_lossy(&output.stdout).trim_end(),
+        shown,
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
 }

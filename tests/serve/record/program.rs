@@ -195,13 +195,13 @@ fn errors_of_a_recording_name_the_cause() {
     assert!(!folder.join("new.toml").exists(), "it would block the next attempt");
 }
 
-/// The commands of the README, unchanged.
+/// The commands of `docs/serving.md`, unchanged.
 #[test]
 #[cfg(unix)]
-fn the_session_of_the_readme_is_recorded_and_runs_again() {
-    let folder = folder("readme");
-    let readme = fs::read_to_string(project("README.md")).unwrap();
-    let block = readme.split("```sh\n").find(|block| block.contains("--record")).unwrap().split("```").next().unwrap();
+fn the_session_of_the_pages_is_recorded_and_runs_again() {
+    let folder = folder("serving");
+    let page = fs::read_to_string(project("docs/serving.md")).unwrap();
+    let block = page.split("```sh\n").find(|block| block.contains("--record")).unwrap().split("```").next().unwrap();
     let mut lines = block.lines().map(|line| line.split_whitespace().skip(1).collect::<Vec<_>>());
     let (serve, again) = (lines.next().unwrap(), lines.next().unwrap());
     let mut program = Program::start(&folder, &serve[1..]);
