@@ -338,14 +338,20 @@ fn the_server_commands_of_the_pages_start() {
             // A recording or an image of an earlier line would be refused.
             let _ = fs::remove_dir_all(&folder);
             fs::create_dir_all(&folder).unwrap();
+            for block in page.split("```toml\n# ").skip(1) {
+                let (name, rest) = block.split_once('\n').unwrap();
+                if !name.contains(['/', ' ']) {
+                    fs::write(folder.join(name), rest.split("```").next().unwrap()).unwrap();
+                }
+            }
             let root = env!("CARGO_MANIFEST_DIR");
             let here = |word: &str| match word {
                 name if Path::new(root).join(name).exists() => format!("{root}/{name}"),
                 "recipes" => format!("{root}/plc_images/recipes.toml"),
                 other => other.to_owned(),
             };
-            let arguments: Vec<String> =
-                line.split(" #").next().unwrap().split_whitespace().skip(1).map(here).collect();
+            let words = line.split(" #").next().unwrap().split_whitespace().skip(1);
+            let arguments: Vec<String> = words.filter(|word| *word != "&").map(here).collect();
             let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
             let command = command.args(arguments).args(["--s7", "127.0.0.1:0"]).current_dir(&folder);
             let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();

@@ -201,7 +201,8 @@ fn errors_of_a_recording_name_the_cause() {
 fn the_session_of_the_pages_is_recorded_and_runs_again() {
     let folder = folder("serving");
     let page = fs::read_to_string(project("docs/serving.md")).unwrap();
-    let block = page.split("```sh\n").find(|block| block.contains("--record")).unwrap().split("```").next().unwrap();
+    let mut blocks = page.split("```sh\n").skip(1).filter_map(|block| block.split("```").next());
+    let block = blocks.find(|block| block.contains("--record")).unwrap();
     let mut lines = block.lines().map(|line| line.split_whitespace().skip(1).collect::<Vec<_>>());
     let (serve, again) = (lines.next().unwrap(), lines.next().unwrap());
     let mut program = Program::start(&folder, &serve[1..]);
