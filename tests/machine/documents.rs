@@ -103,8 +103,9 @@ impl Block {
 /// The README first, then the pages.
 fn pages() -> Vec<Page> {
     let mut paths = vec!["README.md".to_owned()];
-    let names =
-        fs::read_dir(project().join("docs")).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let names = fs::read_dir(project().join("docs"))
+        .expect("the project has it")
+        .map(|entry| entry.expect("the project has it").file_name().into_string().expect("the project has it"));
     paths.extend(names.filter(|name| name.ends_with(".md")).map(|name| format!("docs/{name}")));
     paths.sort();
     paths.iter().map(|path| Page::read(path)).collect()
@@ -119,14 +120,14 @@ fn texts(page: &Page, language: &str) -> Vec<String> {
 }
 
 fn print(arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_opennck")).args(arguments).output().unwrap();
-    String::from_utf8(output.stdout).unwrap()
+    let output = Command::new(env!("CARGO_BIN_EXE_opennck")).args(arguments).output().expect("the project has it");
+    String::from_utf8(output.stdout).expect("the project has it")
 }
 
 /// The exit code that the comment of a command names, or 0.
 fn exit_code(command: &str) -> i32 {
     let said = command.split_once("# exit code ").and_then(|(_, code)| code.chars().next()?.to_digit(10));
-    i32::try_from(said.unwrap_or(0)).unwrap()
+    i32::try_from(said.unwrap_or(0)).expect("the project has it")
 }
 
 #[test]
@@ -184,7 +185,7 @@ fn every_command_in_the_pages_ends_as_the_page_says() {
 
 #[cfg(unix)]
 fn folder_of_the_program() -> PathBuf {
-    Path::new(env!("CARGO_BIN_EXE_opennck")).parent().unwrap().to_owned()
+    Path::new(env!("CARGO_BIN_EXE_opennck")).parent().expect("the project has it").to_owned()
 }
 
 #[cfg(unix)]
@@ -197,8 +198,8 @@ fn folder_of(page: &Page) -> PathBuf {
     for block in page.of("toml") {
         if let Some(file) = block.file() {
             let file = folder.join(file);
-            fs::create_dir_all(file.parent().unwrap()).unwrap();
-            fs::write(file, &block.text).unwrap();
+            fs::create_dir_all(file.parent().expect("the project has it")).expect("the project has it");
+            fs::write(file, &block.text).expect("the project has it");
         }
     }
     folder
@@ -206,14 +207,14 @@ fn folder_of(page: &Page) -> PathBuf {
 
 #[cfg(unix)]
 fn copy(from: &Path, to: &Path) {
-    fs::create_dir_all(to).unwrap();
-    for entry in fs::read_dir(from).unwrap() {
-        let entry = entry.unwrap();
+    fs::create_dir_all(to).expect("the project has it");
+    for entry in fs::read_dir(from).expect("the project has it") {
+        let entry = entry.expect("the project has it");
         let (from, to) = (entry.path(), to.join(entry.file_name()));
         if from.is_dir() {
             copy(&from, &to);
         } else {
-            fs::copy(from, to).unwrap();
+            fs::copy(from, to).expect("the project has it");
         }
     }
 }
@@ -233,7 +234,7 @@ fn other_files_in_the_pages_are_read_as_what_they_are() {
                     assert_eq!(shown, read(file), "{place}");
                 }
                 Some(_) | None => {
-                    drop(block.text.parse::<toml::Table>().unwrap_or_else(|error| panic!("{place}: {error}")))
+                    block.text.parse::<toml::Table>().unwrap_or_else(|error| panic!("{place}: {error}"));
                 }
             }
         }
@@ -254,12 +255,12 @@ fn all_rust_code_in_the_pages_is_part_of_a_file_that_is_compiled() {
 }
 
 fn rust_files(folder: &Path, files: &mut Vec<String>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
+    for entry in fs::read_dir(folder).expect("the project has it") {
+        let path = entry.expect("the project has it").path();
         if path.is_dir() {
             rust_files(&path, files);
         } else if path.extension().is_some_and(|extension| extension == "rs") {
-            files.push(fs::read_to_string(path).unwrap());
+            files.push(fs::read_to_string(path).expect("the project has it"));
         }
     }
 }
@@ -402,6 +403,19 @@ fn every_link_has_a_target() {
         }
     }
     assert!(wrong.is_empty(), "links without a target, or out of docs/:\n{}", wrong.join("\n"));
+}
+
+/// A `|` in a cell would begin a new one.
+#[test]
+fn every_row_of_a_table_has_the_columns_of_its_head() {
+    for page in pages() {
+        let mut columns = None;
+        for (index, line) in page.prose.lines().enumerate() {
+            let cells = line.starts_with('|').then(|| line.replace("\\|", "").matches('|').count());
+            assert!(columns.is_none() || cells.is_none() || columns == cells, "{}:{}: {line}", page.path, index + 1);
+            columns = cells;
+        }
+    }
 }
 
 #[test]

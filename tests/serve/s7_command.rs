@@ -267,15 +267,20 @@ fn watching_ends_when_its_output_is_closed() {
 /// The README and the pages of `docs/`, each with its path.
 fn pages() -> Vec<(String, String)> {
     let project = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let docs = fs::read_dir(project.join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let docs = fs::read_dir(project.join("docs"))
+        .expect("the project has it")
+        .map(|entry| entry.expect("the project has it").path());
     let mut paths: Vec<_> = docs.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect();
     paths.push(project.join("README.md"));
     paths.sort();
-    paths.into_iter().map(|path| (path.display().to_string(), fs::read_to_string(path).unwrap())).collect()
+    paths
+        .into_iter()
+        .map(|path| (path.display().to_string(), fs::read_to_string(path).expect("the project has it")))
+        .collect()
 }
 
 fn serving() -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/serving.md")).unwrap()
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/serving.md")).expect("the project has it")
 }
 
 /// The gantry recipe of `docs/serving.md` at twenty times real time; the test waits where the recipe watches.
