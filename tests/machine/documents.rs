@@ -405,6 +405,35 @@ fn every_link_has_a_target() {
     assert!(wrong.is_empty(), "links without a target, or out of docs/:\n{}", wrong.join("\n"));
 }
 
+/// Files and folders of the project between backticks. (`<` and `…` stand for names of the reader's own.)
+#[test]
+fn every_file_that_the_pages_name_exists() {
+    let folders =
+        ["src/", "tests/", "golden/", "docs/", "examples/", "machine_data/", "plc_images/", "benches/", "fuzz/"];
+    let mut count = 0;
+    for page in pages() {
+        for (index, line) in page.prose.lines().enumerate() {
+            let names = line.split('`').skip(1).step_by(2).flat_map(str::split_whitespace);
+            for name in names.filter(|name| folders.iter().any(|folder| name.starts_with(folder))) {
+                let there = name.contains(['<', '…', '*', '=']) || project().join(name).exists();
+                assert!(there, "{}:{}: there is no {name}", page.path, index + 1);
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 50, "{count} names");
+}
+
+#[test]
+fn the_map_has_every_module() {
+    let map = page("docs/contributing.md").prose;
+    for entry in fs::read_dir(project().join("src")).unwrap() {
+        let path = entry.unwrap().path();
+        let name = format!("`src/{}`", path.file_name().unwrap().to_str().unwrap());
+        assert!(!path.is_dir() || map.contains(&name), "docs/contributing.md has no {name}");
+    }
+}
+
 /// A `|` in a cell would begin a new one.
 #[test]
 fn every_row_of_a_table_has_the_columns_of_its_head() {
