@@ -415,7 +415,8 @@ fn every_file_that_the_pages_name_exists() {
         for (index, line) in page.prose.lines().enumerate() {
             let names = line.split('`').skip(1).step_by(2).flat_map(str::split_whitespace);
             for name in names.filter(|name| folders.iter().any(|folder| name.starts_with(folder))) {
-                let there = name.contains(['<', '…', '*', '=']) || project().join(name).exists();
+                let scenario = project().join(format!("{name}.toml"));
+                let there = name.contains(['<', '…', '*', '=']) || project().join(name).exists() || scenario.exists();
                 assert!(there, "{}:{}: there is no {name}", page.path, index + 1);
                 count += 1;
             }
@@ -469,11 +470,28 @@ fn wrong_links_and_headings_are_found() {
 
 // Decisions.
 
-/// The cells of the rows with an ID.
-fn decisions() -> Vec<Vec<String>> {
-    let rows = read("docs/decisions.md");
-    let rows = rows.lines().filter(|line| is_id(line.trim_start_matches("| ").split(' ').next().unwrap_or_default()));
-    rows.map(|row| row.trim_matches('|').split(" | ").map(|cell| cell.trim().to_owned()).collect()).collect()
+/// A row of a decision.
+struct Decision {
+    /// `E-01`, also of a row `E-01, REF`.
+    id: String,
+    modules: Vec<String>,
+    tests: Vec<String>,
+}
+
+/// The rows with an ID, in their order.
+fn decisions() -> Vec<Decision> {
+    let page = page("docs/decisions.md").prose;
+    let rows = page
+        .lines()
+        .filter(|line| line.starts_with('|'))
+        .map(|line| line.trim_matches('|').split(" | ").map(str::trim).collect::<Vec<_>>());
+    rows.filter_map(|row| {
+        let id = row[0].split(',').next().filter(|id| is_id(id))?.to_owned();
+        let [_, _, _, _, modules, tests] = row.as_slice() else { panic!("a decision needs six columns: {row:?}") };
+        let names = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_owned).collect();
+        Some(Decision { id, modules: names(modules), tests: names(tests) })
+    })
+    .collect()
 }
 
 /// `E-01`.
@@ -483,33 +501,35 @@ fn is_id(text: &str) -> bool {
 }
 
 #[test]
-fn decisions_are_sorted_and_name_a_file_and_a_test_that_exist() {
-    let rows = decisions();
-    let ids: Vec<&str> = rows.iter().map(|row| row[0].as_str()).collect();
+fn decisions_are_sorted_and_name_modules_and_tests_that_exist() {
+    let decisions = decisions();
     for letter in ["E", "O", "C"] {
-        let of: Vec<&&str> = ids.iter().filter(|id| id.starts_with(letter)).collect();
-        assert!(of.is_sorted_by(|a, b| a < b), "sort by ID, each once: {of:?}");
+        let ids: Vec<&str> = decisions.iter().map(|row| row.id.as_str()).filter(|id| id.starts_with(letter)).collect();
+        assert!(ids.is_sorted() && !ids.is_empty(), "sort by ID: {ids:?}");
     }
     let mut sources = Vec::new();
     for below in ["src", "tests"] {
         rust_files(&project().join(below), &mut sources);
     }
-    for row in &rows {
-        let [id, _, _, _, place, test] = row.as_slice() else { panic!("six columns: {row:?}") };
-        let file = format!("src/{}", place.trim_matches('`'));
-        assert!(project().join(&file).exists(), "{id}: {file} does not exist");
-        let exists = match test.strip_prefix("test ") {
-            Some(name) => sources.iter().any(|source| source.contains(&format!("fn {}(", name.trim_matches('`')))),
-            None => project().join("golden").join(test.trim_matches('`')).exists(),
-        };
-        assert!(exists, "{id}: {test} does not exist");
+    let exists = |path: String| project().join(path).exists();
+    for Decision { id, modules, tests } in decisions {
+        assert!(!modules.is_empty() && !tests.is_empty(), "{id} needs a module and a test");
+        for module in modules {
+            let path = format!("src/{}", module.replace("::", "/"));
+            assert!(exists(path.clone()) || exists(format!("{path}.rs")), "{id}: there is no {path}");
+        }
+        for test in tests {
+            let head = format!("fn {test}(");
+            let there = exists(format!("{test}.toml")) || sources.iter().any(|source| source.contains(&head));
+            assert!(there, "{id}: there is no scenario and no test `{test}`");
+        }
     }
 }
 
 /// Decisions that the sources, scenarios and causes name.
 #[test]
 fn every_decision_that_is_cited_has_a_row() {
-    let ids: BTreeSet<String> = decisions().into_iter().map(|mut row| row.swap_remove(0)).collect();
+    let ids: BTreeSet<String> = decisions().into_iter().map(|row| row.id).collect();
     let mut files = Vec::new();
     rust_files(&project().join("src"), &mut files);
     for area in fs::read_dir(project().join("golden")).unwrap() {
