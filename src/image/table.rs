@@ -180,11 +180,11 @@ pub const fn bits(
     doc: &'static str,
 ) -> Signal {
     let is_bit = matches!(kind.as_bytes(), b"bool");
-    assert!(is_bit == (span.len() == 1), "a `bool` row names one bit, a `u8` row names two: high to low");
+    require(is_bit == (span.len() == 1), name, "a `bool` row names one bit, a `u8` row names two: high to low");
     let (bit, kind) = if is_bit {
         (span[0], Kind::Bit)
     } else {
-        assert!(span[0] > span[1], "write a group high to low");
+        require(span[0] > span[1], name, "write a group high to low");
         let width = span[0] - span[1] + 1;
         (span[1], if width == 8 { Kind::Byte } else { Kind::Bits(width) })
     };
@@ -206,7 +206,10 @@ pub const fn number(
         b"f32" => Kind::Real,
         b"u16" => Kind::Word,
         b"u32" => Kind::Double,
-        _ => panic!("a number must be a u16, a u32 or an f32"),
+        _ => {
+            require(false, name, "a number must be a u16, a u32 or an f32");
+            Kind::Double
+        }
     };
     Signal { name, block, byte, bit: 0, kind, writer, doc: doc.trim_ascii() }
 }
@@ -219,22 +222,49 @@ pub const fn check(rows: &[Signal], first: u16, last: u16) {
         let row = &rows[index];
         let from = row.byte as u32 * 8 + row.bit as u32;
         let end = from + row.kind.width() as u32;
-        assert!(row.byte >= first && end <= (last as u32 + 1) * 8, "a signal is outside its run");
-        assert!(row.bit as u32 + row.kind.width() as u32 <= 8 || row.bit == 0, "a signal exceeds its byte");
+        require(row.byte >= first && end <= (last as u32 + 1) * 8, row.name, "the signal is outside its run");
+        let fits = row.bit as u32 + row.kind.width() as u32 <= 8 || row.bit == 0;
+        require(fits, row.name, "the signal exceeds its byte");
         if index + 1 < rows.len() && rows[index + 1].kind.is_number() == row.kind.is_number() {
             let next = &rows[index + 1];
-            assert!(end <= next.byte as u32 * 8 + next.bit as u32, "rows must ascend and must not overlap");
+            let ascends = end <= next.byte as u32 * 8 + next.bit as u32;
+            require(ascends, next.name, "the signal must be above the previous row and must not overlap it");
         }
         if row.kind.is_number() {
             let mut other = 0;
             while other < rows.len() {
                 let start = rows[other].byte as u32 * 8 + rows[other].bit as u32;
                 let stop = start + rows[other].kind.width() as u32;
-                assert!(other == index || stop <= from || end <= start, "a number overlaps a signal");
+                require(other == index || stop <= from || end <= start, row.name, "the number overlaps a signal");
                 other += 1;
             }
         }
         index += 1;
+    }
+}
+
+/// The length of the longest message of [`require`].
+const MESSAGE: usize = 160;
+
+/// Stops the build with the name of a row and what it requires. A constant cannot format, so the message is copied.
+const fn require(holds: bool, row: &str, what: &str) {
+    if holds {
+        return;
+    }
+    let parts = [row.as_bytes(), b": ", what.as_bytes()];
+    let mut message = [b' '; MESSAGE];
+    let (mut length, mut part) = (0, 0);
+    while part < parts.len() {
+        let mut index = 0;
+        while index < parts[part].len() && length < MESSAGE {
+            message[length] = parts[part][index];
+            (index, length) = (index + 1, length + 1);
+        }
+        part += 1;
+    }
+    match str::from_utf8(&message) {
+        Ok(message) => panic!("{}", message.trim_ascii()),
+        Err(_) => panic!("a row of a table of signals is wrong"),
     }
 }
 
@@ -292,5 +322,26 @@ impl Raw for u16 {
     }
     fn of(raw: u64) -> Self {
         raw.try_into().unwrap()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const fn bit(name: &'static str, bit: u8) -> Signal {
+        bits(name, Block::Nck, Writer::Plc, "bool", 2, &[bit], "")
+    }
+
+    #[test]
+    #[should_panic(expected = "release: the signal must be above the previous row and must not overlap it")]
+    fn a_row_out_of_order_is_rejected_with_its_name() {
+        check(&[bit("power", 4), bit("release", 3)], 0, 2);
+    }
+
+    #[test]
+    #[should_panic(expected = "power: the signal is outside its run")]
+    fn a_row_outside_its_run_is_rejected_with_its_name() {
+        check(&[bit("power", 4)], 0, 1);
     }
 }

@@ -30,19 +30,6 @@ pub enum FaultName {
 }
 
 impl FaultName {
-    /// All kinds.
-    pub const ALL: [Self; 9] = [
-        Self::Block,
-        Self::Push,
-        Self::DriveFault,
-        Self::EncoderFault,
-        Self::EncoderSlip,
-        Self::Friction,
-        Self::Drift,
-        Self::ZeroMarkMissing,
-        Self::SwitchStuck,
-    ];
-
     /// The name in a scenario: `encoder_slip`.
     #[must_use]
     pub const fn name(self) -> &'static str {

@@ -8,9 +8,10 @@
 use std::fmt::Write;
 
 use crate::image::{Address, Format, Location, Profile, Writer};
-use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine, Switch};
+use crate::machine::{Command, DatumValue, Fault, Machine};
+use crate::scenario::faults::written;
 use crate::source::{Table, Value as SourceValue};
-use crate::units::{AxisNumber, Position};
+use crate::units::AxisNumber;
 
 /// The limit of simulated time, because the final length of a transcript is not known.
 const LIMIT: &str = "8760h";
@@ -260,34 +261,8 @@ fn place(location: Location, machine: &Machine) -> String {
 }
 
 fn broken(Fault { axis, kind }: Fault, machine: &Machine) -> String {
-    let (kind, more) = match kind {
-        FaultKind::Block => ("block", String::new()),
-        FaultKind::Push { by } => ("push", format!(", by = {:?}", by.user())),
-        FaultKind::EncoderSlip { by } => ("encoder_slip", format!(", by = {:?}", by.user())),
-        FaultKind::ZeroMarkMissing => ("zero_mark_missing", String::new()),
-        FaultKind::DriveFault => ("drive_fault", String::new()),
-        FaultKind::EncoderFault { encoder } => {
-            ("encoder_fault", encoder.map_or_else(String::new, |encoder| format!(", encoder = {}", encoder + 1)))
-        }
-        FaultKind::Friction { by } => ("friction", format!(", by = {by:?}")),
-        FaultKind::Drift { by } => ("drift", format!(", by = {:?}", per_second(by))),
-        FaultKind::SwitchStuck { which, at } => {
-            let which = match which {
-                Switch::Cam => "cam",
-                Switch::LimitPlus => "limit_plus",
-                Switch::LimitMinus => "limit_minus",
-            };
-            ("switch_stuck", format!(", which = \"{which}\", at = {}", u8::from(at)))
-        }
-    };
+    let (kind, more) = written(kind);
     format!("{{ axis = {}, kind = \"{kind}\"{more} }}", axis_name(axis, machine))
-}
-
-/// Increments per second in user units, chosen so that they convert back to the same increments.
-fn per_second(increments: f64) -> f64 {
-    let near = increments / Position::PER_USER_UNIT;
-    let same = |user: &f64| (user * Position::PER_USER_UNIT).to_bits() == increments.to_bits();
-    [near, near.next_up(), near.next_down()].into_iter().find(same).unwrap_or(near)
 }
 
 fn axis_name(axis: AxisNumber, machine: &Machine) -> String {

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use super::*;
 use crate::image::{Part, raw_value};
+use crate::machine::{FaultKind, Switch};
 use crate::plc::Programs;
 use crate::scenario::Scenario;
 use crate::trace::{Trace, Watch};
-use crate::units::ChannelNumber;
+use crate::units::{ChannelNumber, Position};
 
 const HEADING: Heading<'_> = Heading {
     title: "All \"commands\"",

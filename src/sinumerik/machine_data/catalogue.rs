@@ -8,6 +8,44 @@ use crate::source;
 use super::table::{Datum, Row, Scope, Table};
 use super::{Axis, Channel, General, Setting};
 
+/// The numbers of all tables.
+const NUMBERS: [&[u32]; 4] = [General::NUMBERS, Channel::NUMBERS, Axis::NUMBERS, Setting::NUMBERS];
+
+const _: () = check(&NUMBERS);
+
+/// Checks at compile time that the rows of each table ascend, and that no number is in two tables. A second row would replace the first.
+const fn check(tables: &[&[u32]]) {
+    let mut table = 0;
+    while table < tables.len() {
+        let numbers = tables[table];
+        let mut row = 0;
+        while row < numbers.len() {
+            assert!(
+                row == 0 || numbers[row - 1] < numbers[row],
+                "machine data must ascend by number, each number once"
+            );
+            let mut other = table + 1;
+            while other < tables.len() {
+                assert!(!has(tables[other], numbers[row]), "a number of machine data is in two tables");
+                other += 1;
+            }
+            row += 1;
+        }
+        table += 1;
+    }
+}
+
+const fn has(numbers: &[u32], number: u32) -> bool {
+    let mut row = 0;
+    while row < numbers.len() {
+        if numbers[row] == number {
+            return true;
+        }
+        row += 1;
+    }
+    false
+}
+
 /// All machine data with the number of their row, by number.
 static BY_NUMBER: LazyLock<BTreeMap<u32, (&'static Datum, usize)>> = LazyLock::new(|| {
     let mut all = BTreeMap::new();
@@ -106,10 +144,21 @@ mod tests {
     }
 
     #[test]
-    fn rows_ascend_and_every_identifier_is_unique() {
-        let numbers: Vec<_> = Axis::rows().iter().map(|row| row.datum.number).collect();
-        assert!(numbers.is_sorted_by(|a, b| a < b));
-        assert_eq!(catalogue().count(), BY_IDENTIFIER.len());
+    fn no_row_is_lost_and_every_identifier_is_unique() {
+        let rows = General::rows().len() + Channel::rows().len() + Axis::rows().len() + Setting::rows().len();
+        assert_eq!((catalogue().count(), BY_IDENTIFIER.len()), (rows, rows));
+    }
+
+    #[test]
+    #[should_panic(expected = "a number of machine data is in two tables")]
+    fn a_number_in_two_tables_is_rejected() {
+        check(&[&[10_000, 10_001], &[20_000], &[10_001]]);
+    }
+
+    #[test]
+    #[should_panic(expected = "machine data must ascend by number, each number once")]
+    fn a_number_twice_in_one_table_is_rejected() {
+        check(&[&[10_000, 10_000]]);
     }
 
     #[test]

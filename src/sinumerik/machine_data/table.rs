@@ -336,6 +336,11 @@ macro_rules! machine_data {
             )+
         }
 
+        impl $table {
+            /// The numbers of its data, in the order of its rows.
+            pub(super) const NUMBERS: &'static [u32] = &[$($number),+];
+        }
+
         impl Default for $table {
             fn default() -> Self {
                 Self { $($field: $default,)+ }
