@@ -292,17 +292,24 @@ pub fn files_of(machine: &Path) -> Result<Vec<PathBuf>, Problem> {
     for entry in std::fs::read_dir(machine).map_err(|error| unreadable(machine, &error))? {
         files.push(entry.map_err(|error| unreadable(machine, &error))?.path());
     }
-    let has = |path: &Path, wanted: &[&str]| {
-        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-        wanted.iter().any(|wanted| extension.eq_ignore_ascii_case(wanted))
-    };
-    files.retain(|path| path.is_file() && has(path, &["tea", "ini", "mpf", "arc"]));
+    files.retain(|path| path.is_file() && is_archive(path));
     files.sort();
-    if files.len() > 1 && files.iter().any(|path| has(path, &["arc"])) {
+    if files.len() > 1 && files.iter().any(|path| ends_with(path, &["arc"])) {
         return Err(Place::file(&machine.display().to_string()).problem(
             format!("expected one binary archive or only ASCII archives, found {} archives", files.len()),
             "keep one `.arc`, or only `.tea`, `.ini` and `.mpf`",
         ));
     }
     Ok(files)
+}
+
+/// Whether the name of a file is that of an archive: `*.tea`, `*.ini`, `*.mpf` or `*.arc`, in upper or lower case.
+#[must_use]
+pub fn is_archive(file: &Path) -> bool {
+    ends_with(file, &["tea", "ini", "mpf", "arc"])
+}
+
+fn ends_with(file: &Path, extensions: &[&str]) -> bool {
+    let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    extensions.iter().any(|known| extension.eq_ignore_ascii_case(known))
 }

@@ -24,7 +24,7 @@ mod table;
 mod target;
 mod write;
 
-pub use archive::{Archive, Summary, files_of};
+pub use archive::{Archive, Summary, files_of, is_archive};
 pub use axis::Axis;
 pub use catalogue::{by_identifier, by_number, catalogue, nearest_identifier};
 pub use channel::Channel;
