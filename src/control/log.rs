@@ -7,9 +7,13 @@ use crate::units::{AxisNumber, AxisSet};
 use crate::variables::{EventId, Events, Input, Place, RuleNumber};
 
 /// The latest events and the present cycle.
+///
+/// Its owner stores the number of the cycle in [`Log::cycle`] as the first action of
+/// [`Control::decide`](super::Control::decide): each event is recorded with it, and [`Log::is_of_this_cycle`] compares with it. It keeps the
+/// events at power on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Log {
-    /// Number of the present cycle.
+    /// Number of the present cycle, as given to [`Control::decide`](super::Control::decide).
     pub cycle: u64,
     /// The latest events.
     pub events: Events,

@@ -1,5 +1,7 @@
 //! THE BOUNDARY OF A CONTROL: the interface between a numerical control and the rest of the project.
 //!
+//! `tests/machine/second_control/platform.rs` is a tiny control of 32 drives that implements this whole module. Start with a copy of it.
+//!
 //! [`Control`] is the trait that the machine steps. A control provides everything specific to it: the interface ([`Interface`]), signals,
 //! machine data, alarms, rules, and charts of its state machines. Only the control's own module and the one place that opens machines name
 //! a specific control.
@@ -116,9 +118,9 @@ pub struct Activated {
 /// The cycle times of a control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CycleTimes {
-    /// The interpolation cycle: one step of the machine.
+    /// The interpolation cycle: one step of the machine. More than 0; otherwise simulated time would stand still.
     pub interpolation: Time,
-    /// Number of position-control cycles in an interpolation cycle.
+    /// Number of position-control cycles in an interpolation cycle. At least 1; otherwise no axis would move.
     pub position_control: u32,
 }
 
@@ -130,7 +132,7 @@ pub trait Control: Send + Sync + Debug {
     /// A datum or handwheel does not exist, or a value does not fit the datum.
     fn check(&self, command: &ControlCommand) -> Result<(), Problem>;
 
-    /// A cycle begins; from now on, events belong to the cycle of this number.
+    /// A cycle begins; from now on, events belong to the cycle of this number. A control with a [`Log`] calls [`Log::begin_cycle`].
     fn begin_cycle(&mut self, cycle: u64);
 
     /// Takes a command that [`Control::check`] has accepted, at the edge of a cycle. A command has no effect if an earlier command of the
@@ -162,21 +164,25 @@ pub trait Control: Send + Sync + Debug {
     /// Writes the control's half of the interface and the variables. The mechanics of the axes `restless` are not at rest.
     fn publish(&mut self, out: ControlSide<'_>, variables: &mut Variables, restless: AxisSet);
 
-    /// The axes that are computed in this cycle. The state of the others does not change.
-    fn awake(&self) -> AxisSet;
+    /// The axes that are computed in this cycle. The state of the others does not change. The default is all axes.
+    fn awake(&self) -> AxisSet {
+        AxisSet::ALL
+    }
 
-    /// From now on moves, monitors and publishes every axis in every cycle: slower, with identical bytes.
-    fn never_rest(&mut self);
+    /// From now on moves, monitors and publishes every axis in every cycle: slower, with identical bytes. The default does nothing, for a
+    /// control whose axes are always awake.
+    fn never_rest(&mut self) {}
 
     /// From now on also makes all decisions for every axis in every cycle: even slower, with identical bytes.
     fn decide_always(&mut self) {
         self.never_rest();
     }
 
-    /// Power off and on: stored data become effective, everything else starts again. Returns the event recorded for it.
+    /// Power off and on: stored data become effective, everything else starts again. Only the numbers of the cycle and of the events go on:
+    /// the control keeps its [`Events`], because the record refers to them. Returns the event recorded for it.
     fn power_on(&mut self) -> EventId;
 
-    /// The cycle times in effect.
+    /// The cycle times in effect, never 0. The machine checks this when it is opened.
     fn cycle_times(&self) -> CycleTimes;
 
     /// The active measuring system of an axis, 0 or 1; `None` for a parked axis.
@@ -198,14 +204,21 @@ pub trait Control: Send + Sync + Debug {
     /// The coding of the machine's override switches, according to the data in effect.
     fn override_coding(&self) -> OverrideCoding;
 
-    /// The effective override of an axis, in per cent.
-    fn axis_override(&self, axis: AxisNumber, plc: PlcSide<'_>) -> f64;
+    /// The effective override of an axis, in per cent. The default is 100 %, for a control without axial overrides.
+    fn axis_override(&self, _axis: AxisNumber, _plc: PlcSide<'_>) -> f64 {
+        100.0
+    }
 
-    /// The effective overrides of a channel, in per cent: feed and rapid traverse.
-    fn channel_overrides(&self, channel: ChannelNumber, plc: PlcSide<'_>) -> [f64; 2];
+    /// The effective overrides of a channel, in per cent: feed and rapid traverse. The default is 100 %, for a control without overrides.
+    fn channel_overrides(&self, _channel: ChannelNumber, _plc: PlcSide<'_>) -> [f64; 2] {
+        [100.0; 2]
+    }
 
-    /// The motor speed of an axis in rev/min, with pitch and gear, from the axis velocity in mm/min or rev/min.
-    fn motor_speed(&self, axis: AxisNumber, velocity: f64) -> f64;
+    /// The motor speed of an axis in rev/min, with pitch and gear, from the axis velocity in mm/min or rev/min. The default is the same
+    /// number, for an axis without a gear and with a pitch of 1 mm.
+    fn motor_speed(&self, _axis: AxisNumber, velocity: f64) -> f64 {
+        velocity
+    }
 
     /// The machine data or parameters, by number.
     fn data(&self) -> &dyn Data;
@@ -216,11 +229,15 @@ pub trait Control: Send + Sync + Debug {
     /// Whether positions of the axis are in degrees.
     fn is_rotary(&self, axis: AxisNumber) -> bool;
 
-    /// The configuration that results from the data, as lines of text: the gantry groupings.
-    fn configuration(&self, names: &Names) -> Vec<String>;
+    /// The configuration that results from the data, as lines of text: the gantry groupings. The default is no line.
+    fn configuration(&self, _names: &Names) -> Vec<String> {
+        Vec::new()
+    }
 
-    /// The rows of the charts that were used, in the order of [`Texts::charts`].
-    fn taken(&self) -> Taken;
+    /// The rows of the charts that were used, in the order of [`Texts::charts`]. The default is none, for a control without charts.
+    fn taken(&self) -> Taken {
+        Taken::default()
+    }
 
     /// The complete state, as bytes.
     fn save(&self) -> Vec<u8>;
@@ -294,6 +311,31 @@ pub struct AlarmRow {
     pub cancelled_by: String,
     /// Its reactions, in words.
     pub reaction: String,
-    /// The code of the cancelling action in NC variables.
-    pub clear_info: u8,
+    /// The cancelling action, as NC variables code it.
+    pub clear_info: ClearInfo,
+}
+
+/// The action that cancels an alarm, with its code in the NC variables `clearInfo`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClearInfo {
+    /// Power off and on.
+    PowerOn = 1,
+    /// RESET in the channel.
+    Reset = 2,
+    /// The alarm-cancel key.
+    CancelKey = 3,
+    /// The control clears it when its cause is gone.
+    ByItself = 4,
+    /// NC start.
+    NcStart = 5,
+    /// RESET in all channels of the mode group.
+    ModeGroupReset = 6,
+}
+
+impl ClearInfo {
+    /// The code.
+    #[must_use]
+    pub const fn code(self) -> u8 {
+        self as u8
+    }
 }

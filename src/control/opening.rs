@@ -15,7 +15,8 @@ pub type Read = fn(&Path) -> Result<(Box<dyn Configuration>, Table), Problem>;
 
 /// The configuration of a control from the files of a machine, read and checked on its own.
 pub trait Configuration {
-    /// The names of all possible axes of the control, in the order of their numbers.
+    /// The names of all possible axes of the control, in the order of their numbers. These are the names that `plant.toml` may use: a table
+    /// `[X]` with any other name is an error.
     fn axis_names(&self) -> Vec<&str>;
 
     /// A control after power on. `profile` is [`Profile::default`] if none was requested: then the first numbering of the control's own

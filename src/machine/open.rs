@@ -9,7 +9,7 @@ use super::definition::Definition;
 use super::plc::PlcState;
 use super::state::State;
 use super::step::first_variables;
-use crate::control::{Configuration, Control, EncoderModel, Opened, Site};
+use crate::control::{Configuration, Control, CycleTimes, EncoderModel, Opened, Site};
 use crate::image::{Location, Memory, Names, Preset, Profile, SwitchSignals};
 use crate::plant::{Db11Byte5Bit2, EncoderKind, Hints, Layout, Plant, PlantDefinition, Switch};
 use crate::source::{Place, Problem, Table};
@@ -66,6 +66,7 @@ impl Machine {
             options.profile,
         )?;
         let Opened { control, names, axes, groupings, warnings } = opened;
+        check_cycle_times(control.cycle_times(), control.texts().cycle_data())?;
         let memory = match &options.preset {
             Some(preset) => Memory::from_preset(preset, &names, control.override_coding())?,
             None => Memory::of(names.interface()),
@@ -144,6 +145,20 @@ fn unwired(layout: &Layout, names: &Names) -> Vec<(AxisNumber, Switch, Location)
     each.collect()
 }
 
+/// Without a cycle time, simulated time would stand still; without position control, no axis would move.
+fn check_cycle_times(times: CycleTimes, cycle_data: &str) -> Result<(), Problem> {
+    let CycleTimes { interpolation, position_control } = times;
+    if interpolation <= Time::ZERO {
+        let what = format!("expected an interpolation cycle of more than 0 s, found {interpolation} s");
+        return Err(Problem::new(what, format!("change {cycle_data}")));
+    }
+    if position_control == 0 {
+        let what = "expected at least one position-control cycle in an interpolation cycle, found 0";
+        return Err(Problem::new(what, format!("change {cycle_data}")));
+    }
+    Ok(())
+}
+
 fn check_plc_cycle(plc_cycle: Option<Time>, control: &dyn Control, place: &Place) -> Result<(), Problem> {
     let cycle = control.cycle_times().interpolation;
     match plc_cycle {
@@ -152,5 +167,23 @@ fn check_plc_cycle(plc_cycle: Option<Time>, control: &dyn Control, place: &Place
             format!("change [machine] plc_cycle, or {}", control.texts().cycle_data()),
         )),
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_control_without_a_cycle_or_without_position_control_is_refused() {
+        let check = |interpolation, position_control| {
+            check_cycle_times(CycleTimes { interpolation, position_control }, "the cycle of the platform")
+        };
+        let refused = |times: Result<(), Problem>| times.unwrap_err().to_string();
+        assert!(check(Time::from_millis(4), 1).is_ok());
+        assert!(refused(check(Time::ZERO, 1)).contains("an interpolation cycle of more than 0 s, found 0"));
+        let motionless = refused(check(Time::from_millis(4), 0));
+        assert!(motionless.contains("at least one position-control cycle"), "{motionless}");
+        assert!(motionless.contains("change the cycle of the platform"), "{motionless}");
     }
 }

@@ -1,6 +1,6 @@
 //! The texts of this control: alarms, rules, names of machine data and charts of its state machines.
 
-use crate::control::{AlarmRow, Chart, Texts};
+use crate::control::{AlarmRow, Chart, ClearInfo, Texts};
 use crate::image::{Interface, SINUMERIK};
 use crate::sinumerik::alarms::{Alarm, CATALOGUE, Cancel, not_raised};
 use crate::sinumerik::gantry;
@@ -89,14 +89,14 @@ fn row(alarm: &Alarm, raised: bool) -> AlarmRow {
     }
 }
 
-/// The code of the cancelling action in NC variables.
-const fn clear_info(cancel: Cancel) -> u8 {
+/// The cancelling action in NC variables.
+const fn clear_info(cancel: Cancel) -> ClearInfo {
     match cancel {
-        Cancel::PowerOn => 1,
-        Cancel::Reset => 2,
-        Cancel::CancelKey => 3,
-        Cancel::ByItself => 4,
-        Cancel::NcStart => 5,
-        Cancel::ModeGroupReset => 6,
+        Cancel::PowerOn => ClearInfo::PowerOn,
+        Cancel::Reset => ClearInfo::Reset,
+        Cancel::CancelKey => ClearInfo::CancelKey,
+        Cancel::ByItself => ClearInfo::ByItself,
+        Cancel::NcStart => ClearInfo::NcStart,
+        Cancel::ModeGroupReset => ClearInfo::ModeGroupReset,
     }
 }

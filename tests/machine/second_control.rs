@@ -22,14 +22,14 @@ use opennck::s7::server::Limits;
 use opennck::scenario::Session;
 use opennck::sinumerik::Nck;
 use opennck::source::{Place, Problem, Table};
-use opennck::units::{AxisNumber, Time};
+use opennck::units::{AxisNumber, Position, Time};
 use opennck::variables::Describe;
 
 use platform::{Own, Platform, Platforms};
 
 /// Reads a machine. It has no files; its plant is empty.
 fn read(path: &Path) -> Result<(Box<dyn Configuration>, Table), Problem> {
-    Ok((Box::new(Platforms), Table::empty(Place::file(&path.display().to_string()))))
+    Ok((Box::<Platforms>::default(), Table::empty(Place::file(&path.display().to_string()))))
 }
 
 fn machine() -> Machine {
@@ -118,6 +118,18 @@ fn signals_closures_and_mechanics_work_with_32_axes_of_another_control() {
     assert!(machine.is_plc_stopped() && machine.plc_fault().unwrap().contains("another interface than own"));
     let alarm = machine.variables().alarms.iter().next().copied().unwrap();
     assert_eq!((alarm.number.0, machine.alarm_text(&alarm)), (700, "PLC of the platform missing".to_owned()));
+}
+
+#[test]
+fn a_plant_may_name_its_axes_and_no_others() {
+    let open = |plant: &str| {
+        let plant = Table::parse(plant, "plant.toml").unwrap();
+        Machine::of(&Platforms::default(), plant, OpenOptions::default())
+    };
+    let machine = open("[A2]\nstart = 7.5\n").unwrap();
+    assert_eq!(machine.variables().axes[AxisNumber::new(2).unwrap()].slide, Position::from_user(7.5));
+    let refused = open("[A33]\nstart = 7.5\n").unwrap_err().to_string();
+    assert!(refused.starts_with("plant.toml:1: ") && refused.contains("found `A33`"), "{refused}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The data of a live machine besides memory and variables: machine data, and values of its control.
 
-use crate::control::{Datum as StoredDatum, Kind, Owner, Value};
+use crate::control::{ClearInfo, Datum as StoredDatum, Kind, Owner, Value};
 use crate::image::Profile;
 use crate::machine::{Command, Machine};
 use crate::s7::nck::{self, Datum};
@@ -106,7 +106,7 @@ impl nck::ControlValues for Panel<'_> {
 
     fn clear_info(&self, alarm: AlarmNumber) -> u8 {
         // An alarm that the control does not know is cancelled by power on.
-        self.0.control().texts().alarm(alarm).map_or(1, |alarm| alarm.clear_info)
+        self.0.control().texts().alarm(alarm).map_or(ClearInfo::PowerOn, |alarm| alarm.clear_info).code()
     }
 }
 

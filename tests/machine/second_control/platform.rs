@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
 use opennck::control::{
-    AlarmRow, AxisHints, Changes, Chart, Configuration, Control, ControlCommand, ControlSide, CycleTimes, Data, Datum,
-    Kind, Log, Opened, Owner, PlcSide, Site, Taken, Texts, Transition, Value, next, row,
+    AlarmRow, AxisHints, Changes, Chart, ClearInfo, Configuration, Control, ControlCommand, ControlSide, CycleTimes,
+    Data, Datum, Kind, Log, Opened, Owner, PlcSide, Site, Taken, Texts, Transition, Value, next, row,
 };
 use opennck::image::{
     Block, BlockTable, ByteRange, Interface, Layout, Names, Numbering, OverrideCoding, Part, Profile, Tables, View,
@@ -17,7 +17,7 @@ use opennck::image::{
 use opennck::motion::{Feedback, Setpoint, velocity_command};
 use opennck::signals;
 use opennck::source::Problem;
-use opennck::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position, Time};
+use opennck::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 use opennck::variables::{
     AlarmNumber, AxisValues, EventId, Events, Input, Parameter, Place, RaisedAlarm, Rule, RuleNumber, SignalBit,
     Variables,
@@ -273,12 +273,6 @@ impl Control for Platform {
         variables.alarms.publish(self.0.plc_missing.is_some().then_some(missing).into_iter());
     }
 
-    fn awake(&self) -> AxisSet {
-        AxisSet::ALL
-    }
-
-    fn never_rest(&mut self) {}
-
     fn power_on(&mut self) -> EventId {
         *self = Self::new(self.0.speed, self.0.log.clone());
         EventId::NONE
@@ -315,18 +309,6 @@ impl Control for Platform {
         OverrideCoding { interface: &OWN, ..OverrideCoding::default() }
     }
 
-    fn axis_override(&self, _: AxisNumber, _: PlcSide<'_>) -> f64 {
-        100.0
-    }
-
-    fn channel_overrides(&self, _: ChannelNumber, _: PlcSide<'_>) -> [f64; 2] {
-        [100.0; 2]
-    }
-
-    fn motor_speed(&self, _: AxisNumber, velocity: f64) -> f64 {
-        velocity
-    }
-
     fn data(&self) -> &dyn Data {
         self
     }
@@ -337,10 +319,6 @@ impl Control for Platform {
 
     fn is_rotary(&self, _: AxisNumber) -> bool {
         false
-    }
-
-    fn configuration(&self, _: &Names) -> Vec<String> {
-        Vec::new()
     }
 
     fn taken(&self) -> Taken {
@@ -393,7 +371,15 @@ impl Texts for PlatformTexts {
     fn alarms(&self) -> Vec<AlarmRow> {
         let (name, text) = ("700".to_owned(), "PLC of the platform missing");
         let (cancelled_by, reaction) = ("itself".to_owned(), "stops every drive".to_owned());
-        vec![AlarmRow { number: AlarmNumber(700), name, text, raised: true, cancelled_by, reaction, clear_info: 4 }]
+        vec![AlarmRow {
+            number: AlarmNumber(700),
+            name,
+            text,
+            raised: true,
+            cancelled_by,
+            reaction,
+            clear_info: ClearInfo::ByItself,
+        }]
     }
 
     fn alarm(&self, number: AlarmNumber) -> Option<AlarmRow> {
@@ -434,12 +420,21 @@ impl Texts for PlatformTexts {
     }
 }
 
-/// The configuration of a platform. It is empty: all platforms are alike.
-pub(super) struct Platforms;
+/// The configuration of a platform: only the names of its axes, all platforms are alike.
+pub(super) struct Platforms {
+    /// `A1` to `A32`.
+    names: PerAxis<String>,
+}
+
+impl Default for Platforms {
+    fn default() -> Self {
+        Self { names: PerAxis::from_fn(|axis| format!("A{axis}")) }
+    }
+}
 
 impl Configuration for Platforms {
     fn axis_names(&self) -> Vec<&str> {
-        Vec::new()
+        self.names.iter().map(|(_, name)| name.as_str()).collect()
     }
 
     fn open(&self, _: &Site<'_>, profile: Profile) -> Result<Opened, Problem> {
@@ -450,10 +445,8 @@ impl Configuration for Platforms {
                 "leave the profile out",
             ));
         }
-        let mut names = Names { profile: own, ..Names::default() };
-        for (number, name) in names.axes.iter_mut() {
-            *name = Some(format!("A{number}"));
-        }
+        let axes = PerAxis::from_fn(|axis| Some(self.names[axis].clone()));
+        let names = Names { axes, profile: own, ..Names::default() };
         Ok(Opened {
             control: Box::new(Platform::new(60.0, Log::default())),
             names,
