@@ -68,7 +68,7 @@
 //! | [`expression`] | expressions over signals, values and alarms: parsed once, evaluated in every cycle | `image`, `source`, `units`, `variables` |
 //! | [`machine`] | one step of the complete machine, and open, queue, power, save, restore, fork | `control`, `controls`, `expression`, `image`, `motion`, `plant`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`scenario`] | scenario files, and the session for tests in Rust | `control`, `controls`, `expression`, `image`, `machine`, `plc`, `source`, `trace`, `units`, `variables` |
-//! | [`golden`] | runs the scenarios below a folder and compares each with its golden trace | `control`, `controls`, `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units` |
+//! | [`golden`] | runs the scenarios below a folder and compares each with its golden trace | `control`, `controls`, `image`, `plc`, `scenario`, `source`, `trace`, `units` |
 //! | [`live`] | a machine in real time: the stepping thread, the inbox, the copy of the last step, the recording, a PLC in another process (feature `live`, part of `s7` and `mapped`) | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
 //! | [`s7`] | S7 communication: wire formats, sessions without a socket, a server on TCP and for [`live`] (feature `s7`) | `control`, `image`, `live`, `machine`, `source`, `units`, `variables` |
 //! | [`cli`] | the command line: its arguments, and the construction of all other parts (feature `cli`) | all |

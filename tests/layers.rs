@@ -41,7 +41,7 @@ const MODULES: &[(&str, &[&str])] = &[
         "scenario",
         &["control", "controls", "expression", "image", "machine", "plc", "source", "trace", "units", "variables"],
     ),
-    ("golden", &["control", "controls", "image", "machine", "plc", "scenario", "source", "trace", "units"]),
+    ("golden", &["control", "controls", "image", "plc", "scenario", "source", "trace", "units"]),
     ("live", &["image", "machine", "plc", "scenario", "source", "trace", "units", "variables"]),
     ("s7", &["control", "image", "live", "machine", "source", "units", "variables"]),
     ("cli", &["*"]),
@@ -132,6 +132,12 @@ const LONGEST: usize = 500;
 #[test]
 fn modules_import_only_what_their_table_allows() {
     report(rust("src").iter().flat_map(|file| imports(&file.path, &file.text)).collect());
+}
+
+#[test]
+fn modules_import_all_that_their_table_allows() {
+    let files = rust("src");
+    report(MODULES.iter().flat_map(|(module, may)| unused(module, may, &files)).collect());
 }
 
 #[test]
@@ -241,16 +247,32 @@ fn imports(path: &str, text: &str) -> Vec<String> {
     };
     let mut findings = Vec::new();
     for (line, found) in lines(text) {
-        for rest in found.split("crate::").skip(1) {
-            let other: String = rest.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect();
+        for other in named(found) {
             let known = MODULES.iter().any(|(name, _)| *name == other);
-            if known && other != module && !may.contains(&other.as_str()) && !may.contains(&"*") {
+            if known && other != module && !may.contains(&other) && !may.contains(&"*") {
                 let may = if may.is_empty() { "nothing".to_owned() } else { may.join(", ") };
                 findings.push(format!("{path}:{line}: {module} must not import {other}; allowed imports: {may}"));
             }
         }
     }
     findings
+}
+
+/// The names after each `crate::` of a text.
+fn named(text: &str) -> impl Iterator<Item = &str> {
+    let name = |rest: &'_ str| rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len());
+    text.split("crate::").skip(1).map(move |rest| &rest[..name(rest)])
+}
+
+/// Finds the modules that a module may import and does not.
+fn unused(module: &str, may: &[&str], files: &[Text]) -> Vec<String> {
+    let inside = format!("src/{module}/");
+    let names = |other: &str| {
+        let mut own = files.iter().filter(|file| file.path.starts_with(&inside));
+        own.any(|file| named(&file.text).any(|name| name == other))
+    };
+    let unused = may.iter().filter(|other| **other != "*" && !names(other));
+    unused.map(|other| format!("{inside}: never imports {other}: remove it from the row in both tables")).collect()
 }
 
 fn documented(docs: &str, module: &str, may: &[&str]) -> Option<String> {
@@ -434,6 +456,17 @@ fn a_wrong_import_is_found_with_file_and_line() {
     assert!(imports("src/lib.rs", text).is_empty());
     assert_eq!(imports("src/units/x.rs", "fn f() -> crate::image::Bytes {}").len(), 1);
     assert_eq!(imports("src/attic/x.rs", "").len(), 1);
+}
+
+#[test]
+fn an_unused_allowance_is_found() {
+    let file = |path: &str, text: &str| Text { path: path.to_owned(), text: text.to_owned() };
+    let files = [file("src/plc/x.rs", "use crate::units::Time;\n"), file("src/plant/x.rs", "use crate::image::Kind;\n")];
+    assert!(unused("plc", &["units"], &files).is_empty());
+    assert_eq!(
+        unused("plc", &["image", "units"], &files),
+        ["src/plc/: never imports image: remove it from the row in both tables".to_owned()]
+    );
 }
 
 #[test]

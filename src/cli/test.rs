@@ -155,7 +155,8 @@ fn report(outcomes: &[(&str, Outcome)], output: &mut Output) -> u8 {
     ];
     let counts: Vec<_> =
         counts.iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("{count} {word}")).collect();
-    output.line(format!("{} scenarios: {}", outcomes.len(), counts.join(", ")));
+    let noun = if outcomes.len() == 1 { "scenario" } else { "scenarios" };
+    output.line(format!("{} {noun}: {}", outcomes.len(), counts.join(", ")));
     code
 }
 
