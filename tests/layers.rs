@@ -461,7 +461,8 @@ fn a_wrong_import_is_found_with_file_and_line() {
 #[test]
 fn an_unused_allowance_is_found() {
     let file = |path: &str, text: &str| Text { path: path.to_owned(), text: text.to_owned() };
-    let files = [file("src/plc/x.rs", "use crate::units::Time;\n"), file("src/plant/x.rs", "use crate::image::Kind;\n")];
+    let files =
+        [file("src/plc/x.rs", "use crate::units::Time;\n"), file("src/plant/x.rs", "use crate::image::Kind;\n")];
     assert!(unused("plc", &["units"], &files).is_empty());
     assert_eq!(
         unused("plc", &["image", "units"], &files),

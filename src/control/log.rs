@@ -8,12 +8,11 @@ use crate::variables::{EventId, Events, Input, Place, RuleNumber};
 
 /// The latest events and the present cycle.
 ///
-/// Its owner stores the number of the cycle in [`Log::cycle`] as the first action of
-/// [`Control::decide`](super::Control::decide): each event is recorded with it, and [`Log::is_of_this_cycle`] compares with it. It keeps the
-/// events at power on.
+/// Its owner calls [`Log::begin`] in [`Control::begin_cycle`](super::Control::begin_cycle): each event is recorded with the number of the
+/// cycle, and [`Log::is_of_this_cycle`] compares with it. It keeps the events at power on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Log {
-    /// Number of the present cycle, as given to [`Control::decide`](super::Control::decide).
+    /// Number of the present cycle, as given to [`Control::begin_cycle`](super::Control::begin_cycle).
     pub cycle: u64,
     /// The latest events.
     pub events: Events,

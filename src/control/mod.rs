@@ -132,7 +132,7 @@ pub trait Control: Send + Sync + Debug {
     /// A datum or handwheel does not exist, or a value does not fit the datum.
     fn check(&self, command: &ControlCommand) -> Result<(), Problem>;
 
-    /// A cycle begins; from now on, events belong to the cycle of this number. A control with a [`Log`] calls [`Log::begin_cycle`].
+    /// A cycle begins; from now on, events belong to the cycle of this number. A control with a [`Log`] calls [`Log::begin`].
     fn begin_cycle(&mut self, cycle: u64);
 
     /// Takes a command that [`Control::check`] has accepted, at the edge of a cycle. A command has no effect if an earlier command of the

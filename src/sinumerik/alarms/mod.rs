@@ -5,6 +5,7 @@
 //! [`Pending::raise`].
 
 pub(super) mod not_raised;
+mod raised;
 
 use std::fmt;
 

@@ -1,14 +1,17 @@
-//! Traverse request (64.4, 64.5) and traverse command (64.6, 64.7), and the event behind each of their edges.
+//! Traverse request (64.4, 64.5) and traverse command (64.6, 64.7), the event behind each of their edges, and the reason that stops a
+//! channel.
 //!
 //! Called by all stages that move an axis. A movement may have begun in an earlier cycle. When the command is reset or set again
 //! later, an event of this cycle gives the reason, and refers to the beginning of the movement as its cause.
 
 use crate::image::{Signal, axis_from_nck, axis_to_nck, mode_group_from_nck};
+use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::inputs::{axis_signal, mode_group_signal, nck_signal};
 use crate::sinumerik::operation::state::Mode;
+use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
-use crate::units::{AxisNumber, Position};
+use crate::units::{AxisNumber, ChannelNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity};
 
 /// The reason that stops every movement of a channel.
@@ -48,6 +51,23 @@ pub(in crate::sinumerik) const fn command_signal(direction: i8) -> Signal {
 }
 
 impl State {
+    /// The reason that stops every movement of a channel: RESET, or an alarm with NC stop, NC not ready or mode group not ready.
+    pub(in crate::sinumerik) fn stop(&self, channel: ChannelNumber, parameters: &Parameters) -> Option<Stop> {
+        if let Some(cause) = self.emergency_stop.active_cause() {
+            return Some(Stop::Emergency(cause));
+        }
+        if self.channels[channel].reset {
+            return Some(Stop::Reset(self.channels[channel].reset_cause));
+        }
+        let stops = self.alarms.first_alarm(|place, alarm| {
+            alarm.reaction.has(Reaction::STOP) && parameters.concerns_channel(place, channel)
+                || alarm.reaction.has(Reaction::NC_NOT_READY)
+        });
+        let group = parameters.mode_group(channel);
+        let not_ready = || self.mode_group_alarm(group, parameters);
+        stops.or_else(not_ready).map(|(number, cause)| Stop::Alarm(number, cause))
+    }
+
     /// Sets request (64.4, 64.5) and command (64.6, 64.7), with the event behind a change.
     pub(in crate::sinumerik) fn traverse(&mut self, number: AxisNumber, request: i8, command: i8, cause: EventId) {
         let axis = &mut self.axes[number];

@@ -52,6 +52,14 @@ fn trip(limit: Limit, synchronised: bool) -> (Rule, u32) {
 }
 
 impl State {
+    /// The actual value of an axis changed without a movement. This causes no synchronism difference, unless both axes are
+    /// referenced (O-12).
+    pub(in crate::sinumerik) fn value_shifted(&mut self, number: AxisNumber, shift: Position) {
+        for grouping in &mut self.groupings {
+            grouping.coupling.value_shifted(number, shift, &self.axes);
+        }
+    }
+
     /// Differences, their alarms, and the messages of section 3.
     pub(in crate::sinumerik) fn monitor_grouping(&mut self, index: usize, parameters: &Parameters) {
         self.ask(index, parameters, |grouping, view, log, wants| {

@@ -25,10 +25,9 @@ use crate::sinumerik::alarms;
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
-use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, AxisSet};
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
+use crate::variables::{Parameter, Place};
 
 impl Nck {
     /// The stage "monitoring and alarms".
@@ -71,29 +70,5 @@ impl State {
         }
         self.monitor_speed(number, axis);
         self.monitor_position(number, axis);
-    }
-
-    /// Raises an alarm with the event behind it, which is recorded when the alarm is new; `%1` is the axis.
-    fn raise_monitoring(&mut self, alarm: AlarmNumber, number: AxisNumber, rule: Rule, inputs: [Input; 3]) {
-        let place = Place::Axis(number);
-        let shown = [Parameter::Axis(number), Parameter::None, Parameter::None, Parameter::None];
-        let cause = if self.alarms.is_pending(alarm, place) {
-            EventId::NONE
-        } else {
-            let causes = &self.axes[number].causes;
-            // A hardware fault acts whether or not the axis moves.
-            let breaks =
-                matches!(rule, Rule::DriveFault | Rule::DriveNotReady | Rule::EncoderFault | Rule::EncoderPollution);
-            // Only the selection of the PLC leads to a missing encoder.
-            let parent = if rule == Rule::EncoderMissing {
-                EventId::NONE
-            } else if breaks {
-                causes.fault
-            } else {
-                causes.movement()
-            };
-            self.log.note(place, rule, inputs, parent)
-        };
-        self.alarms.raise(alarm, place, shown, cause);
     }
 }

@@ -7,7 +7,6 @@
 
 use crate::image::{ToNck, channel_from_nck, channel_to_nck, mode_group_to_nck};
 use crate::sinumerik::alarms::{self, Alarm, Cancel, Reaction};
-use crate::sinumerik::axis::traversing::Stop;
 use crate::sinumerik::inputs::{channel_signal, mode_group_signal};
 use crate::sinumerik::machine_data::Effect;
 use crate::sinumerik::nck::Nck;
@@ -16,7 +15,7 @@ use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{ChannelNumber, ModeGroupNumber};
-use crate::variables::{EventId, Input, Parameter, Place};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 
 impl Nck {
     /// RESET, the cancel key and NC start; data of the classes RESET and NEWCONF become active with a RESET.
@@ -121,30 +120,22 @@ impl State {
         }
     }
 
-    /// The reason that stops every movement of a channel: RESET, or an alarm with NC stop, NC not ready or mode group not ready.
-    pub(in crate::sinumerik) fn stop(&self, channel: ChannelNumber, parameters: &Parameters) -> Option<Stop> {
-        if let Some(cause) = self.emergency_stop.active_cause() {
-            return Some(Stop::Emergency(cause));
-        }
-        if self.channels[channel].reset {
-            return Some(Stop::Reset(self.channels[channel].reset_cause));
-        }
-        let stops = self.alarms.first_alarm(|place, alarm| {
-            alarm.reaction.has(Reaction::STOP) && parameters.concerns_channel(place, channel)
-                || alarm.reaction.has(Reaction::NC_NOT_READY)
-        });
-        let group = parameters.mode_group(channel);
-        let not_ready = || self.alarms.first_alarm(|place, alarm| takes_ready(group, parameters, place, alarm));
-        stops.or_else(not_ready).map(|(number, cause)| Stop::Alarm(number, cause))
-    }
-
     /// The alarm that resets "mode group ready" of a group. An alarm that concerns a single axis does not stop the others.
     pub(in crate::sinumerik) fn mode_group_not_ready(
         &self,
         group: ModeGroupNumber,
         parameters: &Parameters,
     ) -> Option<EventId> {
-        self.alarms.first(|place, alarm| takes_ready(group, parameters, place, alarm))
+        self.mode_group_alarm(group, parameters).map(|(_, cause)| cause)
+    }
+
+    /// The number of this alarm, and the event behind it.
+    pub(in crate::sinumerik) fn mode_group_alarm(
+        &self,
+        group: ModeGroupNumber,
+        parameters: &Parameters,
+    ) -> Option<(AlarmNumber, EventId)> {
+        self.alarms.first_alarm(|place, alarm| takes_ready(group, parameters, place, alarm))
     }
 
     /// The first alarm with a reaction that concerns a channel.

@@ -15,7 +15,7 @@ use crate::sinumerik::referencing::state::ChannelReferencing;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, ChannelNumber, Position};
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
+use crate::variables::{AlarmNumber, EventId, Input, Place};
 
 impl State {
     /// An axis that is not in a closed grouping.
@@ -246,22 +246,6 @@ impl State {
             axis.causes.reference[usize::from(active)] = event;
         }
         self.value_shifted(number, shift);
-    }
-
-    /// The actual value of an axis changed without a movement. This causes no synchronism difference, unless both axes are
-    /// referenced (O-12).
-    pub(in crate::sinumerik) fn value_shifted(&mut self, number: AxisNumber, shift: Position) {
-        for grouping in &mut self.groupings {
-            grouping.coupling.value_shifted(number, shift, &self.axes);
-        }
-    }
-
-    /// Raises an alarm of an axis: `%1` channel, `%2` axis.
-    pub(in crate::sinumerik) fn raise_axis_alarm(&mut self, alarm: AlarmNumber, number: AxisNumber, event: EventId) {
-        let unit = self.units.iter().find(|unit| unit.members().any(|axis| axis == number));
-        let channel = unit.map_or(ChannelNumber::FIRST, |unit| unit.channel);
-        let parameters = [Parameter::Channel(channel), Parameter::Axis(number), Parameter::None, Parameter::None];
-        self.alarms.raise(alarm, Place::Axis(number), parameters, event);
     }
 
     fn is_gantry_axis(&self, number: AxisNumber) -> bool {
