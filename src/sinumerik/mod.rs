@@ -9,17 +9,8 @@
 //! reads only `ToNck` and the HMI's selection of handwheels. Axes at rest are skipped, and axes that only move need no
 //! decisions (`resting.rs`).
 //!
-//! | to add | do this |
-//! |---|---|
-//! | a machine datum | add a row in `machine_data/`, and a field in `parameters/axis.rs` if the model needs it |
-//! | an alarm | add a row in `alarms/mod.rs`, and call `raise` at the place of its cause |
-//! | a rule that causes an edge | add a row in `rules.rs`, and call `note` at the place of the decision |
-//! | a step of referencing or of the gantry | add a row in `TRANSITIONS` of `referencing/state.rs` or `gantry/state.rs` |
-//! | a dependency of all axes | add a field of `Shared` in `resting.rs`; otherwise no axis wakes when it changes |
-//! | a state of an axis | add a field of `Axis` in `axis/state.rs`, and compare it in `has_decisions_of` or `has_movement_of` |
-//! | a decision that depends on the position of an axis | add an arm of `decisions_follow_movement` there |
-//! | a monitoring function | add a file in `monitoring/`, and a row in its table |
-//! | a signal of the control, and its cause | add a row in `publish/` |
+//! "Where to add something" in the documentation of the crate names the files for a signal, a machine datum, an alarm, a rule, a state of an
+//! axis and a step of referencing.
 
 mod alarms;
 mod awake;
