@@ -73,6 +73,10 @@
 //! | [`s7`] | S7 communication: wire formats, sessions without a socket, a server on TCP and for [`live`] (feature `s7`) | `control`, `image`, `live`, `machine`, `source`, `units`, `variables` |
 //! | [`cli`] | the command line: its arguments, and the construction of all other parts (feature `cli`) | all |
 //!
+//! Every module works for any control, except these, which are for the SINUMERIK on purpose: [`sinumerik`], the tables in [`image`] that
+//! have its name, the built-in programs of [`plc`], which name its signals, and the NC variables of `s7::nck`. `tests/layers.rs` keeps the
+//! list of files that may use its structures.
+//!
 //! # The order of a step
 //!
 //! One step is one interpolation cycle. [`Machine::step`](machine::Machine::step) lists its stages. Their order defines which stage sees

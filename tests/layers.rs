@@ -109,6 +109,42 @@ const KNOWS_CONTROLS: &[&str] = &["src/sinumerik/", "src/controls/", "src/lib.rs
 const REFUSED_OUTSIDE_CONTROLS: &[(&str, &str)] =
     &[("crate::sinumerik", "use `dyn Control` and its `Texts`; only `controls` selects a control")];
 
+/// The structures and constants of the SINUMERIK that `image` exports. Everything else in `image` works for any interface.
+const SINUMERIK_IMAGE: &[&str] = &[
+    "AxisFromNck",
+    "AxisToNck",
+    "ChannelFromNck",
+    "ChannelHmi",
+    "ChannelToNck",
+    "FromNck",
+    "Hmi",
+    "ModeGroupFromNck",
+    "ModeGroupHmi",
+    "ModeGroupToNck",
+    "NckFromNck",
+    "NckHmi",
+    "NckToNck",
+    "Plain",
+    "SINUMERIK",
+    "Sinumerik",
+    "ToNck",
+    "axis_from_nck",
+    "axis_to_nck",
+    "channel_from_nck",
+    "channel_hmi",
+    "channel_to_nck",
+    "mode_group_from_nck",
+    "mode_group_hmi",
+    "mode_group_to_nck",
+    "nck_from_nck",
+    "nck_hmi",
+    "nck_to_nck",
+];
+
+/// Files that may use [`SINUMERIK_IMAGE`]: the tables themselves, the control, the default structures of a PLC program, and NC variables.
+const USES_SINUMERIK_IMAGE: &[&str] =
+    &["src/image/", "src/sinumerik/", "src/plc/closure.rs", "src/plc/io.rs", "src/s7/nck/", "src/s7/tests/"];
+
 /// Texts that are rejected in every file, because they are valid on one computer only.
 const REFUSED_ANYWHERE: &[(&str, &str)] = &[
     ("/\x77ork/", "write a path relative to the file or to the project"),
@@ -145,6 +181,18 @@ fn one_module_selects_controls_and_no_other_names_one() {
     let outside =
         rust("src").into_iter().filter(|file| !KNOWS_CONTROLS.iter().any(|known| file.path.starts_with(known)));
     report(outside.flat_map(|file| refused(&file.path, &file.text, REFUSED_OUTSIDE_CONTROLS)).collect());
+}
+
+#[test]
+fn the_structures_of_the_sinumerik_are_used_where_they_are_meant() {
+    let outside =
+        rust("src").into_iter().filter(|file| !USES_SINUMERIK_IMAGE.iter().any(|known| file.path.starts_with(known)));
+    report(outside.flat_map(|file| sinumerik_image(&file.path, &file.text)).collect());
+    let exported = fs::read_to_string(root().join("src/image/mod.rs")).unwrap();
+    let (_, exported) = exported.split_once("pub use sinumerik::{").expect("image exports them in one list");
+    let exported: Vec<_> =
+        exported[..exported.find('}').unwrap()].split(',').map(str::trim).filter(|name| !name.is_empty()).collect();
+    assert_eq!(exported, SINUMERIK_IMAGE, "SINUMERIK_IMAGE must be the list that src/image/mod.rs exports");
 }
 
 #[test]
@@ -303,6 +351,22 @@ fn refused(path: &str, text: &str, table: &[(&str, &str)]) -> Vec<String> {
     findings
 }
 
+/// Finds the structures of the SINUMERIK in the imports from `image`, also of several lines.
+fn sinumerik_image(path: &str, text: &str) -> Vec<String> {
+    let is_name = |c: char| c.is_alphanumeric() || c == '_';
+    let mut findings = Vec::new();
+    for (start, prefix) in text.match_indices("crate::image::") {
+        let rest = &text[start + prefix.len()..];
+        let end = if rest.starts_with('{') { rest.find('}') } else { rest.find(|c| !is_name(c)) };
+        let line = text[..start].lines().count().max(1);
+        let imported = rest[..end.unwrap_or(rest.len())].split(|c| !is_name(c));
+        findings.extend(imported.filter(|name| SINUMERIK_IMAGE.contains(name)).map(|name| {
+            format!("{path}:{line}: `{name}` is of the SINUMERIK: use the interface of the machine, or add the file to USES_SINUMERIK_IMAGE")
+        }));
+    }
+    findings
+}
+
 /// Finds `\x75nsafe`, or an attribute that allows it, in a file other than [`UNSAFE`], or a block without a reason before it.
 fn unchecked(path: &str, text: &str) -> Vec<String> {
     let mut findings = Vec::new();
@@ -456,6 +520,15 @@ fn a_wrong_import_is_found_with_file_and_line() {
     assert!(imports("src/lib.rs", text).is_empty());
     assert_eq!(imports("src/units/x.rs", "fn f() -> crate::image::Bytes {}").len(), 1);
     assert_eq!(imports("src/attic/x.rs", "").len(), 1);
+}
+
+#[test]
+fn an_import_of_a_structure_of_the_sinumerik_is_found() {
+    let found = sinumerik_image("src/trace/x.rs", "//! X.\nuse crate::image::{\n    Kind, ToNck,\n};\n");
+    assert_eq!(found.len(), 1);
+    assert!(found[0].starts_with("src/trace/x.rs:2: `ToNck` is of the SINUMERIK"), "{found:?}");
+    assert_eq!(sinumerik_image("src/trace/x.rs", "let part = crate::image::Part::ToNck;").len(), 0);
+    assert_eq!(sinumerik_image("src/trace/x.rs", "fn f(x: &crate::image::ToNck) {}").len(), 1);
 }
 
 #[test]

@@ -36,6 +36,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
+use crate::controls;
 use crate::plc::{MACHINE_CONTROL_PANEL_LAYOUT, Programs};
 use list::Format;
 use output::Output;
@@ -104,7 +105,7 @@ enum Command {
         /// Shows only signals with this text in their address, symbol or name.
         filter: Option<String>,
         /// Profile of the addresses: 840d_sl or 828d.
-        #[arg(long, default_value = "840d_sl")]
+        #[arg(long, default_value = controls::default_profile())]
         profile: String,
         /// Output format.
         #[arg(long, value_enum, default_value = "table")]

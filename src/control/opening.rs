@@ -19,12 +19,26 @@ pub trait Configuration {
     /// `[X]` with any other name is an error.
     fn axis_names(&self) -> Vec<&str>;
 
-    /// A control after power on. `profile` is [`Profile::default`] if none was requested: then the first numbering of the control's own
-    /// interface is used.
+    /// The largest number of a gantry grouping that `plant.toml` may use in `[bridge.1]`. The default is 0: the control has no groupings.
+    fn groupings(&self) -> u8 {
+        0
+    }
+
+    /// A control after power on. It takes its own keys of `plant.toml` from `settings`; a key that is left is an error. `profile` is
+    /// [`Profile::default`] if none was requested: then the first numbering of the control's own interface is used.
     ///
     /// # Errors
-    /// Names of axes or channels clash, or the profile belongs to another control.
-    fn open(&self, site: &Site<'_>, profile: Profile) -> Result<Opened, Problem>;
+    /// Names of axes or channels clash, a setting is wrong, or the profile belongs to another control.
+    fn open(&self, site: &Site<'_>, settings: &mut Settings, profile: Profile) -> Result<Opened, Problem>;
+}
+
+/// The tables of `plant.toml` with keys of a control. It takes the keys that it knows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// `[machine]`, without the keys of the machine itself.
+    pub machine: Table,
+    /// `[compatibility]`.
+    pub compatibility: Table,
 }
 
 /// The type of an encoder in the plant.
@@ -44,8 +58,6 @@ pub struct Site<'a> {
     pub names_axis: &'a dyn Fn(&str) -> bool,
     /// The types of encoder 1 and 2 of an axis, if the plant defines them.
     pub encoders: &'a dyn Fn(&str) -> [Option<EncoderModel>; 2],
-    /// Whether the strobe of the machine function REF belongs to the HMI (E-01); `None` if not defined.
-    pub hmi_owns_strobe: Option<bool>,
 }
 
 /// An opened control, and the data of its files that the rest of the machine needs.

@@ -65,6 +65,12 @@ pub fn profile(name: &str) -> Option<Profile> {
     texts().find_map(|texts| Profile::named(texts.interface(), name))
 }
 
+/// The name of the default profile.
+#[must_use]
+pub fn default_profile() -> &'static str {
+    CONTROLS[0].texts.interface().tables().numberings[0].name
+}
+
 /// The names of all profiles, the default first.
 pub fn profiles() -> impl Iterator<Item = &'static str> {
     texts().flat_map(|texts| texts.interface().tables().numberings).map(|numbering| numbering.name)

@@ -1,6 +1,6 @@
 //! The override switches: the code of a percentage on the interface.
 
-use super::{Interface, Location, Override, SINUMERIK};
+use super::{Interface, Location, Override};
 
 /// The percentages of the switch positions, from position 1: the defaults of MD12010. Positions after the last one also mean 120 %.
 const POSITIONS: [u8; 23] = [0, 1, 2, 4, 6, 8, 10, 20, 30, 40, 50, 60, 70, 75, 80, 85, 90, 95, 100, 105, 110, 115, 120];
@@ -18,7 +18,7 @@ pub fn override_code(percent: u16, gray: bool) -> Option<u8> {
     Some(position ^ position >> 1)
 }
 
-/// The coding of each override: position in Gray code or binary percentage. The default is Gray code for all; machine data change it.
+/// The coding of each override: position in Gray code or binary percentage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OverrideCoding {
     /// The interface, which defines the bytes of the overrides.
@@ -31,13 +31,13 @@ pub struct OverrideCoding {
     pub rapid_traverse_is_gray: bool,
 }
 
-impl Default for OverrideCoding {
-    fn default() -> Self {
-        Self { interface: &SINUMERIK, axis_is_gray: true, feed_is_gray: true, rapid_traverse_is_gray: true }
-    }
-}
-
 impl OverrideCoding {
+    /// Gray code for all overrides of an interface. The data of a control may change it.
+    #[must_use]
+    pub const fn of(interface: &'static Interface) -> Self {
+        Self { interface, axis_is_gray: true, feed_is_gray: true, rapid_traverse_is_gray: true }
+    }
+
     /// Whether the override at a location is in Gray code; `None` if the location is not an override.
     pub(super) fn at(self, location: Location) -> Option<bool> {
         let (_, signal) = self.interface.exactly(location)?;

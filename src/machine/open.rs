@@ -9,9 +9,9 @@ use super::definition::Definition;
 use super::plc::PlcState;
 use super::state::State;
 use super::step::first_variables;
-use crate::control::{Configuration, Control, CycleTimes, EncoderModel, Opened, Site};
+use crate::control::{Configuration, Control, CycleTimes, EncoderModel, Opened, Settings, Site};
 use crate::image::{Location, Memory, Names, Preset, Profile, SwitchSignals};
-use crate::plant::{Db11Byte5Bit2, EncoderKind, Hints, Layout, Plant, PlantDefinition, Switch};
+use crate::plant::{EncoderKind, Hints, Layout, Plant, PlantDefinition, Switch};
 use crate::source::{Place, Problem, Table};
 use crate::trace::Recorder;
 use crate::units::{AxisNumber, AxisSet, PerAxis, Time};
@@ -55,17 +55,20 @@ impl Machine {
             plant.merge(over);
         }
         let plant_place = plant.place.clone();
-        let plant = PlantDefinition::read(plant)?;
-        plant.check_names(&configuration.axis_names())?;
+        let mut plant = PlantDefinition::read(plant)?;
+        let mut settings = Settings {
+            machine: plant.machine.take().unwrap_or_else(|| Table::empty(plant_place.clone())),
+            compatibility: plant.compatibility.take().unwrap_or_else(|| Table::empty(plant_place.clone())),
+        };
         let opened = configuration.open(
-            &Site {
-                names_axis: &|name| plant.axes.contains_key(name),
-                encoders: &|name| encoders(&plant, name),
-                hmi_owns_strobe: plant.db11_5_2.map(|of| of == Db11Byte5Bit2::HmiStrobe),
-            },
+            &Site { names_axis: &|name| plant.axes.contains_key(name), encoders: &|name| encoders(&plant, name) },
+            &mut settings,
             options.profile,
         )?;
+        settings.machine.finish()?;
+        settings.compatibility.finish()?;
         let Opened { control, names, axes, groupings, warnings } = opened;
+        plant.check(&configuration.axis_names(), names.interface().tables().named_in, configuration.groupings())?;
         check_cycle_times(control.cycle_times(), control.texts().cycle_data())?;
         let memory = match &options.preset {
             Some(preset) => Memory::from_preset(preset, &names, control.override_coding())?,

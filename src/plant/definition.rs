@@ -15,21 +15,14 @@ use crate::units::{Position, Time};
 pub struct PlantDefinition {
     /// Time between two PLC scans; `None` means the NC cycle.
     pub plc_cycle: Option<Time>,
-    /// The writer of DB11.DBX5.2 (E-01); `None` means the control until another writer writes it.
-    pub db11_5_2: Option<Db11Byte5Bit2>,
-    /// The axes by machine axis name (MD10000).
+    /// The other keys of `[machine]`: they belong to the control.
+    pub machine: Option<Table>,
+    /// The keys of `[compatibility]`: they belong to the control.
+    pub compatibility: Option<Table>,
+    /// The axes by machine axis name.
     pub axes: BTreeMap<String, AxisPlant>,
     /// The bridges by gantry grouping.
     pub bridges: BTreeMap<u8, Bridge>,
-}
-
-/// The meaning of DB11.DBX5.2 (E-01).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Db11Byte5Bit2 {
-    /// The control mirrors "active machine function REF" to it.
-    Mirror,
-    /// The HMI's strobe of the machine function REF.
-    HmiStrobe,
 }
 
 /// A value that a file may give, remove with `false`, or omit.
@@ -184,25 +177,16 @@ impl PlantDefinition {
         if let Some(node) = table.take("machine") {
             let mut machine = node.into_table("the table [machine]")?;
             plant.plc_cycle = machine.take("plc_cycle").map(|node| plc_cycle(&node)).transpose()?;
-            plant.db11_5_2 = machine.take("db11_5_2").map(|node| db11_5_2(&node)).transpose()?;
-            machine.finish()?;
+            plant.machine = Some(machine);
         }
         if let Some(node) = table.take("compatibility") {
-            let mut compatibility = node.into_table("the table [compatibility]")?;
-            if let Some(node) = compatibility.take("db11_5_2") {
-                let here = db11_5_2(&node)?;
-                if plant.db11_5_2.is_some_and(|other| other != here) {
-                    return Err(node.expected("the same db11_5_2 as in [machine]", "remove one of the two"));
-                }
-                plant.db11_5_2 = Some(here);
-            }
-            compatibility.finish()?;
+            plant.compatibility = Some(node.into_table("the table [compatibility]")?);
         }
         if let Some(node) = table.take("bridge") {
-            for (grouping, place, node) in node.into_table("tables [bridge.1] to [bridge.8]")?.take_rest() {
-                let number = grouping.parse().ok().filter(|number| (1..=8).contains(number)).ok_or_else(|| {
+            for (grouping, place, node) in node.into_table("tables such as [bridge.1]")?.take_rest() {
+                let number = grouping.parse().ok().filter(|number| *number >= 1).ok_or_else(|| {
                     place.problem(
-                        format!("expected the number of a gantry grouping, 1 to 8, found `{grouping}`"),
+                        format!("expected the number of a gantry grouping, from 1, found `{grouping}`"),
                         "write [bridge.1]",
                     )
                 })?;
@@ -220,23 +204,34 @@ impl PlantDefinition {
         Ok(plant)
     }
 
-    /// Checks every axis name against the names of the machine axes (MD10000, exact case).
+    /// Checks every axis name against the names of the machine axes (exact case), and every bridge against the largest number of a gantry
+    /// grouping. `named_in` are the data of the control that name its axes, for the error.
     ///
     /// # Errors
-    /// The first name that is not a machine axis, with its place and the nearest name.
-    pub fn check_names(&self, names: &[&str]) -> Result<(), Problem> {
+    /// The first name that is not a machine axis, with its place and the nearest name, or the first bridge without a possible grouping.
+    pub fn check(&self, names: &[&str], named_in: &str, groupings: u8) -> Result<(), Problem> {
         let axes = self.axes.iter().map(|(name, axis)| (name, &axis.place));
         let bridges = self.bridges.values().flat_map(|bridge| bridge.offset.keys().map(|name| (name, &bridge.place)));
         for (name, place) in axes.chain(bridges) {
             if !names.contains(&name.as_str()) {
                 let fallback = format!("the machine axes are `{}`", names.join("`, `"));
                 return Err(place.problem(
-                    format!("expected a machine axis name (MD10000), found `{name}`"),
+                    format!("expected the name of a machine axis ({named_in}), found `{name}`"),
                     did_you_mean(name, names.iter().copied(), &fallback),
                 ));
             }
         }
-        Ok(())
+        match self.bridges.iter().find(|(number, _)| **number > groupings) {
+            None => Ok(()),
+            Some((number, bridge)) if groupings == 0 => Err(bridge.place.problem(
+                format!("expected no [bridge.{number}], because this control has no gantry groupings"),
+                "remove it",
+            )),
+            Some((number, bridge)) => Err(bridge.place.problem(
+                format!("expected the number of a gantry grouping, 1 to {groupings}, found `{number}`"),
+                "write [bridge.1]",
+            )),
+        }
     }
 }
 
@@ -293,7 +288,7 @@ fn read_encoder(node: Node) -> Result<EncoderPlant, Problem> {
             ("absolute", EncoderKind::Absolute),
             ("distance_coded", EncoderKind::DistanceCoded),
         ];
-        encoder.kind = Some(one_of(&node, &kinds)?);
+        encoder.kind = Some(node.one_of(&kinds)?);
     }
     if let Some(node) = table.take("zero_mark") {
         encoder.zero_mark = position(&node, "the position of a zero mark in mm or degrees")?;
@@ -405,20 +400,6 @@ fn plc_cycle(node: &Node) -> Result<Time, Problem> {
     Ok(cycle)
 }
 
-fn db11_5_2(node: &Node) -> Result<Db11Byte5Bit2, Problem> {
-    one_of(node, &[("mirror", Db11Byte5Bit2::Mirror), ("hmi_strobe", Db11Byte5Bit2::HmiStrobe)])
-}
-
-fn one_of<T: Copy>(node: &Node, choices: &[(&str, T)]) -> Result<T, Problem> {
-    let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
-    let what = format!("one of \"{}\"", names.join("\", \""));
-    let text = node.text(&what)?;
-    let choice = choices.iter().find(|(name, _)| *name == text);
-    choice
-        .map(|(_, choice)| *choice)
-        .ok_or_else(|| node.expected(&what, &did_you_mean(text, names, "write one of them")))
-}
-
 fn input(node: &Node) -> Result<Input, Problem> {
     let what = "an input such as \"I3.4\"";
     let input = node.text(what)?.strip_prefix('I').and_then(|rest| {
@@ -467,7 +448,8 @@ stiffness = 0.25
     fn a_plant_is_read_as_written() {
         let plant = PlantDefinition::parse(EXAMPLE, "plant.toml").unwrap();
         assert_eq!(plant.plc_cycle, Some(Time::from_millis(10)));
-        assert_eq!(plant.db11_5_2, Some(Db11Byte5Bit2::Mirror));
+        // The key belongs to the control.
+        assert_eq!(plant.machine.unwrap().keys().collect::<Vec<_>>(), ["db11_5_2"]);
         let x = &plant.axes["X"];
         assert_eq!((x.start, x.drive), (Position::from_user(120.0), Drive::default()));
         assert_eq!(x.encoders[0].kind, Some(EncoderKind::Incremental));
@@ -508,7 +490,8 @@ stiffness = 0.25
             "[X.limit_plus]\nat = inf",
             "[X.limit_plus]\nat = 1e12",
             "[bridge.1]\nstiffness = 2",
-            "[bridge]\n9 = { stiffness = 0 }",
+            "[bridge]\n0 = { stiffness = 0 }",
+            "[bridge]\n256 = { stiffness = 0 }",
             "[X.cam]\ninput = \"I3.8\"\nfrom = 1\nto = 2",
         ] {
             let message = refused(text);
@@ -521,27 +504,32 @@ stiffness = 0.25
     #[test]
     fn a_name_that_no_machine_axis_has_is_refused() {
         let plant = PlantDefinition::parse(EXAMPLE, "plant.toml").unwrap();
-        assert!(plant.check_names(&["X", "Y", "XF"]).is_ok());
-        let message = plant.check_names(&["Y", "XF"]).unwrap_err().to_string();
-        assert!(message.contains("found `X`") && message.contains("plant.toml:5"), "{message}");
+        assert!(plant.check(&["X", "Y", "XF"], "MD10000", 8).is_ok());
+        let message = plant.check(&["Y", "XF"], "the list of drives", 8).unwrap_err().to_string();
+        assert!(message.contains("(the list of drives), found `X`") && message.contains("plant.toml:5"), "{message}");
+    }
+
+    #[test]
+    fn a_bridge_of_a_grouping_that_the_control_cannot_have_is_refused() {
+        let plant = PlantDefinition::parse("[X]\n[bridge.9]\nstiffness = 0\n", "plant.toml").unwrap();
+        assert!(plant.check(&["X"], "MD10000", 9).is_ok());
+        let message = plant.check(&["X"], "MD10000", 8).unwrap_err().to_string();
+        assert!(
+            message.starts_with("plant.toml:2: expected the number of a gantry grouping, 1 to 8, found `9`"),
+            "{message}"
+        );
+        let message = plant.check(&["X"], "the list of drives", 0).unwrap_err().to_string();
+        assert!(message.contains("this control has no gantry groupings"), "{message}");
     }
 
     #[test]
     fn the_worked_examples_zero_marks_differ_by_its_misalignment() {
         let text = include_str!("../../machine_data/g1_example/plant.toml");
         let plant = PlantDefinition::parse(text, "plant.toml").unwrap();
-        plant.check_names(&["X", "Y", "XF"]).unwrap();
+        plant.check(&["X", "Y", "XF"], "MD10000", 8).unwrap();
         let (x, xf) = (&plant.axes["X"], &plant.axes["XF"]);
         let difference = xf.encoders[0].zero_mark - x.encoders[0].zero_mark;
         assert_eq!((difference, x.start - xf.start), (Position::from_user(0.941), Position::ZERO));
         assert_eq!(x.cam, xf.cam);
-    }
-
-    #[test]
-    fn db11_5_2_may_stand_in_compatibility_but_not_contradict() {
-        let plant = PlantDefinition::parse("[compatibility]\ndb11_5_2 = \"hmi_strobe\"\n", "p").unwrap();
-        assert_eq!(plant.db11_5_2, Some(Db11Byte5Bit2::HmiStrobe));
-        let both = "[machine]\ndb11_5_2 = \"mirror\"\n[compatibility]\ndb11_5_2 = \"hmi_strobe\"\n";
-        assert!(refused(both).starts_with("plant.toml:4: "));
     }
 }

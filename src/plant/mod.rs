@@ -12,7 +12,7 @@ mod layout;
 mod moving;
 
 pub use definition::{
-    AxisPlant, Bridge, Cam, Db11Byte5Bit2, Drive, EncoderKind, EncoderPlant, Given, Input, LimitSwitch, PlantDefinition,
+    AxisPlant, Bridge, Cam, Drive, EncoderKind, EncoderPlant, Given, Input, LimitSwitch, PlantDefinition,
 };
 pub use faults::{Fault, FaultKind, Switch};
 pub use layout::{AxisMechanics, Hints, Layout, SlideCoupling};

@@ -189,6 +189,15 @@ impl Identity<'static> {
         module_type: "PLC 828D",
         ..Self::SINUMERIK_840D_SL
     };
+
+    /// The PLC of another control: it claims no product of a manufacturer.
+    pub const SIMULATOR: Self = Self {
+        order_number: "OPENNCK SIMULATOR   ",
+        version: [1, 0, 0],
+        module_name: "PLC",
+        module_type: "PLC",
+        ..Self::SINUMERIK_840D_SL
+    };
 }
 
 /// The protection of a CPU.

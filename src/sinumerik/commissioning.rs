@@ -5,13 +5,14 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::control::{AxisHints, Configuration, EncoderModel, Examined, Opened, Owner, Site};
+use crate::control::{AxisHints, Configuration, EncoderModel, Examined, Opened, Owner, Settings, Site};
 use crate::image::{Names, OverrideCoding, Profile, SINUMERIK};
 use crate::sinumerik::machine_data::{
     Archive, Finding, MachineData, Severity, Target, check as look_through, files_of, refusal,
 };
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::axis::AxisPresence;
+use crate::sinumerik::parameters::groupings::GROUPINGS;
 use crate::sinumerik::parameters::mechanics::Mechanics;
 use crate::sinumerik::strobe::Strobe;
 use crate::source::Problem;
@@ -85,10 +86,16 @@ impl Configuration for Commissioning {
         MachineData::axis_numbers().map(|axis| self.archive.data.axis_name(axis)).collect()
     }
 
-    fn open(&self, site: &Site<'_>, profile: Profile) -> Result<Opened, Problem> {
+    #[expect(clippy::cast_possible_truncation, reason = "8 groupings")]
+    fn groupings(&self) -> u8 {
+        GROUPINGS as u8
+    }
+
+    fn open(&self, site: &Site<'_>, settings: &mut Settings, profile: Profile) -> Result<Opened, Problem> {
+        let strobe = Strobe::read(settings)?;
         let data = &self.archive.data;
         let presence = self.presence(site);
-        let control = Nck::new(data.clone(), presence, Strobe::new(site.hmi_owns_strobe));
+        let control = Nck::new(data.clone(), presence, strobe);
         let names = Names {
             axes: PerAxis::from_fn(|axis| presence[axis].exists.then(|| data.axis_name(axis).to_owned())),
             channels: PerChannel::from_fn(|channel| Some(data.channels[channel].chan_name.clone())),

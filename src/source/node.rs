@@ -181,6 +181,20 @@ impl Node {
         }
     }
 
+    /// The value as one of these texts, and what it stands for.
+    ///
+    /// # Errors
+    /// The value is none of them; the error names the nearest.
+    pub fn one_of<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T, Problem> {
+        let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
+        let what = format!("one of \"{}\"", names.join("\", \""));
+        let text = self.text(&what)?;
+        let choice = choices.iter().find(|(name, _)| *name == text);
+        choice
+            .map(|(_, choice)| *choice)
+            .ok_or_else(|| self.expected(&what, &did_you_mean(text, names, "write one of them")))
+    }
+
     /// The value as a table.
     ///
     /// # Errors

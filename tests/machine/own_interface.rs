@@ -132,7 +132,7 @@ impl Layout for Own {
 
 /// No byte of this interface is an override.
 fn coding() -> OverrideCoding {
-    OverrideCoding { interface: &OWN, ..OverrideCoding::default() }
+    OverrideCoding::of(&OWN)
 }
 
 /// Names for all axes, from A1 on.

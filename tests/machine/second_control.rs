@@ -129,7 +129,14 @@ fn a_plant_may_name_its_axes_and_no_others() {
     let machine = open("[A2]\nstart = 7.5\n").unwrap();
     assert_eq!(machine.variables().axes[AxisNumber::new(2).unwrap()].slide, Position::from_user(7.5));
     let refused = open("[A33]\nstart = 7.5\n").unwrap_err().to_string();
-    assert!(refused.starts_with("plant.toml:1: ") && refused.contains("found `A33`"), "{refused}");
+    assert!(
+        refused.starts_with("plant.toml:1: ") && refused.contains("(the list of drives), found `A33`"),
+        "{refused}"
+    );
+    let refused = open("[machine]\ndb11_5_2 = \"mirror\"\n").unwrap_err().to_string();
+    assert!(refused.contains("found the unknown key `db11_5_2`"), "{refused}");
+    let refused = open("[bridge.1]\nstiffness = 1\n").unwrap_err().to_string();
+    assert!(refused.contains("this control has no gantry groupings"), "{refused}");
 }
 
 #[test]
@@ -246,6 +253,11 @@ fn s7_clients_read_and_write_its_blocks_and_foreign_nc_variables_are_rejected() 
     assert!(is_moving, "A32 has power but does not move");
     assert!(client.read_bit(rust7::S7_AREA_DB, 31, 61, 3).is_err(), "DB31 is a block of the SINUMERIK");
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
+    let identification = runtime.block_on(async {
+        let plc = Client::connect(&address.to_string(), Options::default()).await.unwrap();
+        plc.identification().await.unwrap()
+    });
+    assert_eq!(identification.order_number.trim(), "OPENNCK SIMULATOR", "it is not an 840D sl");
     let refused = runtime.block_on(async {
         let nck = Client::connect(&address.to_string(), Options::nck()).await.unwrap();
         nck.read(&"nck:C/MachineAxis/name[1]".parse().unwrap()).await.unwrap_err()

@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::ValueEnum;
 
 use super::failure::Failure;
+use crate::controls;
 use crate::s7::client::{Client, ConnectionKind, Options, Tsaps, password};
 use crate::source::Problem;
 use crate::units::Time;
@@ -60,7 +61,7 @@ pub(in crate::cli) struct Names {
     #[arg(long)]
     pub(super) machine: Option<PathBuf>,
     /// Addresses of the signals: 840d_sl, 828d, or none for a PLC that is not part of a control.
-    #[arg(long, default_value = "840d_sl")]
+    #[arg(long, default_value = controls::default_profile())]
     pub(super) profile: String,
 }
 

@@ -67,7 +67,8 @@ pub(super) struct Dictionary {
 impl Dictionary {
     pub(super) fn open(arguments: &Arguments) -> Result<Self, Problem> {
         if arguments.profile == "none" {
-            let (names, coding) = (Names::default(), OverrideCoding::default());
+            let names = Names::default();
+            let coding = OverrideCoding::of(names.interface());
             return Ok(Self { names, memory: None, coding, is_known: true });
         }
         let profile = profile_named(&arguments.profile)?;
@@ -84,7 +85,7 @@ impl Dictionary {
         for channel in ChannelNumber::all() {
             names.channels[channel] = Some(format!("CHAN{}", channel.number()));
         }
-        Ok(Self { names, memory, coding: OverrideCoding::default(), is_known: false })
+        Ok(Self { names, memory, coding: OverrideCoding::of(profile.interface()), is_known: false })
     }
 
     /// Resolves all texts. If a symbol has an unknown name, the names are read from the NCK.

@@ -1,11 +1,11 @@
 //! Tests of PLC images.
 
-use crate::image::{Memory, OverrideCoding, Preset, override_code};
+use crate::image::{Memory, OverrideCoding, Preset, SINUMERIK, override_code};
 
 use super::{SL, names, names_828d};
 
 fn memory(text: &str) -> Result<Memory, crate::source::Problem> {
-    Memory::from_preset(&Preset::parse(text, "p.toml")?, &names(), OverrideCoding::default())
+    Memory::from_preset(&Preset::parse(text, "p.toml")?, &names(), OverrideCoding::of(&SINUMERIK))
 }
 
 fn refused(text: &str) -> String {
@@ -68,10 +68,10 @@ fn the_profile_decides_which_numbers_are_interface_blocks() {
     let text = "[[db]]\nnumber = 3900\nsize = 4\n[interface]\n\"X.pulse_enable\" = 1\n";
     assert!(memory(text).is_ok());
     let preset = Preset::parse(text, "p.toml").unwrap();
-    let problem = Memory::from_preset(&preset, &names_828d(), OverrideCoding::default()).unwrap_err().to_string();
+    let problem = Memory::from_preset(&preset, &names_828d(), OverrideCoding::of(&SINUMERIK)).unwrap_err().to_string();
     assert!(problem.starts_with("p.toml:2:") && problem.contains("DB3900, an interface block"), "{problem}");
     let on_828d = Preset::parse("[interface]\n\"DB3800.DBX4001.7\" = 1\n", "p.toml").unwrap();
-    let memory = Memory::from_preset(&on_828d, &names_828d(), OverrideCoding::default()).unwrap();
+    let memory = Memory::from_preset(&on_828d, &names_828d(), OverrideCoding::of(&SINUMERIK)).unwrap();
     assert_eq!(memory.read(memory.locate(&"DB31.DBX21.7".parse().unwrap(), SL).unwrap()), 1);
 }
 
@@ -150,7 +150,7 @@ fn an_override_is_a_position_in_gray_code_or_per_cent_in_binary() {
         (override_code(200, false), override_code(201, false), override_code(300, true)),
         (Some(200), None, None)
     );
-    let binary = OverrideCoding { axis_is_gray: false, ..OverrideCoding::default() };
+    let binary = OverrideCoding { axis_is_gray: false, ..OverrideCoding::of(&SINUMERIK) };
     let preset =
         Preset::parse("[interface]\n\"X.feed_override\" = \"55%\"\n\"CHAN1.feed_override\" = \"100%\"", "p").unwrap();
     let memory = Memory::from_preset(&preset, &names(), binary).unwrap();

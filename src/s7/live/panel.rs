@@ -100,6 +100,10 @@ impl nck::ControlValues for Panel<'_> {
         self.0.motor_speed(axis)
     }
 
+    fn is_rotary(&self, axis: AxisNumber) -> bool {
+        self.0.control().is_rotary(axis)
+    }
+
     fn r_parameter(&self, channel: ChannelNumber, number: u16) -> Option<f64> {
         self.0.r_parameters().get(channel, number)
     }
@@ -110,11 +114,14 @@ impl nck::ControlValues for Panel<'_> {
     }
 }
 
-/// The identification of the PLC of a control.
+/// The identification of the PLC of a control. The PLC of a control that is not a SINUMERIK is only that of a simulator.
 pub(super) fn identity(machine: &Machine) -> Identity<'static> {
-    if machine.names().profile == Profile::SINUMERIK_828D {
+    let profile = machine.names().profile;
+    if profile == Profile::SINUMERIK_840D_SL {
+        Identity::SINUMERIK_840D_SL
+    } else if profile == Profile::SINUMERIK_828D {
         Identity::SINUMERIK_828D
     } else {
-        Identity::SINUMERIK_840D_SL
+        Identity::SIMULATOR
     }
 }

@@ -32,6 +32,9 @@ pub trait ControlValues {
     /// The motor speed of an axis in rev/min.
     fn motor_speed(&self, axis: AxisNumber) -> f64;
 
+    /// Whether positions of the axis are in degrees.
+    fn is_rotary(&self, axis: AxisNumber) -> bool;
+
     /// An R parameter of a channel, by its number.
     fn r_parameter(&self, channel: ChannelNumber, number: u16) -> Option<f64>;
 

@@ -197,11 +197,10 @@ pub(super) fn seconds(view: &View<'_>) -> Shown<'static> {
     Shown::Number(f64::from(EARLIER + clock.days()) * 86_400.0 + f64::from(of_day))
 }
 
-/// Whether the axis of a row is a rotary axis (MD30300): degrees are not converted to inches.
+/// Whether the axis of a row is a rotary axis: degrees are not converted to inches.
 pub(super) fn is_rotary(view: &View<'_>, line: u16) -> bool {
     let axis = u8::try_from(line).ok().and_then(AxisNumber::new);
-    let datum = axis.zip(view.machine_data).and_then(|(axis, data)| data.datum(Place::Axis(axis), 30300, 0));
-    datum == Some(Datum::Boolean(true))
+    axis.zip(view.control).is_some_and(|(axis, control)| control.is_rotary(axis))
 }
 
 /// The R parameter of a row: its channel, its number and its value.

@@ -8,7 +8,7 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
 use opennck::control::{
     AlarmRow, AxisHints, Changes, Chart, ClearInfo, Configuration, Control, ControlCommand, ControlSide, CycleTimes,
-    Data, Datum, Kind, Log, Opened, Owner, PlcSide, Site, Taken, Texts, Transition, Value, next, row,
+    Data, Datum, Kind, Log, Opened, Owner, PlcSide, Settings, Site, Taken, Texts, Transition, Value, next, row,
 };
 use opennck::image::{
     Block, BlockTable, ByteRange, Interface, Layout, Names, Numbering, OverrideCoding, Part, Profile, Tables, View,
@@ -306,7 +306,7 @@ impl Control for Platform {
     }
 
     fn override_coding(&self) -> OverrideCoding {
-        OverrideCoding { interface: &OWN, ..OverrideCoding::default() }
+        OverrideCoding::of(&OWN)
     }
 
     fn data(&self) -> &dyn Data {
@@ -437,7 +437,7 @@ impl Configuration for Platforms {
         self.names.iter().map(|(_, name)| name.as_str()).collect()
     }
 
-    fn open(&self, _: &Site<'_>, profile: Profile) -> Result<Opened, Problem> {
+    fn open(&self, _: &Site<'_>, _: &mut Settings, profile: Profile) -> Result<Opened, Problem> {
         let own = Profile::named(&OWN, "own").unwrap();
         if profile != own && profile != Profile::default() {
             return Err(Problem::new(
