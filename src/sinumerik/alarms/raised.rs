@@ -15,7 +15,13 @@ impl State {
     }
 
     /// Raises an alarm with the event behind it, which is recorded when the alarm is new; `%1` is the axis.
-    pub(in crate::sinumerik) fn raise_monitoring(&mut self, alarm: AlarmNumber, number: AxisNumber, rule: Rule, inputs: [Input; 3]) {
+    pub(in crate::sinumerik) fn raise_monitoring(
+        &mut self,
+        alarm: AlarmNumber,
+        number: AxisNumber,
+        rule: Rule,
+        inputs: [Input; 3],
+    ) {
         let place = Place::Axis(number);
         let shown = [Parameter::Axis(number), Parameter::None, Parameter::None, Parameter::None];
         let cause = if self.alarms.is_pending(alarm, place) {
