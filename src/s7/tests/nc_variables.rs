@@ -248,7 +248,7 @@ fn what_the_service_display_of_an_axis_shows_is_there() {
         assert_eq!(read(&mut client, &format!("82 41 00 {column} 00 02 71 01")), word, "{column}");
     }
     assert_eq!(read(&mut client, "82 41 00 09 00 02 74 01"), fixed("Y", 32));
-    client.machine_data = Some(Box::new(Data)); // Y is rotary: -300 rev/min
+    client.control = Some(Box::new(Knows { rotary: Some(y) })); // -300 rev/min
     assert_eq!(read(&mut client, "82 41 00 03 00 02 71 01"), double(&[-108_000.0]));
 }
 
