@@ -35,7 +35,7 @@ impl Clocked {
         operator: Option<Operator>,
     ) -> Self {
         let trace = trace.map(|watch| {
-            let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle());
+            let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), machine.time());
             trace.watch_values(&watch, machine.cycle(), machine.variables());
             (trace, watch)
         });
@@ -106,7 +106,7 @@ impl Clocked {
         *steps += 1;
         if let Some((trace, _)) = trace {
             trace.extend(machine.recorder());
-            trace.note_values(machine.cycle(), machine.variables());
+            trace.end_cycle(machine.cycle(), machine.time(), machine.variables());
         }
         if was_at_work && let Some(operator) = operator {
             operator.look(machine);

@@ -230,11 +230,12 @@ fn run(shared: &Shared, speed: Speed, ended: &mpsc::Receiver<()>) {
 /// Takes one step; returns the nanoseconds of its cycle.
 fn step(shared: &Shared, alarms: &mut Vec<RaisedAlarm>) -> u128 {
     let mut clocked = shared.lend_for_a_step();
+    let before = clocked.machine.time();
     let refused = clocked.take(shared.inbox.take());
     let over = clocked.step();
     clocked.observe();
     let changed = changed_alarms(&clocked.machine, alarms);
-    let period = clocked.machine.cycle_time().nanos();
+    let period = (clocked.machine.time() - before).nanos();
     shared.give_back(clocked);
     // Log after releasing the machine: a blocked terminal must not hold up a step.
     for line in refused.into_iter().chain(changed).chain(over) {

@@ -15,10 +15,11 @@ impl Machine {
     /// One interpolation cycle. The order of the stages defines in which cycle each part receives the data of the others.
     pub fn step(&mut self) {
         self.state.cycle += 1;
-        self.state.time += self.cycle_time();
         self.control.begin_cycle(self.state.cycle);
         // Queued commands.
         self.take_commands();
+        // Power on can change the length of a cycle, so the time follows it.
+        self.state.time += self.cycle_time();
         // Plant signals: wired switches are inputs of the PLC.
         self.sense_wired_switches();
         // PLC scan, if it is due; cams that are not wired; forces.

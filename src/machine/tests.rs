@@ -7,7 +7,7 @@ use crate::image::Location;
 use crate::plc::{PlcIo, enable_all, program};
 use crate::source::Table;
 use crate::trace::Change;
-use crate::units::{AxisNumber, ChannelNumber, Position};
+use crate::units::{AxisNumber, ChannelNumber, Position, Time};
 use crate::variables::Describe;
 
 /// The worked example without a PLC program, with tables merged over its plant.
@@ -564,4 +564,23 @@ fn a_snapshot_stays_while_the_machine_goes_on() {
     assert_eq!((machine.cycle(), machine.memory().read(flag)), (2, 7));
     assert_eq!((snapshot.cycle(), snapshot.memory().read(flag)), (1, 0));
     assert_eq!(snapshot.names(), machine.names());
+}
+
+/// One mm/s without power: the slide and the time agree in each cycle, also in that of power on.
+#[test]
+fn a_cycle_takes_as_long_as_the_mechanics_move_in_it_also_at_power_on() {
+    let mut machine = example();
+    let x = machine.axis("X").unwrap();
+    let drift = FaultKind::Drift { by: Position::PER_USER_UNIT };
+    machine.queue(Command::Fault(Fault { axis: x, kind: drift })).unwrap();
+    run(&mut machine, 50);
+    let (time, slide) = (machine.time(), machine.variables().axes[x].slide);
+    store(&mut machine, "10070", DatumValue::Integer(30));
+    machine.queue(Command::PowerOn).unwrap();
+    for cycle in 1..=3 {
+        run(&mut machine, 1);
+        let passed = machine.time() - time;
+        assert_eq!(passed, Time::from_millis(60 * cycle));
+        assert_eq!(machine.variables().axes[x].slide - slide, Position::from_user(passed.seconds()));
+    }
 }

@@ -1,4 +1,5 @@
-//! Durations in scenarios: `100ms`, `1.5s`, `2min`, `10cycles`. They are rounded up to whole cycles, at least one.
+//! Durations in scenarios: `100ms`, `1.5s`, `2min`, `10cycles`. They end with the first cycle that completes them, at least one. A time
+//! is compared with the time of the machine, because power on can change the length of its cycles (MD10050, MD10070).
 
 use crate::source::Problem;
 use crate::units::Time;
@@ -32,7 +33,7 @@ impl Duration {
         read.ok_or_else(problem)
     }
 
-    /// The duration in cycles.
+    /// The duration in cycles of this length.
     #[must_use]
     pub fn cycles(self, cycle: Time) -> u64 {
         match self {
@@ -41,12 +42,12 @@ impl Duration {
         }
     }
 
-    /// The duration in time, before rounding.
+    /// Whether it is over after a number of cycles that took this time together. At least one cycle must pass.
     #[must_use]
-    pub fn time(self, cycle: Time) -> Time {
+    pub fn is_over(self, cycles: u64, time: Time) -> bool {
         match self {
-            Self::Time(time) => time,
-            Self::Cycles(cycles) => cycle.times(cycles),
+            Self::Time(span) => cycles > 0 && time >= span,
+            Self::Cycles(count) => cycles >= count.max(1),
         }
     }
 }
@@ -75,7 +76,10 @@ mod tests {
             ("0cycles", 1),
             (" 3 cycle ", 3),
         ] {
-            assert_eq!(Duration::parse(text).unwrap().cycles(cycle), cycles, "{text}");
+            let duration = Duration::parse(text).unwrap();
+            assert_eq!(duration.cycles(cycle), cycles, "{text}");
+            assert!(duration.is_over(cycles, cycle.times(cycles)), "{text}");
+            assert!(!duration.is_over(cycles - 1, cycle.times(cycles - 1)), "{text}");
         }
     }
 

@@ -1,7 +1,7 @@
 //! Executes the steps of a scenario in order. A caller steps the machine: the scenario runner at full speed, a server in real time.
 
 use super::failure::Failure;
-use super::passing::{Book, Next};
+use super::passing::{Book, Next, Progress};
 use super::steps::{Action, Step};
 use crate::machine::Machine;
 
@@ -9,15 +9,13 @@ use crate::machine::Machine;
 pub(super) struct Plan {
     steps: Vec<Step>,
     index: usize,
-    /// The number of cycles that have passed in the current step.
-    passed: u64,
-    /// Whether the current step has begun.
-    has_begun: bool,
+    /// The progress of the current step, if it has begun.
+    progress: Option<Progress>,
 }
 
 impl Plan {
     pub(super) fn new(steps: Vec<Step>) -> Self {
-        Self { steps, index: 0, passed: 0, has_begun: false }
+        Self { steps, index: 0, progress: None }
     }
 
     /// Executes steps until a cycle must pass or all steps are done. The caller steps the machine next. Passes each note to the caller.
@@ -28,17 +26,17 @@ impl Plan {
         note: &mut dyn FnMut(&Machine, &str),
     ) -> Result<Next, Failure> {
         while let Some(step) = self.steps.get(self.index) {
-            if let (false, Some(text)) = (self.has_begun, &step.note) {
+            if let (None, Some(text)) = (&self.progress, &step.note) {
                 note(machine, text);
             }
-            self.has_begun = true;
-            let next = book.go_on(&step.action, self.passed, machine).map_err(|failure| failure.at(&step.place))?;
+            let progress = self.progress.get_or_insert_with(|| Progress::new(machine));
+            let next = book.go_on(&step.action, progress, machine).map_err(|failure| failure.at(&step.place))?;
             if next == Next::Cycle {
                 let begun = book.begin_cycle(machine);
-                begun.map_err(|stopped| book.stopped(&stopped, &step.action, self.passed, machine).at(&step.place))?;
+                begun.map_err(|stopped| book.stopped(&stopped, &step.action, progress, machine).at(&step.place))?;
                 return Ok(Next::Cycle);
             }
-            (self.index, self.passed, self.has_begun) = (self.index + 1, 0, false);
+            (self.index, self.progress) = (self.index + 1, None);
         }
         Ok(Next::Over)
     }
@@ -46,10 +44,9 @@ impl Plan {
     /// Called after a cycle.
     pub(super) fn end_cycle(&mut self, book: &Book, machine: &Machine) -> Result<(), Failure> {
         let ended = book.end_cycle(machine);
-        if let (Err(stopped), Some(step)) = (ended, self.steps.get(self.index)) {
-            return Err(book.stopped(&stopped, &step.action, self.passed, machine).at(&step.place));
-        }
-        self.passed += 1;
+        let (Some(step), Some(progress)) = (self.steps.get(self.index), &mut self.progress) else { return Ok(()) };
+        ended.map_err(|stopped| book.stopped(&stopped, &step.action, progress, machine).at(&step.place))?;
+        progress.count();
         Ok(())
     }
 
@@ -64,7 +61,7 @@ impl Step {
             Action::Wait(expression, _) | Action::Hold(expression, _) => expression.looks_back(),
             Action::Expect(expressions) => expressions.iter().any(|(_, expression)| expression.looks_back()),
             Action::Capture(captures) => captures.iter().any(|(_, expression)| expression.looks_back()),
-            Action::Queue(_) | Action::Pulse(..) | Action::Run(_) | Action::Image(_) => false,
+            Action::Queue(_) | Action::Handwheel(_) | Action::Pulse(..) | Action::Run(_) | Action::Image(_) => false,
         }
     }
 }

@@ -5,6 +5,7 @@
 
 use std::borrow::Cow;
 
+use super::duration::Duration;
 use super::failure::{Failure, Missed};
 use super::steps::Action;
 use crate::expression::{Expression, Moment, View};
@@ -18,15 +19,15 @@ use crate::variables::{Describe, place_name};
 /// The state of a session beside its machine.
 #[derive(Clone, Debug)]
 pub(super) struct Book {
-    /// The cycle that counts as time zero.
-    start: u64,
+    /// The cycle and the time of the machine that count as time zero.
+    start: (u64, Time),
     /// Bits that were written and that no cycle has taken over yet.
     pending: Vec<(Location, u64)>,
     pub(super) captured_names: Vec<String>,
     captured: Vec<f64>,
     pub(super) conditions: Vec<Condition>,
-    /// The maximum number of cycles of this session.
-    pub(super) limit: Option<u64>,
+    /// The longest time of this session.
+    pub(super) limit: Option<Duration>,
     /// The state one cycle ago, kept if an expression uses `rose` or `fell`.
     before: Option<Box<Before>>,
 }
@@ -45,6 +46,37 @@ pub(super) struct Condition {
     /// `always` or, if false, `never`.
     pub(super) wanted: bool,
     pub(super) place: Option<Place>,
+}
+
+/// The progress of an action that lets time pass.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Progress {
+    /// The time of the machine at its start.
+    start: Time,
+    /// The cycles that have passed in it.
+    cycles: u64,
+    /// The time of the machine at which a pulse reset its bits.
+    reset: Option<Time>,
+}
+
+impl Progress {
+    /// An action that starts now.
+    pub(super) fn new(machine: &Machine) -> Self {
+        Self { start: machine.time(), cycles: 0, reset: None }
+    }
+
+    /// Called after a cycle.
+    pub(super) fn count(&mut self) {
+        self.cycles += 1;
+    }
+
+    fn time(&self, machine: &Machine) -> Time {
+        machine.time() - self.start
+    }
+
+    fn is_over(&self, duration: Duration, machine: &Machine) -> bool {
+        duration.is_over(self.cycles, self.time(machine))
+    }
 }
 
 /// How an action continues.
@@ -66,7 +98,7 @@ impl Book {
     /// Starts a session now.
     pub(super) fn new(machine: &Machine) -> Self {
         Self {
-            start: machine.cycle(),
+            start: (machine.cycle(), machine.time()),
             pending: Vec::new(),
             captured_names: Vec::new(),
             captured: Vec::new(),
@@ -83,7 +115,7 @@ impl Book {
 
     /// Time since the start of the session.
     pub(super) fn time(&self, machine: &Machine) -> Time {
-        machine.cycle_time().times(machine.cycle() - self.start)
+        machine.time() - self.start.1
     }
 
     /// Queues a command for the next cycle.
@@ -101,38 +133,51 @@ impl Book {
         locations.iter().try_for_each(|&location| self.queue(Command::Write { location, value }, machine))
     }
 
-    /// Executes an action after this number of its cycles has passed.
-    pub(super) fn go_on(&mut self, action: &Action, passed: u64, machine: &mut Machine) -> Result<Next, Failure> {
-        let while_below = |cycles: u64| if passed < cycles { Next::Cycle } else { Next::Over };
+    /// Executes an action after some of its cycles have passed.
+    pub(super) fn go_on(
+        &mut self,
+        action: &Action,
+        progress: &mut Progress,
+        machine: &mut Machine,
+    ) -> Result<Next, Failure> {
+        let until = |is_over: bool| if is_over { Next::Over } else { Next::Cycle };
         match action {
             Action::Queue(commands) => {
                 commands.iter().try_for_each(|command| self.queue(command.clone(), machine))?;
                 Ok(Next::Over)
             }
-            Action::Pulse(locations, cycles) => {
-                if passed == 0 {
-                    self.write_bits(locations, 1, machine)?;
-                } else if passed == *cycles {
-                    self.write_bits(locations, 0, machine)?;
-                }
-                Ok(while_below(cycles + 1))
+            Action::Handwheel(turn) => {
+                self.queue(turn.command(machine.cycle_time()), machine)?;
+                Ok(Next::Over)
             }
-            Action::Run(cycles) => Ok(while_below(*cycles)),
+            Action::Pulse(locations, length) => {
+                if progress.reset.is_some() {
+                    return Ok(Next::Over);
+                }
+                if progress.cycles == 0 {
+                    self.write_bits(locations, 1, machine)?;
+                } else if progress.is_over(*length, machine) {
+                    self.write_bits(locations, 0, machine)?;
+                    progress.reset = Some(machine.time());
+                }
+                Ok(Next::Cycle)
+            }
+            Action::Run(length) => Ok(until(progress.is_over(*length, machine))),
             Action::Wait(expression, within) => {
                 if self.holds(expression, machine) {
                     return Ok(Next::Over);
                 }
-                if within.is_some_and(|within| passed >= within) {
-                    let what = format!("{}; it did not become true", waited(passed, expression, machine));
+                if within.is_some_and(|within| progress.is_over(within, machine)) {
+                    let what = format!("{}; it did not become true", waited(progress.time(machine), expression));
                     return Err(self.missed(what, Some(expression), machine));
                 }
                 Ok(Next::Cycle)
             }
             Action::Hold(expression, during) => {
                 if self.holds(expression, machine) {
-                    return Ok(while_below(*during));
+                    return Ok(until(progress.is_over(*during, machine)));
                 }
-                let held = machine.cycle_time().times(passed);
+                let held = progress.time(machine);
                 let what = format!("expected `{}` to stay true; it was false after {held} s", expression.source());
                 Err(self.missed(what, Some(expression), machine))
             }
@@ -159,10 +204,10 @@ impl Book {
 
     /// Called before a cycle.
     pub(super) fn begin_cycle(&mut self, machine: &Machine) -> Result<(), Stopped> {
-        if self.limit.is_some_and(|limit| machine.cycle() - self.start >= limit) {
+        let time = self.time(machine);
+        if self.limit.is_some_and(|limit| limit.is_over(machine.cycle() - self.start.0, time)) {
             return Err(Stopped::Limit);
         }
-        let time = self.time(machine);
         if let Some(before) = &mut self.before {
             before.past.begin_step(machine.memory(), machine.variables(), machine.cycle());
             before.time = time;
@@ -187,19 +232,28 @@ impl Book {
     }
 
     /// The failure when a cycle ended an action early.
-    pub(super) fn stopped(&self, stopped: &Stopped, action: &Action, passed: u64, machine: &Machine) -> Failure {
-        let run = |cycles: u64| format!("after {} s of a run", machine.cycle_time().times(cycles));
+    pub(super) fn stopped(
+        &self,
+        stopped: &Stopped,
+        action: &Action,
+        progress: &Progress,
+        machine: &Machine,
+    ) -> Failure {
+        let run = |since: Time| format!("after {} s of a run", machine.time() - since);
         let (doing, expression) = match action {
-            Action::Wait(expression, _) => (waited(passed, expression, machine), Some(expression)),
+            Action::Wait(expression, _) => (waited(progress.time(machine), expression), Some(expression)),
             Action::Hold(expression, _) => (format!("while `{}` held", expression.source()), Some(expression)),
-            Action::Pulse(_, cycles) => (run(if passed < *cycles { passed } else { passed - cycles }), None),
-            Action::Run(_) | Action::Queue(_) | Action::Expect(_) | Action::Capture(_) | Action::Image(_) => {
-                (run(passed), None)
-            }
+            Action::Pulse(..) => (run(progress.reset.unwrap_or(progress.start)), None),
+            Action::Run(_)
+            | Action::Queue(_)
+            | Action::Handwheel(_)
+            | Action::Expect(_)
+            | Action::Capture(_)
+            | Action::Image(_) => (run(progress.start), None),
         };
         match stopped {
             Stopped::Limit => {
-                let limit = machine.cycle_time().times(self.limit.unwrap_or(0));
+                let limit = self.time(machine);
                 self.missed(format!("reached the limit of {limit} s: {doing}"), expression, machine)
             }
             Stopped::Condition(index) => {
@@ -308,8 +362,8 @@ impl Book {
     }
 }
 
-fn waited(cycles: u64, expression: &Expression, machine: &Machine) -> String {
-    format!("waited {} s for `{}`", machine.cycle_time().times(cycles), expression.source())
+fn waited(time: Time, expression: &Expression) -> String {
+    format!("waited {time} s for `{}`", expression.source())
 }
 
 impl Before {

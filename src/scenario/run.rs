@@ -55,7 +55,6 @@ impl Scenario {
         // Conditions hold from the first cycle on, so they cannot use a value that a later step captures.
         let conditions = self.conditions(&reader, &captured)?;
         let looks_back = conditions.iter().any(|condition| condition.expression.looks_back()) || plan.looks_back();
-        let limit = self.limit.cycles(machine.cycle_time());
         let head = Head {
             title: self.title.clone(),
             machine: self.machine.text.clone(),
@@ -71,7 +70,7 @@ impl Scenario {
         session.set_watch(watch);
         let Session { machine, book, .. } = &mut session;
         book.look_back(looks_back, machine);
-        book.limit = Some(limit);
+        book.limit = Some(self.limit);
         book.conditions = conditions;
         Ok(Prepared { session, plan, head, causes: self.causes })
     }

@@ -8,7 +8,7 @@ use std::path::Path;
 use super::duration::Duration;
 use super::failure::Failure;
 use super::naming::{Known, axis_named, check_captured_name, writable};
-use super::passing::{Book, Next};
+use super::passing::{Book, Next, Progress};
 use super::steps::Action;
 use super::values::Setting;
 use crate::expression::Expression;
@@ -50,7 +50,7 @@ impl Session {
     #[must_use]
     pub fn new(machine: Machine) -> Self {
         Self {
-            trace: Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle()),
+            trace: Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), machine.time()),
             watch: Watch::default(),
             book: Book::new(&machine),
             machine,
@@ -177,8 +177,7 @@ impl Session {
     /// As [`Session::pulse`].
     pub fn pulse_for(&mut self, signal: &str, time: &str) -> Result<(), Failure> {
         let location = writable(&self.machine, signal)?;
-        let cycles = self.cycles(time)?;
-        self.act(&Action::Pulse(vec![location], cycles))
+        self.act(&Action::Pulse(vec![location], Duration::parse(time)?))
     }
 
     /// Lets time pass.
@@ -186,8 +185,7 @@ impl Session {
     /// # Errors
     /// The text is not a duration, or a condition that must hold in every cycle failed.
     pub fn run(&mut self, time: &str) -> Result<(), Failure> {
-        let cycles = self.cycles(time)?;
-        self.act(&Action::Run(cycles))
+        self.act(&Action::Run(Duration::parse(time)?))
     }
 
     /// Lets time pass until an expression is true, and returns in the cycle in which it becomes true.
@@ -196,7 +194,7 @@ impl Session {
     /// The time has expired; the failure shows every signal in the expression.
     pub fn wait(&mut self, expression: &str, within: &str) -> Result<(), Failure> {
         let expression = self.expression(expression)?;
-        let within = self.cycles(within)?;
+        let within = Duration::parse(within)?;
         self.act(&Action::Wait(expression, Some(within)))
     }
 
@@ -206,7 +204,7 @@ impl Session {
     /// The expression became false; the failure shows every signal in it.
     pub fn hold(&mut self, expression: &str, during: &str) -> Result<(), Failure> {
         let expression = self.expression(expression)?;
-        let during = self.cycles(during)?;
+        let during = Duration::parse(during)?;
         self.act(&Action::Hold(expression, during))
     }
 
@@ -341,15 +339,15 @@ impl Session {
 
     /// Executes the action of a step.
     fn act(&mut self, action: &Action) -> Result<(), Failure> {
-        let mut passed = 0;
-        while self.book.go_on(action, passed, &mut self.machine)? == Next::Cycle {
+        let mut progress = Progress::new(&self.machine);
+        while self.book.go_on(action, &mut progress, &mut self.machine)? == Next::Cycle {
             let begun = self.book.begin_cycle(&self.machine);
             let ended = begun.and_then(|()| {
                 self.cycle();
                 self.book.end_cycle(&self.machine)
             });
-            ended.map_err(|stopped| self.book.stopped(&stopped, action, passed, &self.machine))?;
-            passed += 1;
+            ended.map_err(|stopped| self.book.stopped(&stopped, action, &progress, &self.machine))?;
+            progress.count();
         }
         Ok(())
     }
@@ -360,11 +358,7 @@ impl Session {
         self.trace.extend(self.machine.recorder());
         self.book.note_changes(&self.machine);
         self.machine.drain();
-        self.trace.note_values(self.machine.cycle(), self.machine.variables());
-    }
-
-    fn cycles(&self, time: &str) -> Result<u64, Problem> {
-        Ok(Duration::parse(time)?.cycles(self.machine.cycle_time()))
+        self.trace.end_cycle(self.machine.cycle(), self.machine.time(), self.machine.variables());
     }
 
     fn expression(&self, source: &str) -> Result<Expression, Problem> {

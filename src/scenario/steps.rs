@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use super::duration::Duration;
 use super::faults::fault;
 use super::file::{duration, not_available, texts};
 use super::naming::{Known, check_captured_name, place_named, writable};
@@ -24,20 +25,37 @@ pub(super) struct Step {
 pub(super) enum Action {
     /// Queues commands for the next cycle.
     Queue(Vec<Command>),
-    /// Sets bits, lets cycles pass, resets the bits.
-    Pulse(Vec<Location>, u64),
-    /// Lets cycles pass.
-    Run(u64),
-    /// Lets cycles pass until the expression is true, at most this number.
-    Wait(Expression, Option<u64>),
-    /// Lets cycles pass; the expression must be true in each of them.
-    Hold(Expression, u64),
+    /// Turns a handwheel from the next cycle on.
+    Handwheel(Turn),
+    /// Sets bits, lets time pass, resets the bits.
+    Pulse(Vec<Location>, Duration),
+    /// Lets time pass.
+    Run(Duration),
+    /// Lets time pass until the expression is true, at most this long.
+    Wait(Expression, Option<Duration>),
+    /// Lets time pass; the expression must be true in each cycle.
+    Hold(Expression, Duration),
     /// All expressions must be true now.
     Expect(Vec<(Place, Expression)>),
     /// Stores values.
     Capture(Vec<(usize, Expression)>),
     /// The locations must have these bits now.
     Image(Vec<(Place, Location, u64)>),
+}
+
+/// A rotation of a handwheel. Its time becomes cycles when it begins, because power on can change their length.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turn {
+    number: u8,
+    pulses: i32,
+    over: Duration,
+}
+
+impl Turn {
+    pub(super) fn command(self, cycle: Time) -> Command {
+        let Self { number, pulses, over } = self;
+        Command::Handwheel { number, pulses, cycles: over.cycles(cycle) }
+    }
 }
 
 /// The verbs of a step.
@@ -68,7 +86,7 @@ const VERBS: [&str; 20] = [
 const LATER_VERBS: [&str; 1] = ["program"];
 
 /// The length of a pulse if `for` is absent.
-const PULSE: Time = Time::from_millis(100);
+const PULSE: Duration = Duration::Time(Time::from_millis(100));
 
 /// Reads the steps for one machine in order, because a captured name is known only after its step.
 pub(super) struct Reader<'a> {
@@ -123,10 +141,16 @@ impl<'a> Reader<'a> {
             ));
         }
         let action = self.action(verb, node, &mut table)?;
-        if let Action::Queue(commands) = &action {
-            for command in commands {
-                self.judge(command, &place)?;
-            }
+        match &action {
+            Action::Queue(commands) => commands.iter().try_for_each(|command| self.judge(command, &place))?,
+            Action::Handwheel(turn) => self.judge(&turn.command(self.machine.cycle_time()), &place)?,
+            Action::Pulse(..)
+            | Action::Run(_)
+            | Action::Wait(..)
+            | Action::Hold(..)
+            | Action::Expect(_)
+            | Action::Capture(_)
+            | Action::Image(_) => {}
         }
         self.refuse_foreign_modifiers(verb, &mut table)?;
         table.finish()?;
@@ -151,7 +175,6 @@ impl<'a> Reader<'a> {
     }
 
     fn action(&mut self, verb: &str, node: Node, table: &mut Table) -> Result<Action, Problem> {
-        let cycle = self.machine.cycle_time();
         let place = node.place.clone();
         let command = |command: Command| Action::Queue(vec![command]);
         let action = match verb {
@@ -168,7 +191,6 @@ impl<'a> Reader<'a> {
             }
             "pulse" => {
                 let time = table.take("for").map(|node| duration(&node, "the length of the pulse")).transpose()?;
-                let cycles = time.map_or_else(|| PULSE.in_cycles(cycle), |time| time.cycles(cycle));
                 let mut locations = Vec::new();
                 for (named, location) in self.locations(node)? {
                     if location.width != 1 {
@@ -179,20 +201,20 @@ impl<'a> Reader<'a> {
                     }
                     locations.push(location);
                 }
-                Action::Pulse(locations, cycles)
+                Action::Pulse(locations, time.unwrap_or(PULSE))
             }
-            "run" => Action::Run(duration(&node, "the time to run")?.cycles(cycle)),
+            "run" => Action::Run(duration(&node, "the time to run")?),
             "wait" => {
                 let within =
                     table.take("within").map(|node| duration(&node, "the longest time to wait")).transpose()?;
-                Action::Wait(self.one_expression(&node)?, within.map(|within| within.cycles(cycle)))
+                Action::Wait(self.one_expression(&node)?, within)
             }
             "hold" => {
                 let during = table.take("during").ok_or_else(|| {
                     place.problem("expected `during` together with `hold`, found none", "write during = \"2s\"")
                 })?;
                 let during = duration(&during, "the time to hold")?;
-                Action::Hold(self.one_expression(&node)?, during.cycles(cycle))
+                Action::Hold(self.one_expression(&node)?, during)
             }
             "expect" => {
                 let texts = texts(Some(node), "an expression or a list of them")?;
@@ -221,7 +243,7 @@ impl<'a> Reader<'a> {
                     ));
                 }
             },
-            "handwheel" => command(handwheel(node, cycle)?),
+            "handwheel" => Action::Handwheel(handwheel(node)?),
             "fault" => command(Command::Fault(fault(node, true, self.machine)?)),
             "clear_fault" => command(Command::ClearFault(fault(node, false, self.machine)?)),
             "image" => Action::Image(self.image(node)?),
@@ -360,7 +382,7 @@ fn verbs_in_words() -> String {
 }
 
 /// A rotation of a handwheel.
-fn handwheel(node: Node, cycle: Time) -> Result<Command, Problem> {
+fn handwheel(node: Node) -> Result<Turn, Problem> {
     let place = node.place.clone();
     let mut table = node.into_table("a turn, as { number = 1, pulses = 50, over = \"1s\" }")?;
     let mut required = |key: &'static str| {
@@ -372,13 +394,13 @@ fn handwheel(node: Node, cycle: Time) -> Result<Command, Problem> {
         })
     };
     let (number, pulses, over) = (required("number")?, required("pulses")?, required("over")?);
-    let command = Command::Handwheel {
+    let turn = Turn {
         number: whole(&number, "the number of a handwheel, 1 to 3", 1..=3)?,
         pulses: whole(&pulses, "a number of pulses between -1000000 and 1000000", -1_000_000..=1_000_000)?,
-        cycles: duration(&over, "the time of the turn")?.cycles(cycle),
+        over: duration(&over, "the time of the turn")?,
     };
     table.finish()?;
-    Ok(command)
+    Ok(turn)
 }
 
 /// A whole number within a range.

@@ -34,6 +34,16 @@ fn held(rest: &str) -> Finished {
     finished
 }
 
+/// 60 ms a cycle after power on: 167 cycles are the first ones that take 10 s.
+#[test]
+fn the_limit_and_a_wait_count_the_time_of_the_machine() {
+    let slower = "[[step]]\nmachine_data = { \"10070\" = 30 }\n[[step]]\npower_on = true\n";
+    let failure = missed(&format!("limit = \"10s\"\n{slower}[[step]]\nrun = \"20s\"\n"));
+    assert!(failure.contains("reached the limit of 10.020 s: after 10.020 s of a run"), "{failure}");
+    let failure = missed(&format!("{slower}[[step]]\nwait = \"M0.0\"\nwithin = \"1s\"\n"));
+    assert!(failure.contains("waited 1.020 s for"), "{failure}");
+}
+
 const STEP: &str = "[[step]]\nrun = \"1s\"\n";
 
 #[test]

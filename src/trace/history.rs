@@ -1,5 +1,6 @@
 //! The trace of a running machine: rows of the recorder, events, notes and watched values.
 
+use super::calendar::Calendar;
 use super::value::millionths;
 use super::{Recorder, Row, Watch};
 use crate::image::Memory;
@@ -12,7 +13,10 @@ pub struct Trace {
     /// The memory before the first row.
     pub(super) start: Memory,
     pub(super) first_cycle: u64,
-    pub(super) cycle_time: Time,
+    /// The times of the cycles since then.
+    pub(super) calendar: Calendar,
+    /// The time of the machine at the first cycle.
+    first_time: Time,
     pub(super) rows: Vec<Row>,
     pub(super) events: Vec<Event>,
     pub(super) notes: Vec<(u64, String)>,
@@ -41,13 +45,14 @@ pub(super) struct ValueRow {
 }
 
 impl Trace {
-    /// An empty trace. It begins with this memory after cycle `cycle`, which is time zero.
+    /// An empty trace. It begins with this memory after cycle `cycle` at this time of the machine, which is time zero.
     #[must_use]
-    pub fn begin(memory: &Memory, cycle_time: Time, cycle: u64) -> Self {
+    pub fn begin(memory: &Memory, cycle_time: Time, cycle: u64, time: Time) -> Self {
         Self {
             start: memory.clone(),
             first_cycle: cycle,
-            cycle_time,
+            calendar: Calendar::new(cycle_time),
+            first_time: time,
             rows: Vec::new(),
             events: Vec::new(),
             notes: Vec::new(),
@@ -72,8 +77,13 @@ impl Trace {
         self.lost = recorder.lost();
     }
 
-    /// Records the watched values after a cycle.
-    pub fn note_values(&mut self, cycle: u64, variables: &Variables) {
+    /// Records the time of the machine and the watched values after a cycle. Call it after each cycle.
+    pub fn end_cycle(&mut self, cycle: u64, time: Time, variables: &Variables) {
+        self.calendar.note(cycle.saturating_sub(self.first_cycle), time - self.first_time);
+        self.note_values(cycle, variables);
+    }
+
+    fn note_values(&mut self, cycle: u64, variables: &Variables) {
         self.last_cycle = self.last_cycle.max(cycle);
         for (index, watched) in self.watched.iter_mut().enumerate() {
             let new = millionths(watched.value.of(watched.axis, variables));
@@ -127,6 +137,6 @@ impl Trace {
 
     /// The time at the end of a cycle.
     pub(super) fn time(&self, cycle: u64) -> Time {
-        self.cycle_time.times(cycle.saturating_sub(self.first_cycle))
+        self.calendar.time(cycle.saturating_sub(self.first_cycle))
     }
 }

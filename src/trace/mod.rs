@@ -45,6 +45,7 @@
 //! ```
 
 mod because;
+mod calendar;
 mod causes;
 mod check;
 mod compare;
@@ -96,7 +97,7 @@ impl Trace {
     ///
     /// Each owner of signals (`nck`, `mode_group_1`, a channel, an axis) is a scope; signals without an owner are in `memory`. Bits are
     /// wires, numbers are vectors, REALs and watched values are reals. An alarm is a wire, `alarm_10654`, in the scope of its axis or
-    /// channel; `note` in scope `scenario` is a string. The time unit is the largest decimal unit of which the cycle is a multiple. Time 0
+    /// channel; `note` in scope `scenario` is a string. The time unit is the largest decimal unit of which the cycles are multiples. Time 0
     /// shows the memory before the first cycle. `watch` selects the contents: every selected signal that changed, signals that it names
     /// individually even if they did not change, and its values.
     #[must_use]

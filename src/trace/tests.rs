@@ -56,7 +56,7 @@ fn byte(location: Location, cycle: u64, old: u8, new: u8, by: By, cause: EventId
 }
 
 fn recorded(control: &Control) -> Trace {
-    let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10);
+    let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10, Time::ZERO);
     let watch = Watch::parse(&["X.position"], &control.0, &Memory::new()).unwrap();
     let mut variables = Variables::default();
     variables.axes[AxisNumber::FIRST].position = Position::from_user(120.0);
@@ -93,7 +93,7 @@ fn recorded(control: &Control) -> Trace {
     recorder.push(Row { cycle: 12, change: Change::Alarm { alarm: own, raised: false, cause: EventId::NONE } });
     trace.extend(&recorder);
     variables.axes[AxisNumber::FIRST].position = Position::from_user(120.0004);
-    trace.note_values(12, &variables);
+    trace.end_cycle(12, Time::from_millis(4), &variables);
     trace
 }
 
@@ -120,7 +120,7 @@ fn the_text_has_one_row_a_change_in_aligned_columns() {
 
 /// Power on, machine data, faults and keys, in two cycles.
 fn happened() -> Trace {
-    let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10);
+    let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10, Time::ZERO);
     let mut recorder = Recorder::default();
     let xf = AxisNumber::new(3).unwrap();
     let stored = DatumValue { number: 37110, place: Place::Axis(xf), index: None, value: Some(0.1) };
@@ -285,7 +285,7 @@ fn a_number_among_the_inputs_has_one_name_and_one_value() {
     recorder.push(byte(selected, 11, 0, 2, By::Plc, EventId::NONE));
     let active = control.location("X.active_controller_parameter_set");
     recorder.push(byte(active, 11, 0, 2, By::Nck, EventId(1)));
-    let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10);
+    let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10, Time::ZERO);
     trace.extend(&recorder);
     assert_eq!(because::because(&event, &control), "REF-11: X.controller_parameter_set = 2");
     let lines = trace.json_lines(&control, &Watch::default());
@@ -359,7 +359,7 @@ sthe_PLC_program_overwrote_what_was_set:_X.traversing_key_plus_(DB31.DBX4.7);_fo
     for (cycle, unit) in
         [(Time::from_micros(1500), "100 us"), (Time::from_millis(10), "10 ms"), (Time::from_nanos(7), "1 ns")]
     {
-        let trace = Trace::begin(&Memory::new(), cycle, 0);
+        let trace = Trace::begin(&Memory::new(), cycle, 0, Time::ZERO);
         assert!(trace.vcd(&control, &watch).contains(&format!("$timescale {unit} $end")), "{unit}");
     }
 }
@@ -384,7 +384,7 @@ fn a_diagram_shows_names_extremes_alarms_and_notes() {
         assert!(svg.contains(words), "{words} in {svg}");
     }
     assert!(!svg.contains("NaN") && svg.ends_with("</svg>\n"));
-    let empty = Trace::begin(&Memory::new(), Time::from_millis(2), 0);
+    let empty = Trace::begin(&Memory::new(), Time::from_millis(2), 0, Time::ZERO);
     assert!(empty.svg(&control, &Watch::default(), &head).ends_with("</svg>\n"), "an empty trace can be drawn");
 }
 

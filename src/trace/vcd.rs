@@ -20,7 +20,7 @@ pub(super) fn text(waves: &Waves) -> String {
 
 fn write(waves: &Waves, bytes: &mut Vec<u8>) -> io::Result<()> {
     let mut writer = Writer::new(bytes);
-    let (unit_nanos, number, unit) = timescale(waves.cycle_time.nanos().unsigned_abs());
+    let (unit_nanos, number, unit) = timescale(waves.calendar.tick());
     writer.comment("OpenNCK: signals of the NC/PLC interface by owner")?;
     writer.timescale(number, unit)?;
     let mut codes = Vec::new();
@@ -79,7 +79,7 @@ fn write(waves: &Waves, bytes: &mut Vec<u8>) -> io::Result<()> {
     writer.flush()
 }
 
-/// The largest decimal unit of which the cycle is a multiple, in nanoseconds and in the notation of VCD.
+/// The largest decimal unit of which the cycles are multiples, in nanoseconds and in the notation of VCD.
 fn timescale(cycle_nanos: u64) -> (u64, u32, TimescaleUnit) {
     let units = [(1_000_000_000, TimescaleUnit::S), (1_000_000, TimescaleUnit::MS), (1_000, TimescaleUnit::US)];
     for (nanos, unit) in units {

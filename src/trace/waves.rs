@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use super::calendar::Calendar;
 use super::happened::HappeningLine;
 use super::history::ValueRow;
 use super::lines::LineKind;
@@ -16,7 +17,7 @@ use crate::variables::{AxisValue, Describe, Place, place_name};
 /// All rows of a trace, in the order of owners and addresses.
 #[derive(Clone, Debug)]
 pub(super) struct Waves {
-    pub(super) cycle_time: Time,
+    pub(super) calendar: Calendar,
     /// The number of cycles.
     pub(super) cycles: u64,
     pub(super) rows: Vec<Wave>,
@@ -124,7 +125,7 @@ impl Trace {
         }
         let mut notes = Vec::new();
         for line in self.lines(describe, watch) {
-            let cycle = line.time.nanos().unsigned_abs() / self.cycle_time.nanos().max(1).unsigned_abs();
+            let cycle = self.calendar.cycle(line.time);
             match line.kind {
                 LineKind::Note(text) => notes.push((cycle, text)),
                 LineKind::Happening(happening) => {
@@ -183,7 +184,7 @@ impl Trace {
             rows.rows.insert(key, wave);
         }
         Waves {
-            cycle_time: self.cycle_time,
+            calendar: self.calendar.clone(),
             cycles: self.last_cycle.saturating_sub(self.first_cycle),
             rows: rows.rows.into_values().collect(),
             notes,
@@ -194,6 +195,6 @@ impl Trace {
 impl Waves {
     /// The time at the end of a cycle.
     pub(super) fn time(&self, cycle: u64) -> Time {
-        self.cycle_time.times(cycle)
+        self.calendar.time(cycle)
     }
 }

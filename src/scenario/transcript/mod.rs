@@ -105,7 +105,7 @@ impl Transcript {
             let said = std::iter::from_fn(|| remarks.next_if(|remark| remark.before <= index)).last();
             if let Some(remark) = said {
                 self.close();
-                let time = machine.cycle_time().times(machine.cycle() + 1);
+                let time = machine.time() + machine.cycle_time();
                 let _ = write!(self.text, "\n# {time} s: {}", remark.text);
             }
             self.command(command, machine);

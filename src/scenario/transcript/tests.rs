@@ -26,7 +26,7 @@ fn runs_again(heading: &Heading<'_>, edges: &[(u64, Vec<Command>)], end: u64) ->
     let options = crate::machine::OpenOptions { profile: heading.profile, ..Default::default() };
     let mut machine = Machine::open_with("g1_example", options).unwrap();
     let mut transcript = Transcript::begin(heading);
-    let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), 0);
+    let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), 0, machine.time());
     while machine.cycle() < end {
         let cycle = machine.cycle();
         for (_, commands) in edges.iter().filter(|(at, _)| *at == cycle) {
@@ -38,6 +38,7 @@ fn runs_again(heading: &Heading<'_>, edges: &[(u64, Vec<Command>)], end: u64) ->
         machine.step();
         trace.extend(machine.recorder());
         machine.drain();
+        trace.end_cycle(machine.cycle(), machine.time(), machine.variables());
     }
     let text = transcript.take_text() + &transcript.rest(end);
     let scenario =
@@ -113,6 +114,17 @@ fn every_command_is_repeated() {
     );
     assert!(text.contains("write = { \"DB31.DBB60\" = 3 }"), "{text}");
     assert!(text.contains("r_parameters = { \"R0\" = 0.1, \"R99[CHAN2]\" = -1e300 }"), "{text}");
+}
+
+/// 2 ms before power on and 60 ms after it: the times of the recording are those of the machine.
+#[test]
+fn a_change_of_the_cycle_is_repeated_with_its_times() {
+    let cycles = Command::MachineDatum { target: "10070".to_owned(), value: DatumValue::Integer(30) };
+    let machine = Machine::open("g1_example").unwrap();
+    let location = machine.names().resolve(machine.memory(), "MB7").unwrap();
+    let write = |value| Command::Write { location, value };
+    let edges = [(10, vec![write(1)]), (20, vec![cycles, Command::PowerOn]), (40, vec![write(2)])];
+    runs_again(&HEADING, &edges, 60);
 }
 
 /// Every byte of every part, with all widths, under both profiles.

@@ -64,7 +64,7 @@ impl Run {
         let (place, rule, inputs) = (Place::Nck, RuleNumber(0), [input, Input::None, Input::None]);
         let event = Event { id: EventId(1), cycle, place, rule, inputs, parent: EventId(parent) };
         self.recorder.events([event].iter());
-        let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10);
+        let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10, Time::ZERO);
         trace.extend(&self.recorder);
         let watch = Watch::parse(&["X.traverse_command_plus"], &self.control.0, &Memory::new()).unwrap();
         let findings = trace.check_causes(&self.control, &watch);

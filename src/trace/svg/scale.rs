@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::drawing::{Drawing, SMALL_LETTER, Tenths, px, width_of};
+use crate::trace::calendar::Calendar;
 use crate::trace::waves::Waves;
 use crate::units::Time;
 
@@ -14,16 +15,16 @@ const BREAKS: usize = 8;
 const WORTH_IT: Tenths = 3 * BREAK;
 /// If half of the intervals between changes have at least this width, no further interval is shortened.
 const LEGIBLE: Tenths = 300;
-/// An interval with fewer cycles is never shortened.
+/// An interval with fewer of the first cycles is never shortened.
 const LONG: u64 = 25;
 /// Half the width of the gap at a break.
 const TEAR: Tenths = 75;
 /// The minimum distance of two ticks.
 const TICKS: Tenths = 640;
 
-/// Converts cycles to positions.
+/// Converts cycles to positions, in proportion to their times.
 pub(super) struct Scale {
-    cycle_time: Time,
+    calendar: Calendar,
     /// In order, without gaps.
     stretches: Vec<Stretch>,
     left: Tenths,
@@ -31,6 +32,7 @@ pub(super) struct Scale {
 }
 
 struct Stretch {
+    /// In nanoseconds.
     from: u64,
     to: u64,
     left: Tenths,
@@ -40,13 +42,15 @@ struct Stretch {
 
 impl Scale {
     pub(super) fn new(waves: &Waves, left: Tenths, right: Tenths) -> Self {
-        let last = waves.cycles.max(1);
+        let nanos = |cycle: u64| waves.time(cycle).nanos().unsigned_abs();
+        let last = nanos(waves.cycles.max(1));
+        let long = waves.calendar.first_length().times(LONG).nanos().unsigned_abs();
         let mut busy: Vec<u64> = waves
             .rows
             .iter()
             .flat_map(|wave| wave.changes.iter().map(|step| step.cycle))
             .chain(waves.notes.iter().map(|(cycle, _)| *cycle))
-            .map(|cycle| cycle.min(last))
+            .map(|cycle| nanos(cycle).min(last))
             .chain([0, last])
             .collect();
         busy.sort_unstable();
@@ -67,7 +71,7 @@ impl Scale {
             let median =
                 middle.map_or(0, |(from, to)| i128::from(to - from) * i128::from(even) / i128::from(rest.max(1)));
             let is_legible = median >= i128::from(LEGIBLE);
-            if would_be < i128::from(WORTH_IT) || rest == length || to - from < LONG || is_legible {
+            if would_be < i128::from(WORTH_IT) || rest == length || to - from < long || is_legible {
                 break;
             }
             rest -= length;
@@ -93,15 +97,16 @@ impl Scale {
             }
             at = to;
         }
-        Self { cycle_time: waves.cycle_time, stretches, left, right }
+        Self { calendar: waves.calendar.clone(), stretches, left, right }
     }
 
     /// The position of the end of a cycle.
     pub(super) fn x(&self, cycle: u64) -> Tenths {
-        let Some(stretch) = self.stretches.iter().find(|stretch| cycle <= stretch.to) else {
+        let nanos = self.calendar.time(cycle).nanos().unsigned_abs();
+        let Some(stretch) = self.stretches.iter().find(|stretch| nanos <= stretch.to) else {
             return self.right;
         };
-        let (passed, length) = (cycle.saturating_sub(stretch.from), (stretch.to - stretch.from).max(1));
+        let (passed, length) = (nanos.saturating_sub(stretch.from), (stretch.to - stretch.from).max(1));
         let width = i128::from(stretch.right - stretch.left);
         stretch.left + i64::try_from(width * i128::from(passed) / i128::from(length)).unwrap_or(0)
     }
@@ -137,16 +142,14 @@ impl Scale {
         let Some(widest) = even.clone().max_by_key(|stretch| stretch.right - stretch.left) else {
             return Vec::new();
         };
-        let nanos = |cycle: u64| i128::from(self.cycle_time.times(cycle).nanos());
-        let span = (nanos(widest.to) - nanos(widest.from)).max(1);
+        let span = i128::from(widest.to - widest.from).max(1);
         let least = span * i128::from(TICKS) / i128::from((widest.right - widest.left).max(1));
-        let step = round_step(least).max(i128::from(self.cycle_time.nanos()));
-        let exactly = |cycle: u64| self.cycle_time.times(cycle).to_string();
+        let step = round_step(least).max(i128::from(self.calendar.first_length().nanos()));
         let mut ticks: Vec<(Tenths, String)> = Vec::new();
         // The ends of every break have exact labels; round times only have labels where they fit.
         for stretch in self.stretches.iter().filter(|stretch| stretch.is_break) {
-            for (x, cycle) in [(stretch.left, stretch.from), (stretch.right, stretch.to)] {
-                ticks.push((x, exactly(cycle)));
+            for (x, nanos) in [(stretch.left, stretch.from), (stretch.right, stretch.to)] {
+                ticks.push((x, time(nanos).to_string()));
             }
         }
         ticks.dedup();
@@ -159,7 +162,7 @@ impl Scale {
             }
         });
         for stretch in even {
-            let (from, to) = (nanos(stretch.from), nanos(stretch.to));
+            let (from, to) = (i128::from(stretch.from), i128::from(stretch.to));
             let width = i128::from(stretch.right - stretch.left);
             let place = |at: i128| stretch.left + i64::try_from(width * (at - from) / (to - from).max(1)).unwrap_or(0);
             let mut at = (from + step - 1) / step * step;
@@ -209,7 +212,7 @@ impl Scale {
         let y = drawing.y + 40;
         for stretch in &self.stretches {
             if stretch.is_break {
-                let length = self.cycle_time.times(stretch.to - stretch.from);
+                let length = time(stretch.to - stretch.from);
                 let middle = i64::midpoint(stretch.left, stretch.right);
                 drawing.text("small middle", (middle + 15, y + 300), shortened(&length.to_string()));
                 drawing.text("small middle", (middle + 15, y + 40), "//");
@@ -228,6 +231,10 @@ impl Scale {
         }
         drawing.y += 260;
     }
+}
+
+fn time(nanos: u64) -> Time {
+    Time::from_nanos(i64::try_from(nanos).unwrap_or(i64::MAX))
 }
 
 /// The next of 1, 2, 5, 10 … nanoseconds.
