@@ -1,7 +1,12 @@
-//! The definition of a machine from its files.
+//! The definition of a machine from its files, and its fingerprints, by which a saved state recognises it.
 
+use std::sync::OnceLock;
+
+use serde::{Deserialize, Serialize};
+
+use crate::control::Control;
 use crate::image::{Location, Memory, Names};
-use crate::plant::{Layout, Switch};
+use crate::plant::{Db11Byte5Bit2, Layout, Switch};
 use crate::units::{AxisNumber, Time};
 
 /// The definition of a machine from its files. It does not change after opening, and all forks share it.
@@ -15,5 +20,36 @@ pub(super) struct Definition {
     pub(super) memory: Memory,
     /// The cycle of the PLC program; the NC cycle if not defined.
     pub(super) plc_cycle: Option<Time>,
+    pub(super) db11_5_2: Option<Db11Byte5Bit2>,
+    /// The control as it was opened.
+    pub(super) control: Box<dyn Control>,
+    /// Computed when they are first needed.
+    pub(super) fingerprints: OnceLock<Fingerprints>,
     pub(super) warnings: Vec<String>,
+}
+
+/// Hashes of what the files of a machine define.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Fingerprints {
+    /// The areas of the PLC with their initial values.
+    pub(super) plc_image: u64,
+    pub(super) plant: u64,
+    /// The machine data at opening, without later changes.
+    pub(super) machine_data: u64,
+}
+
+impl Definition {
+    pub(super) fn fingerprints(&self) -> Fingerprints {
+        *self.fingerprints.get_or_init(|| Fingerprints {
+            plc_image: hash(&postcard::to_stdvec(&self.memory).unwrap_or_default()),
+            // Numbers in this text are exact.
+            plant: hash(format!("{:?}", (&self.layout, self.plc_cycle, self.db11_5_2)).as_bytes()),
+            machine_data: hash(&self.control.save()),
+        })
+    }
+}
+
+/// FNV-1a, 64 bits.
+pub(super) fn hash(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xCBF2_9CE4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
 }

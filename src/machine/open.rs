@@ -1,7 +1,7 @@
 //! Reads a machine: its control, `plant.toml` and presets, with all defaults filled in.
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::Machine;
 use super::before::Before;
@@ -87,6 +87,9 @@ impl Machine {
             layout,
             names,
             memory: memory.clone(),
+            db11_5_2: plant.db11_5_2,
+            control: control.clone_box(),
+            fingerprints: OnceLock::new(),
             warnings,
         };
         Ok(assemble(definition, control, memory))

@@ -6,8 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use super::Machine;
 use super::before::Before;
+use super::definition::{Definition, Fingerprints, hash};
 use super::state::State;
-use crate::image::Names;
+use super::written::FIXED;
+use crate::image::{Memory, Part};
 use crate::plc::PlcProgram;
 use crate::source::Problem;
 use crate::trace::Recorder;
@@ -15,35 +17,87 @@ use crate::units::{AxisSet, PerAxis, PerChannel};
 use crate::variables::Alarms;
 
 /// Version of the format of a saved machine.
-const VERSION: u32 = 9;
+const VERSION: u32 = 10;
 
 #[derive(Serialize, Deserialize)]
 struct Saved {
-    names: SavedNames,
+    definition: SavedDefinition,
     /// The name of the control and its state.
     control: (String, Vec<u8>),
     program: Option<(String, Vec<u8>)>,
     state: State,
 }
 
-/// The names of the saved machine.
-#[derive(PartialEq, Serialize, Deserialize)]
-struct SavedNames {
+/// What the files of the saved machine defined.
+#[derive(Serialize, Deserialize)]
+struct SavedDefinition {
     interface: String,
     profile: String,
     axes: PerAxis<Option<String>>,
     channels: PerChannel<Option<String>>,
+    fingerprints: Fingerprints,
 }
 
-impl SavedNames {
-    fn of(names: &Names) -> Self {
+impl SavedDefinition {
+    fn of(definition: &Definition) -> Self {
+        let names = &definition.names;
         Self {
             interface: names.interface().tables().name.to_owned(),
             profile: names.profile.name().to_owned(),
             axes: names.axes.clone(),
             channels: names.channels.clone(),
+            fingerprints: definition.fingerprints(),
         }
     }
+
+    /// How a saved machine differs in its names: what was expected and what was found.
+    fn other_names(&self, saved: &Self) -> Option<(String, String)> {
+        let said = |what: &str, name: Option<&str>| match name {
+            Some(name) => format!("{what} `{name}`"),
+            None => format!("no {what}"),
+        };
+        let differ = |what: &str, mine: Option<&str>, other: Option<&str>| {
+            (mine != other).then(|| (said(what, mine), said(what, other)))
+        };
+        let axes = || {
+            self.axes.iter().find_map(|(number, mine)| {
+                differ(&format!("axis {number}"), mine.as_deref(), saved.axes[number].as_deref())
+            })
+        };
+        let channels = || {
+            self.channels.iter().find_map(|(number, mine)| {
+                differ(&format!("channel {number}"), mine.as_deref(), saved.channels[number].as_deref())
+            })
+        };
+        differ("interface", Some(&self.interface), Some(&saved.interface))
+            .or_else(|| differ("profile", Some(&self.profile), Some(&saved.profile)))
+            .or_else(axes)
+            .or_else(channels)
+    }
+
+    /// How a saved machine differs in the contents of its files.
+    fn other_files(&self, saved: &Self) -> Option<(String, String)> {
+        let (mine, other) = (self.fingerprints, saved.fingerprints);
+        let all = [
+            ("PLC image", mine.plc_image, other.plc_image),
+            ("plant (plant.toml and changes to it)", mine.plant, other.plant),
+            ("machine data at opening", mine.machine_data, other.machine_data),
+        ];
+        let (what, ..) = all.into_iter().find(|(_, mine, other)| mine != other)?;
+        Some((format!("the same {what}"), "others".to_owned()))
+    }
+}
+
+/// How a saved memory differs in the lengths of its areas.
+fn other_areas(mine: &Memory, saved: &Memory) -> Option<(String, String)> {
+    let blocks = mine.blocks.iter().chain(saved.blocks.iter()).map(|block| Part::Block(block.number));
+    let part = FIXED.into_iter().chain(blocks).find(|part| mine.part(*part).len() != saved.part(*part).len())?;
+    let said = |memory: &Memory| match (part, memory.part(part).len()) {
+        (Part::Block(number), 0) => format!("no DB{number}"),
+        (Part::Block(number), length) => format!("{length} bytes of DB{number}"),
+        (part, length) => format!("{length} bytes of {part:?}"),
+    };
+    Some((said(mine), said(saved)))
 }
 
 impl Machine {
@@ -52,36 +106,40 @@ impl Machine {
     #[expect(clippy::missing_panics_doc, reason = "plain data is always written")]
     pub fn save(&self) -> Vec<u8> {
         let saved = Saved {
-            names: SavedNames::of(&self.definition.names),
+            definition: SavedDefinition::of(&self.definition),
             control: (self.control.texts().name().to_owned(), self.control.save()),
             program: self.program.as_ref().map(|program| (program.name().to_owned(), program.save())),
             state: self.state.clone(),
         };
         let content = postcard::to_stdvec(&saved).expect("plain data can always be written");
-        [&VERSION.to_le_bytes()[..], &checksum(&content).to_le_bytes(), &content].concat()
+        [&VERSION.to_le_bytes()[..], &hash(&content).to_le_bytes(), &content].concat()
     }
 
     /// Continues from the state at [`Machine::save`], on a machine with the same files and the same PLC program.
     ///
     /// # Errors
-    /// The bytes are not a saved machine, or they belong to a machine with other axes, another control or another PLC program. In this case
-    /// nothing has changed.
+    /// The bytes are not a saved machine, or they belong to a machine with another definition or another PLC program; the problem names what
+    /// differs. In this case nothing has changed. Machine data that were changed at run time are part of the state and may differ.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Problem> {
         let damaged =
             |what: String| Problem::new(what, "restore bytes from `save` of this version, on the same machine");
         let content = content(bytes).map_err(damaged)?;
-        let saved: Saved = postcard::from_bytes(content)
+        let (saved, rest) = postcard::take_from_bytes::<Saved>(content)
             .map_err(|error| damaged(format!("expected a saved machine, found damaged bytes: {error}")))?;
-        if saved.names != SavedNames::of(&self.definition.names) {
-            return Err(damaged(
-                "expected a saved machine with the same axes and channels, found other axes or channels".to_owned(),
-            ));
+        if !rest.is_empty() {
+            return Err(damaged(format!("expected a saved machine, found {} bytes after it", rest.len())));
         }
+        let mine = SavedDefinition::of(&self.definition);
         let (control, remembered) = &saved.control;
-        if control != self.control.texts().name() || !saved.state.memory.fits(self.definition.names.interface()) {
-            return Err(damaged(
-                "expected a saved machine with the same interface, found another interface".to_owned(),
-            ));
+        let name = self.control.texts().name();
+        let other_control = || (control != name).then(|| (format!("control `{name}`"), format!("control `{control}`")));
+        let different = mine
+            .other_names(&saved.definition)
+            .or_else(other_control)
+            .or_else(|| other_areas(&self.definition.memory, &saved.state.memory))
+            .or_else(|| mine.other_files(&saved.definition));
+        if let Some((expected, found)) = different {
+            return Err(damaged(format!("expected a saved machine with {expected}, found {found}")));
         }
         // Program and control keep their state when they refuse. The program is restored last, so an error changes nothing.
         let mut restored = self.control.clone_box();
@@ -169,13 +227,8 @@ fn content(bytes: &[u8]) -> Result<&[u8], String> {
         return Err(format!("expected a saved machine of version {VERSION}, found version {version}"));
     }
     let (written, content) = rest.split_first_chunk().ok_or_else(too_short)?;
-    if u64::from_le_bytes(*written) != checksum(content) {
+    if u64::from_le_bytes(*written) != hash(content) {
         return Err("expected a saved machine, found damaged bytes: their checksum differs".to_owned());
     }
     Ok(content)
-}
-
-/// FNV-1a, 64 bits.
-fn checksum(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xCBF2_9CE4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
 }

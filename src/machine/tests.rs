@@ -3,7 +3,7 @@
 use crate::control::Owner;
 
 use super::{Command, DatumValue, Fault, FaultKind, Machine, OpenOptions};
-use crate::image::Location;
+use crate::image::{Location, Preset, Profile};
 use crate::plc::{PlcIo, enable_all, program};
 use crate::source::Table;
 use crate::trace::Change;
@@ -564,6 +564,57 @@ fn a_snapshot_stays_while_the_machine_goes_on() {
     assert_eq!((machine.cycle(), machine.memory().read(flag)), (2, 7));
     assert_eq!((snapshot.cycle(), snapshot.memory().read(flag)), (1, 0));
     assert_eq!(snapshot.names(), machine.names());
+}
+
+#[test]
+fn a_state_is_refused_on_a_machine_of_other_files_and_the_problem_names_what_differs() {
+    let preset = |text: &str| Some(Preset::parse(text, "image.toml").unwrap());
+    let with = |options| Machine::open_with("g1_example", options).unwrap();
+    let of_828d = OpenOptions { profile: Profile::SINUMERIK_828D, ..OpenOptions::default() };
+    let flags = OpenOptions { preset: preset("[areas]\nM = 512\n"), ..OpenOptions::default() };
+    let value = OpenOptions { preset: preset("[interface]\n\"X.feed_override\" = 1\n"), ..OpenOptions::default() };
+    let machines = [
+        ("profile `828d`", with(of_828d)),
+        ("512 bytes of Flags", with(flags)),
+        ("the same PLC image", with(value)),
+        ("the same plant", example_with("[X]\nstart = 300.0\n")),
+        ("the same plant", example_with("[machine]\nplc_cycle = \"10ms\"\n")),
+        ("the same plant", example_with("[compatibility]\ndb11_5_2 = \"mirror\"\n")),
+    ];
+    let mut origin = ready();
+    origin.program = None;
+    let saved = origin.save();
+    for (what, mut other) in machines {
+        run(&mut other, 3);
+        let before = other.save();
+        let problem = other.restore(&saved).unwrap_err().to_string();
+        assert!(problem.contains(&format!("with {what}")), "{what}: {problem}");
+        assert!(other.save() == before, "{what}: a rejected state must not change the machine");
+        other.queue(Command::PlcColdRestart).unwrap();
+        run(&mut other, 1);
+        assert!(example().restore(&before).is_err(), "{what}");
+    }
+}
+
+#[test]
+fn a_state_is_refused_on_a_machine_of_another_archive_but_not_after_a_change_at_run_time() {
+    let directory = std::env::temp_dir().join(format!("opennck-archive-{}", std::process::id()));
+    std::fs::create_dir_all(&directory).unwrap();
+    let file = directory.join("axis.tea");
+    let open = |velocity| {
+        std::fs::write(&file, format!("CHANDATA(1)\nN32020 $MA_JOG_VELO[AX1]={velocity}\nM17\n")).unwrap();
+        Machine::open(&file).unwrap()
+    };
+    let (mut origin, mut other) = (open(2000), open(1000));
+    store(&mut origin, "32020[AX1]", DatumValue::Real(3000.0));
+    run(&mut origin, 3);
+    let saved = origin.save();
+    let problem = other.restore(&saved).unwrap_err().to_string();
+    assert!(problem.contains("the same machine data at opening"), "{problem}");
+    let mut same = open(2000);
+    same.restore(&saved).unwrap();
+    assert!(same.save() == saved);
+    std::fs::remove_dir_all(&directory).unwrap();
 }
 
 /// One mm/s without power: the slide and the time agree in each cycle, also in that of power on.
