@@ -403,6 +403,32 @@ fn why_leads_from_an_edge_to_its_event_and_reports_missing_edges() {
     assert_eq!(early.cure, "its first edge is at 0.002 s");
 }
 
+/// A chain of parents, and a chain of a signal and an event in turn, each longer than the stack of a thread can hold.
+#[test]
+fn why_follows_a_chain_of_any_length() {
+    let last = 40_000;
+    let key = "{\"t\":0.002,\"signal\":\"M0.0\",\"value\":1,\"by\":\"plc\"}\n";
+    let mut parents = key.to_owned();
+    let mut inputs = key.to_owned();
+    for number in 1..=last {
+        let (time, before) = (f64::from(number), number - 1);
+        parents += &format!("{{\"t\":{time},\"event\":{number},\"because\":\"R\",\"parent\":{before}}}\n");
+        inputs += &format!(
+            "{{\"t\":{time},\"event\":{number},\"because\":\"R\",\"inputs\":[{{\"signal\":\"M{before}.0\",\"value\":1}}]}}\n"
+        );
+        inputs +=
+            &format!("{{\"t\":{time},\"signal\":\"M{number}.0\",\"value\":1,\"by\":\"nck\",\"event\":{number}}}\n");
+    }
+    let end = format!("{{\"t\":50000,\"signal\":\"M9.9\",\"value\":1,\"by\":\"nck\",\"event\":{last}}}\n");
+    let rows = |text: &str| {
+        let why = Story::read(text).unwrap().why("M9.9", Time::from_seconds(60_000.0)).unwrap();
+        assert!(!why.contains("see above"));
+        why.lines().count()
+    };
+    assert_eq!(rows(&format!("{parents}{end}")), 1 + 40_000);
+    assert_eq!(rows(&format!("{inputs}{end}")), 1 + 2 * 40_000);
+}
+
 #[test]
 fn a_missing_row_is_a_difference_and_a_different_cause_is_not() {
     let control = Control::new();

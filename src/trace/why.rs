@@ -2,7 +2,7 @@
 //!
 //! The same code works on a trace in memory and on a trace from JSON lines; both become a [`Story`].
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use serde_json::Value;
@@ -103,6 +103,7 @@ impl Story {
     /// A line is not a JSON object, or has no time.
     pub fn read(text: &str) -> Result<Self, (usize, Problem)> {
         let mut story = Self::default();
+        let mut values = BTreeMap::new();
         for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
             let wrong = |found: String| {
                 let cure = "write the trace again with `opennck run SCENARIO --trace F.jsonl`";
@@ -111,12 +112,14 @@ impl Story {
             let value: Value = serde_json::from_str(line).map_err(|error| wrong(format!("invalid JSON: {error}")))?;
             let time = value.get("t").and_then(Value::as_f64).map(Time::from_seconds);
             let time = time.ok_or_else(|| wrong("a line without the time `t`".to_owned()))?;
-            story.take(time, &value);
+            story.take(time, &value, &mut values);
         }
+        story.edges.sort_by_key(|edge| edge.time);
         Ok(story)
     }
 
-    fn take(&mut self, time: Time, line: &Value) {
+    /// Takes a line; `values` has the last value at each address.
+    fn take(&mut self, time: Time, line: &Value, values: &mut BTreeMap<String, String>) {
         let text = |key: &str| line.get(key).and_then(Value::as_str).map(str::to_owned);
         let number = |key: &str| line.get(key).and_then(Value::as_u64).and_then(|n| u32::try_from(n).ok()).unwrap_or(0);
         let (because, event) = (text("because"), number("event"));
@@ -126,12 +129,12 @@ impl Story {
         }
         if let Some(address) = text("signal") {
             let new = plain(line.get("value"));
-            let known = self.edges.iter().rev().find(|edge| edge.address == address).map(|edge| edge.new.clone());
-            let old = known.unwrap_or_else(|| match (new.as_str(), is_bit(&address)) {
-                ("1", true) => "0".to_owned(),
-                ("0", true) => "1".to_owned(),
-                _ => "?".to_owned(),
-            });
+            let old =
+                values.insert(address.clone(), new.clone()).unwrap_or_else(|| match (new.as_str(), is_bit(&address)) {
+                    ("1", true) => "0".to_owned(),
+                    ("0", true) => "1".to_owned(),
+                    _ => "?".to_owned(),
+                });
             let change = format!("{old} -> {new}");
             let name = text("symbol").unwrap_or_else(|| address.clone());
             let by = text("by").unwrap_or_default();
@@ -185,24 +188,72 @@ impl Story {
                 format!("its first edge is at {first} s"),
             ));
         };
-        let mut chain = Chain { story: self, text: String::new(), edges: BTreeSet::new(), causes: BTreeSet::new() };
-        chain.edge(index, 0);
-        Ok(chain.text)
+        Ok(Chain::new(self).from(index))
     }
 }
+
+/// Rows deeper than this have the indent of this depth, so that a long chain does not become wider and wider.
+const DEEPEST: usize = 40;
 
 /// The chain under construction; each edge and each cause is printed once.
 struct Chain<'a> {
     story: &'a Story,
+    /// The edges with a name or an address and a new value, in order of time.
+    by_value: BTreeMap<(&'a str, &'a str), Vec<usize>>,
+    by_number: BTreeMap<u32, &'a Cause>,
     text: String,
     edges: BTreeSet<usize>,
     causes: BTreeSet<u32>,
+    /// The rows to follow, with their depths, the last one first. A chain can be too long for the stack of the thread.
+    open: Vec<(Follow<'a>, usize)>,
 }
 
-impl Chain<'_> {
+/// What a row is about.
+#[derive(Clone, Copy)]
+enum Follow<'a> {
+    Edge(usize),
+    /// The number of an event, and the word before it.
+    Cause(u32, &'static str),
+    /// An input that was tested at a time.
+    Input(&'a CauseInput, Time),
+}
+
+impl<'a> Chain<'a> {
+    fn new(story: &'a Story) -> Self {
+        let mut by_value: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+        for (index, edge) in story.edges.iter().enumerate() {
+            by_value.entry((edge.address.as_str(), edge.new.as_str())).or_default().push(index);
+            if edge.name != edge.address {
+                by_value.entry((edge.name.as_str(), edge.new.as_str())).or_default().push(index);
+            }
+        }
+        // Of two events with one number, the first counts.
+        let by_number = story.causes.iter().rev().map(|cause| (cause.number, cause)).collect();
+        let (edges, causes) = (BTreeSet::new(), BTreeSet::new());
+        Self { story, by_value, by_number, text: String::new(), edges, causes, open: Vec::new() }
+    }
+
+    /// The text of the chain that ends with an edge.
+    fn from(mut self, edge: usize) -> String {
+        self.open.push((Follow::Edge(edge), 0));
+        while let Some((follow, depth)) = self.open.pop() {
+            match follow {
+                Follow::Edge(index) => self.edge(index, depth),
+                Follow::Cause(number, word) => self.cause(number, depth, word),
+                Follow::Input(input, time) => self.input(input, time, depth),
+            }
+        }
+        self.text
+    }
+
     fn row(&mut self, time: Time, depth: usize, text: &str) {
-        let indent = "  ".repeat(depth);
+        let indent = "  ".repeat(depth.min(DEEPEST));
         let _ = writeln!(self.text, "{time:>9}  {indent}{text}");
+    }
+
+    fn timeless_row(&mut self, depth: usize, text: &str) {
+        let indent = "  ".repeat(depth.min(DEEPEST));
+        let _ = writeln!(self.text, "{:>9}  {indent}{text}", "");
     }
 
     fn edge(&mut self, index: usize, depth: usize) {
@@ -220,15 +271,13 @@ impl Chain<'_> {
             }
             (0, None) if edge.by == "nck" => self.row(edge.time, depth + 1, "no known cause"),
             (0, None) => {}
-            (event, _) => self.cause(event, depth + 1, "because"),
+            (event, _) => self.open.push((Follow::Cause(event, "because"), depth + 1)),
         }
     }
 
-    fn cause(&mut self, number: u32, depth: usize, word: &str) {
-        let story = self.story;
-        let Some(cause) = story.causes.iter().find(|cause| cause.number == number) else {
-            let text = format!("{word} of an event that is not in the trace");
-            self.text.push_str(&format!("{:>9}  {}{text}\n", "", "  ".repeat(depth)));
+    fn cause(&mut self, number: u32, depth: usize, word: &'static str) {
+        let Some(&cause) = self.by_number.get(&number) else {
+            self.timeless_row(depth, &format!("{word} of an event that is not in the trace"));
             return;
         };
         let known = if self.causes.insert(number) { "" } else { ", see above" };
@@ -236,13 +285,12 @@ impl Chain<'_> {
         if !known.is_empty() {
             return;
         }
-        for input in &cause.inputs {
-            self.input(input, cause.time, depth + 1);
-        }
         if cause.parent != 0 {
             // The parent of an event is printed below it and not inside it, so that the way back to the start is one straight line.
-            self.cause(cause.parent, depth, "after");
+            self.open.push((Follow::Cause(cause.parent, "after"), depth));
         }
+        let inputs = cause.inputs.iter().rev().map(|input| (Follow::Input(input, cause.time), depth + 1));
+        self.open.extend(inputs);
     }
 
     /// Follows a signal or an alarm to its previous edge.
@@ -253,16 +301,16 @@ impl Chain<'_> {
             // Measured values and machine data are in the text of the event.
             CauseInput::Datum(..) | CauseInput::Value(..) | CauseInput::Fault(_) => return,
         };
-        let mut before = self.story.edges.iter().enumerate().rev().filter(|(_, edge)| edge.time <= time);
-        let found = before.find(|(_, edge)| (edge.name == name || edge.address == name) && edge.new == new);
-        if let Some((index, _)) = found {
-            self.edge(index, depth);
+        let edges = self.by_value.get(&(name.as_str(), new.as_str())).map_or(&[][..], Vec::as_slice);
+        let before = edges.partition_point(|index| self.story.edges[*index].time <= time);
+        if let Some(&index) = before.checked_sub(1).and_then(|last| edges.get(last)) {
+            self.open.push((Follow::Edge(index), depth));
         } else if let CauseInput::Signal { address, symbol, .. } = input {
             let name = symbol.as_ref().unwrap_or(address);
-            let changes = self.story.edges.iter().any(|edge| edge.address == *address);
+            let changes =
+                self.by_value.range((address.as_str(), "")..).next().is_some_and(|((of, _), _)| of == address);
             let why = if changes { "from the start" } else { "without an edge in this trace" };
-            let indent = "  ".repeat(depth);
-            let _ = writeln!(self.text, "{:>9}  {indent}{name} ({address})  {new}  {why}", "");
+            self.timeless_row(depth, &format!("{name} ({address})  {new}  {why}"));
         }
     }
 }
