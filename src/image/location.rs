@@ -52,6 +52,16 @@ pub struct Location {
 }
 
 impl Location {
+    /// Whether it is 1 to 8 bits inside one byte, or 16 or 32 bits.
+    #[must_use]
+    pub const fn is_well_formed(self) -> bool {
+        match self.width {
+            1..=8 => self.bit <= 8 - self.width,
+            16 | 32 => self.bit == 0,
+            _ => false,
+        }
+    }
+
     /// The number of bytes that it uses.
     #[must_use]
     pub const fn bytes(self) -> u32 {

@@ -192,6 +192,13 @@ impl Memory {
         Ok(location)
     }
 
+    /// Whether it contains a location.
+    #[must_use]
+    pub fn contains(&self, location: Location) -> bool {
+        let end = u64::from(location.offset) + u64::from(location.bytes());
+        location.is_well_formed() && end <= self.part(location.part).len() as u64
+    }
+
     /// The raw bits at a location; 0 if this memory does not contain it.
     #[must_use]
     pub fn read(&self, location: Location) -> u64 {

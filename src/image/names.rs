@@ -179,6 +179,41 @@ impl Names {
         Some(format!("{owner}.{}", signal.name))
     }
 
+    /// Checks that a memory contains a location, and that it has a symbol or an address, with which a scenario can name it.
+    ///
+    /// # Errors
+    /// It is not in the memory, or only a part of what has an address.
+    pub fn check_location(&self, memory: &Memory, location: Location) -> Result<(), Problem> {
+        let Location { part, offset, bit, width, .. } = location;
+        if !memory.contains(location) {
+            return Err(Problem::new(
+                format!(
+                    "expected a location in the {} bytes of {part:?}, found {width} bits from bit {bit} of byte {offset}",
+                    memory.part(part).len()
+                ),
+                "a location is 1 to 8 bits of one byte, or 16 or 32 bits from bit 0",
+            ));
+        }
+        let is_of_a_program = match part {
+            Part::Inputs | Part::Outputs | Part::Flags | Part::Block(_) => u16::try_from(offset).is_ok(),
+            Part::ToNck | Part::FromNck | Part::Hmi | Part::Timers | Part::Counters => false,
+        };
+        let is_found = || {
+            let found = memory.locate(&self.address(location), self.profile);
+            let place = |l: Location| (l.part, l.offset, l.bit, l.width);
+            found.is_ok_and(|found| place(found) == place(location)) || self.symbol(location).is_some()
+        };
+        if is_of_a_program || is_found() {
+            return Ok(());
+        }
+        Err(Problem::new(
+            format!(
+                "expected a location with an address, found {width} bits from bit {bit} of byte {offset} of {part:?}"
+            ),
+            "use the location of an address or symbol: `Names::resolve`",
+        ))
+    }
+
     /// The writer of the signals at a location; `None` for plain memory.
     #[must_use]
     pub fn writer(&self, location: Location) -> Option<Writer> {

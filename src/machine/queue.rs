@@ -26,20 +26,46 @@ impl Machine {
     /// Checks whether a command can be queued now.
     ///
     /// # Errors
-    /// A machine datum, R parameter or handwheel does not exist, or a value does not fit it.
+    /// A machine datum, R parameter, handwheel, axis or location does not exist, a value does not fit.
     pub fn check(&self, command: &Command) -> Result<(), Problem> {
         if let Some(command) = of_the_control(command) {
             self.control.check(&command)?;
         }
-        if let Command::RParameter { number, value, .. } = command
-            && (*number >= RParameters::COUNT || !value.is_finite())
-        {
+        match command {
+            Command::RParameter { number, value, .. } if *number >= RParameters::COUNT || !value.is_finite() => {
+                Err(Problem::new(
+                    format!(
+                        "expected a finite value for R0 to R{}, found {value} for R{number}",
+                        RParameters::COUNT - 1
+                    ),
+                    "a channel has 100 R parameters",
+                ))
+            }
+            Command::Write { location, .. } | Command::Force { location, .. } | Command::Release { location } => {
+                self.names().check_location(self.memory(), *location)
+            }
+            Command::Fault(fault) | Command::ClearFault(fault) => self.check_fault(*fault),
+            Command::RParameter { .. }
+            | Command::MachineDatum { .. }
+            | Command::NewConf
+            | Command::PowerOn
+            | Command::PlcStop
+            | Command::PlcRun
+            | Command::PlcColdRestart
+            | Command::Cancel
+            | Command::Handwheel { .. } => Ok(()),
+        }
+    }
+
+    fn check_fault(&self, Fault { axis, kind }: Fault) -> Result<(), Problem> {
+        if self.names().axes[axis].is_none() {
+            let known: Vec<_> = self.names().axes.iter().filter_map(|(_, name)| name.as_deref()).collect();
             return Err(Problem::new(
-                format!("expected a finite value for R0 to R{}, found {value} for R{number}", RParameters::COUNT - 1),
-                "a channel has 100 R parameters",
+                format!("expected a machine axis, found axis {axis}, which does not exist"),
+                format!("machine axes are {}", known.join(", ")),
             ));
         }
-        Ok(())
+        kind.check()
     }
 
     /// The queued commands, in the order of execution.

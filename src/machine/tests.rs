@@ -3,7 +3,7 @@
 use crate::control::Owner;
 
 use super::{Command, DatumValue, Fault, FaultKind, Machine, OpenOptions};
-use crate::image::{Location, Preset, Profile};
+use crate::image::{Format, Location, Part, Preset, Profile};
 use crate::plc::{PlcIo, enable_all, program};
 use crate::source::Table;
 use crate::trace::Change;
@@ -615,6 +615,70 @@ fn a_state_is_refused_on_a_machine_of_another_archive_but_not_after_a_change_at_
     same.restore(&saved).unwrap();
     assert!(same.save() == saved);
     std::fs::remove_dir_all(&directory).unwrap();
+}
+
+#[test]
+fn a_location_that_no_memory_contains_is_refused() {
+    let mut machine = example();
+    for (part, offset, bit, width) in [
+        (Part::ToNck, u32::MAX, 0, 8),
+        (Part::ToNck, u32::MAX - 1, 0, 32),
+        (Part::Flags, 0, 0, 0),
+        (Part::Flags, 0, 0, 64),
+        (Part::Flags, 0, 0, 255),
+        (Part::Flags, 0, 63, 1),
+        (Part::Flags, 255, 7, 5),
+        (Part::Flags, 0, 7, 33),
+        (Part::Flags, 255, 0, 16),
+        (Part::Flags, 256, 0, 8),
+        (Part::Timers, 1, 0, 16),
+        (Part::Block(0), 0, 0, 8),
+    ] {
+        let location = Location { part, offset, bit, width, format: Format::Unsigned };
+        for command in [
+            Command::Write { location, value: u64::MAX },
+            Command::Force { location, value: u64::MAX },
+            Command::Release { location },
+        ] {
+            let problem = machine.queue(command).unwrap_err();
+            assert!(problem.what.starts_with("expected a location"), "{problem}");
+        }
+    }
+    assert!(machine.queued().is_empty());
+}
+
+#[test]
+fn a_fault_that_the_plant_cannot_have_is_refused() {
+    let mut machine = example();
+    let (x, none) = (machine.axis("X").unwrap(), AxisNumber::new(31).unwrap());
+    let far = Position::new(i64::MAX);
+    for (kind, what) in [
+        (FaultKind::EncoderFault { encoder: Some(2) }, "encoder 1 or 2, found 3"),
+        (FaultKind::EncoderFault { encoder: Some(255) }, "encoder 1 or 2, found 256"),
+        (FaultKind::Friction { by: f64::NAN }, "a share of the velocity, 0 to 1, found NaN"),
+        (FaultKind::Friction { by: -0.5 }, "0 to 1, found -0.5"),
+        (FaultKind::Friction { by: 1e300 }, "0 to 1"),
+        (FaultKind::Drift { by: f64::INFINITY }, "a velocity in mm or degrees per second"),
+        (FaultKind::Drift { by: f64::NAN }, "a velocity in mm or degrees per second"),
+        (FaultKind::Drift { by: 1.001e12 }, "found 1001000"),
+        (FaultKind::Push { by: far }, "a distance in mm or degrees"),
+        (FaultKind::EncoderSlip { by: far }, "a distance in mm or degrees"),
+    ] {
+        for command in [Command::Fault(Fault { axis: x, kind }), Command::ClearFault(Fault { axis: x, kind })] {
+            let problem = machine.queue(command).unwrap_err().to_string();
+            assert!(problem.contains(what), "{what}: {problem}");
+        }
+    }
+    let problem = machine.queue(Command::Fault(Fault { axis: none, kind: FaultKind::Block })).unwrap_err();
+    assert!(problem.what.contains("axis 31, which does not exist") && problem.cure.contains("XF"), "{problem}");
+    for kind in [
+        FaultKind::EncoderFault { encoder: Some(1) },
+        FaultKind::Friction { by: 1.0 },
+        FaultKind::Drift { by: -1e12 },
+        FaultKind::Push { by: Position::from_user(-1e6) },
+    ] {
+        machine.queue(Command::Fault(Fault { axis: x, kind })).unwrap();
+    }
 }
 
 /// One mm/s without power: the slide and the time agree in each cycle, also in that of power on.

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::source::Problem;
 use crate::units::{AxisNumber, Position};
 
 /// A switch of an axis.
@@ -56,6 +57,44 @@ pub enum FaultKind {
         /// Pressed or not.
         at: bool,
     },
+}
+
+impl FaultKind {
+    /// The fastest drift in mm or degrees per second. No real axis is faster.
+    pub const FASTEST_DRIFT: f64 = 1e6;
+    /// The largest push in mm or degrees: one kilometre, longer than any machine.
+    pub const FARTHEST_PUSH: f64 = 1e6;
+
+    /// Checks that the plant can have this fault.
+    ///
+    /// # Errors
+    /// A number is not finite or out of range, or there is no such encoder.
+    pub fn check(self) -> Result<(), Problem> {
+        let (expected, found, is_possible) = match self {
+            Self::Block | Self::ZeroMarkMissing | Self::DriveFault | Self::SwitchStuck { .. } => return Ok(()),
+            Self::Push { by } | Self::EncoderSlip { by } => {
+                let by = by.user();
+                ("a distance in mm or degrees from -1000000 to 1000000", by, by.abs() <= Self::FARTHEST_PUSH)
+            }
+            Self::EncoderFault { encoder } => {
+                let number = encoder.map_or(1.0, |encoder| f64::from(encoder) + 1.0);
+                ("encoder 1 or 2", number, number <= 2.0)
+            }
+            Self::Friction { by } => ("a share of the velocity, 0 to 1", by, (0.0..=1.0).contains(&by)),
+            Self::Drift { by } => {
+                let by = by / Position::PER_USER_UNIT;
+                let expected = "a velocity in mm or degrees per second from -1000000 to 1000000";
+                (expected, by, by.abs() <= Self::FASTEST_DRIFT)
+            }
+        };
+        if is_possible {
+            return Ok(());
+        }
+        Err(Problem::new(
+            format!("expected {expected}, found {found}"),
+            "the plant can have no other fault of this kind",
+        ))
+    }
 }
 
 /// A fault of an axis.

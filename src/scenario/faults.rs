@@ -8,9 +8,9 @@ use crate::units::Position;
 use crate::variables::FaultName;
 
 /// The fastest drift in mm or degrees per second. No real axis is faster.
-const FASTEST_DRIFT: f64 = 1e6;
+const FASTEST_DRIFT: f64 = FaultKind::FASTEST_DRIFT;
 /// The largest push in mm or degrees: one kilometre, longer than any machine.
-const FARTHEST_PUSH: f64 = 1e6;
+const FARTHEST_PUSH: f64 = FaultKind::FARTHEST_PUSH;
 
 /// Reads the keys of a kind of fault.
 type Read = fn(&mut Keys) -> Result<FaultKind, Problem>;
