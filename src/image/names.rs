@@ -214,6 +214,22 @@ impl Names {
         ))
     }
 
+    /// Checks that the NCK does not write a location.
+    ///
+    /// # Errors
+    /// The NCK writes it.
+    pub fn check_writer(&self, location: Location) -> Result<(), Problem> {
+        if self.writer(location) != Some(Writer::Nck) {
+            return Ok(());
+        }
+        let address = self.address(location);
+        let what = self.symbol(location).map_or_else(|| address.to_string(), |symbol| format!("{symbol} ({address})"));
+        Err(Problem::new(
+            format!("expected a signal that the PLC or the operator panel writes, found {what}, which the NCK writes"),
+            "the NCK overwrites it in the same cycle; use `expect` to check it",
+        ))
+    }
+
     /// The writer of the signals at a location; `None` for plain memory.
     #[must_use]
     pub fn writer(&self, location: Location) -> Option<Writer> {

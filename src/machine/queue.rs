@@ -26,7 +26,8 @@ impl Machine {
     /// Checks whether a command can be queued now.
     ///
     /// # Errors
-    /// A machine datum, R parameter, handwheel, axis or location does not exist, a value does not fit.
+    /// A machine datum, R parameter, handwheel, axis or location does not exist, a value does not fit, or the NCK writes what is to be
+    /// forced.
     pub fn check(&self, command: &Command) -> Result<(), Problem> {
         if let Some(command) = of_the_control(command) {
             self.control.check(&command)?;
@@ -41,8 +42,10 @@ impl Machine {
                     "a channel has 100 R parameters",
                 ))
             }
-            Command::Write { location, .. } | Command::Force { location, .. } | Command::Release { location } => {
-                self.names().check_location(self.memory(), *location)
+            Command::Write { location, .. } => self.names().check_location(self.memory(), *location),
+            Command::Force { location, .. } | Command::Release { location } => {
+                self.names().check_location(self.memory(), *location)?;
+                self.names().check_writer(*location)
             }
             Command::Fault(fault) | Command::ClearFault(fault) => self.check_fault(*fault),
             Command::RParameter { .. }

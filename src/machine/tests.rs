@@ -647,6 +647,18 @@ fn a_location_that_no_memory_contains_is_refused() {
     assert!(machine.queued().is_empty());
 }
 
+/// A scenario cannot say it either, so a recording of it could not run.
+#[test]
+fn a_location_that_the_nck_writes_can_be_written_and_not_forced() {
+    let mut machine = example();
+    let location = at(&machine, "DB31.DBB60");
+    machine.queue(Command::Write { location, value: 1 }).unwrap();
+    for command in [Command::Force { location, value: 1 }, Command::Release { location }] {
+        let problem = machine.queue(command).unwrap_err().to_string();
+        assert!(problem.contains("found DB31.DBB60, which the NCK writes"), "{problem}");
+    }
+}
+
 #[test]
 fn a_fault_that_the_plant_cannot_have_is_refused() {
     let mut machine = example();

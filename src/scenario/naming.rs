@@ -1,7 +1,7 @@
 //! Names in a scenario: those of its machine, and those of the values that its steps captured.
 
 use crate::expression::Scope;
-use crate::image::{Location, Writer};
+use crate::image::Location;
 use crate::machine::Machine;
 use crate::source::{Problem, did_you_mean};
 use crate::units::AxisNumber;
@@ -63,12 +63,6 @@ pub(super) fn place_named(machine: &Machine, name: &str) -> Result<Location, Pro
 pub(super) fn writable(machine: &Machine, name: &str) -> Result<Location, Problem> {
     let names = machine.names();
     let location = names.resolve(machine.memory(), name)?;
-    if names.writer(location) == Some(Writer::Nck) {
-        let what = names.symbol(location).map_or_else(|| name.to_owned(), |symbol| format!("{symbol} ({name})"));
-        return Err(Problem::new(
-            format!("expected a signal that the PLC or the operator panel writes, found {what}, which the NCK writes"),
-            "the NCK overwrites it in the same cycle; use `expect` to check it",
-        ));
-    }
+    names.check_writer(location)?;
     Ok(location)
 }
