@@ -617,6 +617,29 @@ fn a_state_is_refused_on_a_machine_of_another_archive_but_not_after_a_change_at_
     std::fs::remove_dir_all(&directory).unwrap();
 }
 
+/// 0.0 and -0.0 are equal numbers with different bytes.
+#[test]
+fn a_machine_datum_of_minus_zero_is_saved_alike_after_it_was_restored() {
+    let mut machine = example();
+    store(&mut machine, "34090[X]", DatumValue::Real(-0.0));
+    run(&mut machine, 2);
+    let saved = machine.save();
+    let mut other = example();
+    other.restore(&saved).unwrap();
+    assert!(other.save() == saved);
+}
+
+#[test]
+fn a_saved_control_with_more_bytes_after_it_is_refused() {
+    let machine = example();
+    let mut control = machine.control().clone_box();
+    let mut saved = control.save();
+    assert!(control.restore(&saved).is_ok());
+    saved.push(0);
+    let problem = control.restore(&saved).unwrap_err();
+    assert!(problem.to_string().contains("1 more than expected"), "{problem}");
+}
+
 #[test]
 fn a_location_that_no_memory_contains_is_refused() {
     let mut machine = example();

@@ -353,13 +353,18 @@ impl Nck {
     /// # Errors
     /// The bytes are not a saved control of this version. In this case nothing has changed.
     pub(super) fn restore(&mut self, saved: &[u8]) -> Result<(), Problem> {
-        let saved: SavedNck = postcard::from_bytes(saved).map_err(|error| {
+        let damaged = |what: &dyn std::fmt::Display| {
             Problem::new(
-                format!("expected a saved control, found damaged bytes: {error}"),
+                format!("expected a saved control, found damaged bytes: {what}"),
                 "restore bytes from `save` of this version, on the same machine",
             )
-        })?;
-        let same = saved.stored == saved.active;
+        };
+        let (saved, rest) = postcard::take_from_bytes::<SavedNck>(saved).map_err(|error| damaged(&error))?;
+        if !rest.is_empty() {
+            return Err(damaged(&format_args!("{} more than expected", rest.len())));
+        }
+        // Not by value: 0.0 and -0.0 are equal, and are saved with different bytes.
+        let same = postcard::to_stdvec(&saved.stored) == postcard::to_stdvec(&saved.active);
         self.stored = Arc::new(saved.stored);
         self.active = if same { Arc::clone(&self.stored) } else { Arc::new(saved.active) };
         self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
