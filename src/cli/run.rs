@@ -9,7 +9,7 @@ use clap::Args;
 use super::output::{Output, apart};
 use crate::plc::Programs;
 use crate::scenario::{Failure, Finished, Prepared, Scenario};
-use crate::source::{Problem, unreadable};
+use crate::source::{Problem, unwritable};
 
 /// Files to which the trace is written as well.
 #[derive(Clone, Debug, Default, Args)]
@@ -55,7 +55,7 @@ impl Files {
                 ));
             }
             apart(option, path, scenarios.iter().map(PathBuf::as_path))?;
-            let file = File::create(path).map_err(|error| unreadable(path, &error))?;
+            let file = File::create(path).map_err(|error| unwritable(path, &error))?;
             waiting.push(Waiting { path: path.clone(), file, text });
         }
         Ok(waiting)
@@ -98,7 +98,7 @@ pub(super) fn run(scenarios: &[PathBuf], files: &Files, programs: &Programs, out
         code = code.max(result(&finished, output));
         for Waiting { path, file, text } in &mut waiting {
             if let Err(error) = file.write_all(text(&finished).as_bytes()) {
-                output.error(Problem::new(format!("{} cannot be written: {error}", path.display()), "check the disk"));
+                output.error(unwritable(path, &error));
                 code = 2;
             }
         }

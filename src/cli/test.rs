@@ -13,7 +13,7 @@ use super::flowchart;
 use super::output::Output;
 use crate::golden::{Case, Exercised, Outcome, Update, cases, scenario_files};
 use crate::plc::Programs;
-use crate::source::{Problem, unreadable};
+use crate::source::{Problem, unwritable};
 
 /// The options of the command line.
 #[derive(Clone, Debug)]
@@ -65,7 +65,7 @@ pub(super) fn test(paths: &[PathBuf], options: &Options, programs: &Programs, ou
         let chart = flowchart::text(None, &taken);
         flowchart::summary(&chart).for_each(|line| output.line(line));
         if let Err(error) = std::fs::write(path, chart) {
-            output.error(unreadable(path, &error));
+            output.error(unwritable(path, &error));
             code = 2;
         }
     }
@@ -175,7 +175,7 @@ fn write_junit(path: &Path, outcomes: &[(&str, Outcome)]) -> Result<(), Problem>
     let text = report
         .to_string()
         .map_err(|error| Problem::new(format!("the report cannot be written: {error}"), "report this as a bug"))?;
-    std::fs::write(path, text).map_err(|error| unreadable(path, &error))
+    std::fs::write(path, text).map_err(|error| unwritable(path, &error))
 }
 
 fn bad(kind: NonSuccessKind, outcome: &Outcome) -> TestCaseStatus {

@@ -128,6 +128,13 @@ pub fn unreadable(path: &std::path::Path, error: &std::io::Error) -> Problem {
         .problem(format!("cannot be read: {error}"), "check the path and the permissions")
 }
 
+/// The problem of a file that cannot be written.
+#[must_use]
+pub fn unwritable(path: &std::path::Path, error: &std::io::Error) -> Problem {
+    Place::file(&path.display().to_string())
+        .problem(format!("cannot be written: {error}"), "check the path, the permissions and the disk")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -72,6 +72,7 @@ fn run_writes_the_trace_as_waveform_and_as_diagram() {
         assert!(err(&output).contains(&format!("expected one scenario under one profile with {option}")));
         let output = opennck(&["run", "good.toml", option, "nowhere/f"], &directory);
         assert_eq!((output.status.code(), out(&output).as_str()), (Some(2), ""), "nothing runs");
+        assert!(err(&output).contains("nowhere/f: cannot be written: "), "{}", err(&output));
     }
 }
 
