@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::Control;
 use crate::image::{Location, Memory, Names};
-use crate::plant::{Db11Byte5Bit2, Layout, Switch};
+use crate::plant::{Layout, Switch};
 use crate::units::{AxisNumber, Time};
 
 /// The definition of a machine from its files. It does not change after opening, and all forks share it.
@@ -20,7 +20,6 @@ pub(super) struct Definition {
     pub(super) memory: Memory,
     /// The cycle of the PLC program; the NC cycle if not defined.
     pub(super) plc_cycle: Option<Time>,
-    pub(super) db11_5_2: Option<Db11Byte5Bit2>,
     /// The control as it was opened.
     pub(super) control: Box<dyn Control>,
     /// Computed when they are first needed.
@@ -34,7 +33,7 @@ pub(super) struct Fingerprints {
     /// The areas of the PLC with their initial values.
     pub(super) plc_image: u64,
     pub(super) plant: u64,
-    /// The machine data at opening, without later changes.
+    /// The machine data and the settings of the control at opening, without later changes.
     pub(super) machine_data: u64,
 }
 
@@ -43,7 +42,7 @@ impl Definition {
         *self.fingerprints.get_or_init(|| Fingerprints {
             plc_image: hash(&postcard::to_stdvec(&self.memory).unwrap_or_default()),
             // Numbers in this text are exact.
-            plant: hash(format!("{:?}", (&self.layout, self.plc_cycle, self.db11_5_2)).as_bytes()),
+            plant: hash(format!("{:?}", (&self.layout, self.plc_cycle)).as_bytes()),
             machine_data: hash(&self.control.save()),
         })
     }

@@ -87,7 +87,6 @@ impl Machine {
             layout,
             names,
             memory: memory.clone(),
-            db11_5_2: plant.db11_5_2,
             control: control.clone_box(),
             fingerprints: OnceLock::new(),
             warnings,

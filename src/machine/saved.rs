@@ -81,7 +81,7 @@ impl SavedDefinition {
         let all = [
             ("PLC image", mine.plc_image, other.plc_image),
             ("plant (plant.toml and changes to it)", mine.plant, other.plant),
-            ("machine data at opening", mine.machine_data, other.machine_data),
+            ("machine data and settings of the control at opening", mine.machine_data, other.machine_data),
         ];
         let (what, ..) = all.into_iter().find(|(_, mine, other)| mine != other)?;
         Some((format!("the same {what}"), "others".to_owned()))

@@ -579,7 +579,7 @@ fn a_state_is_refused_on_a_machine_of_other_files_and_the_problem_names_what_dif
         ("the same PLC image", with(value)),
         ("the same plant", example_with("[X]\nstart = 300.0\n")),
         ("the same plant", example_with("[machine]\nplc_cycle = \"10ms\"\n")),
-        ("the same plant", example_with("[compatibility]\ndb11_5_2 = \"mirror\"\n")),
+        ("the same machine data and settings", example_with("[compatibility]\ndb11_5_2 = \"mirror\"\n")),
     ];
     let mut origin = ready();
     origin.program = None;
@@ -610,7 +610,7 @@ fn a_state_is_refused_on_a_machine_of_another_archive_but_not_after_a_change_at_
     run(&mut origin, 3);
     let saved = origin.save();
     let problem = other.restore(&saved).unwrap_err().to_string();
-    assert!(problem.contains("the same machine data at opening"), "{problem}");
+    assert!(problem.contains("the same machine data and settings"), "{problem}");
     let mut same = open(2000);
     same.restore(&saved).unwrap();
     assert!(same.save() == saved);
