@@ -185,6 +185,12 @@ pub trait Control: Send + Sync + Debug {
     /// The cycle times in effect, never 0. The machine checks this when it is opened.
     fn cycle_times(&self) -> CycleTimes;
 
+    /// Whether the machine has this channel, according to its stored data. The default is every channel.
+    fn has_channel(&self, channel: ChannelNumber) -> bool {
+        let _ = channel;
+        true
+    }
+
     /// The active measuring system of an axis, 0 or 1; `None` for a parked axis.
     fn measuring_system(&self, axis: AxisNumber) -> Option<u8>;
 

@@ -2,7 +2,7 @@
 
 use super::scope::Scope;
 use super::term::{Operator, Term};
-use super::tokens::{Token, mistake, tokens};
+use super::tokens::{Token, excerpt, mistake, tokens};
 use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber};
 use crate::variables::{AlarmNumber, AxisValue, Place};
@@ -28,6 +28,11 @@ pub(super) fn parse(source: &str, scope: &dyn Scope) -> Result<Term, Problem> {
     let term = parser.expression(0)?;
     match parser.peek() {
         Token::End => Ok(term),
+        Token::Name(name) => {
+            let cure = word_of_another_language(name).map(str::to_owned);
+            let problem = parser.expected("an operator or the end");
+            Err(Problem { cure: cure.unwrap_or_else(|| problem.cure.clone()), ..problem })
+        }
         _ => Err(parser.expected("an operator or the end")),
     }
 }
@@ -253,6 +258,9 @@ impl Parser<'_> {
         if FUNCTIONS.contains(&name) {
             return Err(Problem { cure: format!("a function has parentheses: `{name}(…)`"), ..problem });
         }
+        if let Some(cure) = word_of_another_language(name) {
+            return Err(Problem { cure: cure.to_owned(), ..problem });
+        }
         let axis_and_value = name
             .rsplit_once('.')
             .and_then(|(head, tail)| self.scope.describe().names().axis(head).map(|axis| (axis, head, tail)));
@@ -263,21 +271,67 @@ impl Parser<'_> {
         }
         match self.scope.signal(name) {
             Ok(location) => Ok(Term::Signal(location)),
-            Err(unknown) => {
-                let values = AxisValue::ALL.map(AxisValue::name);
-                let near_value = axis_and_value
-                    .and_then(|(_, head, tail)| nearest(tail, values).map(|value| format!("{head}.{value}")));
-                let own = self.scope.named_values().iter().map(String::as_str).chain(["time"]);
-                let cure = match (near_value, nearest(name, own)) {
-                    (Some(near), _) => format!("did you mean `{near}`?"),
-                    (None, Some(near)) if !name.contains('.') => format!("did you mean `{near}`?"),
-                    _ => unknown.cure,
-                };
-                let what = format!("{} (at character {column} of `{}`)", unknown.what, self.source);
-                Err(Problem { place: None, what, cure })
-            }
+            Err(unknown) => Err(self.unknown(name, column, unknown)),
         }
     }
+
+    /// The problem of an unknown name: what it looks like, and the nearest known name of this kind.
+    fn unknown(&self, name: &str, column: usize, no_signal: Problem) -> Problem {
+        let names = self.scope.describe().names();
+        let values = AxisValue::ALL.map(AxisValue::name);
+        let at = format!("at character {column} of `{}`", excerpt(self.source, column));
+        if let Some((head, tail)) = name.rsplit_once('.') {
+            let Some(_) = names.axis(head) else {
+                return Problem { place: None, what: format!("{} ({at})", no_signal.what), cure: no_signal.cure };
+            };
+            // The cure of a signal names a signal that is near, or the catalogue.
+            let cure = match nearest(tail, values) {
+                Some(value) => format!("did you mean `{head}.{value}`?"),
+                None if no_signal.cure.starts_with("did you mean") => no_signal.cure,
+                None => format!("values of an axis are {}; `opennck signals` lists all signals", values.join(", ")),
+            };
+            return Problem {
+                place: None,
+                what: format!("expected a signal or a value of `{head}`, found `{name}` ({at})"),
+                cure,
+            };
+        }
+        let has_digit = name.contains(|c: char| c.is_ascii_digit());
+        let is_owner = names.owners().any(|(owner, ..)| owner == name);
+        let own = self.scope.named_values().iter().map(String::as_str).chain(["time"]);
+        match nearest(name, own.chain(FUNCTIONS)) {
+            Some(near) if FUNCTIONS.contains(&near) => Problem {
+                place: None,
+                what: format!("expected a name, found `{name}` ({at})"),
+                cure: format!("did you mean `{near}(…)`?"),
+            },
+            Some(near) => Problem {
+                place: None,
+                what: format!("expected a name, found `{name}` ({at})"),
+                cure: format!("did you mean `{near}`?"),
+            },
+            // Something like an address, or the name of an axis alone.
+            None if has_digit || is_owner => {
+                Problem { place: None, what: format!("{} ({at})", no_signal.what), cure: no_signal.cure }
+            }
+            None => Problem::new(
+                format!("expected a signal, a value, an address, a captured name or `time`, found `{name}` ({at})"),
+                "write X.controller_enable, X.position or DB31.DBX2.1; a captured name is known after its `capture`",
+            ),
+        }
+    }
+}
+
+/// The remedy for a word that is an operator or a constant in other languages.
+fn word_of_another_language(name: &str) -> Option<&'static str> {
+    Some(match name.to_ascii_lowercase().as_str() {
+        "true" => "a bit is 1 or 0, and an expression is true if it is not 0: write `X.controller_enable`, or `== 1`",
+        "false" => "a bit is 1 or 0, and an expression is false if it is 0: write `!X.controller_enable`, or `== 0`",
+        "and" => "write `&&` for `and`",
+        "or" => "write `||` for `or`",
+        "not" => "write `!` for `not`",
+        _ => return None,
+    })
 }
 
 /// The number as an integer, if it is whole, not negative and not above `largest`.

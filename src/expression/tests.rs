@@ -221,6 +221,15 @@ fn an_error_names_the_expectation_the_place_and_the_remedy() {
         ("1.", "a number", "write a number as"),
         ("strat", "`strat`", "did you mean `start`?"),
         ("X.positoin", "`X.positoin`", "did you mean `X.position`?"),
+        ("X.pos > 1", "a signal or a value of `X`, found `X.pos`", "did you mean `X.position`?"),
+        ("X.zzzzzz", "a signal or a value of `X`, found `X.zzzzzz`", "values of an axis are position, setpoint"),
+        ("M10.3 == true", "found `true` at character 10", "or `== 1`"),
+        ("M10.3 == False", "found `False`", "`!X.controller_enable`, or `== 0`"),
+        ("M10.3 and M10.4", "an operator or the end, found `and`", "write `&&`"),
+        ("not M10.3", "found `not`", "write `!`"),
+        ("unknown_name", "a captured name or `time`, found `unknown_name`", "after its `capture`"),
+        ("alarms_of", "found `alarms_of`", "did you mean `alarms(…)`?"),
+        ("alarm(\"open\")", "found `\"`", "single quotes"),
         ("X.traversing_key_pls", "`X.traversing_key_pls`", "traversing_key_plus"),
         ("alarm", "`alarm`", "parentheses"),
         ("alram(10653)", "a function, found `alram`", "did you mean `alarm`?"),
@@ -252,6 +261,17 @@ fn nesting_is_limited() {
     assert!(parsed(&"!".repeat(100_000)).is_err());
     assert!(parsed(&"-(".repeat(100_000)).is_err());
     assert!(parsed(&vec!["1"; 1_000].join(" + ")).is_ok());
+    let long = parsed(&vec!["1"; 1_001].join(" + ")).unwrap_err();
+    assert!(long.what.contains("at most 2000 names, numbers and operators"), "{long}");
+    let long = parsed(&"!".repeat(1_000_000)).unwrap_err();
+    assert!(long.what.contains("at most 50000 bytes, found 1000000"), "{long}");
+}
+
+#[test]
+fn a_message_shows_only_the_part_of_a_long_expression_around_the_mistake() {
+    let problem = parsed(&format!("{} + ? + {}", vec!["1"; 500].join("+"), vec!["1"; 400].join("+"))).unwrap_err();
+    assert!(problem.what.contains("found `?` at character 1003 of `…") && problem.what.ends_with("…`"), "{problem}");
+    assert!(problem.what.len() < 300, "{problem}");
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! The tokens of an expression: numbers, names, operators.
 
+use std::borrow::Cow;
+
 use crate::source::Problem;
 
 /// One token of an expression.
@@ -33,12 +35,30 @@ impl Token {
 /// The operators and punctuation; a longer one precedes its own prefix.
 const SIGNS: [&str; 15] = ["==", "!=", "<=", ">=", "&&", "||", "<", ">", "!", "+", "-", "*", "/", "(", ")"];
 
+/// The maximum number of tokens. Terms are nested, and a deeper nesting would need more stack than a thread has.
+const TOKENS: usize = 2_000;
+
+/// The maximum length of an expression in bytes.
+const LENGTH: usize = 50_000;
+
 /// Splits an expression into tokens, each with its column, counted from one.
 pub(super) fn tokens(source: &str) -> Result<Vec<(usize, Token)>, Problem> {
+    let cure = "split it: several `expect` items, or `capture` for parts";
+    if source.len() > LENGTH {
+        let what = format!("expected an expression of at most {LENGTH} bytes, found {}", source.len());
+        return Err(Problem::new(what, cure));
+    }
     let mut found = Vec::new();
     let mut rest = source;
+    let (mut column, mut counted) = (1, 0);
     while let Some(first) = rest.chars().next() {
-        let column = source[..source.len() - rest.len()].chars().count() + 1;
+        if found.len() == TOKENS {
+            let what = format!("expected an expression of at most {TOKENS} names, numbers and operators, found more");
+            return Err(Problem::new(what, cure));
+        }
+        let at = source.len() - rest.len();
+        column += source[counted..at].chars().count();
+        counted = at;
         if first.is_whitespace() {
             rest = &rest[first.len_utf8()..];
         } else if first.is_ascii_digit() {
@@ -69,21 +89,37 @@ pub(super) fn tokens(source: &str) -> Result<Vec<(usize, Token)>, Problem> {
                 '&' => problem.cure = "write `&&` for `and`".to_owned(),
                 '|' => problem.cure = "write `||` for `or`".to_owned(),
                 '=' => problem.cure = "write `==` for `equal`".to_owned(),
+                '"' => problem.cure = "the name of an alarm is in single quotes: alarm('name')".to_owned(),
                 _ => {}
             }
             return Err(problem);
         }
     }
-    found.push((source.chars().count() + 1, Token::End));
+    found.push((column + source[counted..].chars().count(), Token::End));
     Ok(found)
 }
 
 /// The problem "expected this, found that", with the expression and the column.
 pub(super) fn mistake(source: &str, column: usize, expected: &str, found: &str) -> Problem {
     Problem::new(
-        format!("expected {expected}, found {found} at character {column} of `{source}`"),
+        format!("expected {expected}, found {found} at character {column} of `{}`", excerpt(source, column)),
         "operators are == != < <= > >= && || ! + - * /, with parentheses",
     )
+}
+
+/// The longest expression that a message shows as a whole, in characters.
+const SHOWN: usize = 200;
+
+/// The expression for a message; only the part around a column if it is long.
+pub(super) fn excerpt(source: &str, column: usize) -> Cow<'_, str> {
+    let length = source.chars().count();
+    if length <= SHOWN {
+        return Cow::Borrowed(source);
+    }
+    let from = column.saturating_sub(SHOWN / 2).min(length - SHOWN);
+    let before = if from > 0 { "…" } else { "" };
+    let after = if from + SHOWN < length { "…" } else { "" };
+    Cow::Owned(format!("{before}{}{after}", source.chars().skip(from).take(SHOWN).collect::<String>()))
 }
 
 /// A number in the notation of the PLC: `1.5`, `1_000`, or with its base, `16#D0`.

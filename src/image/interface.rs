@@ -256,7 +256,7 @@ impl Interface {
     }
 
     /// The signals that share a bit with a location, with the numbers of their blocks.
-    pub(super) fn touching(&'static self, location: Location) -> impl Iterator<Item = (u8, &'static Signal)> {
+    pub fn touching(&'static self, location: Location) -> impl Iterator<Item = (u8, &'static Signal)> {
         let at = move |byte| self.signals_at(location.part, location.offset + byte);
         let bytes = (0..location.bytes()).filter_map(at);
         let all = bytes.flat_map(|byte| byte.signals.iter().map(move |signal| (byte.number, *signal)));

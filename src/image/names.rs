@@ -1,6 +1,6 @@
 //! The names of one machine: its axes and channels, and the profile that numbers its interface blocks.
 
-use crate::source::{Problem, did_you_mean};
+use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel};
 
 use super::{Address, Area, Block, Interface, Location, Memory, Part, Profile, Width, Writer};
@@ -111,7 +111,10 @@ impl Names {
         let found = of_block().find(|signal| signal.name == name);
         let found = found.and_then(|signal| self.interface().location(signal, number));
         found.ok_or_else(|| {
-            let cure = did_you_mean(name, of_block().map(|signal| signal.name), "`opennck signals` lists all signals");
+            let cure = match nearest(name, of_block().map(|signal| signal.name)) {
+                Some(near) => format!("did you mean `{owner}.{near}`?"),
+                None => "`opennck signals` lists all signals".to_owned(),
+            };
             Problem::new(
                 format!(
                     "expected a signal of `{owner}` ({}), found `{owner}.{name}`",
@@ -226,7 +229,8 @@ impl Names {
         let what = self.symbol(location).map_or_else(|| address.to_string(), |symbol| format!("{symbol} ({address})"));
         Err(Problem::new(
             format!("expected a signal that the PLC or the operator panel writes, found {what}, which the NCK writes"),
-            "the NCK overwrites it in the same cycle; use `expect` to check it",
+            "the NCK overwrites it in the same cycle: check it with `expect` or `wait`, or write it with `write`, \
+             which does what a client could do",
         ))
     }
 

@@ -137,6 +137,12 @@ impl Machine {
         self.definition.names.axis(name)
     }
 
+    /// Whether the machine has this channel, according to the stored data of its control.
+    #[must_use]
+    pub fn has_channel(&self, channel: ChannelNumber) -> bool {
+        self.control.has_channel(channel)
+    }
+
     /// The control. `downcast` gives access to a specific type.
     #[must_use]
     pub fn control(&self) -> &(dyn Control + 'static) {

@@ -165,6 +165,15 @@ pub(super) fn texts(node: Option<Node>, what: &str) -> Result<Vec<Named>, Proble
 }
 
 pub(super) fn duration(node: &Node, what: &str) -> Result<Duration, Problem> {
+    let number = match &node.value {
+        Value::Integer(number) => Some(number.to_string()),
+        Value::Float(number) => Some(number.to_string()),
+        Value::Text(_) | Value::Boolean(_) | Value::Array(_) | Value::Table(_) => None,
+    };
+    if let Some(number) = number {
+        let cure = format!("write \"{number}s\"; units are us, ms, s, min, h and cycles");
+        return Err(node.expected(&format!("{what} with its unit"), &cure));
+    }
     Duration::parse(node.text(what)?).map_err(|problem| problem.at(&node.place))
 }
 

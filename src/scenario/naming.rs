@@ -1,10 +1,10 @@
 //! Names in a scenario: those of its machine, and those of the values that its steps captured.
 
 use crate::expression::Scope;
-use crate::image::Location;
+use crate::image::{Block, Location};
 use crate::machine::Machine;
 use crate::source::{Problem, did_you_mean};
-use crate::units::AxisNumber;
+use crate::units::{AxisNumber, ChannelNumber};
 use crate::variables::Describe;
 
 /// The names of a machine and of the values captured so far.
@@ -59,10 +59,42 @@ pub(super) fn place_named(machine: &Machine, name: &str) -> Result<Location, Pro
     machine.names().resolve(machine.memory(), name)
 }
 
-/// The location of a signal that the NCK does not write.
+/// The location of a signal that the NCK does not write, of an axis or channel that exists.
 pub(super) fn writable(machine: &Machine, name: &str) -> Result<Location, Problem> {
+    let location = written_by_others(machine, name)?;
+    missing_owner(machine, location).map_or(Ok(location), Err)
+}
+
+/// The location of a signal that the NCK does not write.
+pub(super) fn written_by_others(machine: &Machine, name: &str) -> Result<Location, Problem> {
     let names = machine.names();
     let location = names.resolve(machine.memory(), name)?;
     names.check_writer(location)?;
     Ok(location)
+}
+
+/// The problem of a signal whose axis or channel this machine does not have: nothing would read what is written there.
+pub(super) fn missing_owner(machine: &Machine, location: Location) -> Option<Problem> {
+    let names = machine.names();
+    let (number, signal) = names.interface().touching(location).next()?;
+    let exists = match signal.block {
+        Block::Axis => AxisNumber::new(number).is_some_and(|axis| names.axes[axis].is_some()),
+        Block::Channel => ChannelNumber::new(number).is_some_and(|channel| machine.has_channel(channel)),
+        Block::Nck | Block::ModeGroup => true,
+    };
+    let (kind, known): (_, Vec<&str>) = match signal.block {
+        Block::Axis => ("axis", AxisNumber::all().filter_map(|axis| names.axes[axis].as_deref()).collect()),
+        Block::Channel => {
+            let existing = ChannelNumber::all().filter(|channel| machine.has_channel(*channel));
+            ("channel", existing.filter_map(|channel| names.channels[channel].as_deref()).collect())
+        }
+        Block::Nck | Block::ModeGroup => return None,
+    };
+    (!exists).then(|| {
+        let (address, known) = (names.address(location), known.join(", "));
+        Problem::new(
+            format!("expected a signal of an existing {kind}, found {address} of {kind} {number}"),
+            format!("the machine has {known}"),
+        )
+    })
 }

@@ -182,8 +182,7 @@ impl Book {
                 Err(self.missed(what, Some(expression), machine))
             }
             Action::Expect(expressions) => {
-                let mut all = expressions.iter();
-                all.try_for_each(|(place, expression)| self.expect(expression, machine).map_err(|f| f.at(place)))?;
+                self.expect_all(expressions, machine)?;
                 Ok(Next::Over)
             }
             Action::Capture(captures) => {
@@ -193,10 +192,7 @@ impl Book {
                 Ok(Next::Over)
             }
             Action::Image(bytes) => {
-                let mut all = bytes.iter();
-                all.try_for_each(|(place, location, bits)| {
-                    self.expect_bits(*location, *bits, machine).map_err(|f| f.at(place))
-                })?;
+                self.expect_bits(bytes, machine)?;
                 Ok(Next::Over)
             }
         }
@@ -280,6 +276,27 @@ impl Book {
         }
     }
 
+    /// All expressions must be true now; the failure names every false one.
+    pub(super) fn expect_all(&self, expressions: &[(Place, Expression)], machine: &Machine) -> Result<(), Failure> {
+        let of = expressions.len();
+        let mut missed = expressions.iter().filter(|(_, expression)| !self.holds(expression, machine));
+        let Some((place, first)) = missed.next() else {
+            return Ok(());
+        };
+        let further: Vec<_> = missed.collect();
+        if further.is_empty() {
+            return self.expect(first, machine).map_err(|failure| failure.at(place));
+        }
+        let mut lines = Vec::new();
+        for (place, expression) in std::iter::once(&(place.clone(), first.clone())).chain(further.iter().copied()) {
+            lines.push(format!("line {}: `{}` is false", place.line, expression.source()));
+            let operands = self.looked_at(machine, |view| expression.operands(view, machine));
+            lines.extend(operands.into_iter().map(|operand| format!("  {operand}")));
+        }
+        let what = format!("{} of {of} expectations are false", further.len() + 1);
+        Err(self.missed_with(what, lines, machine).at(place))
+    }
+
     /// Stores a value.
     pub(super) fn keep(&mut self, index: usize, expression: &Expression, machine: &Machine) -> f64 {
         let value = self.evaluated(expression, machine);
@@ -290,17 +307,23 @@ impl Book {
         value
     }
 
-    /// The location must have these bits now.
-    fn expect_bits(&self, location: Location, bits: u64, machine: &Machine) -> Result<(), Failure> {
-        let found = self.now(machine).read(location);
-        if found == bits {
-            return Ok(());
+    /// The locations must have these bits now; the failure names every other one.
+    pub(super) fn expect_bits(&self, expected: &[(Place, Location, u64)], machine: &Machine) -> Result<(), Failure> {
+        let now = self.now(machine);
+        let mut different = Vec::new();
+        for (place, location, bits) in expected {
+            let found = now.read(*location);
+            if found != *bits {
+                let width = usize::from(location.width);
+                let address = machine.names().address(*location);
+                different.push((place, format!("expected {address} = 2#{bits:0width$b}, found 2#{found:0width$b}")));
+            }
         }
-        let width = usize::from(location.width);
-        let names = machine.names();
-        let address = names.address(location);
-        let what = format!("expected {address} = 2#{bits:0width$b}, found 2#{found:0width$b}");
-        Err(self.missed(what, None, machine))
+        let Some((place, first)) = different.first() else {
+            return Ok(());
+        };
+        let further = different[1..].iter().map(|(place, what)| format!("line {}: {what}", place.line)).collect();
+        Err(self.missed_with(first.clone(), further, machine).at(place))
     }
 
     /// The state after the last cycle.
@@ -353,6 +376,10 @@ impl Book {
     fn missed(&self, what: String, expression: Option<&Expression>, machine: &Machine) -> Failure {
         let operands = expression
             .map_or_else(Vec::new, |expression| self.looked_at(machine, |view| expression.operands(view, machine)));
+        self.missed_with(what, operands, machine)
+    }
+
+    fn missed_with(&self, what: String, operands: Vec<String>, machine: &Machine) -> Failure {
         let names = machine.names();
         let alarms = machine.variables().alarms.iter().map(|alarm| {
             let (name, text) = (machine.alarm_name(alarm.number), machine.alarm_text(alarm));

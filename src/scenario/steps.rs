@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use super::duration::Duration;
 use super::faults::fault;
 use super::file::{duration, not_available, texts};
-use super::naming::{Known, check_captured_name, place_named, writable};
+use super::naming::{Known, check_captured_name, missing_owner, place_named, written_by_others};
 use crate::expression::Expression;
 use crate::image::{Location, raw_value};
 use crate::machine::{Command, DatumValue, Machine};
@@ -93,11 +93,13 @@ pub(super) struct Reader<'a> {
     machine: &'a Machine,
     /// The names captured so far.
     pub(super) captured: Vec<String>,
+    /// Data of the machine were stored, and have taken effect: the machine can have other channels than it has now.
+    reconfigured: [bool; 2],
 }
 
 impl<'a> Reader<'a> {
     pub(super) fn new(machine: &'a Machine) -> Self {
-        Self { machine, captured: Vec::new() }
+        Self { machine, captured: Vec::new(), reconfigured: [false; 2] }
     }
 
     /// An expression with all names known so far.
@@ -178,13 +180,9 @@ impl<'a> Reader<'a> {
         let place = node.place.clone();
         let command = |command: Command| Action::Queue(vec![command]);
         let action = match verb {
-            "set" => Action::Queue(self.writes(node, writable, |location, value| Command::Write { location, value })?),
-            "write" => {
-                Action::Queue(self.writes(node, place_named, |location, value| Command::Write { location, value })?)
-            }
-            "force" => {
-                Action::Queue(self.writes(node, writable, |location, value| Command::Force { location, value })?)
-            }
+            "set" => Action::Queue(self.writes(node, false, |location, value| Command::Write { location, value })?),
+            "write" => Action::Queue(self.writes(node, true, |location, value| Command::Write { location, value })?),
+            "force" => Action::Queue(self.writes(node, false, |location, value| Command::Force { location, value })?),
             "release" => {
                 let places = self.locations(node)?;
                 Action::Queue(places.into_iter().map(|(_, location)| Command::Release { location }).collect())
@@ -223,10 +221,17 @@ impl<'a> Reader<'a> {
                 Action::Expect(texts.iter().map(read).collect::<Result<_, _>>()?)
             }
             "capture" => Action::Capture(self.captures(node)?),
-            "machine_data" => Action::Queue(self.machine_data(node)?),
+            "machine_data" => {
+                self.reconfigured[0] = true;
+                Action::Queue(self.machine_data(node)?)
+            }
             "r_parameters" => Action::Queue(self.r_parameters(node)?),
             "new_conf" => self.flag(&node, verb).map(|()| command(Command::NewConf))?,
-            "power_on" => self.flag(&node, verb).map(|()| command(Command::PowerOn))?,
+            "power_on" => {
+                self.flag(&node, verb)?;
+                self.reconfigured[1] = self.reconfigured[0];
+                command(Command::PowerOn)
+            }
             "cancel" => self.flag(&node, verb).map(|()| command(Command::Cancel))?,
             "plc" => match node.text("\"stop\", \"run\" or \"cold\"")? {
                 "stop" => command(Command::PlcStop),
@@ -272,22 +277,34 @@ impl<'a> Reader<'a> {
         texts
             .into_iter()
             .map(|named| {
-                let location = writable(self.machine, &named.text).map_err(|problem| problem.at(&named.place))?;
+                let location = self.writable(&named.text).map_err(|problem| problem.at(&named.place))?;
                 Ok((named, location))
             })
             .collect()
     }
 
+    /// The location of a signal that the NCK does not write, of an axis or channel that exists.
+    fn writable(&self, name: &str) -> Result<Location, Problem> {
+        let location = written_by_others(self.machine, name)?;
+        match missing_owner(self.machine, location) {
+            Some(problem) if self.reconfigured != [true, true] => Err(problem),
+            Some(_) | None => Ok(location),
+        }
+    }
+
+    /// Writes to signals; `of_the_nck` permits those of the NCK, too.
     fn writes(
         &self,
         node: Node,
-        find: impl Fn(&Machine, &str) -> Result<Location, Problem>,
+        of_the_nck: bool,
         command: impl Fn(Location, u64) -> Command,
     ) -> Result<Vec<Command>, Problem> {
-        let mut table = node.into_table("signals with their values")?;
+        let mut table = node.into_table("signals with their values, as { \"X.controller_enable\" = 1 }")?;
         let mut commands = Vec::new();
         for (name, place, node) in table.take_rest() {
-            let location = find(self.machine, &name).map_err(|problem| problem.at(&place))?;
+            node.refuse_unquoted_key(&name)?;
+            let found = if of_the_nck { place_named(self.machine, &name) } else { self.writable(&name) };
+            let location = found.map_err(|problem| problem.at(&place))?;
             let bits = raw_value(&node, location, self.machine.override_coding())?;
             commands.push(command(location, bits));
         }
@@ -316,6 +333,7 @@ impl<'a> Reader<'a> {
         let mut table = node.into_table("machine data with their values")?;
         let mut commands = Vec::new();
         for (target, place, node) in table.take_rest() {
+            node.refuse_unquoted_key(&target)?;
             let value = match &node.value {
                 Value::Integer(number) => DatumValue::Integer(*number),
                 Value::Float(number) => DatumValue::Real(*number),
@@ -357,9 +375,10 @@ impl<'a> Reader<'a> {
     }
 
     fn image(&self, node: Node) -> Result<Vec<(Place, Location, u64)>, Problem> {
-        let mut table = node.into_table("addresses with their bits")?;
+        let mut table = node.into_table("addresses with their bits, as { \"DB31.DBB101\" = \"2#1100_0000\" }")?;
         let mut expected = Vec::new();
         for (name, place, node) in table.take_rest() {
+            node.refuse_unquoted_key(&name)?;
             let location = place_named(self.machine, &name).map_err(|problem| problem.at(&place))?;
             let bits = raw_value(&node, location, self.machine.override_coding())?;
             expected.push((node.place, location, bits));

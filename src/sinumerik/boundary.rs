@@ -120,6 +120,10 @@ impl Control for Nck {
         CycleTimes { interpolation: parameters.cycle, position_control: parameters.servo_cycles }
     }
 
+    fn has_channel(&self, channel: ChannelNumber) -> bool {
+        self.stored().mode_group(channel).is_some()
+    }
+
     fn measuring_system(&self, axis: AxisNumber) -> Option<u8> {
         Self::measuring_system(self, axis)
     }

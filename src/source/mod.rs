@@ -84,17 +84,32 @@ impl fmt::Display for Problem {
     }
 }
 
-/// The known name that is nearest to a misspelt name, if one is near enough.
+/// The known name that is nearest to a misspelt name, if one is near enough: by the number of wrong letters, or because the name is its
+/// beginning, as `pos` is the beginning of `position`.
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = (name.chars().count() / 3).max(2);
-    known
-        .into_iter()
-        .map(|candidate| (strsim::damerau_levenshtein(name, candidate), candidate))
-        .filter(|(distance, _)| *distance <= allowed)
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, candidate)| candidate)
+    let mut misspelt: Option<(usize, &str)> = None;
+    let mut shortened: Option<&str> = None;
+    for candidate in known {
+        let distance = strsim::damerau_levenshtein(name, candidate);
+        if distance <= allowed && misspelt.is_none_or(|(least, _)| distance < least) {
+            misspelt = Some((distance, candidate));
+        }
+        let is_beginning = name.len() >= SHORTENED && candidate.starts_with(name);
+        if is_beginning && shortened.is_none_or(|other| candidate.len() < other.len()) {
+            shortened = Some(candidate);
+        }
+    }
+    // Almost every name of two or three letters is two wrong letters from another one.
+    match misspelt {
+        Some((distance, candidate)) if 2 * distance < name.chars().count() || shortened.is_none() => Some(candidate),
+        Some(_) | None => shortened,
+    }
 }
+
+/// The length from which a name counts as the beginning of a longer one.
+const SHORTENED: usize = 2;
 
 /// `did you mean …?`, or the fallback if no known name is near.
 #[must_use]
@@ -150,5 +165,6 @@ mod tests {
         let known = ["controller_enable", "pulse_enable"];
         assert_eq!(nearest("controler_enable", known), Some("controller_enable"));
         assert_eq!(nearest("spindle", known), None);
+        assert_eq!(nearest("pulse", known), Some("pulse_enable"));
     }
 }

@@ -54,10 +54,16 @@ impl Table {
         let lines = Lines::new(text);
         let document = DeTable::parse(text).map_err(|error| {
             let line = error.span().map_or(0, |span| lines.line(span.start));
-            start.at_line(line).problem(
-                format!("invalid TOML: {}", error.message().replace('\n', "; ")),
-                "TOML 1.0 has strings in quotes, tables in brackets, one value per key",
-            )
+            let cure = match error.message() {
+                message if message.contains("must be quoted") => {
+                    "put texts, expressions and durations in quotes: \"X.position > 5\", \"500ms\""
+                }
+                message if message.contains("missing assignment") => {
+                    "put a key with brackets in quotes: \"34090[XF]\" = 1.5"
+                }
+                _ => "TOML 1.0 has strings in quotes, tables in brackets, one value per key",
+            };
+            start.at_line(line).problem(format!("invalid TOML: {}", error.message().replace('\n', "; ")), cure)
         })?;
         table(document.get_ref(), &start.at_line(1), &lines, &start)
     }
@@ -93,7 +99,9 @@ impl Table {
         let Some((name, place, _)) = self.entries.first() else {
             return Ok(());
         };
-        let known = self.known.join("`, `");
+        let mut known = self.known.clone();
+        known.dedup();
+        let known = known.join("`, `");
         let cure = did_you_mean(name, self.known.iter().copied(), "remove it");
         Err(place.problem(format!("expected one of `{known}`, found the unknown key `{name}`"), cure))
     }
@@ -143,6 +151,7 @@ impl Node {
     pub fn text(&self, what: &str) -> Result<&str, Problem> {
         match &self.value {
             Value::Text(text) => Ok(text),
+            Value::Array(_) | Value::Table(_) => Err(self.expected(what, "write one text in quotes")),
             _ => Err(self.expected(what, "put it in quotes")),
         }
     }
@@ -193,6 +202,37 @@ impl Node {
         choice
             .map(|(_, choice)| *choice)
             .ok_or_else(|| self.expected(&what, &did_you_mean(text, names, "write one of them")))
+    }
+
+    /// The key that was probably meant if this value of the key `name` is a table: a dot without quotes, `X.controller_enable = 1`, makes
+    /// a table `X` with the key `controller_enable`.
+    #[must_use]
+    pub fn unquoted_key(&self, name: &str) -> Option<String> {
+        let Value::Table(table) = &self.value else {
+            return None;
+        };
+        match &table.entries[..] {
+            [(inner, _, node)] => {
+                let whole = format!("{name}.{inner}");
+                Some(node.unquoted_key(&whole).unwrap_or(whole))
+            }
+            _ => None,
+        }
+    }
+
+    /// The problem of a key that has a dot and no quotes, if the value of the key `name` is one.
+    ///
+    /// # Errors
+    /// The value is a table.
+    pub fn refuse_unquoted_key(&self, name: &str) -> Result<(), Problem> {
+        match (self.unquoted_key(name), &self.value) {
+            (Some(key), _) => Err(self.place.problem(
+                format!("expected a key in quotes, found {key} without quotes"),
+                format!("write \"{key}\" = …; without quotes a dot begins a table"),
+            )),
+            (None, Value::Table(_)) => Err(self.expected("one value", &format!("write \"{name}\" = 1"))),
+            (None, _) => Ok(()),
+        }
     }
 
     /// The value as a table.

@@ -43,7 +43,7 @@ fn a_byte_with_many_signals_has_a_writer_but_no_symbol() {
 #[test]
 fn a_misspelt_symbol_gets_a_suggestion() {
     for (text, near) in [
-        ("X.controler_enable", "`controller_enable`"),
+        ("X.controler_enable", "`X.controller_enable`"),
         ("XG.controller_enable", "`X`"),
         ("CHAN3.channel_reset", "`CHAN1`"),
         ("nckk.emergency_stop", "`nck`"),

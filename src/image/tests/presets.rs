@@ -112,7 +112,7 @@ fn every_mistake_is_reported_with_file_and_line() {
         ("[areas]\nM = 65536", 2, "65535"),
         ("[areas]\nN = 1", 2, "`N`"),
         ("[area]\nM = 1", 1, "`area`"),
-        ("[interface]\n\"X.controler_enable\" = 1", 2, "`controller_enable`"),
+        ("[interface]\n\"X.controler_enable\" = 1", 2, "`X.controller_enable`"),
         ("[interface]\n\"DB31.DBX148.0\" = 1", 2, "148 bytes"),
         ("[interface]\n\"X.gantry_axis\" = 1", 2, "which the NCK writes"),
         ("[interface]\n\"DB31.DBB101\" = 1", 2, "which the NCK writes"),

@@ -7,6 +7,7 @@
 
 use std::fmt::Write;
 
+use super::naming::missing_owner;
 use crate::image::{Address, Format, Location, Profile, Writer};
 use crate::machine::{Command, DatumValue, Fault, Machine};
 use crate::scenario::faults::written;
@@ -139,9 +140,11 @@ impl Transcript {
     fn command(&mut self, command: &Command, machine: &Machine) {
         match command {
             Command::Write { location, value } => {
+                // `set` refuses both: a client may write bytes of axes and channels that do not exist.
                 let is_of_the_nck = machine.names().writer(*location) == Some(Writer::Nck);
+                let is_of_nobody = missing_owner(machine, *location).is_some();
                 let (key, value) = entry(*location, *value, machine);
-                self.put(if is_of_the_nck { "write" } else { "set" }, key, value);
+                self.put(if is_of_the_nck || is_of_nobody { "write" } else { "set" }, key, value);
             }
             Command::Force { location, value } => {
                 let (key, value) = entry(*location, *value, machine);

@@ -9,6 +9,8 @@ use crate::image::Profile;
 use crate::plc::Programs;
 use crate::source::Problem;
 
+mod language;
+
 /// A head of two lines; the steps begin in line 3.
 fn scenario(rest: &str) -> Result<Scenario, Problem> {
     let text = format!("title = \"t\"\nmachine = \"g1_example\"\n{rest}");
@@ -44,6 +46,7 @@ fn the_limit_and_a_wait_count_the_time_of_the_machine() {
     assert!(failure.contains("waited 1.020 s for"), "{failure}");
 }
 
+
 const STEP: &str = "[[step]]\nrun = \"1s\"\n";
 
 #[test]
@@ -57,7 +60,7 @@ fn every_mistake_in_the_head_names_its_line_and_a_cure() {
         ("plc = 5\n", 3, "the name of a PLC program, found the integer 5", "quotes"),
         ("plc_image = \"no_such\"\n", 3, "plc_images/no_such.toml", ".toml"),
         ("limit = \"5\"\n", 3, "a duration, found `5`", "us, ms, s, min or h"),
-        ("limit = 5\n", 3, "the limit of simulated time, found the integer 5", "quotes"),
+        ("limit = 5\n", 3, "the limit of simulated time with its unit, found the integer 5", "\"5s\""),
         ("watch = [\"X.*\",\n \"X.positoin\"]\n", 4, "X.positoin", "did you mean"),
         ("causes = 1\n", 3, "found the integer 1", "true or false"),
         ("never = [\"1 <\"]\n", 3, "found the end", "operators are"),
@@ -106,7 +109,8 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
         ("set = 5", 4, "signals with their values", "table"),
         ("set = { \"X.traversing_key_pls\" = 1 }", 4, "X.traversing_key_pls", "traversing_key_plus"),
         ("set = { \"Z.traversing_key_plus\" = 1 }", 4, "found `Z`", "did you mean"),
-        ("set = { \"DB31.DBX101.4\" = 1 }", 4, "which the NCK writes", "expect"),
+        ("set = { \"DB31.DBX101.7\" = 1 }", 4, "found X.gantry_axis (DB31.DBX101.7), which the NCK writes", "expect"),
+        ("set = { \"X.gantry_axis\" = 1 }", 4, "found X.gantry_axis (DB31.DBX101.7), which the NCK writes", "expect"),
         ("set = { \"DB31.DBB101\" = 1 }", 4, "which the NCK writes", "expect"),
         ("force = { \"X.gantry_synchronization_ready_to_start\" = 1 }", 4, "which the NCK writes", "expect"),
         ("pulse = [\"DB31.DBX101.4\"]", 4, "which the NCK writes", "expect"),
@@ -120,10 +124,24 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
         ("set = { MB0 = [1] }", 4, "found an array", ""),
         ("set = { M300 = 1 }", 4, "M300", ""),
         ("release = [\"M400.0\"]", 4, "256 bytes", "255"),
-        ("run = 5", 4, "the time to run, found the integer 5", "quotes"),
+        ("run = 5", 4, "the time to run with its unit, found the integer 5", "write \"5s\""),
+        ("run = 0.5", 4, "the time to run with its unit, found the number 0.5", "write \"0.5s\""),
+        ("run = 5s", 4, "invalid TOML", "in quotes"),
+        ("wait = X.position > 5", 4, "invalid TOML", "in quotes"),
+        (
+            "set = { X.controller_enable = 1 }",
+            4,
+            "found X.controller_enable without quotes",
+            "\"X.controller_enable\" = ",
+        ),
+        ("set = { DB31.DBX2.1 = 1 }", 4, "found DB31.DBX2.1 without quotes", "\"DB31.DBX2.1\" = "),
+        ("machine_data = { 34090[XF] = 1 }", 4, "invalid TOML", "brackets in quotes"),
+        ("set = { \"DB40.DBX2.1\" = 1 }", 4, "an existing axis, found DB40.DBX2.1 of axis 10", "X, Y, XF"),
+        ("pulse = \"DB25.DBX7.1\"", 4, "an existing channel, found DB25.DBX7.1 of channel 5", "CHAN1"),
+        ("force = { \"DB22.DBB4\" = 1 }", 4, "an existing channel, found DB22.DBB4 of channel 2", "CHAN1"),
         ("run = \"5 days\"", 4, "a duration, found `5 days`", "10cycles"),
         ("wait = \"X.ready\"", 4, "X.ready", ""),
-        ("wait = \"1\"\nwithin = 5", 5, "the longest time to wait", "quotes"),
+        ("wait = \"1\"\nwithin = 5", 5, "the longest time to wait", "\"5s\""),
         ("hold = \"1\"", 4, "`during` together with `hold`", "during = "),
         ("expect = [\"1\",\n\"1 < 2 < 3\"]", 5, "one comparison", "do not chain"),
         ("expect = \"later > 1\"", 4, "later", ""),
