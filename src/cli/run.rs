@@ -8,12 +8,15 @@ use clap::Args;
 
 use super::output::{Output, apart};
 use crate::plc::Programs;
-use crate::scenario::{Failure, Finished, Prepared, Scenario};
-use crate::source::{Problem, unwritable};
+use crate::scenario::{Failure, Finished, Prepared, Scenario, Variant};
+use crate::source::{Place, Problem, unwritable};
 
 /// Files to which the trace is written as well.
 #[derive(Clone, Debug, Default, Args)]
 pub(super) struct Files {
+    /// Runs only the cases of a matrix whose values contain this text, as `plc = a`.
+    #[arg(long, value_name = "TEXT")]
+    case: Option<String>,
     /// Writes the trace as JSON lines, for programs; one scenario only.
     #[arg(long, value_name = "F.jsonl")]
     trace: Option<PathBuf>,
@@ -51,7 +54,7 @@ impl Files {
             if runs != 1 {
                 return Err(Problem::new(
                     format!("expected one scenario under one profile with {option}, found {runs} runs"),
-                    "run each scenario separately, with its own file",
+                    "run each scenario separately, with its own file; `--case TEXT` chooses a case of a matrix",
                 ));
             }
             apart(option, path, scenarios.iter().map(PathBuf::as_path))?;
@@ -67,7 +70,7 @@ pub(super) fn run(scenarios: &[PathBuf], files: &Files, programs: &Programs, out
     let mut ready = Vec::new();
     let mut usable = true;
     for file in scenarios {
-        match prepare(file, programs) {
+        match prepare(file, files.case.as_deref(), programs) {
             Ok(prepared) => ready.extend(prepared),
             Err(problem) => {
                 output.error(problem);
@@ -106,10 +109,30 @@ pub(super) fn run(scenarios: &[PathBuf], files: &Files, programs: &Programs, out
     code
 }
 
-/// One scenario under each of its profiles.
-fn prepare(file: &Path, programs: &Programs) -> Result<Vec<Prepared>, Problem> {
-    let scenario = Scenario::read(file)?;
-    scenario.profiles.iter().map(|profile| scenario.prepare(*profile, programs)).collect()
+/// All cases of one scenario under each of its profiles; with `wanted`, the cases whose values contain this text.
+fn prepare(file: &Path, wanted: Option<&str>, programs: &Programs) -> Result<Vec<Prepared>, Problem> {
+    let cases = Scenario::read_cases(file)?;
+    let is_wanted = |variant: &Variant, wanted| variant.to_string().contains(wanted) || variant.name.contains(wanted);
+    let mut ready = Vec::new();
+    let mut known = Vec::new();
+    for scenario in &cases {
+        if let (Some(wanted), Some(variant)) = (wanted, &scenario.variant)
+            && !is_wanted(variant, wanted)
+        {
+            known.push(variant.to_string());
+            continue;
+        }
+        for profile in &scenario.profiles {
+            ready.push(scenario.prepare(*profile, programs)?);
+        }
+    }
+    if ready.is_empty() {
+        let what = format!("expected a case with `{}`, found none", wanted.unwrap_or_default());
+        known.truncate(10);
+        let cure = format!("cases are {}", known.join("; "));
+        return Err(Place::file(&file.display().to_string()).problem(what, cure));
+    }
+    Ok(ready)
 }
 
 /// Prints how a scenario ended, and returns its exit code.

@@ -43,13 +43,7 @@ pub(super) fn test(paths: &[PathBuf], options: &Options, programs: &Programs, ou
         let name = file.display().to_string();
         match cases(&file) {
             Err(problem) => work.push((name, Work::Unusable(problem))),
-            Ok(cases) => {
-                let several = cases.len() > 1;
-                work.extend(cases.into_iter().map(|case| {
-                    let name = if several { format!("{name} ({})", case.profile.name()) } else { name.clone() };
-                    (name, Work::Case(Box::new(case)))
-                }));
-            }
+            Ok(cases) => work.extend(cases.into_iter().map(|case| (case.name(), Work::Case(Box::new(case))))),
         }
     }
     let (outcomes, taken) = all(&work, options, programs);

@@ -24,7 +24,7 @@ mod value;
 
 pub use data::{Data, Datum, Owner};
 pub use log::Log;
-pub use opening::{AxisHints, Configuration, EncoderModel, Examined, Opened, Read, Settings, Site};
+pub use opening::{AxisHints, Configuration, EncoderModel, Examined, Opened, Read, Settings, Site, StoredDatum};
 pub use transitions::{CHARTS, Chart, Edge, Rows, Taken, Transition, next, row};
 pub use value::{Kind, Value};
 

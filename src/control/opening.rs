@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::Control;
+use super::{Control, Value};
 use crate::image::{Names, Profile};
-use crate::source::{Problem, Table};
+use crate::source::{Place, Problem, Table};
 use crate::units::{AxisNumber, PerAxis, Position};
 
 /// Reads the files of a machine: the configuration of its control, and its `plant.toml`.
@@ -18,6 +18,20 @@ pub trait Configuration {
     /// The names of all possible axes of the control, in the order of their numbers. These are the names that `plant.toml` may use: a table
     /// `[X]` with any other name is an error.
     fn axis_names(&self) -> Vec<&str>;
+
+    /// Stores data over those of the files, before the control is opened; later ones replace earlier ones.
+    ///
+    /// # Errors
+    /// A datum does not exist, or a value does not fit it; the problem names its place.
+    fn store(&mut self, data: &[StoredDatum]) -> Result<(), Problem> {
+        match data.first() {
+            Some(datum) => Err(datum.place.problem(
+                format!("expected a datum of this control, found `{}`", datum.target),
+                "remove it: this control has no data that a scenario can store",
+            )),
+            None => Ok(()),
+        }
+    }
 
     /// The largest number of a gantry grouping that `plant.toml` may use in `[bridge.1]`. The default is 0: the control has no groupings.
     fn groupings(&self) -> u8 {
@@ -39,6 +53,17 @@ pub struct Settings {
     pub machine: Table,
     /// `[compatibility]`.
     pub compatibility: Table,
+}
+
+/// A datum that a scenario stores before the first power on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StoredDatum {
+    /// `34090[XF]`, `34100[2,XF]`, `11300`, an identifier.
+    pub target: String,
+    /// Its place in the scenario.
+    pub place: Place,
+    /// Its value.
+    pub value: Value,
 }
 
 /// The type of an encoder in the plant.

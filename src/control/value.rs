@@ -76,7 +76,7 @@ impl Value {
             }
             source::Value::Text(text) => Ok(Self::Text(text.clone())),
             source::Value::Array(_) | source::Value::Table(_) => {
-                Err(node.expected("a value of a machine datum", "write one value for one datum"))
+                Err(node.expected("a value of a machine datum", "write one value per index: \"34100[2,XF]\" = 5.0"))
             }
         }
     }

@@ -139,22 +139,22 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Problem> {
     Ok(())
 }
 
-/// The cases of a scenario file: one for each of its profiles. The golden file of the first profile is `<name>.snap`, that of every other
-/// profile is `<name>.<profile>.snap`.
+/// The cases of a scenario file: one for each combination of its matrix and each of its profiles. The golden file of the first profile is
+/// `<name>.snap`, that of every other profile is `<name>.<profile>.snap`; with a matrix, `<name>` is followed by `@` and the values.
 ///
 /// # Errors
 /// The file cannot be used.
 pub fn cases(file: &Path) -> Result<Vec<Case>, Problem> {
-    let scenario = Scenario::read(file)?;
-    let profiles = scenario.profiles.clone();
-    Ok(profiles
-        .into_iter()
-        .enumerate()
-        .map(|(index, profile)| {
+    let mut cases = Vec::new();
+    for scenario in Scenario::read_cases(file)? {
+        for (index, profile) in scenario.profiles.iter().copied().enumerate() {
             let extension = if index == 0 { "snap".to_owned() } else { format!("{}.snap", profile.name()) };
-            Case { scenario: scenario.clone(), profile, snap: file.with_extension(extension) }
-        })
-        .collect())
+            let plain = file.with_extension(extension);
+            let snap = scenario.variant.as_ref().map_or_else(|| plain.clone(), |variant| variant.beside(&plain));
+            cases.push(Case { scenario: scenario.clone(), profile, snap });
+        }
+    }
+    Ok(cases)
 }
 
 /// The transitions that a control has taken.
@@ -167,6 +167,19 @@ pub struct Exercised {
 }
 
 impl Case {
+    /// The name of the case in reports: its file, the values of its matrix, and its profile if there are several.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let mut name = self.scenario.path.display().to_string();
+        if let Some(variant) = &self.scenario.variant {
+            name = format!("{name} [{variant}]");
+        }
+        if self.scenario.profiles.len() > 1 {
+            name = format!("{name} ({})", self.profile.name());
+        }
+        name
+    }
+
     /// Runs the case and compares its trace with the golden file.
     #[must_use]
     pub fn run(&self, programs: &Programs, update: Update) -> Outcome {
@@ -288,7 +301,7 @@ fn report(dir: &Path, programs: &Programs, update: Update) -> String {
                     count += 1;
                     let outcome = case.run(programs, update);
                     if !outcome.is_good() {
-                        wrong.push(format!("{} ({})\n{outcome}", file.display(), case.profile.name()));
+                        wrong.push(format!("{}\n{outcome}", case.name()));
                     }
                 }
             }

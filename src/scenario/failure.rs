@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::file::in_the_case;
 use crate::source::{Place, Problem};
 use crate::units::Time;
 
@@ -21,6 +22,8 @@ pub struct Missed {
     pub place: Option<Place>,
     /// Time since the start of the scenario.
     pub time: Time,
+    /// The values of the case, if the scenario has a matrix.
+    pub case: Option<String>,
     /// What was expected, and for how long.
     pub what: String,
     /// Each signal and value in the expression, with its value at that time.
@@ -37,6 +40,20 @@ impl Failure {
             Self::Unusable(problem) => Self::Unusable(problem.at(place)),
             Self::Missed(mut missed) => {
                 missed.place.get_or_insert_with(|| place.clone());
+                Self::Missed(missed)
+            }
+        }
+    }
+}
+
+impl Failure {
+    /// The same failure in this case of a matrix.
+    #[must_use]
+    pub(super) fn of_case(self, case: Option<&str>) -> Self {
+        match self {
+            Self::Unusable(problem) => Self::Unusable(in_the_case(problem, case)),
+            Self::Missed(mut missed) => {
+                missed.case = case.map(str::to_owned);
                 Self::Missed(missed)
             }
         }
@@ -61,6 +78,9 @@ impl fmt::Display for Missed {
             write!(f, "{place}: ")?;
         }
         write!(f, "{} (at {} s)", self.what, self.time)?;
+        if let Some(case) = &self.case {
+            write!(f, "\n  in the case {case}")?;
+        }
         for operand in &self.operands {
             write!(f, "\n  {operand}")?;
         }

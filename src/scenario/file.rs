@@ -4,8 +4,11 @@
 //! anything runs.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::duration::Duration;
+use super::matrix::{Variant, heads};
+use crate::control::{StoredDatum, Value as DatumValue};
 use crate::controls;
 use crate::image::Profile;
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean, read_text};
@@ -42,7 +45,11 @@ pub struct Scenario {
     pub compare: Compare,
     /// Data that are merged into `plant.toml`.
     pub plant: Option<Table>,
-    pub(super) steps: Vec<Table>,
+    /// Machine data that are stored before the first power on.
+    pub machine_data: Vec<StoredDatum>,
+    /// The combination of the matrix, if the file has one.
+    pub variant: Option<Variant>,
+    pub(super) steps: Arc<[Table]>,
 }
 
 /// A text in a file, with its place.
@@ -70,27 +77,62 @@ pub enum Compare {
 const DEFAULT_LIMIT: Time = Time::from_millis(300_000);
 
 impl Scenario {
-    /// Reads a scenario file.
+    /// Reads a scenario file that has one case.
+    ///
+    /// # Errors
+    /// The file cannot be read or is not a scenario, or it has a matrix; the problem names file and line.
+    pub fn read(path: &Path) -> Result<Self, Problem> {
+        only_one(Self::read_cases(path)?, path)
+    }
+
+    /// Reads a scenario file: one scenario for each combination of its matrix, or one without a matrix.
     ///
     /// # Errors
     /// The file cannot be read or is not a scenario; the problem names file and line.
-    pub fn read(path: &Path) -> Result<Self, Problem> {
+    pub fn read_cases(path: &Path) -> Result<Vec<Self>, Problem> {
         if path.is_dir() {
             let place = Place::file(&path.display().to_string());
             let cure = "name one of its scenarios; `opennck test` runs all scenarios below a folder";
             return Err(place.problem("expected a scenario, found a folder", cure));
         }
-        Self::parse(&read_text(path)?, path)
+        Self::parse_cases(&read_text(path)?, path)
     }
 
-    /// Reads a scenario from its text. `path` names it in messages and is the base of its relative paths.
+    /// Reads a scenario with one case from its text. `path` names it in messages and is the base of its relative paths.
+    ///
+    /// # Errors
+    /// As [`Scenario::read`].
+    pub fn parse(text: &str, path: &Path) -> Result<Self, Problem> {
+        only_one(Self::parse_cases(text, path)?, path)
+    }
+
+    /// Reads all cases of a scenario from its text.
     ///
     /// # Errors
     /// The text is not a scenario; the problem names file and line.
-    pub fn parse(text: &str, path: &Path) -> Result<Self, Problem> {
+    pub fn parse_cases(text: &str, path: &Path) -> Result<Vec<Self>, Problem> {
         let file = path.display().to_string();
         let mut table = Table::parse(text, &file)?;
+        let written = table.take("step");
         let whole = Place::file(&file);
+        let mut cases = Vec::new();
+        let heads = heads(table, path)?;
+        let steps: Arc<[Table]> = Arc::from(steps(written, &whole)?);
+        for (variant, head) in heads {
+            let case = variant.as_ref().map(ToString::to_string);
+            let scenario = Self::from_head(head, path, &whole, Arc::clone(&steps), variant);
+            cases.push(scenario.map_err(|problem| in_the_case(problem, case.as_deref()))?);
+        }
+        Ok(cases)
+    }
+
+    fn from_head(
+        mut table: Table,
+        path: &Path,
+        whole: &Place,
+        steps: Arc<[Table]>,
+        variant: Option<Variant>,
+    ) -> Result<Self, Problem> {
         let required = |node: Option<Node>, key: &str, example: &str| {
             node.ok_or_else(|| {
                 whole.problem(format!("expected the key `{key}`, found none"), format!("write {key} = {example}"))
@@ -123,7 +165,9 @@ impl Scenario {
             always: texts(table.take("always"), "expressions")?,
             compare: table.take("compare").map_or(Ok(Compare::Exact), compare)?,
             plant: table.take("plant").map(|node| node.into_table("a table of plant data")).transpose()?,
-            steps: steps(table.take("step"), &whole)?,
+            machine_data: table.take("machine_data").map_or(Ok(Vec::new()), machine_data)?,
+            variant,
+            steps,
         };
         refuse_later_keys(&mut table)?;
         table.finish()?;
@@ -135,6 +179,34 @@ impl Scenario {
     pub fn directory(&self) -> &Path {
         self.path.parent().unwrap_or_else(|| Path::new(""))
     }
+}
+
+/// The only case of a file, for a caller that takes one.
+fn only_one(mut cases: Vec<Scenario>, path: &Path) -> Result<Scenario, Problem> {
+    match (cases.pop(), cases.len()) {
+        (Some(case), 0) => Ok(case),
+        (_, others) => Err(Place::file(&path.display().to_string()).problem(
+            format!("expected a scenario with one case, found a matrix of {}", others + 1),
+            "`opennck run` and `opennck test` run all cases of a matrix; `--case TEXT` chooses one",
+        )),
+    }
+}
+
+/// The same problem, with the values of the case in which it occurs.
+pub(super) fn in_the_case(problem: Problem, case: Option<&str>) -> Problem {
+    match case {
+        Some(case) => Problem { what: format!("{} (in the case {case})", problem.what), ..problem },
+        None => problem,
+    }
+}
+
+fn machine_data(node: Node) -> Result<Vec<StoredDatum>, Problem> {
+    let mut data = Vec::new();
+    for (target, place, node) in node.into_table("machine data with their values")?.take_rest() {
+        node.refuse_unquoted_key(&target)?;
+        data.push(StoredDatum { target, place, value: DatumValue::from_node(&node)? });
+    }
+    Ok(data)
 }
 
 /// The profile of this name, in files and on the command line.

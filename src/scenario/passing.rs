@@ -385,7 +385,7 @@ impl Book {
             let (name, text) = (machine.alarm_name(alarm.number), machine.alarm_text(alarm));
             format!("{name} [{}] {text}", place_name(alarm.place, names))
         });
-        Missed { place: None, time: self.time(machine), what, operands, alarms: alarms.collect() }.into()
+        Missed { place: None, time: self.time(machine), case: None, what, operands, alarms: alarms.collect() }.into()
     }
 }
 

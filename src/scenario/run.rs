@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use super::file::{Named, Scenario};
+use super::file::{Named, Scenario, in_the_case};
 use super::operator::{Operator, Plan};
 use super::passing::{Condition, Next};
 use super::session::Session;
@@ -47,6 +47,15 @@ impl Scenario {
     /// # Errors
     /// As [`Scenario::prepare`].
     pub fn prepare_on(&self, profile: Profile, programs: &Programs, read: Read) -> Result<Prepared, Problem> {
+        self.ready(profile, programs, read).map_err(|problem| in_the_case(problem, self.case().as_deref()))
+    }
+
+    /// The values of the matrix in this case.
+    fn case(&self) -> Option<String> {
+        self.variant.as_ref().map(ToString::to_string)
+    }
+
+    fn ready(&self, profile: Profile, programs: &Programs, read: Read) -> Result<Prepared, Problem> {
         let mut machine = self.open(profile, read)?;
         let watch = self.watch(&machine)?;
         let mut reader = Reader::new(&machine);
@@ -59,6 +68,7 @@ impl Scenario {
             title: self.title.clone(),
             machine: self.machine.text.clone(),
             profile: (profile != Profile::default()).then(|| profile.name().to_owned()),
+            case: self.case(),
             cycle_time: machine.cycle_time(),
         };
         // The program is looked up last, so that mistakes in the file are reported first.
@@ -84,7 +94,10 @@ impl Scenario {
         let options = OpenOptions { plant_over: self.plant.clone(), profile, preset };
         let opened = read(&self.directory().join(&self.machine.text));
         opened
-            .and_then(|(configuration, plant)| Machine::of(&*configuration, plant, options))
+            .and_then(|(mut configuration, plant)| {
+                configuration.store(&self.machine_data)?;
+                Machine::of(&*configuration, plant, options)
+            })
             .map_err(|problem| problem.at(&self.machine.place))
     }
 
@@ -163,6 +176,7 @@ impl Prepared {
                 break Some(failure);
             }
         };
+        let failure = failure.map(|failure| failure.of_case(self.head.case.as_deref()));
         Finished { session: self.session, head: self.head, causes: self.causes, failure }
     }
 

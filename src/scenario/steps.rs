@@ -334,21 +334,7 @@ impl<'a> Reader<'a> {
         let mut commands = Vec::new();
         for (target, place, node) in table.take_rest() {
             node.refuse_unquoted_key(&target)?;
-            let value = match &node.value {
-                Value::Integer(number) => DatumValue::Integer(*number),
-                Value::Float(number) => DatumValue::Real(*number),
-                Value::Boolean(value) => DatumValue::Boolean(*value),
-                // Bit values are written as in an archive, 'H0F' or 'B101', if the machine datum has the type of bits.
-                Value::Text(text) => match DatumValue::parse(text) {
-                    Some(bits @ DatumValue::Integer(_)) if text.starts_with('\'') => bits,
-                    _ => DatumValue::Text(text.clone()),
-                },
-                Value::Array(_) | Value::Table(_) => {
-                    return Err(
-                        node.expected("a value of a machine datum", "write one value per index: \"34100[2,XF]\" = 5.0")
-                    );
-                }
-            };
+            let value = DatumValue::from_node(&node)?;
             let command = Command::MachineDatum { target, value };
             self.judge(&command, &place)?;
             commands.push(command);

@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::control::{AxisHints, Configuration, EncoderModel, Examined, Opened, Owner, Settings, Site};
+use crate::control::{AxisHints, Configuration, EncoderModel, Examined, Opened, Owner, Settings, Site, StoredDatum};
 use crate::image::{Names, OverrideCoding, Profile, SINUMERIK};
 use crate::sinumerik::machine_data::{
     Archive, Finding, MachineData, Severity, Target, check as look_through, files_of, refusal,
@@ -84,6 +84,31 @@ impl Commissioning {
 impl Configuration for Commissioning {
     fn axis_names(&self) -> Vec<&str> {
         MachineData::axis_numbers().map(|axis| self.archive.data.axis_name(axis)).collect()
+    }
+
+    /// As in an archive: names of axes and channels first, then the types of axes, then everything else.
+    fn store(&mut self, data: &[StoredDatum]) -> Result<(), Problem> {
+        let order = |number| match number {
+            10000 | 20000 => 0,
+            30300 => 1,
+            _ => 2,
+        };
+        for turn in 0..3 {
+            for StoredDatum { target, place, value } in data {
+                let found = self.archive.data.parse_target(target);
+                match found {
+                    Ok(found) if order(found.datum().number) == turn => {
+                        self.archive.data.set(&found, value).map_err(|problem| problem.at(place))?;
+                        self.archive.given.insert(found, place.clone());
+                    }
+                    // An axis may have its name only after another datum of this scenario.
+                    Ok(_) => {}
+                    Err(problem) if turn == 2 => return Err(problem.at(place)),
+                    Err(_) => {}
+                }
+            }
+        }
+        Ok(())
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "8 groupings")]

@@ -81,6 +81,33 @@ impl Table {
         Some(self.entries.remove(index).2)
     }
 
+    /// The remaining keys with their values.
+    pub fn entries(&self) -> impl Iterator<Item = (&str, &Node)> {
+        self.entries.iter().map(|(name, _, node)| (name.as_str(), node))
+    }
+
+    /// Puts a value at a path of keys; it replaces the value there, and tables on the way are created.
+    ///
+    /// # Errors
+    /// A key on the way has a value that is not a table; the error is this key.
+    pub fn put(&mut self, path: &[&str], place: &Place, node: Node) -> Result<(), String> {
+        let Some((key, rest)) = path.split_first() else {
+            return Ok(());
+        };
+        let index = self.entries.iter().position(|(name, ..)| name == key).unwrap_or(self.entries.len());
+        if index == self.entries.len() {
+            let empty = Value::Table(Self::empty(place.clone()));
+            self.entries.push(((*key).to_owned(), place.clone(), Node { place: place.clone(), value: empty }));
+        }
+        let (.., old) = &mut self.entries[index];
+        match (&mut old.value, rest) {
+            (_, []) => *old = node,
+            (Value::Table(table), rest) => table.put(rest, place, node)?,
+            (_, _) => return Err((*key).to_owned()),
+        }
+        Ok(())
+    }
+
     /// Removes and returns all remaining entries: key, place of the key, value.
     pub fn take_rest(&mut self) -> Vec<(String, Place, Node)> {
         std::mem::take(&mut self.entries)

@@ -368,7 +368,13 @@ sthe_PLC_program_overwrote_what_was_set:_X.traversing_key_plus_(DB31.DBX4.7);_fo
 fn a_diagram_shows_names_extremes_alarms_and_notes() {
     let control = Control::new();
     let watch = Watch::parse(&["X.*", "MB7", "X.position"], &control.0, &Memory::new()).unwrap();
-    let head = Head { title: "a < b".into(), machine: "m".into(), profile: None, cycle_time: Time::from_millis(2) };
+    let head = Head {
+        title: "a < b".into(),
+        machine: "m".into(),
+        profile: None,
+        case: None,
+        cycle_time: Time::from_millis(2),
+    };
     let svg = recorded(&control).svg(&control, &watch, &head);
     for words in [
         "<title>a &lt; b</title>",

@@ -14,6 +14,8 @@ pub struct Head {
     pub machine: String,
     /// The profile, if it is not the default.
     pub profile: Option<String>,
+    /// The values of the case, if the scenario has a matrix.
+    pub case: Option<String>,
     /// The cycle time.
     pub cycle_time: Time,
 }
@@ -24,6 +26,9 @@ impl std::fmt::Display for Head {
         writeln!(f, "machine   {}", self.machine)?;
         if let Some(profile) = &self.profile {
             writeln!(f, "profile   {profile}")?;
+        }
+        if let Some(case) = &self.case {
+            writeln!(f, "case      {case}")?;
         }
         writeln!(f, "cycle     {} ms", self.cycle_time.seconds() * 1e3)
     }

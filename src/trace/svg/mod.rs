@@ -53,7 +53,9 @@ fn title(drawing: &mut Drawing, head: &Head) {
         drawing.text("title", (MARGIN, drawing.y), &line);
     }
     let profile = head.profile.as_ref().map(|profile| format!(" \u{b7} profile {profile}")).unwrap_or_default();
-    let machine = format!("machine {}{profile} \u{b7} cycle {} ms", head.machine, head.cycle_time.seconds() * 1e3);
+    let case = head.case.as_ref().map(|case| format!(" \u{b7} {case}")).unwrap_or_default();
+    let cycle = head.cycle_time.seconds() * 1e3;
+    let machine = format!("machine {}{profile}{case} \u{b7} cycle {cycle} ms", head.machine);
     drawing.y += 190;
     drawing.text("small", (MARGIN, drawing.y), &machine);
     drawing.y += 160;
