@@ -66,8 +66,9 @@
 //! | [`plant`] | the simulated mechanics: slides, bridges, cams, switches, faults | `motion`, `source`, `units` |
 //! | [`trace`] | the record: every change with its time and cause, as text and JSON lines | `image`, `source`, `units`, `variables` |
 //! | [`expression`] | expressions over signals, values and alarms: parsed once, evaluated in every cycle | `image`, `source`, `units`, `variables` |
+//! | [`monitor`] | rules over time: conditions of every cycle, consequences that follow in time | `expression`, `source` |
 //! | [`machine`] | one step of the complete machine, and open, queue, power, save, restore, fork | `control`, `controls`, `expression`, `image`, `motion`, `plant`, `plc`, `source`, `trace`, `units`, `variables` |
-//! | [`scenario`] | scenario files, and the session for tests in Rust | `control`, `controls`, `expression`, `image`, `machine`, `plc`, `source`, `trace`, `units`, `variables` |
+//! | [`scenario`] | scenario files, and the session for tests in Rust | `control`, `controls`, `expression`, `image`, `machine`, `monitor`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`golden`] | runs the scenarios below a folder and compares each with its golden trace | `control`, `controls`, `image`, `plc`, `scenario`, `source`, `trace`, `units` |
 //! | [`live`] | a machine in real time: the stepping thread, the inbox, the copy of the last step, the recording, a PLC in another process (feature `live`, part of `s7` and `mapped`) | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
 //! | [`s7`] | S7 communication: wire formats, sessions without a socket, a server on TCP and for [`live`] (feature `s7`) | `control`, `image`, `live`, `machine`, `source`, `units`, `variables` |
@@ -124,6 +125,7 @@
 //! | a machine datum | a row in `general.rs`, `channel.rs`, `axis.rs` or `setting.rs` of `sinumerik/machine_data/`; a field in the file of its topic in `sinumerik/parameters/`, if the model needs it | its number and name are read, checked and written; the build rejects a number twice |
 //! | an alarm | a row in `sinumerik/alarms/mod.rs`, and its row removed from `alarms/not_raised.rs`; a `raise` at the place of its condition; an arm of `cleared_cause` in `sinumerik/publish/alarms.rs`, if another event than the movement of its axis clears it; the table in `sinumerik/monitoring/mod.rs`, if it is a monitoring function | `alarm(N)` in scenarios, its text in traces; the build rejects rows out of order |
 //! | a monitoring function | a file in `sinumerik/monitoring/`, a row in the table of its `mod.rs`, a call in `monitor_axis` | its alarms |
+//! | a key or verb of scenarios | `scenario/file.rs` or `scenario/steps.rs` | `docs/scenarios.md`, whose examples are tested |
 //! | a rule | a row in `sinumerik/rules.rs`, a `note` at the place of the decision | the cause of an edge |
 //! | a state of an axis | a field of `Axis` in `sinumerik/axis/state.rs`, compared in `has_decisions_of` or `has_movement_of` there; an arm of `decisions_follow_movement`, if a decision depends on the position | axes at rest wake in time |
 //! | a state that all axes depend on | a field of `Shared` in `sinumerik/resting.rs`; without it no axis wakes when the state changes | as above |
@@ -149,6 +151,7 @@ pub mod image;
 #[cfg(feature = "live")]
 pub mod live;
 pub mod machine;
+pub mod monitor;
 pub mod motion;
 pub mod plant;
 pub mod plc;

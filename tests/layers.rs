@@ -21,6 +21,7 @@ const MODULES: &[(&str, &[&str])] = &[
     ("plant", &["motion", "source", "units"]),
     ("trace", &["image", "source", "units", "variables"]),
     ("expression", &["image", "source", "units", "variables"]),
+    ("monitor", &["expression", "source"]),
     (
         "machine",
         &[
@@ -39,7 +40,19 @@ const MODULES: &[(&str, &[&str])] = &[
     ),
     (
         "scenario",
-        &["control", "controls", "expression", "image", "machine", "plc", "source", "trace", "units", "variables"],
+        &[
+            "control",
+            "controls",
+            "expression",
+            "image",
+            "machine",
+            "monitor",
+            "plc",
+            "source",
+            "trace",
+            "units",
+            "variables",
+        ],
     ),
     ("golden", &["control", "controls", "image", "plc", "scenario", "source", "trace", "units"]),
     ("live", &["image", "machine", "plc", "scenario", "source", "trace", "units", "variables"]),

@@ -21,17 +21,21 @@
 //! | `time` | seconds since time zero of the caller | [`Moment::time`] of `now` |
 //! | any other plain name | [`Scope::named_values`] | [`Moment::named_values`] of `now` |
 //! | `rose(…)`, `fell(…)` | an edge between two cycles | the same of `before` and `last` |
+//! | `since(…)`, `count(…)` | the last rising edge of a condition, and their number | [`View::followed`] |
 //! | `abs`, `min`, `max` | arithmetic | |
 //!
 //! `now` can be ahead of `last`: a scenario sees its own writes before a cycle takes them over. A caller that evaluates edges must provide
-//! `before`, the state one cycle earlier. [`Expression::looks_back`] reports whether an expression needs it.
+//! `before`, the state one cycle earlier. [`Expression::looks_back`] reports whether an expression needs it. A caller that evaluates `since`
+//! and `count` lists their conditions with [`Expression::follow`] and shows them every cycle; otherwise they never became true.
 
+mod followed;
 mod parse;
 mod scope;
 mod term;
 mod tokens;
 mod view;
 
+pub use followed::Followed;
 pub use scope::Scope;
 pub use view::{Moment, View};
 
@@ -73,10 +77,28 @@ impl Expression {
         truth(self.value(view))
     }
 
+    /// How far its value is from becoming false, or true if it is false, which is negative then: the distance of the nearest comparison that
+    /// decides, in the unit of the compared values; `None` if no comparison decides.
+    #[must_use]
+    pub fn distance(&self, view: &View<'_>) -> Option<f64> {
+        Some(self.root.distance(view)).filter(|distance| distance.is_finite())
+    }
+
     /// Whether it compares two cycles. The caller must then keep the previous cycle.
     #[must_use]
     pub fn looks_back(&self) -> bool {
         self.root.any(&|term| matches!(term, Term::Edge { .. }))
+    }
+
+    /// Lists the conditions of `since` and `count` in it, each once, so that the caller can show them every cycle.
+    pub fn follow(&mut self, followed: &mut Vec<Followed>) {
+        self.root.each_followed(&mut |term| {
+            let known = followed.iter().position(|known| known.of == term.of);
+            term.index = Some(known.unwrap_or(followed.len()));
+            if known.is_none() {
+                followed.push(Followed::new(term.of.clone()));
+            }
+        });
     }
 
     /// Every signal and value in it with its current value, one line each, without repetition.

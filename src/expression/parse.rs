@@ -1,7 +1,7 @@
 //! The parser: operator precedence, and the lookup of names.
 
 use super::scope::Scope;
-use super::term::{Operator, Term};
+use super::term::{FollowedTerm, Operator, Question, Term};
 use super::tokens::{Token, excerpt, mistake, tokens};
 use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber};
@@ -11,7 +11,8 @@ use crate::variables::{AlarmNumber, AxisValue, Place};
 const DEPTH: usize = 100;
 
 /// All functions.
-const FUNCTIONS: [&str; 8] = ["alarm", "alarm_parameter", "alarms", "rose", "fell", "abs", "min", "max"];
+const FUNCTIONS: [&str; 10] =
+    ["alarm", "alarm_parameter", "alarms", "rose", "fell", "since", "count", "abs", "min", "max"];
 
 struct Parser<'a> {
     source: &'a str,
@@ -156,16 +157,17 @@ impl Parser<'_> {
                 Term::AlarmParameter(alarm, self.parameter_index()?)
             }
             "rose" | "fell" => {
-                if self.inside_edge {
-                    let cure = "rose and fell cannot be nested; combine them with && or ||";
-                    let mut problem = mistake(self.source, column, "a signal or a condition", &format!("`{name}`"));
-                    cure.clone_into(&mut problem.cure);
-                    return Err(problem);
-                }
-                self.inside_edge = true;
-                let of = Box::new(self.expression(0)?);
-                self.inside_edge = false;
+                let of = Box::new(self.over_time(name, column)?);
                 Term::Edge { rising: name == "rose", of }
+            }
+            "since" | "count" => {
+                let from = self.words[self.at].0;
+                let of = self.over_time(name, column)?;
+                let length = self.words[self.at].0 - from;
+                let inside: String = self.source.chars().skip(from - 1).take(length).collect();
+                let question = if name == "since" { Question::Since } else { Question::Count };
+                let text = format!("{name}({})", inside.trim());
+                Term::Followed(Box::new(FollowedTerm { question, of, text, index: None }))
             }
             "abs" => Term::Absolute(Box::new(self.expression(0)?)),
             "min" | "max" => {
@@ -184,16 +186,25 @@ impl Parser<'_> {
             }
             _ => {
                 let mut problem = mistake(self.source, column, "a function", &format!("`{name}`"));
-                problem.cure = did_you_mean(
-                    name,
-                    FUNCTIONS,
-                    "functions are alarm, alarm_parameter, alarms, rose, fell, abs, min, max",
-                );
+                problem.cure = did_you_mean(name, FUNCTIONS, &format!("functions are {}", FUNCTIONS.join(", ")));
                 return Err(problem);
             }
         };
         self.sign(")")?;
         Ok(term)
+    }
+
+    /// The condition of a function that looks at several cycles.
+    fn over_time(&mut self, name: &str, column: usize) -> Result<Term, Problem> {
+        if self.inside_edge {
+            let mut problem = mistake(self.source, column, "a signal or a condition", &format!("`{name}`"));
+            "rose, fell, since and count cannot be nested; combine them with && or ||".clone_into(&mut problem.cure);
+            return Err(problem);
+        }
+        self.inside_edge = true;
+        let of = self.expression(0)?;
+        self.inside_edge = false;
+        Ok(of)
     }
 
     /// The number of an alarm, or the quoted name of an alarm that has no number.

@@ -34,10 +34,31 @@ pub(super) enum Term {
     AlarmParameter(AlarmNumber, usize),
     Alarms,
     Edge { rising: bool, of: Box<Self> },
+    Followed(Box<FollowedTerm>),
     Not(Box<Self>),
     Negative(Box<Self>),
     Absolute(Box<Self>),
     Pair(Operator, Box<Self>, Box<Self>),
+}
+
+/// `since(E)` or `count(E)`.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct FollowedTerm {
+    pub(super) question: Question,
+    pub(super) of: Term,
+    /// The text of the term, for messages.
+    pub(super) text: String,
+    /// Its index in [`View::followed`]; none until the expression is followed.
+    pub(super) index: Option<usize>,
+}
+
+/// What an expression asks of the rising edges of a term.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Question {
+    /// The time since the last one.
+    Since,
+    /// How many there were.
+    Count,
 }
 
 /// 0 is false, and so is an undefined value such as 0/0.
@@ -84,6 +105,13 @@ impl Term {
                 let before = truth(of.value(&View { now: view.before, ..*view }));
                 number(last != before && last == *rising)
             }
+            Self::Followed(term) => {
+                let followed = term.index.and_then(|index| view.followed.get(index));
+                match term.question {
+                    Question::Since => followed.map_or(f64::INFINITY, |followed| followed.since(now.time)),
+                    Question::Count => followed.map_or(0.0, |followed| followed.count() as f64),
+                }
+            }
             Self::Not(of) => number(!truth(of.value(view))),
             Self::Negative(of) => -of.value(view),
             Self::Absolute(of) => of.value(view).abs(),
@@ -94,6 +122,7 @@ impl Term {
     fn children(&self) -> [Option<&Self>; 2] {
         match self {
             Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) => [Some(of), None],
+            Self::Followed(term) => [Some(&term.of), None],
             Self::Pair(_, left, right) => [Some(left), Some(right)],
             Self::Number(_)
             | Self::Signal(_)
@@ -108,6 +137,40 @@ impl Term {
 
     pub(super) fn any(&self, test: &dyn Fn(&Self) -> bool) -> bool {
         test(self) || self.children().into_iter().flatten().any(|child| child.any(test))
+    }
+
+    /// The distance to the other truth: positive if true, negative if false; infinite if no comparison decides.
+    pub(super) fn distance(&self, view: &View<'_>) -> f64 {
+        use Operator as O;
+        match self {
+            Self::Not(of) => -of.distance(view),
+            Self::Pair(O::And, left, right) => left.distance(view).min(right.distance(view)),
+            Self::Pair(O::Or, left, right) => left.distance(view).max(right.distance(view)),
+            Self::Pair(O::Less | O::LessOrEqual, left, right) => right.value(view) - left.value(view),
+            Self::Pair(O::Greater | O::GreaterOrEqual, left, right) => left.value(view) - right.value(view),
+            _ if truth(self.value(view)) => f64::INFINITY,
+            _ => f64::NEG_INFINITY,
+        }
+    }
+
+    /// Visits every `since` and `count`.
+    pub(super) fn each_followed(&mut self, visit: &mut dyn FnMut(&mut FollowedTerm)) {
+        match self {
+            Self::Followed(term) => visit(term),
+            Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) => of.each_followed(visit),
+            Self::Pair(_, left, right) => {
+                left.each_followed(visit);
+                right.each_followed(visit);
+            }
+            Self::Number(_)
+            | Self::Signal(_)
+            | Self::Value(..)
+            | Self::Time
+            | Self::Named(..)
+            | Self::Alarm(..)
+            | Self::AlarmParameter(..)
+            | Self::Alarms => {}
+        }
     }
 
     pub(super) fn operands(&self, view: &View<'_>, describe: &dyn Describe, lines: &mut Vec<String>) {
@@ -141,6 +204,7 @@ impl Term {
                 format!("alarm_parameter({}, {})", describe.alarm_name(*alarm), index + 1)
             }
             Self::Alarms => "alarms()".to_owned(),
+            Self::Followed(term) => term.text.clone(),
             Self::Number(_)
             | Self::Edge { .. }
             | Self::Not(_)

@@ -191,14 +191,47 @@ fn an_edge_is_between_the_last_two_cycles_and_not_in_pending_writes() {
     let at = |memory| Moment { memory, variables: &variables, time: Time::ZERO, named_values: &[] };
     let rose = parsed("rose(M10.3 && time == 0)").unwrap();
     let fell = parsed("fell(M10.3)").unwrap();
-    let up = View { now: at(&empty), last: at(&memory), before: at(&empty) };
+    let up = View { now: at(&empty), last: at(&memory), before: at(&empty), followed: &[] };
     assert!(rose.holds(&up) && !fell.holds(&up));
-    let down = View { now: at(&memory), last: at(&empty), before: at(&memory) };
+    let down = View { now: at(&memory), last: at(&empty), before: at(&memory), followed: &[] };
     assert!(!rose.holds(&down) && fell.holds(&down));
-    let only_written = View { now: at(&memory), last: at(&empty), before: at(&empty) };
+    let only_written = View { now: at(&memory), last: at(&empty), before: at(&empty), followed: &[] };
     assert!(!rose.holds(&only_written) && !fell.holds(&only_written));
     assert!(!rose.holds(&View::at(at(&memory))) && !fell.holds(&View::at(at(&empty))));
     assert!(rose.looks_back() && !parsed("M10.3").unwrap().looks_back());
+}
+
+#[test]
+fn since_and_count_follow_the_rising_edges_of_a_condition() {
+    let variables = Variables::default();
+    let mut memory = Memory::new();
+    let flag = memory.locate(&"M10.3".parse().unwrap(), crate::image::Profile::default()).unwrap();
+    let mut followed = Vec::new();
+    let [mut since, mut count, mut other] =
+        ["since(M10.3 == 1)", "count( M10.3 == 1 ) + 1", "since(M10.4)"].map(|source| parsed(source).unwrap());
+    for expression in [&mut since, &mut count, &mut other] {
+        expression.follow(&mut followed);
+    }
+    assert_eq!(followed.len(), 2, "one condition is followed once");
+    memory.write(flag, 1);
+    // True at the beginning, then 0, 1, 1, 0, 1 after cycles of 10 ms.
+    let mut seen = Vec::new();
+    for (cycle, bit) in [1, 0, 1, 1, 0, 1].into_iter().enumerate() {
+        memory.write(flag, bit);
+        let time = Time::from_millis(10 * i64::try_from(cycle).unwrap());
+        let now = Moment { memory: &memory, variables: &variables, time, named_values: &[] };
+        for one in &mut followed {
+            if cycle == 0 { one.begin(&View::at(now)) } else { one.observe(&View::at(now)) }
+        }
+        let view = View { followed: &followed, ..View::at(now) };
+        seen.push((since.value(&view), count.value(&view)));
+        assert!(other.value(&view).is_infinite());
+    }
+    let inf = f64::INFINITY;
+    assert_eq!(seen, [(inf, 1.0), (inf, 1.0), (0.0, 2.0), (0.01, 2.0), (0.02, 2.0), (0.0, 3.0)]);
+    let now = Moment { memory: &memory, variables: &variables, time: Time::from_millis(60), named_values: &[] };
+    let view = View { followed: &followed, ..View::at(now) };
+    assert_eq!(count.operands(&view, &Machine::new()), ["count(M10.3 == 1) = 2", "M10.3 = 1"]);
 }
 
 #[test]
@@ -244,6 +277,8 @@ fn an_error_names_the_expectation_the_place_and_the_remedy() {
         ("alarms(1)", "expected `)`", "operators are"),
         ("min(1)", "expected `,`", "operators are"),
         ("rose(fell(M10.3))", "found `fell`", "cannot be nested"),
+        ("since(count(M10.3) > 1)", "found `count`", "cannot be nested"),
+        ("since", "`since`", "parentheses"),
         ("DB99.DBX0.0", "DB99", "PLC image"),
         ("DB31.DBX148.0", "148 bytes", "the last byte is 147"),
     ] {

@@ -1,5 +1,6 @@
 //! The input of an evaluation: borrowed moments of a machine.
 
+use super::followed::Followed;
 use crate::image::Memory;
 use crate::units::Time;
 use crate::variables::Variables;
@@ -27,12 +28,14 @@ pub struct View<'a> {
     pub last: Moment<'a>,
     /// The state after the cycle before the last one.
     pub before: Moment<'a>,
+    /// The histories of `since` and `count`, in the order in which [`Expression::follow`](super::Expression::follow) listed them.
+    pub followed: &'a [Followed],
 }
 
 impl<'a> View<'a> {
     /// One moment without a history, in which no edge occurs.
     #[must_use]
     pub fn at(now: Moment<'a>) -> Self {
-        Self { now, last: now, before: now }
+        Self { now, last: now, before: now, followed: &[] }
     }
 }

@@ -155,6 +155,12 @@ impl Machine {
         self.state.plc.stopped
     }
 
+    /// Whether the last step began with power off and on.
+    #[must_use]
+    pub fn has_powered_on(&self) -> bool {
+        self.before.power_on
+    }
+
     /// The fault that stopped the PLC program, if any.
     #[must_use]
     pub fn plc_fault(&self) -> Option<&str> {

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::duration::Duration;
 use super::matrix::{Variant, heads};
+use super::rules;
 use crate::control::{StoredDatum, Value as DatumValue};
 use crate::controls;
 use crate::image::Profile;
@@ -43,6 +44,7 @@ pub struct Scenario {
     pub always: Vec<Named>,
     /// How the trace is compared with the golden trace.
     pub compare: Compare,
+    pub(super) rules: Vec<rules::Written>,
     /// Data that are merged into `plant.toml`.
     pub plant: Option<Table>,
     /// Machine data that are stored before the first power on.
@@ -163,6 +165,7 @@ impl Scenario {
             causes: table.take("causes").map_or(Ok(false), |node| node.boolean("true or false"))?,
             never: texts(table.take("never"), "expressions")?,
             always: texts(table.take("always"), "expressions")?,
+            rules: rules::written(table.take("rule"))?,
             compare: table.take("compare").map_or(Ok(Compare::Exact), compare)?,
             plant: table.take("plant").map(|node| node.into_table("a table of plant data")).transpose()?,
             machine_data: table.take("machine_data").map_or(Ok(Vec::new()), machine_data)?,

@@ -13,11 +13,13 @@ mod matrix;
 mod naming;
 mod operator;
 mod passing;
+mod rules;
 mod run;
 mod session;
 mod steps;
 mod transcript;
 mod values;
+mod watching;
 
 pub use duration::Duration;
 pub use failure::{Failure, Missed};

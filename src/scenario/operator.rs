@@ -33,7 +33,7 @@ impl Plan {
             let next = book.go_on(&step.action, progress, machine).map_err(|failure| failure.at(&step.place))?;
             if next == Next::Cycle {
                 let begun = book.begin_cycle(machine);
-                begun.map_err(|stopped| book.stopped(&stopped, &step.action, progress, machine).at(&step.place))?;
+                begun.map_err(|stopped| book.stopped(stopped, &step.action, progress, machine).at(&step.place))?;
                 return Ok(Next::Cycle);
             }
             (self.index, self.progress) = (self.index + 1, None);
@@ -42,10 +42,10 @@ impl Plan {
     }
 
     /// Called after a cycle.
-    pub(super) fn end_cycle(&mut self, book: &Book, machine: &Machine) -> Result<(), Failure> {
+    pub(super) fn end_cycle(&mut self, book: &mut Book, machine: &Machine) -> Result<(), Failure> {
         let ended = book.end_cycle(machine);
         let (Some(step), Some(progress)) = (self.steps.get(self.index), &mut self.progress) else { return Ok(()) };
-        ended.map_err(|stopped| book.stopped(&stopped, &step.action, progress, machine).at(&step.place))?;
+        ended.map_err(|stopped| book.stopped(stopped, &step.action, progress, machine).at(&step.place))?;
         progress.count();
         Ok(())
     }
@@ -92,11 +92,13 @@ impl Operator {
 
     /// Queues the commands for the next step of the machine; call it before each step. Returns the notes of the steps that begin.
     pub fn act(&mut self, machine: &mut Machine) -> Vec<String> {
-        let mut notes = Vec::new();
+        let mut notes = self.book.take_notes();
         if self.state == State::Acting {
             match self.plan.go_on(&mut self.book, machine, &mut |_, note| notes.push(note.to_owned())) {
                 Ok(Next::Cycle) => {}
-                Ok(Next::Over) => self.state = State::Done,
+                Ok(Next::Over) => {
+                    self.state = self.book.finish(None, machine).map_or(State::Done, State::Failed);
+                }
                 Err(failure) => self.state = State::Failed(failure),
             }
         }
@@ -107,7 +109,7 @@ impl Operator {
     pub fn look(&mut self, machine: &Machine) {
         if self.state == State::Acting {
             self.book.note_changes(machine);
-            if let Err(failure) = self.plan.end_cycle(&self.book, machine) {
+            if let Err(failure) = self.plan.end_cycle(&mut self.book, machine) {
                 self.state = State::Failed(failure);
             }
         }

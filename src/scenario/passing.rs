@@ -8,9 +8,10 @@ use std::borrow::Cow;
 use super::duration::Duration;
 use super::failure::{Failure, Missed};
 use super::steps::Action;
-use crate::expression::{Expression, Moment, View};
+use crate::expression::{Expression, Followed, Moment, View};
 use crate::image::{Location, Memory};
 use crate::machine::{Command, Machine};
+use crate::monitor::Monitor;
 use crate::source::Place;
 use crate::trace::Past;
 use crate::units::Time;
@@ -20,12 +21,20 @@ use crate::variables::{Describe, place_name};
 #[derive(Clone, Debug)]
 pub(super) struct Book {
     /// The cycle and the time of the machine that count as time zero.
-    start: (u64, Time),
+    pub(super) start: (u64, Time),
     /// Bits that were written and that no cycle has taken over yet.
     pending: Vec<(Location, u64)>,
     pub(super) captured_names: Vec<String>,
     captured: Vec<f64>,
-    pub(super) conditions: Vec<Condition>,
+    /// The rules of the session.
+    pub(super) monitor: Monitor,
+    /// The histories of `since` and `count`.
+    pub(super) followed: Vec<Followed>,
+    /// A rule that was broken before the first cycle.
+    pub(super) broken: Option<Failure>,
+    /// The breaches of rules after which the run goes on, and the notes about them that the trace has not taken yet.
+    pub(super) noted: Vec<Missed>,
+    pub(super) notes: Vec<String>,
     /// The longest time of this session.
     pub(super) limit: Option<Duration>,
     /// The state one cycle ago, kept if an expression uses `rose` or `fell`.
@@ -37,15 +46,6 @@ pub(super) struct Book {
 struct Before {
     past: Past,
     time: Time,
-}
-
-/// A condition that must hold in every cycle.
-#[derive(Clone, Debug)]
-pub(super) struct Condition {
-    pub(super) expression: Expression,
-    /// `always` or, if false, `never`.
-    pub(super) wanted: bool,
-    pub(super) place: Option<Place>,
 }
 
 /// The progress of an action that lets time pass.
@@ -91,7 +91,7 @@ pub(super) enum Next {
 /// Why no cycle may follow.
 pub(super) enum Stopped {
     Limit,
-    Condition(usize),
+    Broken(Failure),
 }
 
 impl Book {
@@ -102,7 +102,11 @@ impl Book {
             pending: Vec::new(),
             captured_names: Vec::new(),
             captured: Vec::new(),
-            conditions: Vec::new(),
+            monitor: Monitor::default(),
+            followed: Vec::new(),
+            broken: None,
+            noted: Vec::new(),
+            notes: Vec::new(),
             limit: None,
             before: Some(Box::new(Before::new(machine, Time::ZERO))),
         }
@@ -200,6 +204,9 @@ impl Book {
 
     /// Called before a cycle.
     pub(super) fn begin_cycle(&mut self, machine: &Machine) -> Result<(), Stopped> {
+        if let Some(failure) = self.broken.take() {
+            return Err(Stopped::Broken(failure));
+        }
         let time = self.time(machine);
         if self.limit.is_some_and(|limit| limit.is_over(machine.cycle() - self.start.0, time)) {
             return Err(Stopped::Limit);
@@ -219,22 +226,27 @@ impl Book {
         }
     }
 
-    /// Called after a cycle and after [`Book::note_changes`]: checks the conditions.
-    pub(super) fn end_cycle(&self, machine: &Machine) -> Result<(), Stopped> {
-        let broken = self.conditions.iter().position(|condition| {
-            self.with_view(self.last(machine), machine, |view| condition.expression.holds(view)) != condition.wanted
-        });
-        broken.map_or(Ok(()), |index| Err(Stopped::Condition(index)))
+    /// Called after a cycle and after [`Book::note_changes`]: checks the rules.
+    pub(super) fn end_cycle(&mut self, machine: &Machine) -> Result<(), Stopped> {
+        if machine.has_powered_on() {
+            self.monitor.power_on();
+        }
+        if !self.followed.is_empty() {
+            let mut followed = std::mem::take(&mut self.followed);
+            self.with_view(self.last(machine), machine, |view| {
+                followed.iter_mut().for_each(|followed| followed.observe(view));
+            });
+            self.followed = followed;
+        }
+        if self.monitor.rules().is_empty() {
+            return Ok(());
+        }
+        let cycle = machine.cycle() - self.start.0;
+        self.judge(machine, |monitor, view, report| monitor.observe(view, cycle, report)).map_err(Stopped::Broken)
     }
 
     /// The failure when a cycle ended an action early.
-    pub(super) fn stopped(
-        &self,
-        stopped: &Stopped,
-        action: &Action,
-        progress: &Progress,
-        machine: &Machine,
-    ) -> Failure {
+    pub(super) fn stopped(&self, stopped: Stopped, action: &Action, progress: &Progress, machine: &Machine) -> Failure {
         let run = |since: Time| format!("after {} s of a run", machine.time() - since);
         let (doing, expression) = match action {
             Action::Wait(expression, _) => (waited(progress.time(machine), expression), Some(expression)),
@@ -252,17 +264,7 @@ impl Book {
                 let limit = self.time(machine);
                 self.missed(format!("reached the limit of {limit} s: {doing}"), expression, machine)
             }
-            Stopped::Condition(index) => {
-                let condition = &self.conditions[*index];
-                let (word, found) = if condition.wanted { ("always", "false") } else { ("never", "true") };
-                let source = condition.expression.source();
-                let what = format!("`{word}` is violated: `{source}` is {found}");
-                let failure = self.missed(what, Some(&condition.expression), machine);
-                match &condition.place {
-                    Some(place) => failure.at(place),
-                    None => failure,
-                }
-            }
+            Stopped::Broken(failure) => failure,
         }
     }
 
@@ -327,7 +329,7 @@ impl Book {
     }
 
     /// The state after the last cycle.
-    fn last<'a>(&'a self, machine: &'a Machine) -> Moment<'a> {
+    pub(super) fn last<'a>(&'a self, machine: &'a Machine) -> Moment<'a> {
         Moment {
             memory: machine.memory(),
             variables: machine.variables(),
@@ -337,7 +339,7 @@ impl Book {
     }
 
     /// Evaluates the last two cycles and `now`.
-    fn with_view<T>(&self, now: Moment<'_>, machine: &Machine, look: impl FnOnce(&View<'_>) -> T) -> T {
+    pub(super) fn with_view<T>(&self, now: Moment<'_>, machine: &Machine, look: impl FnOnce(&View<'_>) -> T) -> T {
         let last = self.last(machine);
         let before = self.before.as_ref().map_or(last, |before| Moment {
             memory: before.past.memory(),
@@ -345,7 +347,7 @@ impl Book {
             time: before.time,
             named_values: &self.captured,
         });
-        look(&View { now, last, before })
+        look(&View { now, last, before, followed: &self.followed })
     }
 
     /// The memory now: after the last cycle, including writes since then.
@@ -360,7 +362,7 @@ impl Book {
         Cow::Owned(memory)
     }
 
-    fn looked_at<T>(&self, machine: &Machine, look: impl FnOnce(&View<'_>) -> T) -> T {
+    pub(super) fn looked_at<T>(&self, machine: &Machine, look: impl FnOnce(&View<'_>) -> T) -> T {
         let now = self.now(machine);
         self.with_view(Moment { memory: &now, ..self.last(machine) }, machine, look)
     }
@@ -373,19 +375,23 @@ impl Book {
         self.looked_at(machine, |view| expression.value(view))
     }
 
-    fn missed(&self, what: String, expression: Option<&Expression>, machine: &Machine) -> Failure {
+    pub(super) fn missed(&self, what: String, expression: Option<&Expression>, machine: &Machine) -> Failure {
         let operands = expression
             .map_or_else(Vec::new, |expression| self.looked_at(machine, |view| expression.operands(view, machine)));
         self.missed_with(what, operands, machine)
     }
 
     fn missed_with(&self, what: String, operands: Vec<String>, machine: &Machine) -> Failure {
+        self.missed_now(what, operands, machine).into()
+    }
+
+    pub(super) fn missed_now(&self, what: String, operands: Vec<String>, machine: &Machine) -> Missed {
         let names = machine.names();
         let alarms = machine.variables().alarms.iter().map(|alarm| {
             let (name, text) = (machine.alarm_name(alarm.number), machine.alarm_text(alarm));
             format!("{name} [{}] {text}", place_name(alarm.place, names))
         });
-        Missed { place: None, time: self.time(machine), case: None, what, operands, alarms: alarms.collect() }.into()
+        Missed { place: None, time: self.time(machine), case: None, what, operands, alarms: alarms.collect() }
     }
 }
 

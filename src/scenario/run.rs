@@ -5,16 +5,20 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::file::{Named, Scenario, in_the_case};
 use super::operator::{Operator, Plan};
-use super::passing::{Condition, Next};
+use super::passing::Next;
+use super::rules::condition;
 use super::session::Session;
 use super::steps::Reader;
 use crate::control::Read;
 use crate::controls;
+use crate::expression::Expression;
 use crate::image::{Preset, Profile};
 use crate::machine::{Machine, OpenOptions};
+use crate::monitor::{Claim, Rule};
 use crate::plc::Programs;
 use crate::source::Problem;
 use crate::trace::{Head, Watch};
+use crate::units::Time;
 
 /// A scenario that is ready to run: the machine is open, names are looked up, values are checked.
 pub struct Prepared {
@@ -60,10 +64,9 @@ impl Scenario {
         let watch = self.watch(&machine)?;
         let mut reader = Reader::new(&machine);
         let plan = Plan::new(self.steps.iter().map(|step| reader.step(step.clone())).collect::<Result<_, _>>()?);
-        let captured = std::mem::take(&mut reader.captured);
-        // Conditions hold from the first cycle on, so they cannot use a value that a later step captures.
-        let conditions = self.conditions(&reader, &captured)?;
-        let looks_back = conditions.iter().any(|condition| condition.expression.looks_back()) || plan.looks_back();
+        let rules = self.rules(&mut reader, machine.cycle_time())?;
+        let followed = std::mem::take(&mut reader.followed);
+        let looks_back = rules.iter().flat_map(Rule::expressions).any(Expression::looks_back) || plan.looks_back();
         let head = Head {
             title: self.title.clone(),
             machine: self.machine.text.clone(),
@@ -81,7 +84,7 @@ impl Scenario {
         let Session { machine, book, .. } = &mut session;
         book.look_back(looks_back, machine);
         book.limit = Some(self.limit);
-        book.conditions = conditions;
+        book.watch_over(rules, followed, machine);
         Ok(Prepared { session, plan, head, causes: self.causes })
     }
 
@@ -140,22 +143,21 @@ impl Scenario {
             .map_err(|(index, problem)| problem.at(&entries[index].place))
     }
 
-    fn conditions(&self, reader: &Reader<'_>, captured: &[String]) -> Result<Vec<Condition>, Problem> {
-        let never = self.never.iter().map(|text| (text, false));
-        let always = self.always.iter().map(|text| (text, true));
-        never
-            .chain(always)
-            .map(|(text, wanted)| {
-                let expression = reader.expression(&text.text, &text.place).map_err(|mut problem| {
-                    if captured.iter().any(|name| problem.what.contains(&format!("`{name}`"))) {
-                        "a captured value exists only after its step; `never` and `always` apply from the start"
-                            .clone_into(&mut problem.cure);
-                    }
-                    problem
-                })?;
-                Ok(Condition { expression, wanted, place: Some(text.place.clone()) })
-            })
-            .collect()
+    /// The conditions and rules of the head.
+    fn rules(&self, reader: &mut Reader<'_>, cycle: Time) -> Result<Vec<Rule>, Problem> {
+        let mut rules = Vec::new();
+        for (texts, claim) in
+            [(&self.never, Claim::Never as fn(Expression) -> Claim), (&self.always, Claim::Always as _)]
+        {
+            for text in texts {
+                let claim = claim(condition(text, reader)?);
+                rules.push(Rule { name: None, place: Some(text.place.clone()), claim, go_on: false });
+            }
+        }
+        for rule in &self.rules {
+            rules.push(rule.prepared(reader, cycle)?);
+        }
+        Ok(rules)
     }
 }
 
@@ -171,11 +173,17 @@ impl Prepared {
                 Ok(Next::Over) => break None,
                 Ok(Next::Cycle) => self.session.cycle(),
             }
-            let Session { machine, book, .. } = &mut self.session;
-            if let Err(failure) = self.plan.end_cycle(book, machine) {
+            let Session { machine, book, trace, .. } = &mut self.session;
+            let ended = self.plan.end_cycle(book, machine);
+            for note in book.take_notes() {
+                trace.note(machine.cycle(), note);
+            }
+            if let Err(failure) = ended {
                 break Some(failure);
             }
         };
+        let Session { machine, book, .. } = &mut self.session;
+        let failure = book.finish(failure, machine);
         let failure = failure.map(|failure| failure.of_case(self.head.case.as_deref()));
         Finished { session: self.session, head: self.head, causes: self.causes, failure }
     }
@@ -185,6 +193,13 @@ impl Prepared {
     pub fn into_operator(self) -> (Machine, Operator, Watch) {
         let Session { machine, book, watch, .. } = self.session;
         (machine, Operator::new(book, self.plan), watch)
+    }
+
+    /// Measures how near conditions come to their limits, too, for [`Finished::margins`]. This is slower and gives the same trace.
+    #[must_use]
+    pub fn measure_margins(mut self) -> Self {
+        self.session.book.monitor.measure();
+        self
     }
 
     /// Moves, monitors and publishes every axis in every cycle, also an axis at rest. This is slower and gives the same trace.
@@ -242,6 +257,18 @@ impl Finished {
     #[must_use]
     pub fn svg(&self) -> String {
         self.session.svg(&self.head)
+    }
+
+    /// What its rules have to say although they are not broken: rules that never began, and watches that are open.
+    #[must_use]
+    pub fn remarks(&self) -> Vec<String> {
+        self.session.book.remarks(self.session.machine())
+    }
+
+    /// The smallest margin of each rule, one line each.
+    #[must_use]
+    pub fn margins(&self) -> Vec<String> {
+        self.session.book.margins(self.session.machine())
     }
 
     /// The machine at the end, with its trace.

@@ -346,7 +346,7 @@ impl Session {
                 self.cycle();
                 self.book.end_cycle(&self.machine)
             });
-            ended.map_err(|stopped| self.book.stopped(&stopped, action, &progress, &self.machine))?;
+            ended.map_err(|stopped| self.book.stopped(stopped, action, &progress, &self.machine))?;
             progress.count();
         }
         Ok(())

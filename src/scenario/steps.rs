@@ -6,7 +6,7 @@ use super::duration::Duration;
 use super::faults::fault;
 use super::file::{duration, not_available, texts};
 use super::naming::{Known, check_captured_name, missing_owner, place_named, written_by_others};
-use crate::expression::Expression;
+use crate::expression::{Expression, Followed};
 use crate::image::{Location, raw_value};
 use crate::machine::{Command, DatumValue, Machine};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
@@ -93,19 +93,23 @@ pub(super) struct Reader<'a> {
     machine: &'a Machine,
     /// The names captured so far.
     pub(super) captured: Vec<String>,
+    /// The conditions of `since` and `count` in all expressions.
+    pub(super) followed: Vec<Followed>,
     /// Data of the machine were stored, and have taken effect: the machine can have other channels than it has now.
     reconfigured: [bool; 2],
 }
 
 impl<'a> Reader<'a> {
     pub(super) fn new(machine: &'a Machine) -> Self {
-        Self { machine, captured: Vec::new(), reconfigured: [false; 2] }
+        Self { machine, captured: Vec::new(), followed: Vec::new(), reconfigured: [false; 2] }
     }
 
     /// An expression with all names known so far.
-    pub(super) fn expression(&self, source: &str, place: &Place) -> Result<Expression, Problem> {
+    pub(super) fn expression(&mut self, source: &str, place: &Place) -> Result<Expression, Problem> {
         let known = Known { machine: self.machine, captured: &self.captured };
-        Expression::parse(source, &known).map_err(|problem| problem.at(place))
+        let mut expression = Expression::parse(source, &known).map_err(|problem| problem.at(place))?;
+        expression.follow(&mut self.followed);
+        Ok(expression)
     }
 
     pub(super) fn step(&mut self, mut table: Table) -> Result<Step, Problem> {
@@ -259,7 +263,7 @@ impl<'a> Reader<'a> {
         Ok(action)
     }
 
-    fn one_expression(&self, node: &Node) -> Result<Expression, Problem> {
+    fn one_expression(&mut self, node: &Node) -> Result<Expression, Problem> {
         self.expression(node.text("an expression")?, &node.place)
     }
 

@@ -46,7 +46,6 @@ fn the_limit_and_a_wait_count_the_time_of_the_machine() {
     assert!(failure.contains("waited 1.020 s for"), "{failure}");
 }
 
-
 const STEP: &str = "[[step]]\nrun = \"1s\"\n";
 
 #[test]

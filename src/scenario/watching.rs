@@ -1,0 +1,198 @@
+//! The rules of a session: what a breach says, and what is said about rules at the end.
+
+use super::failure::{Failure, Missed};
+use super::passing::Book;
+use crate::expression::{Expression, Followed, View};
+use crate::machine::Machine;
+use crate::monitor::{Breach, Claim, Monitor, Reason, Rule};
+
+impl Book {
+    /// Watches over these rules from now on, together with those before.
+    pub(super) fn watch_over(&mut self, rules: Vec<Rule>, followed: Vec<Followed>, machine: &Machine) {
+        self.follow(followed, machine);
+        let first = self.monitor.rules().len();
+        rules.into_iter().for_each(|rule| self.monitor.add(rule));
+        let cycle = machine.cycle() - self.start.0;
+        if let Err(failure) = self.judge(machine, |monitor, view, report| monitor.begin(first, view, cycle, report)) {
+            self.broken.get_or_insert(failure);
+        }
+    }
+
+    /// Takes over a list of followed conditions that begins with the known ones.
+    pub(super) fn follow(&mut self, mut followed: Vec<Followed>, machine: &Machine) {
+        let known = self.followed.len();
+        self.with_view(self.last(machine), machine, |view| {
+            followed[known..].iter_mut().for_each(|followed| followed.begin(view));
+        });
+        // The histories of the known ones are here.
+        self.followed.extend(followed.drain(known..));
+    }
+
+    /// Shows the state after the last cycle to the monitor. Returns the first breach that ends the run, and notes the others.
+    pub(super) fn judge(
+        &mut self,
+        machine: &Machine,
+        look: impl FnOnce(&mut Monitor, &View<'_>, &mut dyn FnMut(Breach)),
+    ) -> Result<(), Failure> {
+        let mut monitor = std::mem::take(&mut self.monitor);
+        let mut breaches = Vec::new();
+        self.with_view(self.last(machine), machine, |view| {
+            look(&mut monitor, view, &mut |breach| breaches.push(breach));
+        });
+        self.monitor = monitor;
+        for breach in breaches {
+            let rule = &self.monitor.rules()[breach.rule];
+            let (note, missed) = self.broken_rule(rule, breach, machine);
+            if !rule.go_on {
+                return Err(missed.into());
+            }
+            self.notes.push(note);
+            self.noted.push(missed);
+        }
+        Ok(())
+    }
+
+    /// The text of a breach for the trace, and as a failure.
+    fn broken_rule(&self, rule: &Rule, breach: Breach, machine: &Machine) -> (String, Missed) {
+        let time = |cycle: u64| machine.cycle_time().times(cycle);
+        let name = rule.name.as_deref().unwrap_or_default();
+        let (what, expressions) = match (&rule.claim, &rule.name) {
+            (Claim::Always(condition), None) => {
+                (format!("`always` is violated: `{}` is false", condition.source()), vec![condition])
+            }
+            (Claim::Never(condition), None) => {
+                (format!("`never` is violated: `{}` is true", condition.source()), vec![condition])
+            }
+            (Claim::Always(condition), Some(_)) => {
+                (format!("rule `{name}` is broken: `{}` is false", condition.source()), vec![condition])
+            }
+            (Claim::Never(condition), Some(_)) => {
+                (format!("rule `{name}` is broken: `{}` is true", condition.source()), vec![condition])
+            }
+            (Claim::Follows(consequence), _) => {
+                let (when, then) = (consequence.when.source(), consequence.then.source());
+                let what = match breach.reason {
+                    Reason::Late | Reason::Condition if consequence.within == 0 => {
+                        format!("`{then}` is not true in the cycle in which `{when}` became true")
+                    }
+                    Reason::Late | Reason::Condition => {
+                        let within = time(consequence.within);
+                        format!("`{then}` did not become true within {within} s after `{when}`")
+                    }
+                    Reason::Early => {
+                        let not_before = time(consequence.not_before);
+                        format!("`{then}` is true earlier than {not_before} s after `{when}`")
+                    }
+                    Reason::NeverBegan => format!("it never began: `{when}` did not become true"),
+                };
+                (format!("rule `{name}` is broken: {what}"), vec![&consequence.when, &consequence.then])
+            }
+        };
+        let mut lines = Vec::new();
+        let (began, failed) = (breach.began, breach.failed);
+        let is_watch = matches!((&rule.claim, breach.reason), (Claim::Follows(_), Reason::Late | Reason::Early));
+        if is_watch {
+            lines.push(format!("began in cycle {began}, at {} s", time(began)));
+            lines.push(format!("failed in cycle {failed}, at {} s", time(failed)));
+        }
+        let note = if is_watch { format!("{what}; it began at {} s", time(began)) } else { what.clone() };
+        self.with_view(self.last(machine), machine, |view| {
+            for expression in expressions {
+                for operand in Expression::operands(expression, view, machine) {
+                    if !lines.contains(&operand) {
+                        lines.push(operand);
+                    }
+                }
+            }
+        });
+        let missed = Missed { place: rule.place.clone(), ..self.missed_now(what, lines, machine) };
+        (note, missed)
+    }
+
+    /// The notes about breaches since the last call.
+    pub(super) fn take_notes(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notes)
+    }
+
+    /// The result of the session: `failure` if it failed, else the breaches that were noted, and the rules that had to begin.
+    pub(super) fn finish(&mut self, failure: Option<Failure>, machine: &Machine) -> Option<Failure> {
+        let cycle = machine.cycle() - self.start.0;
+        let ended = match &failure {
+            None => self.judge(machine, |monitor, _, report| monitor.end(cycle, report)).err(),
+            Some(_) => None,
+        };
+        let noted = std::mem::take(&mut self.noted);
+        match failure.or(ended) {
+            Some(Failure::Missed(mut missed)) => {
+                missed
+                    .operands
+                    .extend(noted.iter().map(|other| format!("before: {} (at {} s)", other.what, other.time)));
+                Some(Failure::Missed(missed))
+            }
+            Some(failure) => Some(failure),
+            None => together(noted),
+        }
+    }
+
+    /// Rules that never began, and watches that are open.
+    pub(super) fn remarks(&self, machine: &Machine) -> Vec<String> {
+        let time = |cycle: u64| machine.cycle_time().times(cycle);
+        let mut remarks = Vec::new();
+        for summary in self.monitor.summaries() {
+            let (Some(name), Claim::Follows(consequence)) = (&summary.rule.name, &summary.rule.claim) else {
+                continue;
+            };
+            if summary.begun == 0 {
+                let when = consequence.when.source();
+                remarks.push(format!("rule `{name}` never began: `{when}` did not become true"));
+            }
+            if let Some((count, oldest)) = summary.open {
+                let oldest = time(oldest);
+                remarks.push(match count {
+                    1 => format!("rule `{name}` is open at the end: it began at {oldest} s"),
+                    count => format!("rule `{name}` is open at the end: it began {count} times, first at {oldest} s"),
+                });
+            }
+            if summary.closed > 0 {
+                remarks.push(format!("rule `{name}`: power on closed it {} times", summary.closed));
+            }
+        }
+        remarks
+    }
+
+    /// The smallest margin of each rule.
+    pub(super) fn margins(&self, machine: &Machine) -> Vec<String> {
+        let time = |cycle: u64| machine.cycle_time().times(cycle);
+        let of_rule = |summary: crate::monitor::Summary<'_>| {
+            let rule = summary.rule;
+            let (name, is_watch) = match (&rule.name, &rule.claim) {
+                (Some(name), Claim::Follows(_)) => (name.clone(), true),
+                (Some(name), Claim::Always(_) | Claim::Never(_)) => (name.clone(), false),
+                (None, Claim::Always(condition)) => (format!("always {}", condition.source()), false),
+                (None, Claim::Never(condition)) => (format!("never {}", condition.source()), false),
+                (None, Claim::Follows(consequence)) => (consequence.when.source().to_owned(), true),
+            };
+            let margin = match (summary.margin, is_watch) {
+                (Some(margin), true) => {
+                    let cycles = margin.amount as u64;
+                    let (length, began) = (time(cycles), time(margin.cycle));
+                    let (met, begun) = (summary.met, summary.begun);
+                    format!("{cycles} cycles ({length} s), began at {began} s; {met} of {begun} in time")
+                }
+                (Some(margin), false) => format!("{} at {} s", margin.amount, time(margin.cycle)),
+                (None, true) => format!("none: it began {} times", summary.begun),
+                (None, false) => "none: it compares no numbers".to_owned(),
+            };
+            format!("margin of `{name}`: {margin}")
+        };
+        self.monitor.summaries().map(of_rule).collect()
+    }
+}
+
+/// All noted breaches as one failure.
+fn together(noted: Vec<Missed>) -> Option<Failure> {
+    let mut noted = noted.into_iter();
+    let mut first = noted.next()?;
+    first.operands.extend(noted.map(|other| format!("also: {} (at {} s)", other.what, other.time)));
+    Some(first.into())
+}
