@@ -17,6 +17,9 @@ pub(super) struct Files {
     /// Runs only the cases of a matrix whose values contain this text, as `plc = a`.
     #[arg(long, value_name = "TEXT")]
     case: Option<String>,
+    /// Prints the smallest margin of each rule: cycles until a consequence would have been too late, or the distance of a compared value.
+    #[arg(long)]
+    margins: bool,
     /// Writes the trace as JSON lines, for programs; one scenario only.
     #[arg(long, value_name = "F.jsonl")]
     trace: Option<PathBuf>,
@@ -96,9 +99,13 @@ pub(super) fn run(scenarios: &[PathBuf], files: &Files, programs: &Programs, out
         for warning in prepared.warnings() {
             output.warning(warning);
         }
+        let prepared = if files.margins { prepared.measure_margins() } else { prepared };
         let finished = prepared.run();
         output.print(&finished.text());
         code = code.max(result(&finished, output));
+        if files.margins {
+            finished.margins().iter().for_each(|margin| output.line(margin));
+        }
         for Waiting { path, file, text } in &mut waiting {
             if let Err(error) = file.write_all(text(&finished).as_bytes()) {
                 output.error(unwritable(path, &error));
@@ -141,13 +148,12 @@ pub(super) fn result(finished: &Finished, output: &mut Output) -> u8 {
     if session.trace().lost() > 0 {
         output.warning(format!("{} rows of the trace were lost", session.trace().lost()));
     }
+    let word = if finished.failure.is_none() { "passed" } else { "failed" };
+    output.line(format!("\n{word}, after {} s", session.time()));
+    finished.remarks().iter().for_each(|remark| output.line(remark));
     match &finished.failure {
-        None => {
-            output.line(format!("\npassed, after {} s", session.time()));
-            0
-        }
+        None => 0,
         Some(failure) => {
-            output.line(format!("\nfailed, after {} s", session.time()));
             output.error(failure);
             match failure {
                 Failure::Missed(_) => 1,

@@ -158,12 +158,14 @@ pub fn cases(file: &Path) -> Result<Vec<Case>, Problem> {
 }
 
 /// The transitions that a control has taken.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct Exercised {
     /// The texts of the control, with the charts of its state machines.
     pub texts: &'static dyn Texts,
     /// The rows of the charts.
     pub taken: Taken,
+    /// What the rules of the scenario have to say although they are not broken.
+    pub remarks: Vec<String>,
 }
 
 impl Case {
@@ -201,7 +203,7 @@ impl Case {
         };
         let outcome = self.outcome(&finished, update).unwrap_or_else(Outcome::Unusable);
         let control = finished.session().machine().control();
-        (outcome, Some(Exercised { texts: control.texts(), taken: control.taken() }))
+        (outcome, Some(Exercised { texts: control.texts(), taken: control.taken(), remarks: finished.remarks() }))
     }
 
     fn outcome(&self, finished: &Finished, update: Update) -> Result<Outcome, Problem> {

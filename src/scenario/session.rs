@@ -7,15 +7,16 @@ use std::path::Path;
 
 use super::duration::Duration;
 use super::failure::Failure;
-use super::naming::{Known, axis_named, check_captured_name, writable};
+use super::naming::{Known, axis_named, check_captured_name, place_named, writable};
 use super::passing::{Book, Next, Progress};
-use super::steps::Action;
+use super::steps::{Action, r_parameter};
 use super::values::Setting;
-use crate::expression::Expression;
+use crate::expression::{Expression, Followed};
 use crate::image::Location;
 use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine};
+use crate::monitor::{Claim, Consequence, Rule};
 use crate::plc::PlcProgram;
-use crate::source::Problem;
+use crate::source::{Place, Problem};
 use crate::trace::{Head, Trace, Watch};
 use crate::units::Time;
 
@@ -131,6 +132,16 @@ impl Session {
         self.watch = watch;
     }
 
+    /// Writes a signal or a byte once, in the next cycle, as a client can: also a bit of the NCK, which the NCK then overwrites.
+    ///
+    /// # Errors
+    /// The signal does not exist, or the value does not fit.
+    pub fn write(&mut self, signal: &str, value: impl Into<Setting>) -> Result<(), Failure> {
+        let location = place_named(&self.machine, signal)?;
+        let bits = value.into().bits(signal, location, self.machine.override_coding())?;
+        self.queue(Command::Write { location, value: bits })
+    }
+
     /// Writes a signal once, in the next cycle; the PLC program may overwrite it.
     ///
     /// # Errors
@@ -176,8 +187,16 @@ impl Session {
     /// # Errors
     /// As [`Session::pulse`].
     pub fn pulse_for(&mut self, signal: &str, time: &str) -> Result<(), Failure> {
-        let location = writable(&self.machine, signal)?;
-        self.act(&Action::Pulse(vec![location], Duration::parse(time)?))
+        self.pulse_all(&[signal], time)
+    }
+
+    /// Sets several bits in the same cycle and resets them after the given time.
+    ///
+    /// # Errors
+    /// As [`Session::pulse`].
+    pub fn pulse_all(&mut self, signals: &[&str], time: &str) -> Result<(), Failure> {
+        let locations = signals.iter().map(|signal| writable(&self.machine, signal)).collect::<Result<_, _>>()?;
+        self.act(&Action::Pulse(locations, Duration::parse(time)?))
     }
 
     /// Lets time pass.
@@ -217,12 +236,91 @@ impl Session {
         self.book.expect(&expression, &self.machine)
     }
 
+    /// All expressions must be true now.
+    ///
+    /// # Errors
+    /// The failure names every expression that is false, and shows every signal in it.
+    pub fn expect_all(&mut self, expressions: &[&str]) -> Result<(), Failure> {
+        let here = Place::file("expect_all");
+        let mut parsed = Vec::new();
+        for (index, expression) in expressions.iter().enumerate() {
+            let place = here.at_line(u32::try_from(index + 1).unwrap_or(0));
+            parsed.push((place, self.expression(expression)?));
+        }
+        self.book.expect_all(&parsed, &self.machine)
+    }
+
+    /// These bytes, words or bits must have these values now, as `("DB31.DBB101", "2#1100_0000")`.
+    ///
+    /// # Errors
+    /// The failure names every one that differs.
+    pub fn image(&mut self, expected: &[(&str, &str)]) -> Result<(), Failure> {
+        let mut bytes = Vec::new();
+        for (name, value) in expected {
+            let location = place_named(&self.machine, name)?;
+            let number = value.parse().map_or_else(|_| Setting::from(*value), Setting::Integer);
+            let bits = number.bits(name, location, self.machine.override_coding())?;
+            bytes.push((Place::file(name), location, bits));
+        }
+        self.book.expect_bits(&bytes, &self.machine)
+    }
+
+    /// The expression must be true after every cycle from now on.
+    ///
+    /// # Errors
+    /// The text is not an expression.
+    pub fn always(&mut self, expression: &str) -> Result<(), Failure> {
+        let claim = Claim::Always(self.expression(expression)?);
+        self.watch_over(None, claim)
+    }
+
+    /// The expression must be false after every cycle from now on.
+    ///
+    /// # Errors
+    /// The text is not an expression.
+    pub fn never(&mut self, expression: &str) -> Result<(), Failure> {
+        let claim = Claim::Never(self.expression(expression)?);
+        self.watch_over(None, claim)
+    }
+
+    /// From now on, `then` must become true within a time after every rising edge of `when`; `name` is for messages.
+    ///
+    /// # Errors
+    /// A text is not an expression or not a duration.
+    pub fn follows(&mut self, name: &str, when: &str, then: &str, within: &str) -> Result<(), Failure> {
+        let consequence = Consequence {
+            when: self.expression(when)?,
+            then: self.expression(then)?,
+            within: self.cycles(within)?,
+            not_before: 0,
+            from_start: false,
+            must_begin: false,
+        };
+        self.watch_over(Some(name.to_owned()), Claim::Follows(Box::new(consequence)))
+    }
+
+    fn watch_over(&mut self, name: Option<String>, claim: Claim) -> Result<(), Failure> {
+        let rule = Rule { name, place: None, claim, go_on: false };
+        self.book.watch_over(vec![rule], Vec::new(), &self.machine);
+        Ok(())
+    }
+
+    /// Follows the rising edges of a condition from now on, for `since` and `count` of this condition. Without this call they begin with the
+    /// first expression that contains them.
+    ///
+    /// # Errors
+    /// The text is not an expression.
+    pub fn follow(&mut self, condition: &str) -> Result<(), Failure> {
+        self.expression(&format!("count({condition})")).map(drop).map_err(Failure::from)
+    }
+
     /// The value of an expression now.
     ///
     /// # Errors
     /// The text is not an expression, or a name in it is unknown.
     pub fn value(&self, expression: &str) -> Result<f64, Failure> {
-        let expression = self.expression(expression)?;
+        let mut followed = self.book.followed.clone();
+        let expression = self.parsed(expression, &mut followed)?;
         Ok(self.book.evaluated(&expression, &self.machine))
     }
 
@@ -256,6 +354,27 @@ impl Session {
         self.queue(Command::MachineDatum { target: target.to_owned(), value })
     }
 
+    /// Writes an R parameter: `R5` of the first channel, `R5[CHAN2]` of channel 2.
+    ///
+    /// # Errors
+    /// The parameter does not exist.
+    pub fn r_parameter(&mut self, name: &str, value: f64) -> Result<(), Failure> {
+        let Some((channel, number)) = r_parameter(name) else {
+            let cure = "write `R5` for the first channel, `R5[CHAN2]` for channel 2";
+            return Err(Problem::new(format!("expected an R parameter, found {name:?}"), cure).into());
+        };
+        self.queue(Command::RParameter { channel, number, value })
+    }
+
+    /// Turns a handwheel by a number of pulses, evenly spread over a time.
+    ///
+    /// # Errors
+    /// The handwheel does not exist, or the text is not a duration.
+    pub fn handwheel(&mut self, number: u8, pulses: i32, over: &str) -> Result<(), Failure> {
+        let cycles = self.cycles(over)?;
+        self.queue(Command::Handwheel { number, pulses, cycles })
+    }
+
     /// "Set machine data active" (NEWCONF).
     ///
     /// # Errors
@@ -286,6 +405,14 @@ impl Session {
     /// The machine rejects the command.
     pub fn plc_run(&mut self) -> Result<(), Failure> {
         self.queue(Command::PlcRun)
+    }
+
+    /// Restarts the PLC from the beginning: its memory returns to its initial values.
+    ///
+    /// # Errors
+    /// The machine rejects the command.
+    pub fn plc_cold(&mut self) -> Result<(), Failure> {
+        self.queue(Command::PlcColdRestart)
     }
 
     /// The operator's alarm-cancel key.
@@ -361,7 +488,24 @@ impl Session {
         self.trace.end_cycle(self.machine.cycle(), self.machine.time(), self.machine.variables());
     }
 
-    fn expression(&self, source: &str) -> Result<Expression, Problem> {
-        Expression::parse(source, &Known { machine: &self.machine, captured: &self.book.captured_names })
+    fn cycles(&self, time: &str) -> Result<u64, Problem> {
+        Ok(Duration::parse(time)?.cycles(self.machine.cycle_time()))
+    }
+
+    /// An expression; its `since` and `count` begin now unless their conditions are followed already.
+    fn expression(&mut self, source: &str) -> Result<Expression, Problem> {
+        let mut followed = self.book.followed.clone();
+        let expression = self.parsed(source, &mut followed)?;
+        if followed.len() > self.book.followed.len() {
+            self.book.follow(followed, &self.machine);
+        }
+        Ok(expression)
+    }
+
+    fn parsed(&self, source: &str, followed: &mut Vec<Followed>) -> Result<Expression, Problem> {
+        let known = Known { machine: &self.machine, captured: &self.book.captured_names };
+        let mut expression = Expression::parse(source, &known)?;
+        expression.follow(followed);
+        Ok(expression)
     }
 }

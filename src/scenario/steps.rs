@@ -377,7 +377,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-fn r_parameter(name: &str) -> Option<(ChannelNumber, u16)> {
+pub(super) fn r_parameter(name: &str) -> Option<(ChannelNumber, u16)> {
     let rest = name.strip_prefix('R')?;
     let (number, channel) = match rest.split_once("[CHAN") {
         Some((number, channel)) => (number, channel.strip_suffix(']')?.parse().ok()?),
