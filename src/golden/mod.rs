@@ -8,6 +8,7 @@ mod snapshot;
 
 pub use snapshot::{Snapshot, normalized, pending};
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -15,7 +16,7 @@ use crate::control::{Read, Taken, Texts};
 use crate::controls;
 use crate::image::Profile;
 use crate::plc::Programs;
-use crate::scenario::{Compare, Failure, Finished, Scenario};
+use crate::scenario::{Compare, Failure, Finished, Scenario, included_by, names_machine};
 use crate::source::{Place, Problem, unreadable};
 use crate::trace::{difference, difference_in_sequence};
 use crate::units::Time;
@@ -100,7 +101,8 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// All scenario files below the paths, sorted. A path may also be a file.
+/// All scenario files below the paths, sorted. A path may also be a file. A file below a directory that has no machine and whose steps
+/// another one includes is a part of that one and no scenario.
 ///
 /// # Errors
 /// A path does not exist or cannot be read, or it contains no scenario.
@@ -116,7 +118,19 @@ pub fn scenario_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Problem> {
     }
     files.sort();
     files.dedup();
+    let parts = parts_of(&files);
+    files.retain(|file| paths.contains(file) || !parts.contains(&real(file)));
     Ok(files)
+}
+
+fn real(file: &Path) -> PathBuf {
+    file.canonicalize().unwrap_or_else(|_| file.to_owned())
+}
+
+/// The files without a machine that these files include.
+fn parts_of(files: &[PathBuf]) -> BTreeSet<PathBuf> {
+    let included = files.iter().flat_map(|file| included_by(file).unwrap_or_default());
+    included.filter(|file| !names_machine(file)).map(|file| real(&file)).collect()
 }
 
 fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Problem> {

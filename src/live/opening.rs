@@ -124,7 +124,7 @@ impl Opening<'_> {
             machine,
             operator: Some(operator),
             watch,
-            entries: scenario.watch.map(|entries| entries.into_iter().map(|entry| entry.text).collect()),
+            entries: scenario.watch.map(|entries| entries.into_iter().map(|entry| entry.name.text).collect()),
             path,
             plc: scenario.plc.map(|plc| plc.text),
             image,

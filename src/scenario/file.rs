@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::duration::Duration;
-use super::matrix::{Variant, heads};
+use super::matrix::{FIXED, HEAD, Variant, heads};
 use super::rules;
 use crate::control::{StoredDatum, Value as DatumValue};
 use crate::controls;
@@ -35,7 +35,7 @@ pub struct Scenario {
     /// The limit of simulated time.
     pub limit: Duration,
     /// What the trace shows; `None` selects the default.
-    pub watch: Option<Vec<Named>>,
+    pub watch: Option<Vec<Watched>>,
     /// Whether golden rows show causes.
     pub causes: bool,
     /// Expressions that must be false in every cycle.
@@ -61,6 +61,15 @@ pub struct Named {
     pub text: String,
     /// Its place in the file.
     pub place: Place,
+}
+
+/// An entry of `watch`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Watched {
+    /// The signal, value or pattern.
+    pub name: Named,
+    /// How far a value must have moved since its last row, in its own unit.
+    pub step: Option<f64>,
 }
 
 /// How a trace is compared with the golden trace.
@@ -161,7 +170,7 @@ impl Scenario {
             limit: table
                 .take("limit")
                 .map_or(Ok(Duration::Time(DEFAULT_LIMIT)), |node| duration(&node, "the limit of simulated time"))?,
-            watch: table.take("watch").map(|node| texts(Some(node), "signals to watch")).transpose()?,
+            watch: table.take("watch").map(watched).transpose()?,
             causes: table.take("causes").map_or(Ok(false), |node| node.boolean("true or false"))?,
             never: texts(table.take("never"), "expressions")?,
             always: texts(table.take("always"), "expressions")?,
@@ -182,6 +191,41 @@ impl Scenario {
     pub fn directory(&self) -> &Path {
         self.path.parent().unwrap_or_else(|| Path::new(""))
     }
+}
+
+/// The steps of a file that another one includes. If it is a scenario, its head has no effect; its keys are checked.
+pub(super) fn steps_of(file: &Path) -> Result<Vec<Table>, Problem> {
+    let name = file.display().to_string();
+    let mut table = Table::parse(&read_text(file)?, &name)?;
+    let steps = steps(table.take("step"), &Place::file(&name))?;
+    for key in FIXED.into_iter().chain(HEAD) {
+        table.take(key);
+    }
+    table.finish()?;
+    Ok(steps)
+}
+
+/// Signals, values and patterns, each as a text or as `{ value = "X.position", step = 0.1 }`.
+fn watched(node: Node) -> Result<Vec<Watched>, Problem> {
+    let one = |node: Node| {
+        if !matches!(node.value, Value::Table(_)) {
+            return Ok(Watched { name: named(&node, "a signal or value to watch")?, step: None });
+        }
+        let place = node.place.clone();
+        let mut table = node.into_table("a value to watch")?;
+        let (value, step) = (table.take("value"), table.take("step"));
+        table.finish()?;
+        let (Some(value), Some(step)) = (value, step) else {
+            let what = "expected the keys `value` and `step`, found only one of them";
+            return Err(place.problem(what, "write { value = \"X.position\", step = 0.1 }"));
+        };
+        let size = step.number("a step in the unit of the value")?;
+        if size <= 0.0 || size > 1e9 {
+            return Err(step.expected("a step above 0", "omit it for a row at every change"));
+        }
+        Ok(Watched { name: named(&value, "the value of an axis")?, step: Some(size) })
+    };
+    node.into_list().into_iter().map(one).collect()
 }
 
 /// The only case of a file, for a caller that takes one.

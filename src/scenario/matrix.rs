@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
 
 /// The keys of the head that a matrix can vary.
-const HEAD: [&str; 10] =
+pub(super) const HEAD: [&str; 10] =
     ["machine", "profile", "plc", "plc_image", "limit", "watch", "causes", "never", "always", "compare"];
 
 /// The keys of the head that belong to the scenario as a whole.
-const FIXED: [&str; 7] = ["title", "covers", "plant", "machine_data", "matrix", "rule", "step"];
+pub(super) const FIXED: [&str; 7] = ["title", "covers", "plant", "machine_data", "matrix", "rule", "step"];
 
 /// The maximum number of cases.
 const CASES: usize = 10_000;

@@ -5,10 +5,12 @@
 //! Unexpected behaviour of the machine is a [`Failure`] that shows every signal of the expression. [`Transcript`] does the reverse: it
 //! records the commands to a machine as a scenario.
 
+mod commands;
 mod duration;
 mod failure;
 mod faults;
 mod file;
+mod include;
 mod matrix;
 mod naming;
 mod operator;
@@ -23,7 +25,8 @@ mod watching;
 
 pub use duration::Duration;
 pub use failure::{Failure, Missed};
-pub use file::{Compare, Named, Scenario, profile_named};
+pub use file::{Compare, Named, Scenario, Watched, profile_named};
+pub use include::{included_by, names_machine};
 pub use matrix::Variant;
 pub use operator::{Operator, State};
 pub use run::{Finished, Prepared};

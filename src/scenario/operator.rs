@@ -1,21 +1,24 @@
 //! Executes the steps of a scenario in order. A caller steps the machine: the scenario runner at full speed, a server in real time.
 
 use super::failure::Failure;
+use super::include::Steps;
 use super::passing::{Book, Next, Progress};
 use super::steps::{Action, Step};
 use crate::machine::Machine;
 
 /// The steps and the progress through them.
 pub(super) struct Plan {
-    steps: Vec<Step>,
+    steps: Steps,
     index: usize,
+    /// The steps at which a repetition continues, and how often its steps have run; the inner one last.
+    repeated: Vec<(usize, u64)>,
     /// The progress of the current step, if it has begun.
     progress: Option<Progress>,
 }
 
 impl Plan {
-    pub(super) fn new(steps: Vec<Step>) -> Self {
-        Self { steps, index: 0, progress: None }
+    pub(super) fn new(steps: Steps) -> Self {
+        Self { steps, index: 0, repeated: Vec::new(), progress: None }
     }
 
     /// Executes steps until a cycle must pass or all steps are done. The caller steps the machine next. Passes each note to the caller.
@@ -25,15 +28,23 @@ impl Plan {
         machine: &mut Machine,
         note: &mut dyn FnMut(&Machine, &str),
     ) -> Result<Next, Failure> {
-        while let Some(step) = self.steps.get(self.index) {
+        while let Some(step) = self.steps.steps.get(self.index) {
+            if let &Action::Repeat { from, times } = &step.action {
+                self.repeat(from, times);
+                continue;
+            }
             if let (None, Some(text)) = (&self.progress, &step.note) {
                 note(machine, text);
             }
-            let progress = self.progress.get_or_insert_with(|| Progress::new(machine));
-            let next = book.go_on(&step.action, progress, machine).map_err(|failure| failure.at(&step.place))?;
+            let mut progress = self.progress.take().unwrap_or_else(|| Progress::new(machine));
+            let next = book.go_on(&step.action, &mut progress, machine);
+            let next = next.map_err(|failure| self.described(failure.at(&step.place)))?;
             if next == Next::Cycle {
-                let begun = book.begin_cycle(machine);
-                begun.map_err(|stopped| book.stopped(stopped, &step.action, progress, machine).at(&step.place))?;
+                if let Err(stopped) = book.begin_cycle(machine) {
+                    let failure = book.stopped(stopped, &step.action, &progress, machine);
+                    return Err(self.described(failure.at(&step.place)));
+                }
+                self.progress = Some(progress);
                 return Ok(Next::Cycle);
             }
             (self.index, self.progress) = (self.index + 1, None);
@@ -44,14 +55,61 @@ impl Plan {
     /// Called after a cycle.
     pub(super) fn end_cycle(&mut self, book: &mut Book, machine: &Machine) -> Result<(), Failure> {
         let ended = book.end_cycle(machine);
-        let (Some(step), Some(progress)) = (self.steps.get(self.index), &mut self.progress) else { return Ok(()) };
-        ended.map_err(|stopped| book.stopped(stopped, &step.action, progress, machine).at(&step.place))?;
+        let (Some(step), Some(progress)) = (self.steps.steps.get(self.index), &mut self.progress) else {
+            return Ok(());
+        };
+        if let Err(stopped) = ended {
+            let failure = book.stopped(stopped, &step.action, progress, machine).at(&step.place);
+            return Err(self.described(failure));
+        }
         progress.count();
         Ok(())
     }
 
+    /// Goes back to the first of the repeated steps, or on if they have run often enough.
+    fn repeat(&mut self, from: usize, times: u64) {
+        let at = self.index;
+        let done = match self.repeated.last_mut() {
+            Some((index, done)) if *index == at => {
+                *done += 1;
+                *done
+            }
+            Some(_) | None => {
+                self.repeated.push((at, 1));
+                1
+            }
+        };
+        if done < times {
+            self.index = from;
+        } else {
+            self.repeated.pop();
+            self.index += 1;
+        }
+    }
+
+    /// The failure, with the steps that include the present one and the number of the repetition.
+    fn described(&self, failure: Failure) -> Failure {
+        let Failure::Missed(mut missed) = failure else {
+            return failure;
+        };
+        let mut lines = Vec::new();
+        for (range, place) in self.steps.included.iter().filter(|(range, _)| range.contains(&self.index)) {
+            let times = match self.steps.steps[range.clone()].last().map(|step| &step.action) {
+                Some(Action::Repeat { from, times }) if *from == range.start => {
+                    let end = range.end - 1;
+                    let done = self.repeated.iter().find(|(index, _)| *index == end).map_or(0, |(_, done)| *done);
+                    format!(", time {} of {times}", done + 1)
+                }
+                _ => String::new(),
+            };
+            lines.push(format!("included at {place}{times}"));
+        }
+        missed.operands.splice(0..0, lines);
+        Failure::Missed(missed)
+    }
+
     pub(super) fn looks_back(&self) -> bool {
-        self.steps.iter().any(Step::looks_back)
+        self.steps.steps.iter().any(Step::looks_back)
     }
 }
 
@@ -61,7 +119,13 @@ impl Step {
             Action::Wait(expression, _) | Action::Hold(expression, _) => expression.looks_back(),
             Action::Expect(expressions) => expressions.iter().any(|(_, expression)| expression.looks_back()),
             Action::Capture(captures) => captures.iter().any(|(_, expression)| expression.looks_back()),
-            Action::Queue(_) | Action::Handwheel(_) | Action::Pulse(..) | Action::Run(_) | Action::Image(_) => false,
+            Action::Queue(_)
+            | Action::Handwheel(_)
+            | Action::Pulse(..)
+            | Action::Run(_)
+            | Action::Image(_)
+            | Action::Nothing
+            | Action::Repeat { .. } => false,
         }
     }
 }

@@ -195,6 +195,8 @@ impl Book {
                 }
                 Ok(Next::Over)
             }
+            // The plan executes repetitions.
+            Action::Nothing | Action::Repeat { .. } => Ok(Next::Over),
             Action::Image(bytes) => {
                 self.expect_bits(bytes, machine)?;
                 Ok(Next::Over)
@@ -257,7 +259,9 @@ impl Book {
             | Action::Handwheel(_)
             | Action::Expect(_)
             | Action::Capture(_)
-            | Action::Image(_) => (run(progress.start), None),
+            | Action::Image(_)
+            | Action::Nothing
+            | Action::Repeat { .. } => (run(progress.start), None),
         };
         match stopped {
             Stopped::Limit => {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::file::{Named, Scenario, in_the_case};
+use super::include::Steps;
 use super::operator::{Operator, Plan};
 use super::passing::Next;
 use super::rules::condition;
@@ -62,8 +63,10 @@ impl Scenario {
     fn ready(&self, profile: Profile, programs: &Programs, read: Read) -> Result<Prepared, Problem> {
         let mut machine = self.open(profile, read)?;
         let watch = self.watch(&machine)?;
-        let mut reader = Reader::new(&machine);
-        let plan = Plan::new(self.steps.iter().map(|step| reader.step(step.clone())).collect::<Result<_, _>>()?);
+        let mut reader = Reader::new(&machine, &self.path);
+        let mut steps = Steps::default();
+        reader.steps(&self.steps, &mut steps)?;
+        let plan = Plan::new(steps);
         let rules = self.rules(&mut reader, machine.cycle_time())?;
         let followed = std::mem::take(&mut reader.followed);
         let looks_back = rules.iter().flat_map(Rule::expressions).any(Expression::looks_back) || plan.looks_back();
@@ -138,9 +141,9 @@ impl Scenario {
         let Some(entries) = &self.watch else {
             return Ok(Watch::default());
         };
-        let texts: Vec<_> = entries.iter().map(|entry| entry.text.as_str()).collect();
-        Watch::parse(&texts, machine.names(), machine.memory())
-            .map_err(|(index, problem)| problem.at(&entries[index].place))
+        let texts: Vec<_> = entries.iter().map(|entry| (entry.name.text.as_str(), entry.step)).collect();
+        Watch::parse_stepped(&texts, machine.names(), machine.memory())
+            .map_err(|(index, problem)| problem.at(&entries[index].name.place))
     }
 
     /// The conditions and rules of the head.

@@ -7,13 +7,16 @@ use std::path::Path;
 
 use super::duration::Duration;
 use super::failure::Failure;
-use super::naming::{Known, axis_named, check_captured_name, place_named, writable};
+use super::file::steps_of;
+use super::include::Steps;
+use super::naming::{Known, check_captured_name, place_named, writable};
+use super::operator::Plan;
 use super::passing::{Book, Next, Progress};
-use super::steps::{Action, r_parameter};
+use super::steps::{Action, Reader};
 use super::values::Setting;
 use crate::expression::{Expression, Followed};
 use crate::image::Location;
-use crate::machine::{Command, DatumValue, Fault, FaultKind, Machine};
+use crate::machine::{Command, Machine};
 use crate::monitor::{Claim, Consequence, Rule};
 use crate::plc::PlcProgram;
 use crate::source::{Place, Problem};
@@ -265,6 +268,34 @@ impl Session {
         self.book.expect_bits(&bytes, &self.machine)
     }
 
+    /// Executes the steps of a scenario file, or of a file that has only steps; a head has no effect. Captured names are shared.
+    ///
+    /// # Errors
+    /// The file cannot be used, or a step fails.
+    pub fn include(&mut self, file: impl AsRef<Path>) -> Result<(), Failure> {
+        let file = file.as_ref();
+        let mut reader = Reader::new(&self.machine, file);
+        reader.captured.clone_from(&self.book.captured_names);
+        reader.followed.clone_from(&self.book.followed);
+        let mut steps = Steps::default();
+        reader.steps(&steps_of(file)?, &mut steps)?;
+        let Reader { captured, followed, .. } = reader;
+        self.book.captured_names = captured;
+        if followed.len() > self.book.followed.len() {
+            self.book.follow(followed, &self.machine);
+        }
+        let mut plan = Plan::new(steps);
+        loop {
+            let Self { machine, book, trace, .. } = self;
+            let note = &mut |machine: &Machine, text: &str| trace.note(machine.cycle() + 1, text);
+            if plan.go_on(book, machine, note)? == Next::Over {
+                return Ok(());
+            }
+            self.cycle();
+            plan.end_cycle(&mut self.book, &self.machine)?;
+        }
+    }
+
     /// The expression must be true after every cycle from now on.
     ///
     /// # Errors
@@ -340,107 +371,6 @@ impl Session {
         Ok(self.book.keep(index, &expression, &self.machine))
     }
 
-    /// Stores a machine datum, as `34090[XF]`. It takes effect as its activation class defines.
-    ///
-    /// # Errors
-    /// The machine datum does not exist, or it rejects the value.
-    pub fn machine_data(&mut self, target: &str, value: impl Into<Setting>) -> Result<(), Failure> {
-        let value = match value.into() {
-            Setting::Integer(number) => DatumValue::Integer(number),
-            Setting::Float(number) => DatumValue::Real(number),
-            Setting::Boolean(value) => DatumValue::Boolean(value),
-            Setting::Text(text) => DatumValue::Text(text),
-        };
-        self.queue(Command::MachineDatum { target: target.to_owned(), value })
-    }
-
-    /// Writes an R parameter: `R5` of the first channel, `R5[CHAN2]` of channel 2.
-    ///
-    /// # Errors
-    /// The parameter does not exist.
-    pub fn r_parameter(&mut self, name: &str, value: f64) -> Result<(), Failure> {
-        let Some((channel, number)) = r_parameter(name) else {
-            let cure = "write `R5` for the first channel, `R5[CHAN2]` for channel 2";
-            return Err(Problem::new(format!("expected an R parameter, found {name:?}"), cure).into());
-        };
-        self.queue(Command::RParameter { channel, number, value })
-    }
-
-    /// Turns a handwheel by a number of pulses, evenly spread over a time.
-    ///
-    /// # Errors
-    /// The handwheel does not exist, or the text is not a duration.
-    pub fn handwheel(&mut self, number: u8, pulses: i32, over: &str) -> Result<(), Failure> {
-        let cycles = self.cycles(over)?;
-        self.queue(Command::Handwheel { number, pulses, cycles })
-    }
-
-    /// "Set machine data active" (NEWCONF).
-    ///
-    /// # Errors
-    /// The machine rejects the command.
-    pub fn new_conf(&mut self) -> Result<(), Failure> {
-        self.queue(Command::NewConf)
-    }
-
-    /// Switches the control off and on again.
-    ///
-    /// # Errors
-    /// The machine rejects the command.
-    pub fn power_on(&mut self) -> Result<(), Failure> {
-        self.queue(Command::PowerOn)
-    }
-
-    /// Stops the PLC.
-    ///
-    /// # Errors
-    /// The machine rejects the command.
-    pub fn plc_stop(&mut self) -> Result<(), Failure> {
-        self.queue(Command::PlcStop)
-    }
-
-    /// Restarts the PLC.
-    ///
-    /// # Errors
-    /// The machine rejects the command.
-    pub fn plc_run(&mut self) -> Result<(), Failure> {
-        self.queue(Command::PlcRun)
-    }
-
-    /// Restarts the PLC from the beginning: its memory returns to its initial values.
-    ///
-    /// # Errors
-    /// The machine rejects the command.
-    pub fn plc_cold(&mut self) -> Result<(), Failure> {
-        self.queue(Command::PlcColdRestart)
-    }
-
-    /// The operator's alarm-cancel key.
-    ///
-    /// # Errors
-    /// The machine rejects the command.
-    pub fn cancel(&mut self) -> Result<(), Failure> {
-        self.queue(Command::Cancel)
-    }
-
-    /// Begins a fault on an axis.
-    ///
-    /// # Errors
-    /// The axis does not exist.
-    pub fn fault(&mut self, axis: &str, kind: FaultKind) -> Result<(), Failure> {
-        let axis = axis_named(&self.machine, axis)?;
-        self.queue(Command::Fault(Fault { axis, kind }))
-    }
-
-    /// Ends a fault on an axis.
-    ///
-    /// # Errors
-    /// The axis does not exist.
-    pub fn clear_fault(&mut self, axis: &str, kind: FaultKind) -> Result<(), Failure> {
-        let axis = axis_named(&self.machine, axis)?;
-        self.queue(Command::ClearFault(Fault { axis, kind }))
-    }
-
     /// Writes a note into the trace, at the time of the next cycle.
     pub fn note(&mut self, text: &str) {
         self.trace.note(self.machine.cycle() + 1, text);
@@ -460,7 +390,7 @@ impl Session {
     }
 
     /// Queues a command for the next cycle.
-    fn queue(&mut self, command: Command) -> Result<(), Failure> {
+    pub(super) fn queue(&mut self, command: Command) -> Result<(), Failure> {
         self.book.queue(command, &mut self.machine)
     }
 

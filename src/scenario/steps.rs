@@ -1,10 +1,12 @@
 //! The steps of a scenario: names are looked up and values are checked for one machine before anything runs.
 
 use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
 
 use super::duration::Duration;
 use super::faults::fault;
 use super::file::{duration, not_available, texts};
+use super::include::Steps;
 use super::naming::{Known, check_captured_name, missing_owner, place_named, written_by_others};
 use crate::expression::{Expression, Followed};
 use crate::image::{Location, raw_value};
@@ -41,6 +43,15 @@ pub(super) enum Action {
     Capture(Vec<(usize, Expression)>),
     /// The locations must have these bits now.
     Image(Vec<(Place, Location, u64)>),
+    /// Nothing: the note of an included file.
+    Nothing,
+    /// Continues at an earlier step until the steps from there have run this number of times.
+    Repeat {
+        /// The index of the step.
+        from: usize,
+        /// The number of times.
+        times: u64,
+    },
 }
 
 /// A rotation of a handwheel. Its time becomes cycles when it begins, because power on can change their length.
@@ -58,7 +69,7 @@ impl Turn {
     }
 }
 
-/// The verbs of a step.
+/// The verbs of a step; `include` is another one.
 const VERBS: [&str; 20] = [
     "set",
     "write",
@@ -97,11 +108,15 @@ pub(super) struct Reader<'a> {
     pub(super) followed: Vec<Followed>,
     /// Data of the machine were stored, and have taken effect: the machine can have other channels than it has now.
     reconfigured: [bool; 2],
+    /// The files that include each other down to the present one; paths in a step are relative to the last one.
+    pub(super) files: Vec<PathBuf>,
 }
 
 impl<'a> Reader<'a> {
-    pub(super) fn new(machine: &'a Machine) -> Self {
-        Self { machine, captured: Vec::new(), followed: Vec::new(), reconfigured: [false; 2] }
+    /// A reader of the steps in this file.
+    pub(super) fn new(machine: &'a Machine, file: &Path) -> Self {
+        let files = vec![file.to_owned()];
+        Self { machine, captured: Vec::new(), followed: Vec::new(), reconfigured: [false; 2], files }
     }
 
     /// An expression with all names known so far.
@@ -112,9 +127,7 @@ impl<'a> Reader<'a> {
         Ok(expression)
     }
 
-    pub(super) fn step(&mut self, mut table: Table) -> Result<Step, Problem> {
-        let place = table.place.clone();
-        let note = table.take("note").map(|node| node.text("a note").map(str::to_owned)).transpose()?;
+    fn step(&mut self, mut table: Table, place: Place, note: Option<String>) -> Result<Step, Problem> {
         let mut verbs = Vec::new();
         for verb in VERBS {
             if let Some(node) = table.take(verb) {
@@ -129,11 +142,11 @@ impl<'a> Reader<'a> {
         let mut verbs = verbs.into_iter();
         let Some((verb, node)) = verbs.next() else {
             // A misspelt verb is the most likely reason that no verb is found. Modifiers are not verbs.
-            for modifier in ["within", "for", "during"] {
+            for modifier in ["within", "for", "during", "times"] {
                 if let Some(node) = table.take(modifier) {
                     return Err(node.place.problem(
                         format!("expected a verb together with `{modifier}`, found none"),
-                        "`within` belongs to `wait`, `for` to `pulse`, `during` to `hold`",
+                        "`within` belongs to `wait`, `for` to `pulse`, `during` to `hold`, `times` to `include`",
                     ));
                 }
             }
@@ -156,11 +169,27 @@ impl<'a> Reader<'a> {
             | Action::Hold(..)
             | Action::Expect(_)
             | Action::Capture(_)
-            | Action::Image(_) => {}
+            | Action::Image(_)
+            | Action::Nothing
+            | Action::Repeat { .. } => {}
         }
         self.refuse_foreign_modifiers(verb, &mut table)?;
         table.finish()?;
         Ok(Step { place, note, action })
+    }
+
+    /// Reads all steps, and those of the files that they include, into one list.
+    pub(super) fn steps(&mut self, tables: &[Table], list: &mut Steps) -> Result<(), Problem> {
+        for table in tables {
+            let mut table = table.clone();
+            let place = table.place.clone();
+            let note = table.take("note").map(|node| node.text("a note").map(str::to_owned)).transpose()?;
+            match table.take("include") {
+                Some(node) => self.include(&node, &mut table, note, list)?,
+                None => list.steps.push(self.step(table, place, note)?),
+            }
+        }
+        Ok(())
     }
 
     /// Checks a command against the machine, so that it is rejected before anything runs.
@@ -169,7 +198,7 @@ impl<'a> Reader<'a> {
     }
 
     fn refuse_foreign_modifiers(&self, verb: &str, table: &mut Table) -> Result<(), Problem> {
-        for (modifier, owner) in [("within", "wait"), ("for", "pulse"), ("during", "hold")] {
+        for (modifier, owner) in [("within", "wait"), ("for", "pulse"), ("during", "hold"), ("times", "include")] {
             if let Some(node) = table.take(modifier) {
                 return Err(node.place.problem(
                     format!("`{modifier}` cannot be combined with `{verb}`"),
@@ -387,7 +416,7 @@ pub(super) fn r_parameter(name: &str) -> Option<(ChannelNumber, u16)> {
 }
 
 fn verbs_in_words() -> String {
-    format!("verbs are {}", VERBS.join(", "))
+    format!("verbs are {}, include", VERBS.join(", "))
 }
 
 /// A rotation of a handwheel.
@@ -413,7 +442,11 @@ fn handwheel(node: Node) -> Result<Turn, Problem> {
 }
 
 /// A whole number within a range.
-fn whole<T: TryFrom<i64> + PartialOrd>(node: &Node, what: &str, range: RangeInclusive<T>) -> Result<T, Problem> {
+pub(super) fn whole<T: TryFrom<i64> + PartialOrd>(
+    node: &Node,
+    what: &str,
+    range: RangeInclusive<T>,
+) -> Result<T, Problem> {
     let number = match node.value {
         Value::Integer(number) => T::try_from(number).ok().filter(|number| range.contains(number)),
         _ => None,

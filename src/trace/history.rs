@@ -2,6 +2,7 @@
 
 use super::calendar::Calendar;
 use super::value::millionths;
+use super::watch::WatchedItem;
 use super::{Recorder, Row, Watch};
 use crate::image::Memory;
 use crate::units::{AxisNumber, Time};
@@ -34,6 +35,8 @@ pub(super) struct WatchedValue {
     pub(super) value: AxisValue,
     /// The last value in millionths, as displayed.
     pub(super) last: Option<i64>,
+    /// How far it must have moved for another row, in millionths.
+    pub(super) step: i64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +68,10 @@ impl Trace {
 
     /// Records these values from now on, in every cycle in which they change.
     pub fn watch_values(&mut self, watch: &Watch, cycle: u64, variables: &Variables) {
-        self.watched = watch.values().map(|(axis, value)| WatchedValue { axis, value, last: None }).collect();
+        self.watched = watch
+            .items()
+            .map(|WatchedItem { axis, value, step }| WatchedValue { axis, value, last: None, step: millionths(step) })
+            .collect();
         self.values.clear();
         self.note_values(cycle, variables);
     }
@@ -87,7 +93,8 @@ impl Trace {
         self.last_cycle = self.last_cycle.max(cycle);
         for (index, watched) in self.watched.iter_mut().enumerate() {
             let new = millionths(watched.value.of(watched.axis, variables));
-            if watched.last != Some(new) {
+            let moved = watched.last.map(|last| new.abs_diff(last));
+            if moved.is_none_or(|moved| moved > 0 && moved >= watched.step.unsigned_abs()) {
                 self.values.push(ValueRow { cycle, index, old: watched.last, new });
                 watched.last = Some(new);
             }

@@ -20,7 +20,15 @@ struct Chosen {
     patterns: Vec<String>,
     /// Locations that are named individually.
     locations: Vec<Location>,
-    values: Vec<(AxisNumber, AxisValue)>,
+    values: Vec<WatchedItem>,
+}
+
+/// A value to record, and how far it must have moved since its last row for another row, in its own unit; 0 for every change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct WatchedItem {
+    pub(super) axis: AxisNumber,
+    pub(super) value: AxisValue,
+    pub(super) step: f64,
 }
 
 impl Watch {
@@ -29,17 +37,37 @@ impl Watch {
     /// # Errors
     /// One of the entries, given by its index, matches nothing.
     pub fn parse(entries: &[&str], names: &Names, memory: &Memory) -> Result<Self, (usize, Problem)> {
+        let entries: Vec<_> = entries.iter().map(|entry| (*entry, None)).collect();
+        Self::parse_stepped(&entries, names, memory)
+    }
+
+    /// The same with the step of a value, in its own unit: a row where the value has moved by at least this much since its last row.
+    ///
+    /// # Errors
+    /// One of the entries, given by its index, matches nothing, or has a step and is no value of an axis.
+    pub fn parse_stepped(
+        entries: &[(&str, Option<f64>)],
+        names: &Names,
+        memory: &Memory,
+    ) -> Result<Self, (usize, Problem)> {
         let mut chosen = Chosen::default();
-        for (index, entry) in entries.iter().enumerate() {
-            chosen.add(entry, names, memory).map_err(|problem| (index, problem))?;
+        for (index, (entry, step)) in entries.iter().enumerate() {
+            chosen.add(entry, *step, names, memory).map_err(|problem| (index, problem))?;
         }
-        chosen.values.sort_unstable();
-        chosen.values.dedup();
+        // The finest step of a value that is named twice counts.
+        chosen.values.sort_by(|one, other| {
+            (one.axis, one.value).cmp(&(other.axis, other.value)).then(one.step.total_cmp(&other.step))
+        });
+        chosen.values.dedup_by_key(|item| (item.axis, item.value));
         Ok(Self { chosen: Some(chosen) })
     }
 
     /// The selected values.
     pub fn values(&self) -> impl Iterator<Item = (AxisNumber, AxisValue)> {
+        self.items().map(|item| (item.axis, item.value))
+    }
+
+    pub(super) fn items(&self) -> impl Iterator<Item = WatchedItem> {
         self.chosen.iter().flat_map(|chosen| chosen.values.iter().copied())
     }
 
@@ -64,7 +92,7 @@ impl Watch {
 }
 
 impl Chosen {
-    fn add(&mut self, entry: &str, names: &Names, memory: &Memory) -> Result<(), Problem> {
+    fn add(&mut self, entry: &str, step: Option<f64>, names: &Names, memory: &Memory) -> Result<(), Problem> {
         if let Some((head, tail)) = entry.rsplit_once('.')
             && let Some(value) = AxisValue::named(tail)
         {
@@ -77,8 +105,16 @@ impl Chosen {
                     did_you_mean(head, known(), &fallback),
                 ));
             }
-            self.values.extend(axes.into_iter().map(|(axis, _)| (axis, value)));
+            let step = step.unwrap_or(0.0);
+            self.values.extend(axes.into_iter().map(|(axis, _)| WatchedItem { axis, value, step }));
             return Ok(());
+        }
+        if step.is_some() {
+            let values = AxisValue::ALL.map(AxisValue::name).join(", ");
+            return Err(Problem::new(
+                format!("expected the value of a machine axis for a step, found `{entry}`"),
+                format!("values are {values}; every change of a signal is a row"),
+            ));
         }
         if !entry.contains('*') {
             let location = names.resolve(memory, entry).map_err(|problem| nearest_value(problem, entry, names));

@@ -1,0 +1,106 @@
+//! The verb `include`: the steps of another file, once or several times.
+//!
+//! The included file is a list of steps; if it is a scenario, its head is checked and has no other effect. Its steps are read where they are
+//! included, so captured names are shared in both directions. Steps that repeat are stored once.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::file::steps_of;
+use super::steps::{Action, Reader, Step, whole};
+use crate::source::{Node, Place, Problem, Table, read_text};
+
+/// The largest number of times that steps can be repeated.
+const TIMES: u64 = 1_000_000;
+
+/// All steps of a scenario, with those that it includes.
+#[derive(Debug, Default)]
+pub(super) struct Steps {
+    pub(super) steps: Vec<Step>,
+    /// The ranges of included steps and the place of their `include`, the inner ones before the outer ones.
+    pub(super) included: Vec<(Range<usize>, Place)>,
+}
+
+impl Reader<'_> {
+    /// Reads `include = "file.toml"`, `times = 3`.
+    pub(super) fn include(
+        &mut self,
+        node: &Node,
+        table: &mut Table,
+        note: Option<String>,
+        list: &mut Steps,
+    ) -> Result<(), Problem> {
+        let place = table.place.clone();
+        let name = node.text("the file whose steps run here")?;
+        let times = table.take("times").map(|node| {
+            let what = format!("a number of times from 1 to {TIMES}");
+            whole(&node, &what, 1..=TIMES)
+        });
+        let times = times.transpose()?.unwrap_or(1);
+        if let Some(verb) = table.keys().next().map(str::to_owned) {
+            let what = format!("expected `include` as the only verb of a step, found `{verb}`, too");
+            return Err(place.problem(what, "`include` takes `times` and `note`; write another [[step]] for the rest"));
+        }
+        let including = self.files.last().map(PathBuf::as_path).unwrap_or_else(|| Path::new(""));
+        let file = including.parent().unwrap_or_else(|| Path::new("")).join(name);
+        self.refuse_circle(&file).map_err(|problem| problem.at(&node.place))?;
+        let steps = steps_of(&file).map_err(|problem| match file.is_file() {
+            true => problem,
+            // The place where the name is wrong helps more than the file that is not there.
+            false => node.place.problem(problem.to_string(), "paths are relative to the file that includes"),
+        })?;
+        if note.is_some() {
+            list.steps.push(Step { place: place.clone(), note, action: Action::Nothing });
+        }
+        let from = list.steps.len();
+        self.files.push(file);
+        self.steps(&steps, list)?;
+        self.files.pop();
+        if times > 1 {
+            list.steps.push(Step { place: place.clone(), note: None, action: Action::Repeat { from, times } });
+        }
+        list.included.push((from..list.steps.len(), place));
+        Ok(())
+    }
+
+    /// A file must not include itself, not even by others.
+    fn refuse_circle(&self, file: &Path) -> Result<(), Problem> {
+        let real = |file: &Path| file.canonicalize().unwrap_or_else(|_| file.to_owned());
+        let new = real(file);
+        let Some(first) = self.files.iter().position(|known| real(known) == new) else {
+            return Ok(());
+        };
+        let chain: Vec<String> = self.files[first..].iter().map(|file| file.display().to_string()).collect();
+        Err(Problem::new(
+            format!(
+                "expected files that do not include each other in a circle, found {} -> {}",
+                chain.join(" -> "),
+                file.display()
+            ),
+            "move the shared steps into a file of their own",
+        ))
+    }
+}
+
+/// The files whose steps a file includes, without looking into them; nothing if the file cannot be read as a scenario.
+///
+/// # Errors
+/// The file cannot be read, or is not TOML.
+pub fn included_by(file: &Path) -> Result<Vec<PathBuf>, Problem> {
+    let text = read_text(file)?;
+    if !text.contains("include") {
+        return Ok(Vec::new());
+    }
+    let mut table = Table::parse(&text, &file.display().to_string())?;
+    let steps = table.take("step").map_or_else(Vec::new, Node::into_list);
+    let names = steps.into_iter().filter_map(|step| step.into_table("a step").ok()?.take("include"));
+    let directory = file.parent().unwrap_or_else(|| Path::new(""));
+    Ok(names.filter_map(|name| name.text("a file").map(|name| directory.join(name)).ok()).collect())
+}
+
+/// Whether a file names a machine, as every scenario does.
+#[must_use]
+pub fn names_machine(file: &Path) -> bool {
+    let head = read_text(file).and_then(|text| Table::parse(&text, &file.display().to_string()));
+    head.is_ok_and(|mut head| head.take("machine").is_some())
+}
