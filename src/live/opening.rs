@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::record::Recording;
 use crate::image::{Preset, Profile};
-use crate::machine::{Machine, OpenOptions};
+use crate::machine::{DatumValue, Machine, OpenOptions};
 use crate::plc::Programs;
 use crate::scenario::{Heading, Named, Operator, Scenario, profile_named};
 use crate::source::{Place, Problem, Table, unreadable};
@@ -38,8 +38,8 @@ pub struct Opened {
     pub operator: Option<Operator>,
     /// The content of its trace.
     pub watch: Watch,
-    /// The `watch` entries of the scenario.
-    pub entries: Option<Vec<String>>,
+    /// The `watch` entries of the scenario, each with the step of a value.
+    pub entries: Option<Vec<(String, Option<f64>)>>,
     /// The path from which it was read.
     pub path: PathBuf,
     /// The name of its PLC program.
@@ -48,6 +48,8 @@ pub struct Opened {
     pub image: Option<PathBuf>,
     /// The changes merged into its plant.
     pub plant: Option<Table>,
+    /// The machine data that were stored before power on.
+    pub machine_data: Vec<(String, DatumValue)>,
 }
 
 impl Opening<'_> {
@@ -88,6 +90,7 @@ impl Opening<'_> {
             plc: self.plc.map(str::to_owned),
             image: self.plc_image.map(Path::to_owned),
             plant: None,
+            machine_data: Vec::new(),
         })
     }
 
@@ -124,11 +127,12 @@ impl Opening<'_> {
             machine,
             operator: Some(operator),
             watch,
-            entries: scenario.watch.map(|entries| entries.into_iter().map(|entry| entry.name.text).collect()),
+            entries: scenario.watch.map(|all| all.into_iter().map(|entry| (entry.name.text, entry.step)).collect()),
             path,
             plc: scenario.plc.map(|plc| plc.text),
             image,
             plant: scenario.plant,
+            machine_data: scenario.machine_data.into_iter().map(|datum| (datum.target, datum.value)).collect(),
         })
     }
 }
@@ -150,6 +154,7 @@ impl Opened {
             plc_image: image.as_deref(),
             watch: self.entries.as_deref(),
             plant: self.plant.as_ref(),
+            machine_data: &self.machine_data,
         };
         Recording::begin(path, &heading, &self.machine)
     }

@@ -128,22 +128,19 @@ impl Scenario {
         let whole = Place::file(&file);
         let mut cases = Vec::new();
         let heads = heads(table, path)?;
-        let steps: Arc<[Table]> = Arc::from(steps(written, &whole)?);
         for (variant, head) in heads {
             let case = variant.as_ref().map(ToString::to_string);
-            let scenario = Self::from_head(head, path, &whole, Arc::clone(&steps), variant);
+            let scenario = Self::from_head(head, path, &whole, variant);
             cases.push(scenario.map_err(|problem| in_the_case(problem, case.as_deref()))?);
+        }
+        let steps: Arc<[Table]> = Arc::from(steps(written, &whole)?);
+        for case in &mut cases {
+            case.steps = Arc::clone(&steps);
         }
         Ok(cases)
     }
 
-    fn from_head(
-        mut table: Table,
-        path: &Path,
-        whole: &Place,
-        steps: Arc<[Table]>,
-        variant: Option<Variant>,
-    ) -> Result<Self, Problem> {
+    fn from_head(mut table: Table, path: &Path, whole: &Place, variant: Option<Variant>) -> Result<Self, Problem> {
         let required = |node: Option<Node>, key: &str, example: &str| {
             node.ok_or_else(|| {
                 whole.problem(format!("expected the key `{key}`, found none"), format!("write {key} = {example}"))
@@ -179,7 +176,7 @@ impl Scenario {
             plant: table.take("plant").map(|node| node.into_table("a table of plant data")).transpose()?,
             machine_data: table.take("machine_data").map_or(Ok(Vec::new()), machine_data)?,
             variant,
-            steps,
+            steps: Arc::from([]),
         };
         refuse_later_keys(&mut table)?;
         table.finish()?;

@@ -47,7 +47,10 @@ impl Reader<'_> {
         let steps = steps_of(&file).map_err(|problem| match file.is_file() {
             true => problem,
             // The place where the name is wrong helps more than the file that is not there.
-            false => node.place.problem(problem.to_string(), "paths are relative to the file that includes"),
+            false => {
+                let what = format!("{} {}", file.display(), problem.what);
+                node.place.problem(what, "check the path; it is relative to the file with `include`")
+            }
         })?;
         if note.is_some() {
             list.steps.push(Step { place: place.clone(), note, action: Action::Nothing });

@@ -30,10 +30,12 @@ pub struct Heading<'a> {
     pub plc: Option<&'a str>,
     /// The PLC image: a path relative to the file.
     pub plc_image: Option<&'a str>,
-    /// What the trace shows.
-    pub watch: Option<&'a [String]>,
+    /// What the trace shows, each with the step of a value.
+    pub watch: Option<&'a [(String, Option<f64>)]>,
     /// Data that are merged into the plant.
     pub plant: Option<&'a Table>,
+    /// Machine data that are stored before the first power on.
+    pub machine_data: &'a [(String, DatumValue)],
 }
 
 /// A comment about the commands that follow it.
@@ -79,11 +81,20 @@ impl Transcript {
         }
         text += &format!("limit = {}\n", quoted(LIMIT));
         if let Some(watch) = heading.watch {
-            let entries: Vec<_> = watch.iter().map(|entry| quoted(entry)).collect();
+            let entry = |(name, step): &(String, Option<f64>)| match step {
+                Some(step) => format!("{{ value = {}, step = {step:?} }}", quoted(name)),
+                None => quoted(name),
+            };
+            let entries: Vec<_> = watch.iter().map(entry).collect();
             text += &format!("watch = [{}]\n", entries.join(", "));
         }
         if let Some(plant) = heading.plant {
             text += &format!("plant = {}\n", toml(&SourceValue::Table(plant.clone())));
+        }
+        if !heading.machine_data.is_empty() {
+            let data = heading.machine_data.iter();
+            let data: Vec<_> = data.map(|(target, value)| format!("{} = {}", quoted(target), datum(value))).collect();
+            text += &format!("machine_data = {{ {} }}\n", data.join(", "));
         }
         Self { text, written: 0, notes: Vec::new(), open: None }
     }
@@ -152,13 +163,7 @@ impl Transcript {
             }
             Command::Release { location } => self.step("release", &format!("[{}]", place(*location, machine))),
             Command::MachineDatum { target, value } => {
-                let value = match value {
-                    DatumValue::Boolean(value) => value.to_string(),
-                    DatumValue::Integer(number) => number.to_string(),
-                    DatumValue::Real(number) => format!("{number:?}"),
-                    DatumValue::Text(text) => quoted(text),
-                };
-                self.put("machine_data", quoted(target), value);
+                self.put("machine_data", quoted(target), datum(value));
             }
             Command::RParameter { channel, number, value } => {
                 let key = match channel.number() {
@@ -217,6 +222,16 @@ impl Transcript {
 
 fn run(cycles: u64) -> String {
     format!("\n[[step]]\nrun = \"{cycles}cycles\"\n")
+}
+
+/// The value of a machine datum in a scenario.
+fn datum(value: &DatumValue) -> String {
+    match value {
+        DatumValue::Boolean(value) => value.to_string(),
+        DatumValue::Integer(number) => number.to_string(),
+        DatumValue::Real(number) => format!("{number:?}"),
+        DatumValue::Text(text) => quoted(text),
+    }
 }
 
 /// A location and its value in the form of `set`: the symbol if one exists, or a plain number if only that gives the same bits.

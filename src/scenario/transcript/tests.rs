@@ -18,6 +18,7 @@ const HEADING: Heading<'_> = Heading {
     plc_image: None,
     watch: None,
     plant: None,
+    machine_data: &[],
 };
 
 /// Sends all commands to a machine, records them, and runs the recorded scenario.
