@@ -146,12 +146,13 @@ fn every_scenario_in_the_pages_passes_unless_the_page_says_that_it_fails() {
                 commands.iter().any(|(_, command)| exit_code(command) == 1 && command.contains(file))
             });
             let place = page.place(block);
-            let scenario =
-                Scenario::parse(&block.text, Path::new("page.toml")).unwrap_or_else(|p| panic!("{place}: {p}"));
-            let prepared = scenario.prepare(scenario.profiles[0], &Programs::ready());
-            let finished = prepared.unwrap_or_else(|problem| panic!("{place}: {problem}")).run();
-            assert_eq!(finished.failure.is_some(), fails, "{place}: {:?}", finished.failure);
-            count += 1;
+            let cases = Scenario::parse_cases(&block.text, Path::new("page.toml"));
+            for scenario in cases.unwrap_or_else(|problem| panic!("{place}: {problem}")) {
+                let prepared = scenario.prepare(scenario.profiles[0], &Programs::ready());
+                let finished = prepared.unwrap_or_else(|problem| panic!("{place}: {problem}")).run();
+                assert_eq!(finished.failure.is_some(), fails, "{place}: {:?}", finished.failure);
+                count += 1;
+            }
         }
     }
     assert!(count >= 6, "{count} scenarios");

@@ -13,4 +13,5 @@ mod own_interface;
 mod referencing;
 mod robustness;
 mod s7;
+mod scenario_language;
 mod second_control;
