@@ -66,7 +66,7 @@
 //! | [`plant`] | the simulated mechanics: slides, bridges, cams, switches, faults | `motion`, `source`, `units` |
 //! | [`trace`] | the record: every change with its time and cause, as text and JSON lines | `image`, `source`, `units`, `variables` |
 //! | [`expression`] | expressions over signals, values and alarms: parsed once, evaluated in every cycle | `image`, `source`, `units`, `variables` |
-//! | [`monitor`] | rules over time: conditions of every cycle, consequences that follow in time | `expression`, `source` |
+//! | [`monitor`] | rules over time: conditions of every cycle, consequences that follow in time | `expression`, `image`, `source`, `units`, `variables` |
 //! | [`machine`] | one step of the complete machine, and open, queue, power, save, restore, fork | `control`, `controls`, `expression`, `image`, `motion`, `plant`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`scenario`] | scenario files, and the session for tests in Rust | `control`, `controls`, `expression`, `image`, `machine`, `monitor`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`golden`] | runs the scenarios below a folder and compares each with its golden trace | `control`, `controls`, `image`, `plc`, `scenario`, `source`, `trace`, `units` |

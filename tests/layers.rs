@@ -21,7 +21,7 @@ const MODULES: &[(&str, &[&str])] = &[
     ("plant", &["motion", "source", "units"]),
     ("trace", &["image", "source", "units", "variables"]),
     ("expression", &["image", "source", "units", "variables"]),
-    ("monitor", &["expression", "source"]),
+    ("monitor", &["expression", "image", "source", "units", "variables"]),
     (
         "machine",
         &[
@@ -434,8 +434,12 @@ fn length(path: &str, text: &str) -> Option<String> {
 fn unpaired(paths: &[String]) -> Vec<String> {
     let mut findings = Vec::new();
     for path in paths {
+        // A scenario with a matrix has a golden file for each case, `name@values.snap`; a part has none.
+        let has_cases = |name: &str| paths.iter().any(|path| path.starts_with(&format!("{name}@")));
         if let Some(name) = path.strip_suffix(".toml")
+            && !path.contains("/parts/")
             && !paths.contains(&format!("{name}.snap"))
+            && !has_cases(name)
         {
             findings.push(format!(
                 "{path}:1: has no golden file: review `opennck run {path}`, then run `opennck test --accept {path}`"
@@ -443,6 +447,7 @@ fn unpaired(paths: &[String]) -> Vec<String> {
         }
         if let Some(name) = path.strip_suffix(".snap") {
             let name = name.strip_suffix(".828d").unwrap_or(name);
+            let name = name.split('@').next().unwrap_or(name);
             if !paths.contains(&format!("{name}.toml")) {
                 findings.push(format!("{path}:1: has no scenario {name}.toml: remove it, or restore the scenario"));
             }
@@ -625,6 +630,8 @@ fn a_long_file_is_found_and_its_tests_do_not_count() {
 fn an_unpaired_file_is_found() {
     let paths = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
     assert_eq!(unpaired(&paths(&["golden/a/b.toml", "golden/a/b.snap", "golden/a/b.828d.snap"])).len(), 0);
+    assert_eq!(unpaired(&paths(&["golden/a/b.toml", "golden/a/b@x=1.0.snap", "golden/a/parts/c.toml"])).len(), 0);
+    assert_eq!(unpaired(&paths(&["golden/a/b@x=1.0.snap"])).len(), 1);
     assert_eq!(unpaired(&paths(&["golden/a/b.toml"])).len(), 1);
     assert_eq!(unpaired(&paths(&["golden/a/b.snap"])).len(), 1);
     assert_eq!(pending(&paths(&["a/b.snap.new", "a/.c.rs.pending-snap", "a/b.snap"])).len(), 2);

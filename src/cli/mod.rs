@@ -171,10 +171,22 @@ enum MachineData {
     },
 }
 
+/// The stack of the thread that runs a command. The stack of the first thread depends on `ulimit -s`.
+const STACK: usize = 16 << 20;
+
 /// Runs the program with these PLC programs, which are found by name.
 #[must_use]
 #[expect(clippy::needless_pass_by_value, reason = "the process ends after this function")]
 pub fn main(programs: Programs) -> ExitCode {
+    let of_its_own = std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, || run_command(&programs));
+        thread.map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+    });
+    // Without another thread the stack of this one has to be enough.
+    of_its_own.unwrap_or_else(|_| run_command(&programs))
+}
+
+fn run_command(programs: &Programs) -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
@@ -185,14 +197,14 @@ pub fn main(programs: Programs) -> ExitCode {
     };
     let mut output = Output::default();
     let code = match arguments.command {
-        None => example::run(&programs, &mut output),
-        Some(Command::Run { scenarios, files }) => run::run(&scenarios, &files, &programs, &mut output),
+        None => example::run(programs, &mut output),
+        Some(Command::Run { scenarios, files }) => run::run(&scenarios, &files, programs, &mut output),
         Some(Command::Test { paths, accept, junit, jobs, flowchart }) => {
             let options = test::Options { accept, junit, jobs, flowchart };
-            test::test(&paths, &options, &programs, &mut output)
+            test::test(&paths, &options, programs, &mut output)
         }
         #[cfg(feature = "s7")]
-        Some(Command::Serve(arguments)) => serve::serve(&arguments, &programs, &mut output),
+        Some(Command::Serve(arguments)) => serve::serve(&arguments, programs, &mut output),
         #[cfg(feature = "s7")]
         Some(Command::S7 { command }) => s7::run(&command, &mut output),
         Some(Command::Signals { filter, profile, format }) => {
@@ -200,7 +212,7 @@ pub fn main(programs: Programs) -> ExitCode {
         }
         Some(Command::Alarms { filter, format }) => alarms::alarms(filter.as_deref(), format, &mut output),
         Some(Command::Diff { expected, found }) => diff::diff(&expected, &found, &mut output),
-        Some(Command::Why { trace, edge }) => why::why(&trace, &edge, &programs, &mut output),
+        Some(Command::Why { trace, edge }) => why::why(&trace, &edge, programs, &mut output),
         Some(Command::Flowchart { chart }) => flowchart::flowchart(chart.as_deref(), &mut output),
         Some(Command::Completions { shell }) => completions::completions(shell, &mut Arguments::command(), &mut output),
         Some(Command::MachineData { command: MachineData::Check { machine } }) => {

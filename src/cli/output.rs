@@ -9,7 +9,7 @@ use std::path::Path;
 #[cfg(feature = "s7")]
 use std::path::PathBuf;
 
-use crate::source::Problem;
+use crate::source::{Problem, printable};
 
 /// Refuses to write an output to an input file of the same command, which would destroy the input.
 pub(super) fn apart<'a>(option: &str, path: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Problem> {
@@ -36,11 +36,11 @@ pub(super) struct Output {
 }
 
 impl Output {
-    /// Prints a text unchanged.
+    /// Prints a text; characters from files that would control a terminal are shown by their codes.
     pub(super) fn print(&mut self, text: &str) {
         if !self.closed {
             let mut out = std::io::stdout().lock();
-            self.closed = out.write_all(text.as_bytes()).and_then(|()| out.flush()).is_err();
+            self.closed = out.write_all(printable(text).as_bytes()).and_then(|()| out.flush()).is_err();
         }
     }
 
@@ -58,13 +58,13 @@ impl Output {
     /// Prints an error: the cause, then the remedy.
     #[expect(clippy::unused_self, reason = "all printing goes through the output")]
     pub(super) fn error(&mut self, error: impl Display) {
-        let _ = writeln!(std::io::stderr().lock(), "error: {error}");
+        let _ = writeln!(std::io::stderr().lock(), "error: {}", printable(&error.to_string()));
     }
 
     /// Prints a warning.
     #[expect(clippy::unused_self, reason = "all printing goes through the output")]
     pub(super) fn warning(&mut self, warning: impl Display) {
-        let _ = writeln!(std::io::stderr().lock(), "warning: {warning}");
+        let _ = writeln!(std::io::stderr().lock(), "warning: {}", printable(&warning.to_string()));
     }
 }
 

@@ -1,45 +1,55 @@
-//! The history of `since(E)` and `count(E)`: how often a term became true, and when it did so last.
+//! The conditions of `since(E)` and `count(E)`, which a caller shows every cycle.
 
+use super::history::History;
 use super::term::{Term, truth};
 use super::view::View;
-use crate::units::Time;
 
-/// A term of expressions whose rising edges are counted. The caller that evaluates the expressions owns it.
-#[derive(Clone, Debug, PartialEq)]
+/// The conditions of all `since` and `count` of a caller, each once, with their histories.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Followed {
-    pub(super) of: Term,
-    was: bool,
-    count: u64,
-    last: Option<Time>,
+    terms: Vec<Term>,
+    histories: Vec<History>,
 }
 
 impl Followed {
-    pub(super) fn new(of: Term) -> Self {
-        Self { of, was: false, count: 0, last: None }
+    /// The number of conditions.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.terms.len()
     }
 
-    /// Starts with the state before the first cycle: a term that is true there has not become true.
-    pub fn begin(&mut self, view: &View<'_>) {
-        *self = Self { was: truth(self.of.value(view)), count: 0, last: None, of: self.of.clone() };
+    /// Whether there is no condition.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.terms.is_empty()
+    }
+
+    /// The histories, for [`View::followed`].
+    #[must_use]
+    pub fn histories(&self) -> &[History] {
+        &self.histories
+    }
+
+    /// The index of a condition; a new one is added.
+    pub(super) fn index_of(&mut self, term: &Term) -> usize {
+        self.terms.iter().position(|known| known == term).unwrap_or_else(|| {
+            self.terms.push(term.clone());
+            self.histories.push(History::default());
+            self.terms.len() - 1
+        })
+    }
+
+    /// Starts the conditions from `first` on with the state before the next cycle.
+    pub fn begin(&mut self, first: usize, view: &View<'_>) {
+        for (term, history) in self.terms.iter().zip(&mut self.histories).skip(first) {
+            *history = History::begin(truth(term.value(view)));
+        }
     }
 
     /// Takes up the state after a cycle.
     pub fn observe(&mut self, view: &View<'_>) {
-        let is = truth(self.of.value(view));
-        if is && !self.was {
-            self.count += 1;
-            self.last = Some(view.now.time);
+        for (term, history) in self.terms.iter().zip(&mut self.histories) {
+            history.observe(truth(term.value(view)), view.now.time);
         }
-        self.was = is;
-    }
-
-    /// How often the term became true.
-    pub(super) fn count(&self) -> u64 {
-        self.count
-    }
-
-    /// Seconds since it became true last; infinite if it never did.
-    pub(super) fn since(&self, now: Time) -> f64 {
-        self.last.map_or(f64::INFINITY, |last| (now - last).seconds())
     }
 }

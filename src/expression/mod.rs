@@ -29,6 +29,7 @@
 //! and `count` lists their conditions with [`Expression::follow`] and shows them every cycle; otherwise they never became true.
 
 mod followed;
+mod history;
 mod parse;
 mod scope;
 mod term;
@@ -36,6 +37,7 @@ mod tokens;
 mod view;
 
 pub use followed::Followed;
+pub use history::History;
 pub use scope::Scope;
 pub use view::{Moment, View};
 
@@ -91,14 +93,8 @@ impl Expression {
     }
 
     /// Lists the conditions of `since` and `count` in it, each once, so that the caller can show them every cycle.
-    pub fn follow(&mut self, followed: &mut Vec<Followed>) {
-        self.root.each_followed(&mut |term| {
-            let known = followed.iter().position(|known| known.of == term.of);
-            term.index = Some(known.unwrap_or(followed.len()));
-            if known.is_none() {
-                followed.push(Followed::new(term.of.clone()));
-            }
-        });
+    pub fn follow(&mut self, followed: &mut Followed) {
+        self.root.each_followed(&mut |term| term.index = Some(followed.index_of(&term.of)));
     }
 
     /// Every signal and value in it with its current value, one line each, without repetition.

@@ -206,7 +206,7 @@ fn since_and_count_follow_the_rising_edges_of_a_condition() {
     let variables = Variables::default();
     let mut memory = Memory::new();
     let flag = memory.locate(&"M10.3".parse().unwrap(), crate::image::Profile::default()).unwrap();
-    let mut followed = Vec::new();
+    let mut followed = Followed::default();
     let [mut since, mut count, mut other] =
         ["since(M10.3 == 1)", "count( M10.3 == 1 ) + 1", "since(M10.4)"].map(|source| parsed(source).unwrap());
     for expression in [&mut since, &mut count, &mut other] {
@@ -220,17 +220,19 @@ fn since_and_count_follow_the_rising_edges_of_a_condition() {
         memory.write(flag, bit);
         let time = Time::from_millis(10 * i64::try_from(cycle).unwrap());
         let now = Moment { memory: &memory, variables: &variables, time, named_values: &[] };
-        for one in &mut followed {
-            if cycle == 0 { one.begin(&View::at(now)) } else { one.observe(&View::at(now)) }
+        if cycle == 0 {
+            followed.begin(0, &View::at(now));
+        } else {
+            followed.observe(&View::at(now));
         }
-        let view = View { followed: &followed, ..View::at(now) };
+        let view = View { followed: followed.histories(), ..View::at(now) };
         seen.push((since.value(&view), count.value(&view)));
         assert!(other.value(&view).is_infinite());
     }
     let inf = f64::INFINITY;
     assert_eq!(seen, [(inf, 1.0), (inf, 1.0), (0.0, 2.0), (0.01, 2.0), (0.02, 2.0), (0.0, 3.0)]);
     let now = Moment { memory: &memory, variables: &variables, time: Time::from_millis(60), named_values: &[] };
-    let view = View { followed: &followed, ..View::at(now) };
+    let view = View { followed: followed.histories(), ..View::at(now) };
     assert_eq!(count.operands(&view, &Machine::new()), ["count(M10.3 == 1) = 2", "M10.3 = 1"]);
 }
 

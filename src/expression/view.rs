@@ -1,6 +1,6 @@
 //! The input of an evaluation: borrowed moments of a machine.
 
-use super::followed::Followed;
+use super::history::History;
 use crate::image::Memory;
 use crate::units::Time;
 use crate::variables::Variables;
@@ -28,8 +28,8 @@ pub struct View<'a> {
     pub last: Moment<'a>,
     /// The state after the cycle before the last one.
     pub before: Moment<'a>,
-    /// The histories of `since` and `count`, in the order in which [`Expression::follow`](super::Expression::follow) listed them.
-    pub followed: &'a [Followed],
+    /// The histories of `since` and `count`: those of [`Followed`](super::Followed).
+    pub followed: &'a [History],
 }
 
 impl<'a> View<'a> {

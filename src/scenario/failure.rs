@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::file::in_the_case;
+use super::fields::in_the_case;
 use crate::source::{Place, Problem};
 use crate::units::Time;
 

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::duration::Duration;
+use super::fields::{Named, duration, in_the_case, named, not_available, texts};
 use super::matrix::{FIXED, HEAD, Variant, heads};
 use super::rules;
 use crate::control::{StoredDatum, Value as DatumValue};
@@ -52,15 +53,6 @@ pub struct Scenario {
     /// The combination of the matrix, if the file has one.
     pub variant: Option<Variant>,
     pub(super) steps: Arc<[Table]>,
-}
-
-/// A text in a file, with its place.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Named {
-    /// The text.
-    pub text: String,
-    /// Its place in the file.
-    pub place: Place,
 }
 
 /// An entry of `watch`.
@@ -236,14 +228,6 @@ fn only_one(mut cases: Vec<Scenario>, path: &Path) -> Result<Scenario, Problem> 
     }
 }
 
-/// The same problem, with the values of the case in which it occurs.
-pub(super) fn in_the_case(problem: Problem, case: Option<&str>) -> Problem {
-    match case {
-        Some(case) => Problem { what: format!("{} (in the case {case})", problem.what), ..problem },
-        None => problem,
-    }
-}
-
 fn machine_data(node: Node) -> Result<Vec<StoredDatum>, Problem> {
     let mut data = Vec::new();
     for (target, place, node) in node.into_table("machine data with their values")?.take_rest() {
@@ -269,28 +253,6 @@ pub fn profile_named(name: &str) -> Result<Profile, Problem> {
         };
         Problem::new(format!("expected a profile, found `{name}`"), cure)
     })
-}
-
-pub(super) fn named(node: &Node, what: &str) -> Result<Named, Problem> {
-    Ok(Named { text: node.text(what)?.to_owned(), place: node.place.clone() })
-}
-
-/// A text or a list of texts.
-pub(super) fn texts(node: Option<Node>, what: &str) -> Result<Vec<Named>, Problem> {
-    node.map_or_else(Vec::new, Node::into_list).iter().map(|node| named(node, what)).collect()
-}
-
-pub(super) fn duration(node: &Node, what: &str) -> Result<Duration, Problem> {
-    let number = match &node.value {
-        Value::Integer(number) => Some(number.to_string()),
-        Value::Float(number) => Some(number.to_string()),
-        Value::Text(_) | Value::Boolean(_) | Value::Array(_) | Value::Table(_) => None,
-    };
-    if let Some(number) = number {
-        let cure = format!("write \"{number}s\"; units are us, ms, s, min, h and cycles");
-        return Err(node.expected(&format!("{what} with its unit"), &cure));
-    }
-    Duration::parse(node.text(what)?).map_err(|problem| problem.at(&node.place))
 }
 
 fn profiles(node: Option<Node>) -> Result<Vec<Profile>, Problem> {
@@ -349,8 +311,4 @@ fn refuse_later_keys(table: &mut Table) -> Result<(), Problem> {
         return Err(not_available(&node.place, "the key `program`"));
     }
     Ok(())
-}
-
-pub(super) fn not_available(place: &Place, what: &str) -> Problem {
-    place.problem(format!("{what} is not available in this version"), "remove it, or use a version that supports it")
 }

@@ -3,23 +3,14 @@
 //! The included file is a list of steps; if it is a scenario, its head is checked and has no other effect. Its steps are read where they are
 //! included, so captured names are shared in both directions. Steps that repeat are stored once.
 
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::file::steps_of;
-use super::steps::{Action, Reader, Step, whole};
-use crate::source::{Node, Place, Problem, Table, read_text};
+use super::steps::{Action, Reader, Step, Steps, whole};
+use crate::source::{Node, Problem, Table, read_text};
 
 /// The largest number of times that steps can be repeated.
 const TIMES: u64 = 1_000_000;
-
-/// All steps of a scenario, with those that it includes.
-#[derive(Debug, Default)]
-pub(super) struct Steps {
-    pub(super) steps: Vec<Step>,
-    /// The ranges of included steps and the place of their `include`, the inner ones before the outer ones.
-    pub(super) included: Vec<(Range<usize>, Place)>,
-}
 
 impl Reader<'_> {
     /// Reads `include = "file.toml"`, `times = 3`.

@@ -6,9 +6,11 @@
 //! records the commands to a machine as a scenario.
 
 mod commands;
+mod conditions;
 mod duration;
 mod failure;
 mod faults;
+mod fields;
 mod file;
 mod include;
 mod matrix;
@@ -25,7 +27,8 @@ mod watching;
 
 pub use duration::Duration;
 pub use failure::{Failure, Missed};
-pub use file::{Compare, Named, Scenario, Watched, profile_named};
+pub use fields::Named;
+pub use file::{Compare, Scenario, Watched, profile_named};
 pub use include::{included_by, names_machine};
 pub use matrix::Variant;
 pub use operator::{Operator, State};

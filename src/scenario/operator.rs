@@ -1,9 +1,8 @@
 //! Executes the steps of a scenario in order. A caller steps the machine: the scenario runner at full speed, a server in real time.
 
 use super::failure::Failure;
-use super::include::Steps;
 use super::passing::{Book, Next, Progress};
-use super::steps::{Action, Step};
+use super::steps::{Action, Step, Steps};
 use crate::machine::Machine;
 
 /// The steps and the progress through them.

@@ -29,7 +29,7 @@ pub(super) struct Book {
     /// The rules of the session.
     pub(super) monitor: Monitor,
     /// The histories of `since` and `count`.
-    pub(super) followed: Vec<Followed>,
+    pub(super) followed: Followed,
     /// A rule that was broken before the first cycle.
     pub(super) broken: Option<Failure>,
     /// The breaches of rules after which the run goes on, and the notes about them that the trace has not taken yet.
@@ -103,7 +103,7 @@ impl Book {
             captured_names: Vec::new(),
             captured: Vec::new(),
             monitor: Monitor::default(),
-            followed: Vec::new(),
+            followed: Followed::default(),
             broken: None,
             noted: Vec::new(),
             notes: Vec::new(),
@@ -235,9 +235,7 @@ impl Book {
         }
         if !self.followed.is_empty() {
             let mut followed = std::mem::take(&mut self.followed);
-            self.with_view(self.last(machine), machine, |view| {
-                followed.iter_mut().for_each(|followed| followed.observe(view));
-            });
+            self.with_view(self.last(machine), machine, |view| followed.observe(view));
             self.followed = followed;
         }
         if self.monitor.rules().is_empty() {
@@ -351,7 +349,7 @@ impl Book {
             time: before.time,
             named_values: &self.captured,
         });
-        look(&View { now, last, before, followed: &self.followed })
+        look(&View { now, last, before, followed: self.followed.histories() })
     }
 
     /// The memory now: after the last cycle, including writes since then.

@@ -1,23 +1,21 @@
-//! The rules of a scenario: `[[rule]]`, and `always` and `never` at the head.
+//! The rules of a scenario, `[[rule]]`, as written in the file.
 
 use super::duration::Duration;
-use super::file::{Named, duration, named};
-use super::steps::Reader;
-use crate::monitor::{Claim, Consequence, Rule};
-use crate::source::{Node, Place, Problem, Table};
-use crate::units::Time;
+use super::fields::{Named, duration, named};
+use crate::source::{Node, Place, Problem, Table, Value};
 
 /// A rule as written in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Written {
-    name: String,
-    place: Place,
-    claim: WrittenClaim,
-    go_on: bool,
+    pub(super) name: String,
+    pub(super) place: Place,
+    pub(super) claim: WrittenClaim,
+    pub(super) go_on: bool,
 }
 
+/// What must hold, as written in the file.
 #[derive(Clone, Debug, PartialEq)]
-enum WrittenClaim {
+pub(super) enum WrittenClaim {
     Always(Named),
     Never(Named),
     Follows {
@@ -38,7 +36,7 @@ pub(super) fn written(node: Option<Node>) -> Result<Vec<Written>, Problem> {
     let Some(node) = node else {
         return Ok(Vec::new());
     };
-    if !matches!(node.value, crate::source::Value::Array(_)) {
+    if !matches!(node.value, Value::Array(_)) {
         return Err(node.expected("a list of rules", "write [[rule]] with two brackets"));
     }
     node.into_list().into_iter().map(|rule| one(rule.into_table("a rule")?)).collect()
@@ -95,48 +93,4 @@ fn follows(when: Named, then: Named, table: &mut Table, place: &Place) -> Result
 
 fn flag(table: &mut Table, key: &'static str) -> Result<bool, Problem> {
     table.take(key).map_or(Ok(false), |node| node.boolean("true or false"))
-}
-
-impl Written {
-    /// The rule for a machine with this cycle.
-    pub(super) fn prepared(&self, reader: &mut Reader<'_>, cycle: Time) -> Result<Rule, Problem> {
-        let mut expression = |text: &Named| condition(text, reader);
-        let claim = match &self.claim {
-            WrittenClaim::Always(text) => Claim::Always(expression(text)?),
-            WrittenClaim::Never(text) => Claim::Never(expression(text)?),
-            WrittenClaim::Follows { when, then, within, not_before, from_start, must_begin } => {
-                let cycles = |duration: &Option<Duration>| duration.map_or(0, |duration| duration.cycles(cycle));
-                let (within, not_before) = (cycles(within), cycles(not_before));
-                if not_before > within {
-                    let what = "expected `not_before` at most as long as `within`, found it longer";
-                    return Err(self.place.problem(what, "no consequence could be in time; exchange the two"));
-                }
-                Claim::Follows(Box::new(Consequence {
-                    when: expression(when)?,
-                    then: expression(then)?,
-                    within,
-                    not_before,
-                    from_start: *from_start,
-                    must_begin: *must_begin,
-                }))
-            }
-        };
-        Ok(Rule { name: Some(self.name.clone()), place: Some(self.place.clone()), claim, go_on: self.go_on })
-    }
-}
-
-/// A condition of the head, which holds from the first cycle on and cannot use a value that a later step captures.
-pub(super) fn condition(text: &Named, reader: &mut Reader<'_>) -> Result<crate::expression::Expression, Problem> {
-    let captured = std::mem::take(&mut reader.captured);
-    let parsed = reader.expression(&text.text, &text.place);
-    let uses_captured = |problem: &Problem| captured.iter().any(|name| problem.what.contains(&format!("`{name}`")));
-    let parsed = parsed.map_err(|mut problem| {
-        if uses_captured(&problem) {
-            "a captured value exists only after its step; rules, `never` and `always` apply from the start"
-                .clone_into(&mut problem.cure);
-        }
-        problem
-    });
-    reader.captured = captured;
-    parsed
 }

@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use super::conditions::condition;
 use super::failure::Failure;
-use super::file::{Named, Scenario, in_the_case};
-use super::include::Steps;
+use super::fields::{Named, in_the_case};
+use super::file::Scenario;
 use super::operator::{Operator, Plan};
 use super::passing::Next;
-use super::rules::condition;
 use super::session::Session;
-use super::steps::Reader;
+use super::steps::{Reader, Steps};
 use crate::control::Read;
 use crate::controls;
 use crate::expression::Expression;

@@ -8,11 +8,10 @@ use std::path::Path;
 use super::duration::Duration;
 use super::failure::Failure;
 use super::file::steps_of;
-use super::include::Steps;
 use super::naming::{Known, check_captured_name, place_named, writable};
 use super::operator::Plan;
 use super::passing::{Book, Next, Progress};
-use super::steps::{Action, Reader};
+use super::steps::{Action, Reader, Steps};
 use super::values::Setting;
 use crate::expression::{Expression, Followed};
 use crate::image::Location;
@@ -332,7 +331,7 @@ impl Session {
 
     fn watch_over(&mut self, name: Option<String>, claim: Claim) -> Result<(), Failure> {
         let rule = Rule { name, place: None, claim, go_on: false };
-        self.book.watch_over(vec![rule], Vec::new(), &self.machine);
+        self.book.watch_over(vec![rule], self.book.followed.clone(), &self.machine);
         Ok(())
     }
 
@@ -432,7 +431,7 @@ impl Session {
         Ok(expression)
     }
 
-    fn parsed(&self, source: &str, followed: &mut Vec<Followed>) -> Result<Expression, Problem> {
+    fn parsed(&self, source: &str, followed: &mut Followed) -> Result<Expression, Problem> {
         let known = Known { machine: &self.machine, captured: &self.book.captured_names };
         let mut expression = Expression::parse(source, &known)?;
         expression.follow(followed);

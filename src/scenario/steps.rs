@@ -1,12 +1,11 @@
 //! The steps of a scenario: names are looked up and values are checked for one machine before anything runs.
 
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
 
 use super::duration::Duration;
 use super::faults::fault;
-use super::file::{duration, not_available, texts};
-use super::include::Steps;
+use super::fields::{duration, not_available, texts};
 use super::naming::{Known, check_captured_name, missing_owner, place_named, written_by_others};
 use crate::expression::{Expression, Followed};
 use crate::image::{Location, raw_value};
@@ -20,6 +19,14 @@ pub(super) struct Step {
     pub(super) place: Place,
     pub(super) note: Option<String>,
     pub(super) action: Action,
+}
+
+/// All steps of a scenario, with those that it includes.
+#[derive(Debug, Default)]
+pub(super) struct Steps {
+    pub(super) steps: Vec<Step>,
+    /// The ranges of included steps and the place of their `include`, the inner ones before the outer ones.
+    pub(super) included: Vec<(Range<usize>, Place)>,
 }
 
 /// The action of a step.
@@ -105,7 +112,7 @@ pub(super) struct Reader<'a> {
     /// The names captured so far.
     pub(super) captured: Vec<String>,
     /// The conditions of `since` and `count` in all expressions.
-    pub(super) followed: Vec<Followed>,
+    pub(super) followed: Followed,
     /// Data of the machine were stored, and have taken effect: the machine can have other channels than it has now.
     reconfigured: [bool; 2],
     /// The files that include each other down to the present one; paths in a step are relative to the last one.
@@ -116,7 +123,7 @@ impl<'a> Reader<'a> {
     /// A reader of the steps in this file.
     pub(super) fn new(machine: &'a Machine, file: &Path) -> Self {
         let files = vec![file.to_owned()];
-        Self { machine, captured: Vec::new(), followed: Vec::new(), reconfigured: [false; 2], files }
+        Self { machine, captured: Vec::new(), followed: Followed::default(), reconfigured: [false; 2], files }
     }
 
     /// An expression with all names known so far.
@@ -250,7 +257,7 @@ impl<'a> Reader<'a> {
             "expect" => {
                 let texts = texts(Some(node), "an expression or a list of them")?;
                 let read =
-                    |text: &super::file::Named| Ok((text.place.clone(), self.expression(&text.text, &text.place)?));
+                    |text: &super::fields::Named| Ok((text.place.clone(), self.expression(&text.text, &text.place)?));
                 Action::Expect(texts.iter().map(read).collect::<Result<_, _>>()?)
             }
             "capture" => Action::Capture(self.captures(node)?),
@@ -305,7 +312,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The locations in a list; the PLC or the operator panel must be able to write them.
-    fn locations(&self, node: Node) -> Result<Vec<(super::file::Named, Location)>, Problem> {
+    fn locations(&self, node: Node) -> Result<Vec<(super::fields::Named, Location)>, Problem> {
         let texts = texts(Some(node), "an address or a list of them")?;
         texts
             .into_iter()

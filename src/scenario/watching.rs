@@ -8,7 +8,7 @@ use crate::monitor::{Breach, Claim, Monitor, Reason, Rule};
 
 impl Book {
     /// Watches over these rules from now on, together with those before.
-    pub(super) fn watch_over(&mut self, rules: Vec<Rule>, followed: Vec<Followed>, machine: &Machine) {
+    pub(super) fn watch_over(&mut self, rules: Vec<Rule>, followed: Followed, machine: &Machine) {
         self.follow(followed, machine);
         let first = self.monitor.rules().len();
         rules.into_iter().for_each(|rule| self.monitor.add(rule));
@@ -18,14 +18,11 @@ impl Book {
         }
     }
 
-    /// Takes over a list of followed conditions that begins with the known ones.
-    pub(super) fn follow(&mut self, mut followed: Vec<Followed>, machine: &Machine) {
+    /// Takes over conditions to follow; those that are known keep their histories.
+    pub(super) fn follow(&mut self, mut followed: Followed, machine: &Machine) {
         let known = self.followed.len();
-        self.with_view(self.last(machine), machine, |view| {
-            followed[known..].iter_mut().for_each(|followed| followed.begin(view));
-        });
-        // The histories of the known ones are here.
-        self.followed.extend(followed.drain(known..));
+        self.with_view(self.last(machine), machine, |view| followed.begin(known, view));
+        self.followed = followed;
     }
 
     /// Shows the state after the last cycle to the monitor. Returns the first breach that ends the run, and notes the others.

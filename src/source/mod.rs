@@ -7,6 +7,7 @@ mod node;
 
 pub use node::{Node, Table, Value};
 
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
@@ -117,6 +118,24 @@ pub fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a str>, fa
     nearest(name, known).map_or_else(|| fallback.to_owned(), |near| format!("did you mean `{near}`?"))
 }
 
+/// A text without characters that control a terminal, which texts from files may contain: each is shown by its code, as `\u{1b}`. Line feeds and
+/// tabs stay.
+#[must_use]
+pub fn printable(text: &str) -> Cow<'_, str> {
+    // The direction of the text after them can be reversed by the latter ones.
+    let hidden = |c: char| {
+        c.is_control() && !matches!(c, '\n' | '\t') || matches!(c, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
+    };
+    if !text.contains(hidden) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 16);
+    for letter in text.chars() {
+        if hidden(letter) { shown.extend(letter.escape_unicode()) } else { shown.push(letter) }
+    }
+    Cow::Owned(shown)
+}
+
 /// Reads a text file. A byte order mark is removed; bytes that are not UTF-8 are read as Latin-1, which controls write.
 ///
 /// # Errors
@@ -158,6 +177,12 @@ mod tests {
     fn a_problem_prints_place_cause_and_cure() {
         let problem = Place::file("a.toml").at_line(7).problem("expected a number, found a string", "write 1.5");
         assert_eq!(problem.to_string(), "a.toml:7: expected a number, found a string\n  write 1.5");
+    }
+
+    #[test]
+    fn a_text_for_a_terminal_has_no_characters_that_control_it() {
+        assert_eq!(printable("a\tb\nc \u{e9} \u{b0}"), "a\tb\nc \u{e9} \u{b0}");
+        assert_eq!(printable("\u{1b}[2J\r\u{9b}m\u{202e}\u{7f}"), "\\u{1b}[2J\\u{d}\\u{9b}m\\u{202e}\\u{7f}");
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::compare::{self, Reading};
 use super::record::by_in_words;
 use super::{Line, LineKind};
+use crate::source::printable;
 use crate::units::Time;
 
 /// The lines above the rows.
@@ -22,13 +23,13 @@ pub struct Head {
 
 impl std::fmt::Display for Head {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        writeln!(f, "scenario  {}", self.title)?;
-        writeln!(f, "machine   {}", self.machine)?;
+        writeln!(f, "scenario  {}", printable(&self.title))?;
+        writeln!(f, "machine   {}", printable(&self.machine))?;
         if let Some(profile) = &self.profile {
             writeln!(f, "profile   {profile}")?;
         }
         if let Some(case) = &self.case {
-            writeln!(f, "case      {case}")?;
+            writeln!(f, "case      {}", printable(case))?;
         }
         writeln!(f, "cycle     {} ms", self.cycle_time.seconds() * 1e3)
     }
@@ -95,7 +96,8 @@ pub(super) fn rows(lines: &[Line], causes: bool) -> String {
             ),
             Err(Line { time, kind: LineKind::Note(note) }) => {
                 // A note of several lines is printed in one row.
-                format!("{:>1$}  # {2}", time.to_string(), widths[0], note.lines().collect::<Vec<_>>().join(" / "))
+                let note = note.lines().collect::<Vec<_>>().join(" / ");
+                format!("{:>1$}  # {2}", time.to_string(), widths[0], printable(&note))
             }
             Err(_) => continue,
         };

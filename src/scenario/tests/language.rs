@@ -37,7 +37,7 @@ fn a_channel_that_stored_data_create_can_be_written_after_power_on() {
 #[test]
 fn machine_data_of_the_head_hold_from_the_first_cycle() {
     let head = "[machine_data]\n\"34090[Q]\" = 2\n\"37110[XF]\" = 1.5\n\"10000[4]\" = \"Q\"\n\"11300\" = true\n";
-    let finished = held(&format!("{head}[[step]]\nexpect = \"Q.position == 0\""));
+    let finished = held(&format!("{head}[[step]]\nexpect = \"X.position == 0\""));
     let data = finished.session().machine().control().data();
     let axis = |number| crate::control::Owner::Axis(crate::units::AxisNumber::new(number).unwrap());
     let stored = |number, owner| data.stored(number, owner, 0).unwrap().value;
