@@ -180,7 +180,8 @@ fn what_happens_besides_changes_of_signals_is_a_row() {
     assert_eq!(read(&json).compare(&read(&json)), Comparison::Same);
     let other = json.replace("\"amount\":0.3", "\"amount\":0.4");
     assert!(matches!(read(&json).compare(&read(&other)), Comparison::Different(_)));
-    let head = Head { title: "T".into(), machine: "m".into(), profile: None, cycle_time: Time::from_millis(2) };
+    let head =
+        Head { title: "T".into(), machine: "m".into(), profile: None, case: None, cycle_time: Time::from_millis(2) };
     assert!(trace.svg(&control, &watch, &head).contains("XF: fault push = 0.3 set"));
     assert!(trace.vcd(&control, &watch).contains("XF:_fault_push_=_0.3_set"));
 }
