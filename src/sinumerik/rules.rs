@@ -74,6 +74,7 @@ rules! {
     TraversingKey "JOG" "key";
     KeyReleased "JOG" "no key";
     MotionBlocked "JOG" "motion blocked";
+    EnableLost "O-26" "lost enable: the movement ends, and the key must be pressed again";
     IncrementSelected "INC" "machine function of JOG";
     IncrementStarted "INC" "one increment";
     EndReached "JOG" "target of the movement reached";
@@ -87,6 +88,7 @@ rules! {
     // Reference point approach.
     KeyStartsApproach "REF-02" "approach started";
     ApproachStarted "REF-31" "reference point approach begins";
+    ApproachWaits "O-27" "reference point approach requested; it waits";
     ChannelReferencingEnds "REF-23" "channel-specific referencing ended";
     ApproachStartedByChannel "REF-23" "channel-specific referencing";
     ApproachStartedInGrouping "REF-04" "synchronous axis referenced after the leading axis";

@@ -4,7 +4,7 @@
 //! each axis. The axes of a closed grouping form one unit; they are enabled, braked and held together (SIG-01, SIG-02). Writes
 //! the state that determines 61.3, 61.5 to 61.7, 93.5, 93.7 and 102.5/.6.
 
-use crate::image::{ToNck, axis_from_nck, axis_to_nck, nck_from_nck};
+use crate::image::{AxisToNck, Signal, ToNck, axis_from_nck, axis_to_nck, nck_from_nck};
 use crate::motion::Motion;
 use crate::sinumerik::alarms::{self, Reaction};
 use crate::sinumerik::axis::state::{Axis, ControllerState, STEP};
@@ -188,37 +188,30 @@ impl State {
         for number in unit.members() {
             let (axis, signals) = (&self.axes[number], &to_nck.axes[number]);
             conditions.standing &= axis.stands(&parameters.axes[number]);
-            conditions.moving |= axis.is_in_motion();
+            conditions.moving |= axis.is_moving();
             conditions.follow_up |= signals.follow_up_mode();
             if let Some(event) = self.alarms.with_reaction(Reaction::FOLLOW_UP, Some(Place::Axis(number))) {
                 conditions.alarm = event;
             }
-            let lost = if !signals.controller_enable() {
-                conditions.enable = false;
-                Some((axis_signal(number, axis_to_nck::controller_enable, false), 1))
-            } else if axis.measuring_system.is_none() {
+            let Some((missing, cause)) = axis.missing_enable(signals) else { continue };
+            if signals.controller_enable() {
                 conditions.healthy = false;
-                Some((axis_signal(number, axis_from_nck::position_measuring_system_1_activated, false), 0))
-            } else if !axis.enabling.pulses_enabled() {
-                conditions.healthy = false;
-                let (missing, cause) = if !signals.pulse_enable() {
-                    (axis_to_nck::pulse_enable, 2)
-                } else if !axis.drive_ready {
-                    (axis_from_nck::drive_ready, 4)
-                } else {
-                    // The drive is ready, and its pulses are being enabled.
-                    (axis_from_nck::pulses_enabled, 4)
-                };
-                Some((axis_signal(number, missing, false), cause))
             } else {
-                None
-            };
-            if let (Some((input, cause)), Input::None) = (lost, conditions.missing) {
-                conditions.missing = input;
+                conditions.enable = false;
+            }
+            if conditions.missing == Input::None {
+                conditions.missing = axis_signal(number, missing, false);
                 conditions.culprit = (number, cause);
             }
         }
         conditions
+    }
+
+    /// The enable that an axis of a unit does not have.
+    pub(in crate::sinumerik) fn missing_enable(&self, unit: &Unit, to_nck: &ToNck) -> Input {
+        let missing = |axis| Some((axis, self.axes[axis].missing_enable(&to_nck.axes[axis])?.0));
+        let found = unit.members().find_map(missing);
+        found.map_or(Input::None, |(axis, signal)| axis_signal(axis, signal, false))
     }
 
     fn step_control(&mut self, number: AxisNumber, conditions: &Conditions, disable_cycles: u64) {
@@ -275,6 +268,24 @@ impl State {
 }
 
 impl Axis {
+    /// The enable that is missing, and the cause that 21612 gives for it.
+    fn missing_enable(&self, signals: &AxisToNck) -> Option<(Signal, i64)> {
+        if !signals.controller_enable() {
+            Some((axis_to_nck::controller_enable, 1))
+        } else if self.measuring_system.is_none() {
+            Some((axis_from_nck::position_measuring_system_1_activated, 0))
+        } else if self.enabling.pulses_enabled() {
+            None
+        } else if !signals.pulse_enable() {
+            Some((axis_to_nck::pulse_enable, 2))
+        } else if !self.drive_ready {
+            Some((axis_from_nck::drive_ready, 4))
+        } else {
+            // The drive is ready, and its pulses are being enabled.
+            Some((axis_from_nck::pulses_enabled, 4))
+        }
+    }
+
     /// Without position control the axis makes only the motion of this state; `emergency_deceleration` brakes it before it is
     /// switched off.
     pub(in crate::sinumerik) fn brake_without_control(&mut self, emergency_deceleration: f64) {

@@ -10,4 +10,5 @@ pub(super) mod position_control;
 pub(super) mod shaping;
 pub(super) mod signals;
 pub(super) mod state;
+pub(super) mod travel;
 pub(super) mod traversing;

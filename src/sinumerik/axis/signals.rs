@@ -16,6 +16,7 @@
 
 use crate::image::{ToNck, axis_from_nck, axis_to_nck};
 use crate::motion::Motion;
+use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::jog::state::Movement;
 use crate::sinumerik::rules::Rule;
@@ -81,7 +82,7 @@ impl State {
         self.axes[number].jogging.movement = Movement::None;
         let input = axis_signal(number, axis_to_nck::delete_distance_to_go_spindle_reset, true);
         let event = self.log.note_one(Place::Axis(number), Rule::DistanceDeleted, input, EventId::NONE);
-        self.traverse(number, 0, 0, event);
+        self.travel(number, Travel::None, event);
     }
 
     /// The signal that disables an approach or a synchronising motion of a unit: axis disable or the fast stop.

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::image::axis_to_nck;
 use crate::motion::{Feedback, Motion, Setpoint, coupling};
 use crate::sinumerik::axis::shaping::Shaping;
+use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::jog::state::Jogging;
 use crate::sinumerik::monitoring::state::AxisMonitor;
@@ -88,10 +89,8 @@ pub(in crate::sinumerik) struct Axis {
     pub key_used: bool,
     /// Direction of the key that started the approach; 0 for channel-specific referencing.
     pub approach_key: i8,
-    /// Travel request, 64.4 and 64.5: +1, −1 or 0.
-    pub traverse_request: i8,
-    /// Travel command, 64.6 and 64.7: +1, −1 or 0.
-    pub traverse_command: i8,
+    /// Whether it is to travel, 64.4 to 64.7.
+    pub travel: Travel,
     /// Factor of the axial override.
     pub feed_factor: f64,
     /// Feed stop on an axis of its unit, or feed disable of its channel.
@@ -136,8 +135,7 @@ impl Default for Axis {
             approach: Approach::default(),
             key_used: false,
             approach_key: 0,
-            traverse_request: 0,
-            traverse_command: 0,
+            travel: Travel::None,
             feed_factor: 1.0,
             feed_held: false,
             feed_disabled: false,
@@ -154,8 +152,7 @@ impl Default for Axis {
 impl Axis {
     /// Whether the decisions about both axes are equal; their movements may differ.
     pub(in crate::sinumerik) fn has_decisions_of(&self, other: &Self) -> bool {
-        (self.motion, self.enabling, self.traverse_request, self.traverse_command)
-            == (other.motion, other.enabling, other.traverse_request, other.traverse_command)
+        (self.motion, self.enabling, self.travel) == (other.motion, other.enabling, other.travel)
             && (self.parameter_set, self.drive_data_set, self.measuring_system, self.drive_ready)
                 == (other.parameter_set, other.drive_data_set, other.measuring_system, other.drive_ready)
             && (self.feed_factor, self.feed_held, self.feed_disabled, self.feed_holder)
@@ -234,10 +231,16 @@ impl Axis {
         self.setpoint.is_at_rest() && self.velocity.abs() < parameters.standstill_velocity
     }
 
-    /// Whether the axis moves or is commanded to move.
+    /// Whether the axis moves or is to move.
     #[must_use]
     pub(in crate::sinumerik) fn is_in_motion(&self) -> bool {
-        self.traverse_command != 0 || !self.setpoint.is_at_rest()
+        self.travel.is_pending() || !self.setpoint.is_at_rest()
+    }
+
+    /// Whether the axis moves; an axis that is held or waits for an enable does not.
+    #[must_use]
+    pub(in crate::sinumerik) fn is_moving(&self) -> bool {
+        self.travel.is_moving() || !self.setpoint.is_at_rest()
     }
 
     /// Shifts the actual value at the present position: nothing moves.

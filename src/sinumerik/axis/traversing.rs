@@ -1,11 +1,13 @@
 //! Traverse request (64.4, 64.5) and traverse command (64.6, 64.7), the event behind each of their edges, and the reason that stops a
-//! channel.
+//! channel. `travel.rs` defines request and command.
 //!
-//! Called by all stages that move an axis. A movement may have begun in an earlier cycle. When the command is reset or set again
+//! Called by all stages that move an axis. A movement may have begun in an earlier cycle. When something holds it or it goes on
 //! later, an event of this cycle gives the reason, and refers to the beginning of the movement as its cause.
 
-use crate::image::{Signal, axis_from_nck, axis_to_nck, mode_group_from_nck};
+use crate::image::{AxisToNck, axis_to_nck, mode_group_from_nck};
 use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::axis::state::Axis;
+use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::inputs::{axis_signal, mode_group_signal, nck_signal};
 use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::parameters::Parameters;
@@ -44,12 +46,6 @@ impl Stop {
     }
 }
 
-/// The traverse command of a direction, −1 or +1.
-#[must_use]
-pub(in crate::sinumerik) const fn command_signal(direction: i8) -> Signal {
-    if direction > 0 { axis_from_nck::traverse_command_plus } else { axis_from_nck::traverse_command_minus }
-}
-
 impl State {
     /// The reason that stops every movement of a channel: RESET, or an alarm with NC stop, NC not ready or mode group not ready.
     pub(in crate::sinumerik) fn stop(&self, channel: ChannelNumber, parameters: &Parameters) -> Option<Stop> {
@@ -69,61 +65,99 @@ impl State {
     }
 
     /// Sets request (64.4, 64.5) and command (64.6, 64.7), with the event behind a change.
-    pub(in crate::sinumerik) fn traverse(&mut self, number: AxisNumber, request: i8, command: i8, cause: EventId) {
+    pub(in crate::sinumerik) fn travel(&mut self, number: AxisNumber, travel: Travel, cause: EventId) {
         let axis = &mut self.axes[number];
-        if (axis.traverse_request, axis.traverse_command) != (request, command) {
-            axis.traverse_request = request;
-            axis.traverse_command = command;
+        if axis.travel != travel {
+            axis.travel = travel;
             axis.causes.motion = cause;
         }
     }
 
-    /// The same for an axis whose keys have no function because of the mode.
-    pub(in crate::sinumerik) fn traverse_without_jog(&mut self, unit: &Unit) {
+    /// Ends the travel of an axis whose keys do not jog it, because of the mode or of REF.
+    pub(in crate::sinumerik) fn rest_without_jog(&mut self, unit: &Unit, parameters: &Parameters, signals: &AxisToNck) {
         let number = unit.leader();
-        let axis = &self.axes[number];
-        if (axis.traverse_request, axis.traverse_command) == (0, 0) {
+        if self.axes[number].travel == Travel::None {
             return;
         }
         let (group, of) = (self.mode_group(unit), unit.mode_group);
-        let inputs = [
-            mode_group_signal(of, mode_group_from_nck::active_mode_jog, group.mode == Mode::Jog),
-            mode_group_signal(of, mode_group_from_nck::active_machine_function_ref, group.is_referencing()),
-            Input::None,
-        ];
-        let cause = group.cause();
-        let cause = self.log.now(Place::Axis(number), cause, Rule::KeysWithoutJog, inputs);
-        self.traverse(number, 0, 0, cause);
+        let (cause, rule, inputs) = if let Some(stop) = self.stop(unit.channel, parameters) {
+            let (rule, input) = stop.tested();
+            (stop.cause(), rule, [input, Input::None, Input::None])
+        } else if group.is_referencing() && self.axes[number].travel.is_waiting() {
+            // The request for an approach has ended before the approach began.
+            (self.axes[number].causes.motion, Rule::KeyReleased, keys(number, signals))
+        } else {
+            let inputs = [
+                mode_group_signal(of, mode_group_from_nck::active_mode_jog, group.mode == Mode::Jog),
+                mode_group_signal(of, mode_group_from_nck::active_machine_function_ref, group.is_referencing()),
+                Input::None,
+            ];
+            (group.cause(), Rule::KeysWithoutJog, inputs)
+        };
+        let cause = self.log.now(Place::Axis(number), cause, rule, inputs);
+        self.travel(number, Travel::None, cause);
     }
 
-    /// The same for an automatic movement, an approach or a synchronising motion. `begun` is its latest event, `begins` the
+    /// The travel of an automatic movement, an approach or a synchronising motion. `begun` is its latest event, `begins` the
     /// condition tested when motion begins later than that, `target` its target.
-    pub(in crate::sinumerik) fn traverse_on(
+    pub(in crate::sinumerik) fn travel_on(
         &mut self,
         number: AxisNumber,
-        (request, command): (i8, i8),
+        travel: Travel,
         begun: EventId,
         begins: (Rule, Input),
         target: Position,
     ) {
         let axis = &self.axes[number];
-        if (axis.traverse_request, axis.traverse_command) == (request, command) {
+        let before = axis.travel;
+        if before == travel {
             return;
         }
-        let (rule, input) = if command == 0 && axis.feed_held {
-            (Rule::HeldByFeedStop, axis.feed_holder)
-        } else if command == 0 && axis.feed_factor <= 0.0 {
-            (Rule::HeldByOverride, axis_signal(number, axis_to_nck::override_active, true))
-        } else if command == 0 {
-            (Rule::TargetReached, Input::Length(Quantity::Position, number, target))
-        } else if axis.traverse_request == 0 {
-            begins
-        } else if axis.feed_holder == Input::None {
-            (Rule::OverrideReleased, Input::None)
-        } else {
-            (Rule::FeedReleased, axis.feed_holder)
+        let (rule, input) = match travel {
+            Travel::None | Travel::Blocked(_) => {
+                (Rule::TargetReached, Input::Length(Quantity::Position, number, target))
+            }
+            Travel::Moving(_) | Travel::Waiting(_) if before.request() != travel.request() => begins,
+            Travel::Moving(_) => axis.released(number),
+            Travel::Waiting(_) => axis.holder(number),
         };
         let cause = self.log.now(Place::Axis(number), begun, rule, [input, Input::None, Input::None]);
-        self.traverse(number, request, command, cause);
+        self.travel(number, travel, cause);
     }
+}
+
+impl Axis {
+    /// Whether feed stop, feed disable or an override of 0 % holds its movement.
+    #[must_use]
+    pub(in crate::sinumerik) fn is_held(&self) -> bool {
+        self.feed_held || self.feed_factor <= 0.0
+    }
+
+    /// The rule and the signal that hold it.
+    pub(in crate::sinumerik) fn holder(&self, number: AxisNumber) -> (Rule, Input) {
+        if self.feed_held {
+            (Rule::HeldByFeedStop, self.feed_holder)
+        } else {
+            (Rule::HeldByOverride, axis_signal(number, axis_to_nck::override_active, true))
+        }
+    }
+
+    /// The rule and the signal that no longer hold it.
+    fn released(&self, _: AxisNumber) -> (Rule, Input) {
+        if self.feed_holder == Input::None {
+            (Rule::OverrideReleased, Input::None)
+        } else {
+            (Rule::FeedReleased, self.feed_holder)
+        }
+    }
+}
+
+/// Both traversing keys as inputs.
+#[must_use]
+pub(in crate::sinumerik) fn keys(number: AxisNumber, signals: &AxisToNck) -> [Input; 3] {
+    [
+        axis_signal(number, axis_to_nck::traversing_key_plus, signals.traversing_key_plus()),
+        axis_signal(number, axis_to_nck::traversing_key_minus, signals.traversing_key_minus()),
+        Input::None,
+    ]
 }

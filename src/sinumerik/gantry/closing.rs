@@ -10,6 +10,7 @@
 
 use crate::control::Log;
 use crate::sinumerik::alarms::{self, Pending};
+use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::gantry::view::{View, Want, Wants};
 use crate::sinumerik::jog::state::Movement;
@@ -79,6 +80,6 @@ impl Grouping {
 
 fn has_motion_pending(view: &View<'_>, number: AxisNumber) -> bool {
     let axis = &view.axes[number];
-    let asked = axis.traverse_request != 0 || axis.jogging.movement != Movement::None;
+    let asked = axis.travel != Travel::None || axis.jogging.movement != Movement::None;
     asked || axis.is_in_motion() || !axis.stands(&view.parameters.axes[number])
 }

@@ -13,6 +13,7 @@
 use crate::control::Log;
 use crate::image::{ToNck, mode_group_from_nck};
 use crate::motion::Motion;
+use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::gantry::view::{Permit, View, Want, Wants};
 use crate::sinumerik::inputs::mode_group_signal;
@@ -38,7 +39,7 @@ impl State {
         let start_rises = start && !start_was;
         self.brake_grouping(index, parameters);
         self.watch_limit_switches(unit, to_nck);
-        self.watch_key(unit, self.groupings[index].is_referencing(), to_nck);
+        self.watch_key(unit, self.groupings[index].is_referencing(), parameters, to_nck);
         let locked = to_nck.axes[leader].no_automatic_synchronization();
         self.ask(index, parameters, |grouping, view, log, wants| grouping.watch_synchronism(view, locked, log, wants));
         let grouping = &mut self.groupings[index];
@@ -78,9 +79,9 @@ impl State {
         let idle = !self.groupings[index].is_referencing() && self.groupings[index].coupling.is_closed();
         if idle && self.is_jogging(unit) {
             self.jog(unit, parameters, to_nck);
-        } else if idle {
+        } else if idle && !self.wait_for_approach(unit, parameters, to_nck) {
             // The key of a moving grouping has no function in the new mode.
-            self.traverse_without_jog(unit);
+            self.rest_without_jog(unit, parameters, &to_nck.axes[leader]);
         }
     }
 
@@ -169,16 +170,16 @@ impl State {
     pub(in crate::sinumerik) fn carry_out(&mut self, wants: &Wants) {
         for &want in wants {
             match want {
-                Want::Move { axis, motion, request, command, cause } => {
+                Want::Move { axis, motion, travel, cause } => {
                     self.axes[axis].motion = motion;
                     if let Motion::GoTo { target, .. } = motion {
                         let begins = (Rule::SynchronisingMotion, Input::Length(Quantity::Position, axis, target));
-                        self.traverse_on(axis, (request, command), cause, begins, target);
+                        self.travel_on(axis, travel, cause, begins, target);
                     } else {
-                        self.traverse(axis, request, command, cause);
+                        self.travel(axis, travel, cause);
                     }
                 }
-                Want::Rest { axis, cause } => self.traverse(axis, 0, 0, cause),
+                Want::Rest { axis, cause } => self.travel(axis, Travel::None, cause),
                 Want::StartApproach { axis, direction, cause } => self.start_approach(axis, direction, cause),
                 Want::AbortApproach(axis) => self.axes[axis].approach.abort(),
                 Want::TakeSetpoint { axis, of } => self.axes[axis].setpoint = self.axes[of].setpoint,

@@ -3,7 +3,7 @@
 
 use arrayvec::ArrayVec;
 
-use crate::sinumerik::axis::traversing::command_signal;
+use crate::sinumerik::axis::travel::{Travel, command_signal};
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::SYNCHRONOUS_AXES;
@@ -46,7 +46,7 @@ impl State {
         self.axes[leads].execute(self.shaping[leads].as_deref_mut(), &parameters.axes[leads], cycle);
         let axis = &self.axes[leads];
         let moves = axis.enabling.moves();
-        let (request, command) = (axis.traverse_request, axis.traverse_command);
+        let travel = axis.travel;
         // A stop is braking harder than any acceleration, or braking before switching off. All axes make it in the same way.
         let stops = !axis.enabling.is_on() || axis.motion.is_fast(parameters.axes[leads].dynamics.jerk.hardest);
         let movement = axis.setpoint.moved_from(before);
@@ -62,17 +62,17 @@ impl State {
                 self.axes[axis].execute(self.shaping[axis].as_deref_mut(), &parameters.axes[axis], cycle);
             }
             // SIG-09: the travel command of the leading axis is also displayed on the synchronous axes.
-            let mirrored = if leads == leader { (request, command) } else { (0, 0) };
-            let led = &self.axes[axis];
-            if (led.traverse_request, led.traverse_command) != mirrored {
+            let mirrored = if leads == leader { travel } else { Travel::None };
+            if self.axes[axis].travel != mirrored {
                 let (rule, begun) = if leads == leader {
                     (Rule::CommandOfLeadingAxis, self.axes[leader].causes.motion)
                 } else {
                     (Rule::WithoutCommand, self.groupings[index].cause)
                 };
+                let command = travel.command(parameters);
                 let commands = [1, -1].map(|sign| axis_signal(leads, command_signal(sign), command == sign));
                 let cause = self.log.now(Place::Axis(axis), begun, rule, [commands[0], commands[1], Input::None]);
-                self.traverse(axis, mirrored.0, mirrored.1, cause);
+                self.travel(axis, mirrored, cause);
             }
         }
     }

@@ -8,6 +8,7 @@ use crate::image::{Signal, axis_from_nck, axis_to_nck};
 use crate::motion::coupling::{Moves, Progress, Realign, Realigning, Target};
 use crate::motion::{Limits, Motion};
 use crate::sinumerik::alarms;
+use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::gantry::view::{Permit, View, Want, Wants};
 use crate::sinumerik::inputs::axis_signal;
@@ -122,13 +123,16 @@ impl Grouping {
         };
         for (axis, motion) in commands {
             let setpoint = view.axes[axis].setpoint.position;
-            // A movement that feed stop or an override of 0 % holds is still requested.
-            let request = match motion {
-                Motion::GoTo { target, .. } => (target - setpoint).increments().signum(),
-                Motion::Brake { .. } | Motion::Run { .. } | Motion::Track | Motion::Hold => 0,
+            let travel = match motion {
+                // Feed stop or an override of 0 % holds it.
+                Motion::GoTo { target, .. } if motion.is_held() => {
+                    Travel::waiting(i8::try_from((target - setpoint).increments().signum()).unwrap_or(0))
+                }
+                Motion::GoTo { .. } | Motion::Brake { .. } | Motion::Run { .. } | Motion::Track | Motion::Hold => {
+                    Travel::moving(motion.direction(setpoint))
+                }
             };
-            let (request, command) = (i8::try_from(request).unwrap_or(0), motion.direction(setpoint));
-            wants.push(Want::Move { axis, motion, request, command, cause: self.cause });
+            wants.push(Want::Move { axis, motion, travel, cause: self.cause });
         }
         match progress {
             Progress::Running => {}
@@ -159,7 +163,7 @@ impl Grouping {
         let cause = self.cause;
         wants.extend(self.coupling.members().map(|axis| {
             let motion = Motion::Brake { deceleration: view.parameters.axes[axis].maximum_acceleration };
-            Want::Move { axis, motion, request: 0, command: 0, cause }
+            Want::Move { axis, motion, travel: Travel::None, cause }
         }));
     }
 

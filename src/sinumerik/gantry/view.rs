@@ -7,6 +7,7 @@ use arrayvec::ArrayVec;
 
 use crate::motion::Motion;
 use crate::sinumerik::axis::state::Axis;
+use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::SYNCHRONOUS_AXES;
 use crate::units::{AxisNumber, PerAxis};
@@ -32,7 +33,7 @@ pub(in crate::sinumerik) struct Permit {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::sinumerik) enum Want {
     /// An axis moves, with its travel request and travel command, and the event that started the movement.
-    Move { axis: AxisNumber, motion: Motion, request: i8, command: i8, cause: EventId },
+    Move { axis: AxisNumber, motion: Motion, travel: Travel, cause: EventId },
     /// The travel request and the travel command of an axis end.
     Rest { axis: AxisNumber, cause: EventId },
     /// A reference point approach starts in the direction of a sign.

@@ -20,6 +20,7 @@
 
 use crate::image::{AxisToNck, NckHmi, Signal, axis_to_nck, nck_hmi};
 use crate::sinumerik::alarms;
+use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::inputs::{axis_signal, nck_signal};
 use crate::sinumerik::jog::state::{By, Movement};
 use crate::sinumerik::nck::Nck;
@@ -156,7 +157,7 @@ impl State {
             jogging.carry = 0.0;
             let parent = jogging.handwheel_cause;
             let event = self.log.note_plain(Place::Axis(number), Rule::HandwheelDropped, parent);
-            self.traverse(number, 0, 0, event);
+            self.travel(number, Travel::None, event);
         }
     }
 

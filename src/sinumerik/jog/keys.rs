@@ -4,14 +4,18 @@
 //! synchronous axis of a closed grouping are ignored without an alarm (MIS-01): only the keys of the first axis of a unit are
 //! read. `increments.rs` defines the movements that a press of a key starts and ends, `handwheels.rs` those of handwheels.
 //!
-//! Traverse request (64.4, 64.5) shows the requested movement, traverse command (64.6, 64.7) the commanded one. Override 0 %,
-//! feed stop, feed disable, RESET, an alarm that stops, and a limit reset the command and keep the request. A movement with an
-//! end continues to it after feed stop, feed disable and 0 %; every other stop drops it.
+//! A movement begins with the rising edge of a key. Decision O-26: feed stop, feed disable, an override of 0 % and the fast stop only
+//! hold the movement of a key that stays pressed. RESET, emergency stop, an alarm that stops, a hardware limit switch, another mode,
+//! machine function or increment, a lost enable, key disable (4.4) and the opposite key end it; it begins again only with a new rising
+//! edge. A key that is pressed while an enable is missing stays pending, and moves when the enable comes. An edge during one of these
+//! interruptions is lost. A movement with an end continues to it after feed stop, feed disable and 0 %; everything else drops it.
 
 use crate::image::{AxisToNck, Signal, ToNck, axis_from_nck, axis_to_nck, channel_to_nck};
 use crate::motion::Motion;
 use crate::sinumerik::axis::limits::Ahead;
 use crate::sinumerik::axis::state::Axis;
+use crate::sinumerik::axis::travel::Travel;
+use crate::sinumerik::axis::traversing::keys;
 use crate::sinumerik::inputs::{axis_signal, channel_signal};
 use crate::sinumerik::jog::handwheels;
 use crate::sinumerik::jog::state::{By, Movement};
@@ -70,16 +74,18 @@ impl State {
         self.watch_software_limits(unit, parameters, to_nck);
         let (signals, axis_parameters) = (&to_nck.axes[number], &parameters.axes[number]);
         let key = key_direction(signals);
+        let stop = self.stop(unit.channel, parameters);
+        self.interrupt_keys(unit, stop.is_some(), to_nck);
         let jogging = &mut self.axes[number].jogging;
         let way = jogging.function.way(axis_parameters);
         jogging.take_keys(key, signals.traversing_key_disable(), way, parameters.key_modes);
         self.take_handwheels(number, parameters, signals);
         self.raise_handwheel_alarms(number, key);
         let axis = &self.axes[number];
-        if let Some(stop) = self.stop(unit.channel, parameters) {
+        if let Some(stop) = stop {
             // The unit brakes as commanded (O-04).
             let (rule, input) = stop.tested();
-            self.stop_jogging(number, parameters, signals, rule, [input, Input::None, Input::None], stop.cause());
+            self.stop_jogging(number, rule, [input, Input::None, Input::None], stop.cause());
             return;
         }
         let direction = axis.jogging.movement.direction(axis.setpoint.position);
@@ -88,13 +94,12 @@ impl State {
             self.brake_at_limit(unit, parameters);
             let limits = self.axes[pressed].limits;
             let inputs = [limits.input(pressed, direction), Input::None, Input::None];
-            self.stop_jogging(number, parameters, signals, Rule::HardwareLimitSwitch, inputs, limits.cause);
+            self.stop_jogging(number, Rule::HardwareLimitSwitch, inputs, limits.cause);
             return;
         }
         if axis.signals.fast_stop {
             let shown = axis_signal(number, axis_from_nck::ramp_function_generator_disable_active, true);
-            let (inputs, cause) = ([shown, Input::None, Input::None], axis.signals.fast_stop_cause);
-            self.stop_jogging(number, parameters, signals, Rule::FastStop, inputs, cause);
+            self.block_jogging(number, parameters, signals, Rule::FastStop, shown, axis.signals.fast_stop_cause);
             return;
         }
         self.axes[number].motion = Motion::Brake { deceleration: axis_parameters.jog_acceleration };
@@ -102,88 +107,113 @@ impl State {
         let axis = &self.axes[number];
         let movement = axis.jogging.movement;
         if movement == Movement::None {
-            self.show_jogging(number, 0, 0, if ended { Rule::EndReached } else { Rule::KeyReleased }, signals);
+            let rule = if ended { Rule::EndReached } else { Rule::KeyReleased };
+            self.show_jogging(number, Travel::None, rule, signals);
             return;
         }
         let direction = movement.direction(axis.setpoint.position);
         let velocity = axis.jog_velocity(axis_parameters, signals);
-        let held = axis.feed_held || velocity <= 0.0;
-        if !held && axis.enabling.is_on() {
+        // A movement that is held, and one without an enable, waits (O-27).
+        let moves = axis.enabling.is_on() && !axis.feed_held && velocity > 0.0;
+        if moves {
             let ahead = self.software_limit_ahead(number, direction, parameters, to_nck);
             if direction != 0 && ahead == Ahead::Reached && !matches!(movement, Movement::Pending(..)) {
-                self.rest_on_software_limit(number, direction, parameters, signals);
+                let reached = Input::Length(Quantity::Position, number, axis.setpoint.position);
+                self.block_jogging(number, parameters, signals, Rule::SoftwareLimit, reached, axis.causes.motion);
                 return;
             }
             self.axes[number].follow_keys(direction, velocity, ahead, axis_parameters.jog_acceleration);
         }
-        // Without controller enable the command stays pending and runs when the enable returns.
-        let command = if held { 0 } else { direction };
+        let travel = if moves { Travel::moving(direction) } else { Travel::waiting(direction) };
         let rule = match movement {
             Movement::None | Movement::Path(..) if direction == 0 => Rule::EndReached,
             Movement::None | Movement::Continuous(_) => Rule::TraversingKey,
             Movement::Pending(_, By::Key(_)) | Movement::Path(_, By::Key(_)) => Rule::IncrementStarted,
             Movement::Pending(_, By::Handwheel) | Movement::Path(_, By::Handwheel) => Rule::HandwheelTurned,
         };
-        self.show_jogging(number, direction, command, if held { Rule::MotionBlocked } else { rule }, signals);
+        self.show_jogging(number, travel, rule, signals);
     }
 
-    /// Stops by this rule. A movement with an end is dropped; the request of a held key stays visible.
-    fn stop_jogging(
+    /// O-26: a lost enable and another machine function or increment end the movement of a key.
+    fn interrupt_keys(&mut self, unit: &Unit, stopped: bool, to_nck: &ToNck) {
+        let number = unit.leader();
+        let axis = &mut self.axes[number];
+        let on = axis.enabling.is_on();
+        let lost = std::mem::replace(&mut axis.jogging.was_on, on) && !on;
+        let axis = &self.axes[number];
+        if !axis.jogging.movement.is_by_key() {
+            return;
+        }
+        let cause = if self.log.is_of_this_cycle(axis.jogging.function_cause) {
+            axis.jogging.function_cause
+        } else if lost && !stopped {
+            let (missing, parent) = (self.missing_enable(unit, to_nck), axis.causes.enabling);
+            self.log.note_one(Place::Axis(number), Rule::EnableLost, missing, parent)
+        } else {
+            return;
+        };
+        self.axes[number].jogging.movement = Movement::None;
+        self.travel(number, Travel::None, cause);
+    }
+
+    /// Ends the movement by this rule.
+    fn stop_jogging(&mut self, number: AxisNumber, rule: Rule, inputs: [Input; 3], cause: EventId) {
+        self.axes[number].jogging.movement = Movement::None;
+        if self.axes[number].travel != Travel::None {
+            let cause = self.log.now(Place::Axis(number), cause, rule, inputs);
+            self.travel(number, Travel::None, cause);
+        }
+    }
+
+    /// Blocks the movement by this rule. A movement with an end is dropped; that of a held key stays requested.
+    fn block_jogging(
         &mut self,
         number: AxisNumber,
         parameters: &Parameters,
         signals: &AxisToNck,
         rule: Rule,
-        inputs: [Input; 3],
+        input: Input,
         cause: EventId,
     ) {
         let axis = &mut self.axes[number];
         if !(parameters.key_modes.continuous_held && matches!(axis.jogging.movement, Movement::Continuous(_))) {
             axis.jogging.movement = Movement::None;
         }
-        let request = axis.jogging.movement.direction(axis.setpoint.position);
-        if axis.traverse_command == 0 && axis.traverse_request != request {
-            // The axis is already at standstill: only the request changes.
-            let rule = if request == 0 { Rule::KeyReleased } else { Rule::MotionBlocked };
-            let event = self.log.note(Place::Axis(number), rule, key_inputs(number, axis, signals), cause);
-            self.traverse(number, request, 0, event);
-        } else if (axis.traverse_request, axis.traverse_command) != (request, 0) {
-            let cause = self.log.now(Place::Axis(number), cause, rule, inputs);
-            self.traverse(number, request, 0, cause);
-        }
-    }
-
-    fn rest_on_software_limit(
-        &mut self,
-        number: AxisNumber,
-        direction: i8,
-        parameters: &Parameters,
-        signals: &AxisToNck,
-    ) {
-        let axis = &self.axes[number];
-        let mut cause = axis.causes.motion;
-        let reached = Input::Length(Quantity::Position, number, axis.setpoint.position);
-        let inputs = [reached, Input::None, Input::None];
-        if (axis.traverse_request, axis.traverse_command) != (direction, 0) {
-            cause = self.log.note(Place::Axis(number), Rule::SoftwareLimit, inputs, cause);
-        }
-        self.stop_jogging(number, parameters, signals, Rule::SoftwareLimit, inputs, cause);
-    }
-
-    fn show_jogging(&mut self, number: AxisNumber, request: i8, command: i8, rule: Rule, signals: &AxisToNck) {
-        let axis = &self.axes[number];
-        if (axis.traverse_request, axis.traverse_command) == (request, command) {
+        let travel = Travel::blocked(axis.jogging.movement.direction(axis.setpoint.position));
+        let before = axis.travel;
+        if before == travel {
             return;
         }
+        let cause = if before.is_pending() {
+            self.log.now(Place::Axis(number), cause, rule, [input, Input::None, Input::None])
+        } else {
+            // The axis is already at standstill: only the request changes.
+            let rule = if travel == Travel::None { Rule::KeyReleased } else { Rule::MotionBlocked };
+            let [plus, minus, _] = keys(number, signals);
+            self.log.note(Place::Axis(number), rule, [plus, minus, input], cause)
+        };
+        self.travel(number, travel, cause);
+    }
+
+    fn show_jogging(&mut self, number: AxisNumber, travel: Travel, rule: Rule, signals: &AxisToNck) {
+        let axis = &self.axes[number];
+        let before = axis.travel;
+        if before == travel {
+            return;
+        }
+        let begins = before.request() == 0;
+        let holds = before.request() == travel.request() && travel.is_waiting();
+        let rule = if holds { Rule::MotionBlocked } else { rule };
         let event = if axis.jogging.movement.is_by_handwheel() {
             self.log.note_plain(Place::Axis(number), rule, axis.jogging.handwheel_cause)
         } else {
             // The event that starts a movement does not depend on the previous movement.
-            let begins = axis.traverse_request == 0;
             let parent = if begins { EventId::NONE } else { axis.causes.motion };
-            self.log.note(Place::Axis(number), rule, key_inputs(number, axis, signals), parent)
+            let [plus, minus, _] = keys(number, signals);
+            let inputs = [plus, minus, if begins { Input::None } else { axis.hold_input(number, before) }];
+            self.log.note(Place::Axis(number), rule, inputs, parent)
         };
-        self.traverse(number, request, command, event);
+        self.travel(number, travel, event);
     }
 }
 
@@ -204,6 +234,18 @@ impl Axis {
             self.jogging.movement = Movement::None;
         }
         ended
+    }
+
+    /// The signal that holds its movement or no longer holds it.
+    fn hold_input(&self, number: AxisNumber, before: Travel) -> Input {
+        let on = self.enabling.is_on();
+        if self.is_held() {
+            self.holder(number).1
+        } else if !on || before.is_waiting() && self.feed_holder == Input::None {
+            axis_signal(number, axis_from_nck::position_controller_active, on)
+        } else {
+            self.feed_holder
+        }
     }
 
     /// Velocity of keys or handwheels, with the override.
@@ -235,21 +277,4 @@ impl Axis {
             }
         };
     }
-}
-
-/// The keys, and the signals of the axis itself that hold its movement.
-fn key_inputs(number: AxisNumber, axis: &Axis, signals: &AxisToNck) -> [Input; 3] {
-    let holds = if signals.feed_stop() {
-        axis_signal(number, axis_to_nck::feed_stop, true)
-    } else if axis.feed_factor <= 0.0 {
-        // The effective override is 0 %.
-        axis_signal(number, axis_to_nck::override_active, true)
-    } else {
-        axis.feed_holder
-    };
-    [
-        axis_signal(number, axis_to_nck::traversing_key_plus, signals.traversing_key_plus()),
-        axis_signal(number, axis_to_nck::traversing_key_minus, signals.traversing_key_minus()),
-        holds,
-    ]
 }

@@ -123,6 +123,12 @@ impl Movement {
         matches!(self, Self::Pending(_, By::Handwheel) | Self::Path(_, By::Handwheel))
     }
 
+    /// Whether a traversing key moves the axis.
+    #[must_use]
+    pub(in crate::sinumerik) const fn is_by_key(self) -> bool {
+        matches!(self, Self::Continuous(_) | Self::Pending(_, By::Key(_)) | Self::Path(_, By::Key(_)))
+    }
+
     /// The remaining distance of a movement with an end.
     #[must_use]
     pub(in crate::sinumerik) fn distance_to_go(self, setpoint: Position) -> Position {
@@ -145,10 +151,10 @@ pub(in crate::sinumerik) struct Jogging {
     pub function_cause: EventId,
     /// Plus and minus key in the last cycle.
     pub keys: [bool; 2],
-    /// Plus and minus key pressed in this cycle.
+    /// Rising edges of the plus and minus key that no stage has taken yet.
     pub pressed: [bool; 2],
-    /// The movement of the held key has ended; the key must be released first.
-    pub spent: bool,
+    /// The axis was in position control in the last cycle in which it was jogged.
+    pub was_on: bool,
     /// The movement of the axis.
     pub movement: Movement,
     /// Handwheels that move this axis, as bits.
@@ -170,15 +176,16 @@ impl Jogging {
     #[inline]
     pub(in crate::sinumerik) fn watch_keys(&mut self, signals: &AxisToNck) {
         let keys = [signals.traversing_key_plus(), signals.traversing_key_minus()];
-        self.pressed = [keys[0] && !self.keys[0], keys[1] && !self.keys[1]];
+        let rises = |key: usize| keys[key] && (self.pressed[key] || !self.keys[key]);
+        self.pressed = [rises(0), rises(1)];
         self.keys = keys;
-        self.spent &= keys[0] || keys[1];
     }
 
     /// Ends jogging: another mode, REF, or not the leading axis of the unit.
     #[inline]
     pub(in crate::sinumerik) fn end(&mut self) {
         self.movement = Movement::None;
+        self.pressed = [false; 2];
         self.handwheels = 0;
         self.inverted = false;
         self.refused = false;
@@ -192,46 +199,30 @@ impl Jogging {
     }
 
     /// Starts and ends movements by the traversing keys. `direction` is +1, −1, or 0 if no key, both keys or keys disabled by 4.4
-    /// are pressed.
+    /// are pressed. Only the rising edge of a key starts a movement (O-26).
     pub(in crate::sinumerik) fn take_keys(&mut self, direction: i8, disabled: bool, way: Position, modes: KeyModes) {
-        let pressed = !disabled && (self.pressed[0] || self.pressed[1]);
-        let begins = if direction != 0 && self.pressed[usize::from(direction < 0)] { direction } else { 0 };
+        let rises = std::mem::take(&mut self.pressed);
+        let pressed = !disabled && (rises[0] || rises[1]);
+        let begins = if direction != 0 && rises[usize::from(direction < 0)] { direction } else { 0 };
+        let begun = match self.function {
+            _ if begins == 0 => Movement::None,
+            Function::Continuous => Movement::Continuous(begins),
+            Function::Increment(_) if way == Position::ZERO => Movement::None,
+            Function::Increment(_) => Movement::Pending(if begins > 0 { way } else { -way }, By::Key(begins)),
+        };
         self.movement = match self.movement {
-            Movement::None => match self.function {
-                Function::Continuous if modes.continuous_held && direction != 0 && !self.spent => {
-                    Movement::Continuous(direction)
-                }
-                Function::Continuous if !modes.continuous_held && begins != 0 => Movement::Continuous(begins),
-                Function::Increment(_) if begins != 0 && way != Position::ZERO => {
-                    self.spent = true;
-                    Movement::Pending(if begins > 0 { way } else { -way }, By::Key(begins))
-                }
-                Function::Increment(_) => {
-                    // A key that is held when an increment is selected does not start it.
-                    self.spent |= direction != 0;
-                    Movement::None
-                }
-                Function::Continuous => Movement::None,
-            },
-            Movement::Continuous(runs) if modes.continuous_held => match (direction, self.function) {
-                (0, _) => Movement::None,
-                (other, Function::Increment(_)) if other != runs => Movement::None,
-                (direction, Function::Continuous | Function::Increment(_)) => Movement::Continuous(direction),
-            },
+            Movement::None => begun,
+            Movement::Continuous(runs) if modes.continuous_held && direction != runs => begun,
             Movement::Pending(_, By::Key(key)) | Movement::Path(_, By::Key(key))
                 if modes.increment_held && direction != key =>
             {
                 Movement::None
             }
-            Movement::Continuous(_) if disabled || pressed => Movement::None,
+            Movement::Continuous(_) if !modes.continuous_held && (disabled || pressed) => Movement::None,
             Movement::Pending(_, By::Key(_)) | Movement::Path(_, By::Key(_))
                 if !modes.increment_held && (disabled || pressed) =>
             {
                 Movement::None
-            }
-            by_handwheel @ (Movement::Pending(_, By::Handwheel) | Movement::Path(_, By::Handwheel)) => {
-                self.spent |= direction != 0;
-                by_handwheel
             }
             goes_on @ (Movement::Continuous(_) | Movement::Pending(..) | Movement::Path(..)) => goes_on,
         };

@@ -55,6 +55,8 @@ General {
     12050 OVR_FACTOR_RAPID_TRA ovr_factor_rapid_tra: [f64; 31] = FEED_OVERRIDE.map(|factor| factor.min(1.0)); "factor", Range::NOT_NEGATIVE, PowerOn;
     /// limit of a binary coded override
     12100 OVR_FACTOR_LIMIT_BIN ovr_factor_limit_bin: f64 = 1.2; "factor", Range::NOT_NEGATIVE, PowerOn;
+    /// interface signals; bit 0: the traverse commands 64.6 and 64.7 are output 0 with the request, 1 only while the axis may move
+    17900 VDI_FUNCTION_MASK vdi_function_mask: u32 = 0; "", Range::ANY, PowerOn;
 }
 scope General
 }

@@ -48,6 +48,8 @@ pub struct Parameters {
     pub axis_override_factors: [f64; 31],
     /// MD12100.
     pub binary_override_limit: f64,
+    /// MD17900 bit 0: the traverse command is output only while the axis may move.
+    pub command_only_in_motion: bool,
     /// The channels that exist, with their mode groups.
     pub(super) channel_list: ArrayVec<(ChannelNumber, ModeGroupNumber), { ChannelNumber::MAX as usize }>,
     /// The mode groups that have channels.
@@ -91,6 +93,7 @@ impl Parameters {
             axis_override_is_gray: data.general.ovr_ax_is_gray_code,
             axis_override_factors: data.general.ovr_factor_ax_speed,
             binary_override_limit: data.general.ovr_factor_limit_bin,
+            command_only_in_motion: data.general.vdi_function_mask & 1 == 1,
             existing: axes.iter().filter(|(_, axis)| axis.exists).map(|(number, _)| number).collect(),
             channels: channels(data, &axes),
             mode_after_power_on: PerModeGroup::from_fn(|group| data.general.operating_mode_default[group.index()]),

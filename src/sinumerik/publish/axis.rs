@@ -2,7 +2,6 @@
 
 use crate::image::axis_from_nck;
 use crate::sinumerik::alarms::Reaction;
-use crate::sinumerik::axis::traversing::command_signal;
 use crate::sinumerik::gantry::state::{Grouping, Monitored, Phase};
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
@@ -16,11 +15,17 @@ use crate::variables::{Input, Place, Quantity};
 impl State {
     /// DB31 to DB61 of one axis: the signals that a movement alone can change.
     #[inline]
-    pub(super) fn show_movement(&self, number: AxisNumber, parameters: &AxisParameters, rows: &mut impl Rows) {
+    pub(super) fn show_movement(
+        &self,
+        number: AxisNumber,
+        parameters: &AxisParameters,
+        all: &Parameters,
+        rows: &mut impl Rows,
+    ) {
         let axis = &self.axes[number];
         let (causes, set) = (&axis.causes, axis.active_set(parameters));
         let [_, _, position] = axis.enabling.controllers();
-        let at_rest = position && axis.setpoint.is_at_rest() && axis.traverse_command == 0;
+        let at_rest = position && !axis.is_in_motion();
         let within = |window: Position| at_rest && axis.deviation().abs() <= window;
         let exact_stop = |datum: u32, window: Position| {
             if !position {
@@ -36,11 +41,7 @@ impl State {
             }
             if axis.is_in_motion() {
                 let mover = self.mover(number);
-                let input = match self.axes[mover].traverse_command {
-                    0 => Input::None,
-                    command => axis_signal(mover, command_signal(command), true),
-                };
-                let inputs = [input, Input::None, Input::None];
+                let inputs = [self.axes[mover].travel.shown(mover, all), Input::None, Input::None];
                 return Why::Tested(Rule::ExactStopInMotion, inputs, self.axes[mover].causes.motion);
             }
             let measured = Input::Length(Quantity::Deviation, number, axis.deviation());
@@ -109,10 +110,11 @@ impl State {
         let handwheel = || Why::Event(jogging.handwheel_cause.max(mode()));
         rows.group(axis_from_nck::handwheel_1_active, axis_from_nck::handwheel_3_active, jogging.handwheels, handwheel);
         let motion = || Why::Event(causes.motion);
-        rows.bit(axis_from_nck::traverse_request_minus, axis.traverse_request < 0, motion);
-        rows.bit(axis_from_nck::traverse_request_plus, axis.traverse_request > 0, motion);
-        rows.bit(axis_from_nck::traverse_command_minus, axis.traverse_command < 0, motion);
-        rows.bit(axis_from_nck::traverse_command_plus, axis.traverse_command > 0, motion);
+        let (request, command) = (axis.travel.request(), axis.travel.command(all));
+        rows.bit(axis_from_nck::traverse_request_minus, request < 0, motion);
+        rows.bit(axis_from_nck::traverse_request_plus, request > 0, motion);
+        rows.bit(axis_from_nck::traverse_command_minus, command < 0, motion);
+        rows.bit(axis_from_nck::traverse_command_plus, command > 0, motion);
         rows.group(
             axis_from_nck::active_machine_function_increment_1,
             axis_from_nck::active_machine_function_continuous,

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 
 use crate::image::channel_from_nck;
 use crate::sinumerik::alarms::Reaction;
-use crate::sinumerik::axis::traversing::command_signal;
+use crate::sinumerik::axis::travel::command_signal;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::publish::rows::{Rows, Why};
@@ -65,7 +65,7 @@ impl State {
         let counts = |axis: &AxisNumber| !active || self.summary.in_motion.contains(*axis);
         // The axis that started or stopped last; the first of axes that move together.
         let order = |axis: &AxisNumber| {
-            let commanded = active && self.axes[*axis].traverse_command != 0;
+            let commanded = active && self.axes[*axis].travel.is_pending();
             (commanded, self.axes[*axis].causes.motion, Reverse(*axis))
         };
         let Some(number) = of_channels.filter(counts).max_by_key(order) else { return Why::Event(EventId::NONE) };
@@ -74,18 +74,17 @@ impl State {
         if self.log.is_of_this_cycle(axis.causes.motion) {
             return Why::Event(axis.causes.motion);
         }
-        let input = |direction: i8, value: bool| match parameters.axes[number].silent {
-            true => Input::None,
-            false => axis_signal(number, command_signal(direction), value),
-        };
-        match (active, axis.traverse_command) {
-            (true, 0) => Why::Tested(Rule::ChannelActive, [Input::None; 3], parent),
-            (true, command) => {
-                Why::Tested(Rule::ChannelActive, [input(command, true), Input::None, Input::None], parent)
-            }
-            (false, _) if !parent.is_some() => Why::Event(EventId::NONE),
-            (false, _) => Why::Tested(Rule::ChannelAtRest, [input(1, false), input(-1, false), Input::None], parent),
+        // An axis without signals shows nothing.
+        let audible = |input| if parameters.axes[number].silent { Input::None } else { input };
+        if active {
+            let shown = if axis.travel.is_pending() { axis.travel.shown(number, parameters) } else { Input::None };
+            return Why::Tested(Rule::ChannelActive, [audible(shown), Input::None, Input::None], parent);
         }
+        if !parent.is_some() {
+            return Why::Event(EventId::NONE);
+        }
+        let [plus, minus] = [1, -1].map(|sign| audible(axis_signal(number, command_signal(sign), false)));
+        Why::Tested(Rule::ChannelAtRest, [plus, minus, Input::None], parent)
     }
 
     /// The latest movement of any axis of these channels.

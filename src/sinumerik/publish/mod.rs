@@ -55,7 +55,7 @@ impl Nck {
                 if decided.contains(number) {
                     state.show_axis(number, axis, parameters, &mut rows);
                 }
-                state.show_movement(number, axis, &mut rows);
+                state.show_movement(number, axis, parameters, &mut rows);
             }
             variables.axes[number] = state.values(number, axis);
         }
@@ -85,7 +85,7 @@ impl Nck {
             Place::Channel(channel) => state.show_channel(channel, parameters, &mut asked),
             Place::Axis(axis) => {
                 state.show_axis(axis, &parameters.axes[axis], parameters, &mut asked);
-                state.show_movement(axis, &parameters.axes[axis], &mut asked);
+                state.show_movement(axis, &parameters.axes[axis], parameters, &mut asked);
                 state.show_gantry_axis(axis, &mut asked);
             }
         }

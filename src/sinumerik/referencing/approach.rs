@@ -285,6 +285,21 @@ impl Approach {
         Outcome::Failed(alarm, self.cause)
     }
 
+    /// The direction of the movement of the phase, also while it is held: +1, −1, or 0 while braking and at the target.
+    pub(in crate::sinumerik) fn direction(&self, axis: &Axis, cam_is_active: bool) -> i8 {
+        let sign = match self.phase {
+            Phase::Idle | Phase::BrakeOnCam | Phase::BrakeOffCam => return 0,
+            Phase::SearchCam if cam_is_active => self.cam_direction,
+            Phase::LeaveCam => -self.cam_direction,
+            Phase::SearchCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark => self.marker_direction,
+            Phase::GoToReferencePoint | Phase::ExactStop => {
+                let way = (self.target - axis.setpoint.position).increments().signum();
+                return i8::try_from(way).unwrap_or(0);
+            }
+        };
+        if sign > 0.0 { 1 } else { -1 }
+    }
+
     /// The command of the phase. The override acts in phases 1 and 3 only, feed stop in all.
     fn motion(&self, view: &View<'_>) -> Motion {
         let (parameters, reference) = (view.parameters, &view.parameters.reference);

@@ -1,12 +1,14 @@
 //! Starts the referencing of axes, by the traversing key or by the channel, and applies its effects on other functions.
 //!
 //! Called in the stage "referencing and gantry". A held key starts one approach. It must be released before it starts another
-//! one, also if it was pressed while the approach ran or while JOG was active without REF. A key that is pressed before the axes
-//! are in position control stays pending until they are. Channel-specific referencing (33.0 = 1) waits for an axis that cannot
+//! one, also if it was pressed while the approach ran, before REF was selected, or during RESET, emergency stop or an alarm that
+//! stops (O-26). A key that is pressed before the axes are in position control stays pending until they are, and the traverse command
+//! is already output (O-27). Channel-specific referencing (33.0 = 1) waits for an axis that cannot
 //! start in its turn (1.3, parked, MD34200 other than 1) until RESET or until REF is left.
 
 use crate::image::{ToNck, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck};
 use crate::sinumerik::alarms;
+use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::inputs::{axis_signal, channel_signal, mode_group_signal};
 use crate::sinumerik::jog::keys::{key_direction, key_signal};
 use crate::sinumerik::parameters::Parameters;
@@ -17,21 +19,33 @@ use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, ChannelNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Place};
 
+/// The source of a request for an approach.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum RequestedBy {
+    /// The traversing key of the axis.
+    Key,
+    /// Channel-specific referencing.
+    Channel,
+}
+
 impl State {
     /// An axis that is not in a closed grouping.
     pub(in crate::sinumerik) fn run_single(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let number = unit.leader();
         self.brake(unit, parameters);
         self.watch_limit_switches(unit, to_nck);
-        self.watch_key(unit, self.axes[number].approach.is_running(), to_nck);
+        self.watch_key(unit, self.axes[number].approach.is_running(), parameters, to_nck);
         if self.axes[number].approach.is_running() {
             self.reference_single(unit, parameters, to_nck);
         } else if self.is_jogging(unit) {
             self.jog(unit, parameters, to_nck);
         } else {
-            self.traverse_without_jog(unit);
+            let open = self.is_gantry_axis(number);
+            if open || !self.wait_for_approach(unit, parameters, to_nck) {
+                self.rest_without_jog(unit, parameters, &to_nck.axes[number]);
+            }
             if self.unit_can_move(unit, parameters)
-                && !self.is_gantry_axis(number)
+                && !open
                 && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
             {
                 self.axes[number].approach_key =
@@ -47,7 +61,7 @@ impl State {
         let key = self.axes[number].approach_key;
         if let Some((alarm, event)) = self.approach_interrupted(number, key, unit, parameters, to_nck) {
             self.axes[number].approach.abort();
-            self.traverse(number, 0, 0, event);
+            self.travel(number, Travel::None, event);
             if let Some(alarm) = alarm {
                 self.raise_axis_alarm(alarm, number, event);
             }
@@ -56,33 +70,90 @@ impl State {
         match self.run_approach(number, parameters, to_nck) {
             Outcome::Running => {}
             Outcome::Failed(alarm, event) => {
-                self.traverse(number, 0, 0, event);
+                self.travel(number, Travel::None, event);
                 self.raise_axis_alarm(alarm, number, event);
             }
             Outcome::Referenced(shift, event) => {
-                self.traverse(number, 0, 0, event);
+                self.travel(number, Travel::None, event);
                 self.set_reference(number, shift, event);
             }
         }
     }
 
     /// A key that jogs, or is pressed during an approach, must be released before it starts an approach.
-    pub(in crate::sinumerik) fn watch_key(&mut self, unit: &Unit, busy: bool, to_nck: &ToNck) {
+    pub(in crate::sinumerik) fn watch_key(&mut self, unit: &Unit, busy: bool, parameters: &Parameters, to_nck: &ToNck) {
         let number = unit.leader();
         let jogging = self.is_jogging(unit);
+        let opens = unit.grouping.is_some_and(|index| self.groupings[usize::from(index)].is_kept_open(parameters));
         for axis in unit.members() {
             self.axes[axis].jogging.watch_keys(&to_nck.axes[axis]);
-            // Keys and handwheels of a synchronous axis move nothing (MIS-01).
-            if !jogging || axis != number {
+            // Keys and handwheels of a synchronous axis move nothing (MIS-01), unless its grouping opens in this cycle.
+            if !jogging || axis != number && !opens {
                 self.axes[axis].jogging.end();
             }
         }
         let pressed = key_direction(&to_nck.axes[number]) != 0;
-        let used = self.axes[number].key_used || busy || jogging;
+        let unheard = !self.mode_group(unit).is_referencing() || self.stop(unit.channel, parameters).is_some();
+        let used = self.axes[number].key_used || busy || unheard;
         self.axes[number].key_used = pressed && used;
     }
 
+    /// Shows an approach that is requested and waits for an enable or for the end of feed disable (O-27). Returns whether it is shown.
+    pub(in crate::sinumerik) fn wait_for_approach(
+        &mut self,
+        unit: &Unit,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> bool {
+        let number = unit.leader();
+        let stopped = self.stop(unit.channel, parameters).is_some() || self.motion_forbidden(unit).is_some();
+        let waits = !unit.members().all(|axis| self.axes[axis].enabling.is_on()) || self.axes[number].feed_disabled;
+        let requested = if stopped || !waits { None } else { self.approach_requested(unit, parameters, to_nck) };
+        let Some((direction, by)) = requested else { return false };
+        // An approach that begins on the cam first leaves it.
+        let on_cam = parameters.axes[number].reference.cam_is_active
+            && to_nck.axes[number].deceleration_reference_point_approach();
+        let travel = Travel::waiting(if on_cam { -direction } else { direction });
+        if self.axes[number].travel != travel {
+            let holder = if self.axes[number].feed_disabled {
+                self.axes[number].feed_holder
+            } else {
+                self.missing_enable(unit, to_nck)
+            };
+            let (input, parent) = match by {
+                RequestedBy::Key => {
+                    (axis_signal(number, key_signal(direction), true), self.mode_group(unit).function_cause)
+                }
+                RequestedBy::Channel => (Input::None, self.channels[unit.channel].referencing.cause),
+            };
+            let inputs = [input, holder, Input::None];
+            let event = self.log.note(Place::Axis(number), Rule::ApproachWaits, inputs, parent);
+            self.travel(number, travel, event);
+        }
+        true
+    }
+
     /// The request for an approach of the unit's first axis, by its key in the correct direction or by the channel.
+    fn approach_requested(&self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) -> Option<(i8, RequestedBy)> {
+        let number = unit.leader();
+        let reference = &parameters.axes[number].reference;
+        let signals = &to_nck.axes[number];
+        let key = key_direction(signals);
+        let has_zero_mark =
+            self.axes[number].measuring_system.is_some_and(|active| reference.mode[usize::from(active)] == 1);
+        if !self.mode_group(unit).is_referencing() || !has_zero_mark || signals.axis_spindle_disable() {
+            return None;
+        }
+        let forward = if reference.cam_direction > 0.0 { 1 } else { -1 };
+        if self.channels[unit.channel].referencing.wants(number, reference.cycle_number) {
+            return Some((forward, RequestedBy::Channel));
+        }
+        // The other key: no start, no alarm. Without a cam both directions are correct.
+        let right = key != 0 && (key == forward || !reference.cam_is_active);
+        (right && !self.axes[number].key_used).then_some((key, RequestedBy::Key))
+    }
+
+    /// The start of a requested approach, which takes the request.
     pub(in crate::sinumerik) fn approach_wanted(
         &mut self,
         unit: &Unit,
@@ -90,36 +161,27 @@ impl State {
         to_nck: &ToNck,
     ) -> Option<(i8, EventId)> {
         let number = unit.leader();
-        let reference = &parameters.axes[number].reference;
-        let signals = &to_nck.axes[number];
-        let key = key_direction(signals);
-        let has_zero_mark =
-            self.axes[number].measuring_system.is_some_and(|active| reference.mode[usize::from(active)] == 1);
-        let disabled = signals.axis_spindle_disable() || self.axes[number].feed_disabled;
-        if !self.mode_group(unit).is_referencing() || !has_zero_mark || disabled {
+        if self.axes[number].feed_disabled {
             return None;
         }
-        let forward = if reference.cam_direction > 0.0 { 1 } else { -1 };
-        let referencing = &mut self.channels[unit.channel].referencing;
-        if referencing.wants(number, reference.cycle_number) {
+        let (direction, by) = self.approach_requested(unit, parameters, to_nck)?;
+        if by == RequestedBy::Channel {
+            let referencing = &mut self.channels[unit.channel].referencing;
             referencing.started |= 1 << number.index();
             let cause = referencing.cause;
-            return Some((forward, self.log.note_plain(Place::Axis(number), Rule::ApproachStartedByChannel, cause)));
-        }
-        // The other key: no start, no alarm. Without a cam both directions are correct.
-        let right = key != 0 && (key == forward || !reference.cam_is_active);
-        if !right || self.axes[number].key_used {
-            return None;
+            let event = self.log.note_plain(Place::Axis(number), Rule::ApproachStartedByChannel, cause);
+            return Some((direction, event));
         }
         self.axes[number].key_used = true;
+        let minus = parameters.axes[number].reference.cam_direction < 0.0;
         let inputs = [
-            axis_signal(number, key_signal(key), true),
-            Input::Datum(34010, Some(number), f64::from(u8::from(forward < 0))),
+            axis_signal(number, key_signal(direction), true),
+            Input::Datum(34010, Some(number), f64::from(u8::from(minus))),
             mode_group_signal(unit.mode_group, mode_group_from_nck::active_machine_function_ref, true),
         ];
         let parent = self.mode_group(unit).function_cause;
         let event = self.log.note(Place::Axis(number), Rule::KeyStartsApproach, inputs, parent);
-        Some((key, event))
+        Some((direction, event))
     }
 
     /// Begins an approach: the reference of its measuring system is lost.
@@ -148,13 +210,12 @@ impl State {
         axis.approach = approach;
         axis.motion = motion;
         let direction = motion.direction(axis.setpoint.position);
-        // A movement that feed stop or an override of 0 % holds is still requested.
-        let held = axis.feed_held || motion.is_held();
-        let request = if direction == 0 && held { axis.traverse_request } else { direction };
+        let wanted = approach.direction(axis, parameters.axes[number].reference.cam_is_active);
+        let travel = if direction == 0 && axis.is_held() { Travel::waiting(wanted) } else { Travel::moving(direction) };
         let cam = axis_to_nck::deceleration_reference_point_approach;
         let cam = axis_signal(number, cam, signals.deceleration_reference_point_approach());
         let (begun, begins) = (approach.cause(), (Rule::ApproachStarted, cam));
-        self.traverse_on(number, (request, direction), begun, begins, approach.target);
+        self.travel_on(number, travel, begun, begins, approach.target);
         outcome
     }
 
@@ -182,7 +243,7 @@ impl State {
             return Some((None, self.log.now(Place::Axis(number), stop.cause(), Rule::ApproachAborted, inputs)));
         }
         // A hardware limit switch in the direction of travel ends the approach with its own alarm.
-        let direction = unit.members().map(|axis| self.axes[axis].traverse_command).find(|&command| command != 0);
+        let direction = unit.members().map(|axis| self.axes[axis].travel.request()).find(|&request| request != 0);
         let direction = direction.unwrap_or(0);
         if let Some(pressed) = self.limited_by(unit, direction) {
             self.brake_at_limit(unit, parameters);
