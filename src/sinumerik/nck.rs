@@ -324,11 +324,13 @@ impl Nck {
         self.monitor();
         let (awake, decided) = (self.awake(), self.decided());
         let mut summary = self.state.summary;
+        let synchronising = self.state.synchronising();
         for number in awake.iter() {
             let axis = &self.state.axes[number];
-            summary.standing.set(number, axis.stands(&self.parameters.axes[number]));
-            // An approach that waits at standstill also counts as motion.
-            summary.in_motion.set(number, axis.is_in_motion() || axis.approach.is_running());
+            summary.standing.set(number, axis.is_stationary(&self.parameters.axes[number]));
+            // An approach and a synchronising motion that wait at standstill also count as motion (O-31).
+            let busy = axis.approach.is_running() || synchronising.contains(number);
+            summary.in_motion.set(number, axis.is_in_motion() || busy);
         }
         for number in awake.and(decided).iter() {
             let axis = &self.state.axes[number];

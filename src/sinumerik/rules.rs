@@ -168,6 +168,7 @@ rules! {
     ExactStopInMotion "exact stop" "the axis moves or is to move";
     ExactStopWithoutControl "exact stop" "no position control";
     Standstill "standstill" "";
+    SetpointsOutput "O-29" "new setpoints are output";
 }
 
 impl From<Rule> for RuleNumber {

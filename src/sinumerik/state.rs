@@ -161,6 +161,12 @@ impl State {
         }
     }
 
+    /// The axes of groupings in the synchronising motion of section 3.
+    pub(super) fn synchronising(&self) -> AxisSet {
+        let groupings = self.groupings.iter().filter(|grouping| grouping.phase == Phase::Synchronising);
+        groupings.flat_map(|grouping| grouping.coupling.members()).collect()
+    }
+
     /// JOG without a machine function.
     pub(super) fn is_jogging(&self, unit: &Unit) -> bool {
         self.mode_group(unit).is_jogging()

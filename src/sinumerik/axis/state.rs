@@ -231,6 +231,18 @@ impl Axis {
         self.setpoint.is_at_rest() && self.velocity.abs() < parameters.standstill_velocity
     }
 
+    /// Whether the axis is stationary (O-29): no new setpoints are output to its drive, and its velocity is below MD36060.
+    #[must_use]
+    pub(in crate::sinumerik) fn is_stationary(&self, parameters: &AxisParameters) -> bool {
+        !self.outputs_setpoints() && self.velocity.abs() < parameters.standstill_velocity
+    }
+
+    /// Whether new setpoints are output to the drive. In follow-up, with axis disable and during the fast stop they are not.
+    #[must_use]
+    pub(in crate::sinumerik) fn outputs_setpoints(&self) -> bool {
+        self.enabling.moves() && !self.signals.withholds_setpoint() && self.is_moving()
+    }
+
     /// Whether the axis moves or is to move.
     #[must_use]
     pub(in crate::sinumerik) fn is_in_motion(&self) -> bool {

@@ -7,10 +7,11 @@
 //! 57.0 = 1. An increment is MD11330 (INCvar: SD41010) times MD31090; a negative MD31090 inverts it.
 //!
 //! Choices where the manuals leave one: no request means continuous, and of several requests the smallest increment applies. A
-//! selection acts on the next press of a key; a running movement continues unchanged. An increment counts from the setpoint and
-//! begins at standstill, so a key that is pressed while the axis brakes waits for standstill. Only a press starts an increment: a
-//! key that was held before JOG, that remains pressed of two keys, or that becomes active again with 4.4 = 0 starts none. An
-//! event that ends an increment early (the key, MD11300; 4.4; 2.2; RESET; a stop; a limit) drops the rest of it.
+//! selection ends the running movement of a key (O-26) and acts on the next press; a handwheel goes on. An increment counts
+//! from the setpoint and begins at standstill, so a key that is pressed while the axis brakes waits for standstill. Only a
+//! press starts an increment: a key that was held before JOG, that remains pressed of two keys, or that becomes active again
+//! with 4.4 = 0 starts none. An event that ends an increment early (the key, MD11300; 4.4; 2.2; RESET; a stop; a limit) drops
+//! the rest of it.
 
 use crate::image::{ToNck, nck_to_nck};
 use crate::sinumerik::inputs::{axis_signal, mode_group_signal, nck_signal};

@@ -36,13 +36,8 @@ impl State {
                     causes.enabling,
                 );
             }
-            if axis.is_in_motion() && self.log.is_of_this_cycle(causes.motion) {
-                return Why::Event(causes.motion);
-            }
             if axis.is_in_motion() {
-                let mover = self.mover(number);
-                let inputs = [self.axes[mover].travel.shown(mover, all), Input::None, Input::None];
-                return Why::Tested(Rule::ExactStopInMotion, inputs, self.axes[mover].causes.motion);
+                return self.why_in_motion(number, Rule::ExactStopInMotion, all);
             }
             let measured = Input::Length(Quantity::Deviation, number, axis.deviation());
             let limit = Input::Datum(datum, Some(number), window.user());
@@ -51,7 +46,10 @@ impl State {
         let (coarse, fine) = (set.exact_stop_coarse, set.exact_stop_fine);
         rows.bit(axis_from_nck::position_reached_exact_stop_coarse, within(coarse), || exact_stop(36000, coarse));
         rows.bit(axis_from_nck::position_reached_exact_stop_fine, within(fine), || exact_stop(36010, fine));
-        rows.bit(axis_from_nck::axis_stationary, axis.velocity.abs() < parameters.standstill_velocity, || {
+        rows.bit(axis_from_nck::axis_stationary, axis.is_stationary(parameters), || {
+            if axis.outputs_setpoints() {
+                return self.why_in_motion(number, Rule::SetpointsOutput, all);
+            }
             #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
             let velocity = Position::new(axis.velocity as i64);
             let measured = Input::Length(Quantity::Velocity, number, velocity);
@@ -135,6 +133,17 @@ impl State {
         let active = axis.measuring_system;
         rows.bit(axis_from_nck::position_measuring_system_1_activated, active == Some(0), measuring_system);
         rows.bit(axis_from_nck::position_measuring_system_2_activated, active == Some(1), measuring_system);
+    }
+
+    /// The cause of a value that an axis has because it moves or is to move.
+    fn why_in_motion(&self, number: AxisNumber, rule: Rule, all: &Parameters) -> Why {
+        let motion = self.axes[number].causes.motion;
+        if self.log.is_of_this_cycle(motion) {
+            return Why::Event(motion);
+        }
+        let mover = self.mover(number);
+        let inputs = [self.axes[mover].travel.shown(mover, all), Input::None, Input::None];
+        Why::Tested(rule, inputs, self.axes[mover].causes.motion)
     }
 
     /// The axis that causes the movement of an axis: the one that leads its grouping now, or the axis itself.

@@ -14,7 +14,8 @@ use crate::units::{AxisNumber, ChannelNumber};
 use crate::variables::{EventId, Input};
 
 impl State {
-    /// "At least one axis is being traversed in JOG", or is being referenced.
+    /// "At least one axis is being traversed in JOG", or is being referenced; also while feed stop, an override of 0 % or a missing enable
+    /// holds the movement, and in the complete section 3 of a grouping while 10655 is pending (O-31).
     pub(super) fn is_channel_active(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
         !self.summary.in_motion.and(parameters.channels[channel].axes).is_empty()
     }
@@ -70,9 +71,21 @@ impl State {
         };
         let Some(number) = of_channels.filter(counts).max_by_key(order) else { return Why::Event(EventId::NONE) };
         let axis = &self.axes[number];
-        let parent = if active && axis.approach.is_running() { axis.approach.cause() } else { axis.causes.motion };
+        let section_3 = if active && self.synchronising().contains(number) {
+            self.groupings.iter().find(|grouping| grouping.coupling.members().any(|member| member == number))
+        } else {
+            None
+        };
+        let parent = match section_3 {
+            Some(grouping) => grouping.cause,
+            None if active && axis.approach.is_running() => axis.approach.cause(),
+            None => axis.causes.motion,
+        };
         if self.log.is_of_this_cycle(axis.causes.motion) {
             return Why::Event(axis.causes.motion);
+        }
+        if section_3.is_some() && self.log.is_of_this_cycle(parent) {
+            return Why::Event(parent);
         }
         // An axis without signals shows nothing.
         let audible = |input| if parameters.axes[number].silent { Input::None } else { input };
