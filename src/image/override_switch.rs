@@ -1,6 +1,6 @@
 //! The override switches: the code of a percentage on the interface.
 
-use super::{Interface, Location, Override};
+use super::{Block, Interface, Location, Memory, Names, Override};
 
 /// The percentages of the switch positions, from position 1: the defaults of MD12010. Positions after the last one also mean 120 %.
 const POSITIONS: [u8; 23] = [0, 1, 2, 4, 6, 8, 10, 20, 30, 40, 50, 60, 70, 75, 80, 85, 90, 95, 100, 105, 110, 115, 120];
@@ -42,11 +42,20 @@ impl OverrideCoding {
     pub(super) fn at(self, location: Location) -> Option<bool> {
         let (_, signal) = self.interface.exactly(location)?;
         let (_, which) = self.interface.tables().overrides.iter().find(|(other, _)| other == signal)?;
-        Some(match which {
+        Some(self.is_gray(*which))
+    }
+
+    const fn is_gray(self, which: Override) -> bool {
+        match which {
             Override::Axis => self.axis_is_gray,
             Override::Feed => self.feed_is_gray,
             Override::RapidTraverse => self.rapid_traverse_is_gray,
-        })
+        }
+    }
+
+    /// The code of 100 %.
+    fn full(self, which: Override) -> u8 {
+        override_code(100, self.is_gray(which)).unwrap_or(0)
     }
 
     /// The percentage of a code at a location; `None` if the location is not an override, or if no position has the code.
@@ -59,5 +68,49 @@ impl OverrideCoding {
     /// The percentages that have a code.
     pub(super) fn known(gray: bool) -> String {
         if gray { POSITIONS.map(|percent| percent.to_string()).join(", ") } else { "0 to 200".to_owned() }
+    }
+}
+
+/// The overrides of the axes and channels of a machine.
+fn overrides(names: &Names) -> impl Iterator<Item = (Override, Location)> {
+    let interface = names.interface();
+    interface.tables().overrides.iter().flat_map(move |(signal, which)| {
+        let numbers: Vec<u8> = match signal.block {
+            Block::Axis => {
+                names.axes.iter().filter(|(_, name)| name.is_some()).map(|(axis, _)| axis.number()).collect()
+            }
+            Block::Channel => {
+                names.channels.iter().filter(|(_, name)| name.is_some()).map(|(channel, _)| channel.number()).collect()
+            }
+            Block::Nck | Block::ModeGroup => vec![1],
+        };
+        numbers.into_iter().filter_map(move |number| Some((*which, interface.location(signal, number)?)))
+    })
+}
+
+impl Memory {
+    /// The memory after power on: zero, and the code of 100 % in each override of the axes and channels (O-21).
+    #[must_use]
+    pub fn after_power_on(names: &Names, coding: OverrideCoding) -> Self {
+        let mut memory = Self::of(names.interface());
+        for (which, location) in overrides(names) {
+            memory.put_override(location, coding.full(which));
+        }
+        memory
+    }
+
+    /// Changes each override of 100 % from one coding to another.
+    pub fn recode_overrides(&mut self, names: &Names, before: OverrideCoding, now: OverrideCoding) {
+        for (which, location) in overrides(names) {
+            if self.part(location.part).get(location.offset as usize) == Some(&before.full(which)) {
+                self.put_override(location, now.full(which));
+            }
+        }
+    }
+
+    fn put_override(&mut self, location: Location, code: u8) {
+        if let Some(byte) = self.part_mut(location.part).get_mut(location.offset as usize) {
+            *byte = code;
+        }
     }
 }

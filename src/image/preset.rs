@@ -131,7 +131,7 @@ impl Memory {
     /// A block has the number of an interface block, values overlap or do not fit, a name or address does not exist, or a value belongs to
     /// the NCK. The problem names the place in the file.
     pub fn from_preset(preset: &Preset, names: &Names, coding: OverrideCoding) -> Result<Self, Problem> {
-        let mut memory = Self::of(names.interface());
+        let mut memory = Self::after_power_on(names, coding);
         let Self { flags, inputs, outputs, timers, counters, .. } = &mut memory;
         for (area, size) in [flags, inputs, outputs, timers, counters].into_iter().zip(preset.areas) {
             if let Some(size) = size {

@@ -13,8 +13,8 @@ pub(super) struct Before {
     pub(super) written: Written,
     /// The PLC's half differs from that at the end of the last cycle.
     pub(super) plc_wrote: bool,
-    /// Power was switched off and on in this step.
-    pub(super) power_on: bool,
+    /// The memory after power on, if power was switched off and on in this step.
+    pub(super) power_on: Option<Box<Memory>>,
     /// The switches that became stuck or free in this step, and the events of these faults.
     pub(super) stuck: Vec<(AxisNumber, Switch, EventId)>,
 }
@@ -24,11 +24,11 @@ impl Before {
     pub(super) fn new(memory: &Memory) -> Self {
         let own = memory.blocks.iter().map(|block| Part::Block(block.number));
         let parts = FIXED.into_iter().chain(own).map(|part| (part, memory.part(part).to_vec())).collect();
-        Self { parts, written: Written::new(), plc_wrote: true, power_on: false, stuck: Vec::new() }
+        Self { parts, written: Written::new(), plc_wrote: true, power_on: None, stuck: Vec::new() }
     }
 
     /// Empty, for a machine that does not run.
     pub(super) const fn without_capacity() -> Self {
-        Self { parts: Vec::new(), written: Written::new(), plc_wrote: true, power_on: false, stuck: Vec::new() }
+        Self { parts: Vec::new(), written: Written::new(), plc_wrote: true, power_on: None, stuck: Vec::new() }
     }
 }

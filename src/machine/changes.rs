@@ -3,7 +3,7 @@
 use super::written::{FIXED, Force};
 use super::{Machine, Switch};
 use crate::control::{Activated, Changes};
-use crate::image::{Interface, Location, Part};
+use crate::image::{Interface, Location, Memory, Part};
 use crate::plant::Input;
 use crate::trace::{By, Change, Row};
 use crate::units::{AxisNumber, AxisSet};
@@ -141,10 +141,11 @@ impl Machine {
         if written == Some(value) {
             return By::Outside;
         }
-        let preset =
-            self.definition.memory.part(part).get(offset as usize).is_some_and(|byte| (byte >> bit & 1 == 1) == value);
+        let preset = |memory: &Memory| {
+            memory.part(part).get(offset as usize).is_some_and(|byte| (byte >> bit & 1 == 1) == value)
+        };
         match part {
-            _ if self.before.power_on && preset => By::PowerOn,
+            _ if self.before.power_on.as_deref().is_some_and(preset) => By::PowerOn,
             Part::Hmi => By::Nck,
             Part::Inputs => By::Plant,
             _ => By::Plc,

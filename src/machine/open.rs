@@ -72,7 +72,7 @@ impl Machine {
         check_cycle_times(control.cycle_times(), control.texts().cycle_data())?;
         let memory = match &options.preset {
             Some(preset) => Memory::from_preset(preset, &names, control.override_coding())?,
-            None => Memory::of(names.interface()),
+            None => Memory::after_power_on(&names, control.override_coding()),
         };
         check_plc_cycle(plant.plc_cycle, &*control, &plant_place)?;
         let hints = PerAxis::from_fn(|axis| Hints {

@@ -80,7 +80,7 @@ impl Machine {
     /// Executes the queued commands.
     pub(super) fn take_commands(&mut self) {
         self.before.written.clear();
-        self.before.power_on = false;
+        self.before.power_on = None;
         self.before.stuck.clear();
         if self.state.queue.is_empty() {
             return;
@@ -230,11 +230,15 @@ impl Machine {
     fn power_on(&mut self) -> EventId {
         let event = self.control.power_on();
         self.state.plant.power_on(&self.definition.layout);
-        self.state.memory = self.definition.memory.clone();
+        let mut memory = self.definition.memory.clone();
+        // O-21: the overrides hold 100 % in the coding that is active now.
+        let (before, now) = (self.definition.control.override_coding(), self.control.override_coding());
+        memory.recode_overrides(&self.definition.names, before, now);
+        self.before.power_on = Some(Box::new(memory.clone()));
+        self.state.memory = memory;
         self.state.variables = crate::variables::Variables::default();
         self.state.forces.clear();
         self.before.written.clear();
-        self.before.power_on = true;
         self.restart_program();
         self.sense(AxisSet::ALL);
         event

@@ -303,6 +303,25 @@ fn an_override_counts_as_100_per_cent_unless_it_is_active() {
     assert_eq!((machine.axis_override(x), machine.channel_overrides(first)), (20.0, [120.0, 20.0]));
 }
 
+/// O-21: at power on every override byte holds 100 %, in the coding that is active then. The zero setting acts while the override is
+/// not active, too.
+#[test]
+fn overrides_hold_100_per_cent_at_power_on_and_their_zero_setting_always_acts() {
+    let mut machine = example();
+    let (x, first) = (machine.axis("X").unwrap(), ChannelNumber::FIRST);
+    let bytes = |machine: &Machine| ["DB31.DBB0", "DB33.DBB0", "DB21.DBB4", "DB21.DBB5"].map(|byte| get(machine, byte));
+    assert_eq!(bytes(&machine), [26; 4], "position 19, Gray code 19 ^ 9");
+    for byte in ["DB31.DBB0", "DB21.DBB4", "DB21.DBB5"] {
+        set(&mut machine, byte, 0);
+    }
+    run(&mut machine, 1);
+    assert_eq!((machine.axis_override(x), machine.channel_overrides(first)), (0.0, [0.0, 0.0]));
+    store(&mut machine, "12020", DatumValue::Boolean(false));
+    machine.queue(Command::PowerOn).unwrap();
+    run(&mut machine, 1);
+    assert_eq!(bytes(&machine), [26, 26, 100, 26], "MD12020 = 0: the feed override of the channel is binary now");
+}
+
 #[test]
 fn db11_dbx5_2_mirrors_ref_until_another_writer_writes_the_byte() {
     let mut machine = ready();

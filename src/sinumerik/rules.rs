@@ -56,6 +56,7 @@ rules! {
     StoppedByEmergencyStop "E-06" "emergency stop: no movement";
     HeldByFeedStop "SIG-06" "feed stop holds the movement";
     HeldByOverride "O-03" "an override of 0 % holds the movement";
+    HeldByZeroSetting "O-21" "the zero setting of the override switch holds the movement, also while the override is not active";
     FeedReleased "SIG-06" "feed stop no longer holds the movement";
     OverrideReleased "O-03" "the override no longer holds the movement";
     TargetReached "REF-31" "the setpoint has reached the target";

@@ -93,6 +93,8 @@ pub(in crate::sinumerik) struct Axis {
     pub travel: Travel,
     /// Factor of the axial override.
     pub feed_factor: f64,
+    /// 1.7.
+    pub override_is_active: bool,
     /// Feed stop on an axis of its unit, or feed disable of its channel.
     pub feed_held: bool,
     /// Feed disable of its channel.
@@ -137,6 +139,7 @@ impl Default for Axis {
             approach_key: 0,
             travel: Travel::None,
             feed_factor: 1.0,
+            override_is_active: false,
             feed_held: false,
             feed_disabled: false,
             feed_holder: Input::None,
@@ -155,8 +158,9 @@ impl Axis {
         (self.motion, self.enabling, self.travel) == (other.motion, other.enabling, other.travel)
             && (self.parameter_set, self.drive_data_set, self.measuring_system, self.drive_ready)
                 == (other.parameter_set, other.drive_data_set, other.measuring_system, other.drive_ready)
-            && (self.feed_factor, self.feed_held, self.feed_disabled, self.feed_holder)
-                == (other.feed_factor, other.feed_held, other.feed_disabled, other.feed_holder)
+            && (self.feed_factor, self.override_is_active) == (other.feed_factor, other.override_is_active)
+            && (self.feed_held, self.feed_disabled, self.feed_holder)
+                == (other.feed_held, other.feed_disabled, other.feed_holder)
             && (self.key_used, self.approach_key, self.limits) == (other.key_used, other.approach_key, other.limits)
             && (self.offset, self.referenced) == (other.offset, other.referenced)
             && self.jogging == other.jogging

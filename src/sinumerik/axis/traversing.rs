@@ -135,17 +135,20 @@ impl Axis {
 
     /// The rule and the signal that hold it.
     pub(in crate::sinumerik) fn holder(&self, number: AxisNumber) -> (Rule, Input) {
-        if self.feed_held {
-            (Rule::HeldByFeedStop, self.feed_holder)
-        } else {
-            (Rule::HeldByOverride, axis_signal(number, axis_to_nck::override_active, true))
-        }
+        if self.feed_held { (Rule::HeldByFeedStop, self.feed_holder) } else { self.zero_override(number) }
+    }
+
+    /// The rule by which the effective override is 0 %, and 1.7. The zero setting acts with either value of it (O-21).
+    pub(in crate::sinumerik) fn zero_override(&self, number: AxisNumber) -> (Rule, Input) {
+        let active = self.override_is_active;
+        let rule = if active { Rule::HeldByOverride } else { Rule::HeldByZeroSetting };
+        (rule, axis_signal(number, axis_to_nck::override_active, active))
     }
 
     /// The rule and the signal that no longer hold it.
-    fn released(&self, _: AxisNumber) -> (Rule, Input) {
+    fn released(&self, number: AxisNumber) -> (Rule, Input) {
         if self.feed_holder == Input::None {
-            (Rule::OverrideReleased, Input::None)
+            (Rule::OverrideReleased, axis_signal(number, axis_to_nck::override_active, self.override_is_active))
         } else {
             (Rule::FeedReleased, self.feed_holder)
         }

@@ -53,10 +53,8 @@ impl State {
         let holder = if disabled { channel_signal(unit.channel, channel_to_nck::feed_disable, true) } else { holder };
         for axis in unit.members() {
             let signals = &to_nck.axes[axis];
-            // O-21: the axial override acts while 1.7 = 1; otherwise it is 100 %.
-            let factor =
-                if signals.override_active() { parameters.axis_override(signals.feed_override()) } else { 1.0 };
-            self.axes[axis].feed_factor = factor;
+            self.axes[axis].override_is_active = signals.override_active();
+            self.axes[axis].feed_factor = parameters.axis_override(signals.feed_override(), signals.override_active());
             let before = self.axes[axis].feed_holder;
             let released = match before {
                 Input::Bit(signal, true) if !stopped && !disabled => Input::Bit(signal, false),
@@ -75,7 +73,7 @@ impl State {
         let (signals, axis_parameters) = (&to_nck.axes[number], &parameters.axes[number]);
         let key = key_direction(signals);
         let stop = self.stop(unit.channel, parameters);
-        self.interrupt_keys(unit, stop.is_some(), to_nck);
+        let enabled = self.interrupt_keys(unit, stop.is_some(), to_nck);
         let jogging = &mut self.axes[number].jogging;
         let way = jogging.function.way(axis_parameters);
         jogging.take_keys(key, signals.traversing_key_disable(), way, parameters.key_modes);
@@ -108,7 +106,7 @@ impl State {
         let movement = axis.jogging.movement;
         if movement == Movement::None {
             let rule = if ended { Rule::EndReached } else { Rule::KeyReleased };
-            self.show_jogging(number, Travel::None, rule, signals);
+            self.show_jogging(number, Travel::None, rule, enabled, signals);
             return;
         }
         let direction = movement.direction(axis.setpoint.position);
@@ -131,18 +129,20 @@ impl State {
             Movement::Pending(_, By::Key(_)) | Movement::Path(_, By::Key(_)) => Rule::IncrementStarted,
             Movement::Pending(_, By::Handwheel) | Movement::Path(_, By::Handwheel) => Rule::HandwheelTurned,
         };
-        self.show_jogging(number, travel, rule, signals);
+        self.show_jogging(number, travel, rule, enabled, signals);
     }
 
-    /// O-26: a lost enable and another machine function or increment end the movement of a key.
-    fn interrupt_keys(&mut self, unit: &Unit, stopped: bool, to_nck: &ToNck) {
+    /// O-26: a lost enable and another machine function or increment end the movement of a key. Returns whether the enables have come
+    /// in this cycle.
+    fn interrupt_keys(&mut self, unit: &Unit, stopped: bool, to_nck: &ToNck) -> bool {
         let number = unit.leader();
         let axis = &mut self.axes[number];
         let on = axis.enabling.is_on();
-        let lost = std::mem::replace(&mut axis.jogging.was_on, on) && !on;
+        let was_on = std::mem::replace(&mut axis.jogging.was_on, on);
+        let (enabled, lost) = (on && !was_on, was_on && !on);
         let axis = &self.axes[number];
         if !axis.jogging.movement.is_by_key() {
-            return;
+            return enabled;
         }
         let cause = if self.log.is_of_this_cycle(axis.jogging.function_cause) {
             axis.jogging.function_cause
@@ -150,10 +150,11 @@ impl State {
             let (missing, parent) = (self.missing_enable(unit, to_nck), axis.causes.enabling);
             self.log.note_one(Place::Axis(number), Rule::EnableLost, missing, parent)
         } else {
-            return;
+            return enabled;
         };
         self.axes[number].jogging.movement = Movement::None;
         self.travel(number, Travel::None, cause);
+        enabled
     }
 
     /// Ends the movement by this rule.
@@ -195,23 +196,28 @@ impl State {
         self.travel(number, travel, cause);
     }
 
-    fn show_jogging(&mut self, number: AxisNumber, travel: Travel, rule: Rule, signals: &AxisToNck) {
+    /// Shows the travel of keys or handwheels; `rule` is that of the movement, `enabled` whether the enables have come in this cycle.
+    fn show_jogging(&mut self, number: AxisNumber, travel: Travel, rule: Rule, enabled: bool, signals: &AxisToNck) {
         let axis = &self.axes[number];
         let before = axis.travel;
         if before == travel {
             return;
         }
-        let begins = before.request() == 0;
-        let holds = before.request() == travel.request() && travel.is_waiting();
-        let rule = if holds { Rule::MotionBlocked } else { rule };
+        let goes_on = before.request() == travel.request();
+        let (rule, input) = if goes_on && travel.is_waiting() {
+            axis.jog_holder(number)
+        } else if goes_on && before.is_waiting() {
+            axis.jog_released(number, rule, enabled)
+        } else {
+            (rule, Input::None)
+        };
         let event = if axis.jogging.movement.is_by_handwheel() {
-            self.log.note_plain(Place::Axis(number), rule, axis.jogging.handwheel_cause)
+            self.log.note_one(Place::Axis(number), rule, input, axis.jogging.handwheel_cause)
         } else {
             // The event that starts a movement does not depend on the previous movement.
-            let parent = if begins { EventId::NONE } else { axis.causes.motion };
+            let parent = if before.request() == 0 { EventId::NONE } else { axis.causes.motion };
             let [plus, minus, _] = keys(number, signals);
-            let inputs = [plus, minus, if begins { Input::None } else { axis.hold_input(number, before) }];
-            self.log.note(Place::Axis(number), rule, inputs, parent)
+            self.log.note(Place::Axis(number), rule, [plus, minus, input], parent)
         };
         self.travel(number, travel, event);
     }
@@ -236,15 +242,25 @@ impl Axis {
         ended
     }
 
-    /// The signal that holds its movement or no longer holds it.
-    fn hold_input(&self, number: AxisNumber, before: Travel) -> Input {
-        let on = self.enabling.is_on();
-        if self.is_held() {
-            self.holder(number).1
-        } else if !on || before.is_waiting() && self.feed_holder == Input::None {
-            axis_signal(number, axis_from_nck::position_controller_active, on)
+    /// The rule and the signal that hold its movement.
+    fn jog_holder(&self, number: AxisNumber) -> (Rule, Input) {
+        if !self.is_held() {
+            let control = axis_signal(number, axis_from_nck::position_controller_active, false);
+            return (Rule::MotionBlocked, if self.enabling.is_on() { Input::None } else { control });
+        }
+        let (rule, input) = self.holder(number);
+        let zero_setting = !self.feed_held && !self.override_is_active;
+        (if zero_setting { rule } else { Rule::MotionBlocked }, input)
+    }
+
+    /// The rule and the signal that no longer hold its movement; `rule` is that of the movement.
+    fn jog_released(&self, number: AxisNumber, rule: Rule, enabled: bool) -> (Rule, Input) {
+        if enabled {
+            (rule, axis_signal(number, axis_from_nck::position_controller_active, true))
+        } else if self.feed_holder == Input::None {
+            (Rule::OverrideReleased, axis_signal(number, axis_to_nck::override_active, self.override_is_active))
         } else {
-            self.feed_holder
+            (rule, self.feed_holder)
         }
     }
 

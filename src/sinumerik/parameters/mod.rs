@@ -17,7 +17,7 @@ use crate::sinumerik::machine_data::MachineData;
 use crate::sinumerik::parameters::axis::{AxisParameters, AxisPresence, axis};
 use crate::sinumerik::parameters::channels::{ChannelParameters, channels};
 use crate::sinumerik::parameters::groupings::{Definitions, define};
-use crate::sinumerik::parameters::overrides::factor;
+use crate::sinumerik::parameters::overrides::{effective, factor, is_zero_setting};
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Time};
 use crate::variables::Place;
 
@@ -107,10 +107,13 @@ impl Parameters {
         self.axes.iter().filter(|(_, axis)| axis.exists)
     }
 
-    /// The factor of an axial override byte (O-21); Gray code 0 counts as position 1.
+    /// The factor of an axial override byte (O-21); Gray code 0 counts as position 1. While the override is not active it is 1, except
+    /// at the zero setting.
     #[must_use]
-    pub fn axis_override(&self, code: u8) -> f64 {
-        factor(code, self.axis_override_is_gray, &self.axis_override_factors, self.binary_override_limit)
+    pub fn axis_override(&self, code: u8, is_active: bool) -> f64 {
+        let gray = self.axis_override_is_gray;
+        let factor = factor(code, gray, &self.axis_override_factors, self.binary_override_limit);
+        effective(factor, is_active, is_zero_setting(code, gray))
     }
 }
 

@@ -200,7 +200,7 @@ impl Approach {
         let input = if view.axis.feed_disabled {
             channel_signal(view.parameters.channel, channel_to_nck::feed_disable, true)
         } else if creeping && view.axis.feed_factor <= 0.0 {
-            axis_signal(view.number, axis_to_nck::override_active, true)
+            view.axis.zero_override(view.number).1
         } else {
             return None;
         };
