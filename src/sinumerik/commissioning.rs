@@ -59,6 +59,7 @@ impl Commissioning {
                 exists: if any { named(axis) } else { in_channel(axis) },
                 // E-26: an axis outputs its signals unless the archive explicitly disables them.
                 silent: simulated && says_so,
+                geometry_by_default: !archive.is_given_for(20050, Owner::Channel(data.home_channel(axis))),
                 mechanics: Mechanics::new(&data.axes[axis]),
             }
         })

@@ -60,7 +60,7 @@ fn an_image_declares_areas_blocks_and_starting_values() {
 
 #[test]
 fn an_empty_image_is_the_memory_without_an_image() {
-    assert_eq!(memory("").unwrap(), Memory::new());
+    assert_eq!(memory("").unwrap(), Memory::after_power_on(&names(), OverrideCoding::default()));
 }
 
 #[test]

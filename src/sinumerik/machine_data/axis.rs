@@ -27,6 +27,8 @@ Axis {
     30350 SIMU_AX_VDI_OUTPUT simu_ax_vdi_output: bool = false; "", Range::ANY, PowerOn;
     /// concurrent positioning axis; ignored with alarm 4300 on a synchronous axis
     30450 IS_CONCURRENT_POS_AX is_concurrent_pos_ax: bool = false; "", Range::ANY, Reset;
+    /// indexing axis with a Hirth gear; not in a gantry grouping (10651, 14000), otherwise not modelled
+    30505 HIRTH_IS_ACTIVE hirth_is_active: bool = false; "", Range::ANY, PowerOn;
     /// channel that owns the axis initially; must match within a grouping (10651, 30XX)
     30550 AXCONF_ASSIGN_MASTER_CHAN axconf_assign_master_chan: u8 = 0; "", Range::between(0.0, 10.0), PowerOn;
     /// the encoder is a linear scale

@@ -113,6 +113,24 @@ impl MachineData {
         self.mode_group(channel).is_some() && self.channels[channel].axconf_machax_used.contains(&axis.number())
     }
 
+    /// MD20050: whether the channel of the axis declares it as a geometry axis.
+    #[must_use]
+    pub fn is_geometry_axis(&self, axis: AxisNumber) -> bool {
+        let channel = &self.channels[self.home_channel(axis)];
+        let machine_axis = |number: &u8| {
+            let index = usize::from(*number).checked_sub(1)?;
+            channel.axconf_machax_used.get(index).copied()
+        };
+        channel.axconf_geoax_assign_tab.iter().filter_map(machine_axis).any(|number| number == axis.number())
+    }
+
+    /// Whether the geometry axes of the channel of an axis are those of the default of MD20050.
+    #[must_use]
+    pub fn has_default_geometry(&self, axis: AxisNumber) -> bool {
+        let table = &self.channels[self.home_channel(axis)].axconf_geoax_assign_tab;
+        *table == Channel::default().axconf_geoax_assign_tab
+    }
+
     /// The channel of an axis after power on: MD30550 if that channel has the axis, else the lowest channel that has it.
     #[must_use]
     pub fn home_channel(&self, axis: AxisNumber) -> ChannelNumber {

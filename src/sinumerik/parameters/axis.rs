@@ -13,6 +13,8 @@ pub struct AxisPresence {
     pub exists: bool,
     /// The archive explicitly gives MD30350 = 0 and the axis is simulated: no signals in its data block (E-26).
     pub silent: bool,
+    /// The archive does not give MD20050 for its channel: the default of that datum declares no geometry axis.
+    pub geometry_by_default: bool,
     /// Its simulated mechanics: those of its machine data when the machine was opened.
     pub mechanics: Mechanics,
 }
@@ -63,6 +65,10 @@ pub struct Gantry {
     pub broken_up: bool,
     /// MD30450.
     pub concurrent: bool,
+    /// MD20050: it is declared as a geometry axis.
+    pub geometry_axis: bool,
+    /// MD30505.
+    pub hirth: bool,
     /// MD37150 bit 1: the synchronous axis is referenced in the leading axis' direction.
     pub direction_of_leading_axis: bool,
     /// MD37150 bit 2: no message 10655.
@@ -137,6 +143,9 @@ pub(super) fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresenc
     let maximum_velocity = velocity(md.max_ax_velo);
     let maximum_acceleration = acceleration(md.max_ax_accel[0]).max(1.0);
     let jog_acceleration = if md.jog_max_accel > 0.0 { acceleration(md.jog_max_accel) } else { maximum_acceleration };
+    // G1 2.7.1 defines a grouping with machine axis 3 and does not mention MD20050, whose default declares it as a geometry axis.
+    let only_by_default = presence.geometry_by_default && data.has_default_geometry(number);
+    let is_declared_geometry_axis = data.is_geometry_axis(number) && !only_by_default;
     let jerk = jerk(md, acceleration(1.0), [maximum_acceleration, jog_acceleration], cycle);
     AxisParameters {
         exists: presence.exists,
@@ -164,7 +173,7 @@ pub(super) fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresenc
         emergency_deceleration: (maximum_velocity / md.ax_emergency_stop_time.max(cycle.seconds())).max(1.0),
         servo_disable_cycles: cycles(md.servo_disable_delay_time),
         reference: reference(md, maximum_velocity, &velocity),
-        gantry: gantry(md),
+        gantry: gantry(md, is_declared_geometry_axis),
         monitoring: monitoring(md, cycle),
     }
 }
@@ -198,13 +207,15 @@ fn increments(data: &MachineData, md: &Axis) -> [Position; 6] {
         .map(|size| Position::from_user((size * md.jog_incr_weight[0]).clamp(-1e9, 1e9)))
 }
 
-fn gantry(md: &Axis) -> Gantry {
+fn gantry(md: &Axis, geometry_axis: bool) -> Gantry {
     Gantry {
         warning_limit: Position::from_user(md.gantry_pos_tol_warning),
         trip_limit: Position::from_user(md.gantry_pos_tol_error),
         trip_limit_not_synchronised: Position::from_user(md.gantry_pos_tol_ref),
         broken_up: md.gantry_break_up,
         concurrent: md.is_concurrent_pos_ax,
+        geometry_axis,
+        hirth: md.hirth_is_active,
         direction_of_leading_axis: md.gantry_function_mask & 2 != 0,
         suppress_message: md.gantry_function_mask & 4 != 0,
     }

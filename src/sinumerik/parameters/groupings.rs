@@ -1,6 +1,11 @@
 //! The definition of gantry groupings by MD37100, and its possible faults (G1 2.2, 2.4).
 //!
 //! Read at power on only (DEF-09). A grouping with a fault is not formed; its alarm stays until power off.
+//!
+//! 10651 gives the reason: 10XX to 60XX, 10000 (a synchronous axis is a geometry axis), 13000 (spindle), 14000 (Hirth gear). 11000 is
+//! 4300 here (E-21), and 12000 concerns compile cycles, which do not exist here. Choice: MD20050 counts when the archive or an operator
+//! gives it. Its default declares machine axes 1 to 3 as geometry axes, and the worked example, which does not mention it, has machine
+//! axis 3 as its synchronous axis.
 
 use arrayvec::ArrayVec;
 
@@ -100,7 +105,7 @@ pub(in crate::sinumerik) fn define(data: &MachineData, axes: &PerAxis<AxisParame
         }
         let elsewhere = axes.iter().any(|(axis, parameters)| !parameters.exists && kind(axis) == number + 10);
         let before = found.faults.len();
-        check(&mut found.faults, number, &leaders, &followers, elsewhere, data);
+        check(&mut found.faults, number, &leaders, &followers, elsewhere, data, axes);
         if found.faults.len() > before {
             continue;
         }
@@ -124,6 +129,7 @@ fn check(
     followers: &[AxisNumber],
     followers_elsewhere: bool,
     data: &MachineData,
+    axes: &PerAxis<AxisParameters>,
 ) {
     let home = |axis: &AxisNumber| data.home_channel(*axis);
     let channel = leaders.first().or_else(|| followers.first()).map_or(ChannelNumber::FIRST, home);
@@ -167,6 +173,12 @@ fn check(
     let members = || leaders.iter().chain(followers);
     if members().any(|&axis| data.axes[axis].spind_assign_to_machax != 0) {
         faults.push(configuration_fault(channel, 13_000, 0));
+    }
+    if followers.iter().any(|&axis| axes[axis].gantry.geometry_axis) {
+        faults.push(configuration_fault(channel, 10_000, 0));
+    }
+    if members().any(|&axis| axes[axis].gantry.hirth) {
+        faults.push(configuration_fault(channel, 14_000, 0));
     }
 }
 
