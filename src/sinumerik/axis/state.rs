@@ -93,6 +93,8 @@ pub(in crate::sinumerik) struct Axis {
     pub travel: Travel,
     /// Factor of the axial override.
     pub feed_factor: f64,
+    /// The axial override, DBB0.
+    pub feed_override: u8,
     /// 1.7.
     pub override_is_active: bool,
     /// Feed stop on an axis of its unit, or feed disable of its channel.
@@ -139,6 +141,7 @@ impl Default for Axis {
             approach_key: 0,
             travel: Travel::None,
             feed_factor: 1.0,
+            feed_override: 0,
             override_is_active: false,
             feed_held: false,
             feed_disabled: false,
@@ -158,7 +161,8 @@ impl Axis {
         (self.motion, self.enabling, self.travel) == (other.motion, other.enabling, other.travel)
             && (self.parameter_set, self.drive_data_set, self.measuring_system, self.drive_ready)
                 == (other.parameter_set, other.drive_data_set, other.measuring_system, other.drive_ready)
-            && (self.feed_factor, self.override_is_active) == (other.feed_factor, other.override_is_active)
+            && (self.feed_factor, self.feed_override, self.override_is_active)
+                == (other.feed_factor, other.feed_override, other.override_is_active)
             && (self.feed_held, self.feed_disabled, self.feed_holder)
                 == (other.feed_held, other.feed_disabled, other.feed_holder)
             && (self.key_used, self.approach_key, self.limits) == (other.key_used, other.approach_key, other.limits)

@@ -8,7 +8,7 @@ use crate::image::{AxisToNck, axis_to_nck, mode_group_from_nck};
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::axis::travel::Travel;
-use crate::sinumerik::inputs::{axis_signal, mode_group_signal, nck_signal};
+use crate::sinumerik::inputs::{axis_number, axis_signal, mode_group_signal, nck_signal};
 use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
@@ -138,17 +138,21 @@ impl Axis {
         if self.feed_held { (Rule::HeldByFeedStop, self.feed_holder) } else { self.zero_override(number) }
     }
 
-    /// The rule by which the effective override is 0 %, and 1.7. The zero setting acts with either value of it (O-21).
+    /// The rule by which the effective override is 0 %, and the override. The zero setting acts with either value of 1.7 (O-21).
     pub(in crate::sinumerik) fn zero_override(&self, number: AxisNumber) -> (Rule, Input) {
-        let active = self.override_is_active;
-        let rule = if active { Rule::HeldByOverride } else { Rule::HeldByZeroSetting };
-        (rule, axis_signal(number, axis_to_nck::override_active, active))
+        let rule = if self.override_is_active { Rule::HeldByOverride } else { Rule::HeldByZeroSetting };
+        (rule, self.override_input(number))
+    }
+
+    /// The axial override as an input.
+    pub(in crate::sinumerik) fn override_input(&self, number: AxisNumber) -> Input {
+        axis_number(number, axis_to_nck::feed_override, self.feed_override)
     }
 
     /// The rule and the signal that no longer hold it.
     fn released(&self, number: AxisNumber) -> (Rule, Input) {
         if self.feed_holder == Input::None {
-            (Rule::OverrideReleased, axis_signal(number, axis_to_nck::override_active, self.override_is_active))
+            (Rule::OverrideReleased, self.override_input(number))
         } else {
             (Rule::FeedReleased, self.feed_holder)
         }

@@ -53,6 +53,7 @@ impl State {
         let holder = if disabled { channel_signal(unit.channel, channel_to_nck::feed_disable, true) } else { holder };
         for axis in unit.members() {
             let signals = &to_nck.axes[axis];
+            self.axes[axis].feed_override = signals.feed_override();
             self.axes[axis].override_is_active = signals.override_active();
             self.axes[axis].feed_factor = parameters.axis_override(signals.feed_override(), signals.override_active());
             let before = self.axes[axis].feed_holder;
@@ -258,7 +259,7 @@ impl Axis {
         if enabled {
             (rule, axis_signal(number, axis_from_nck::position_controller_active, true))
         } else if self.feed_holder == Input::None {
-            (Rule::OverrideReleased, axis_signal(number, axis_to_nck::override_active, self.override_is_active))
+            (Rule::OverrideReleased, self.override_input(number))
         } else {
             (rule, self.feed_holder)
         }
