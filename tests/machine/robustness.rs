@@ -302,6 +302,13 @@ impl Bench {
         self.set(location, u64::from(value));
     }
 
+    /// A setting of the override switch above 0 %: while 1.7 = 0 it counts as 100 % (O-21).
+    fn release_override(&mut self, axis: AxisNumber) {
+        let address = format!("DB{}.DBB0", 30 + u16::from(axis.number()));
+        let location = self.machine.names().resolve(self.machine.memory(), &address).unwrap();
+        self.set(location, 26);
+    }
+
     fn set_bit(&mut self, address: &str, value: bool) {
         let location = self.machine.names().resolve(self.machine.memory(), address).unwrap();
         self.set(location, u64::from(value));
@@ -515,6 +522,9 @@ impl Bench {
                 self.queue(Command::ClearFault(fault));
             }
         }
+        for axis in self.axes.clone() {
+            self.release_override(axis);
+        }
         self.drifts = false;
         self.queue(Command::PlcRun);
         self.enable_all();
@@ -663,6 +673,7 @@ impl Bench {
             for (bit, value) in [("1.5", true), ("2.1", true), ("21.7", true), ("4.3", false), ("1.7", false)] {
                 self.set_axis(axis, bit, value);
             }
+            self.release_override(axis);
             if released {
                 self.set_axis(axis, "4.6", false);
                 self.set_axis(axis, "4.7", false);
