@@ -66,7 +66,11 @@ fn edges_name_the_machine_data_the_fault_and_the_power_on_that_they_follow_from(
     let mut gantry = Session::open("g1_example").unwrap().with_program(plc.boxed());
     gantry.watch(&["X.axis_stationary", "X.drive_ready", "X.traverse_command_minus"]).unwrap();
     gantry.set("X.traversing_key_minus", 1).unwrap();
-    gantry.wait("X.axis_stationary == 0 && X.velocity < -100", "5s").unwrap();
+    gantry.wait("X.axis_stationary == 0 && X.velocity < -1990", "5s").unwrap();
+    // 33.3 mm/s at 1 m/s²: the setpoints rest after 34 ms, and the slide still runs out.
+    gantry.set("X.feed_stop", 1).unwrap();
+    gantry.run("40ms").unwrap();
+    gantry.expect("X.axis_stationary == 0 && X.velocity < -100").unwrap();
     // MD36060 (NEWCONF): the limit of "axis stationary" is now above the velocity, which is negative in the cause, too.
     gantry.machine_data("36060[X]", 100_000.0).unwrap();
     gantry.new_conf().unwrap();
