@@ -60,7 +60,8 @@ fn an_image_declares_areas_blocks_and_starting_values() {
 
 #[test]
 fn an_empty_image_is_the_memory_without_an_image() {
-    assert_eq!(memory("").unwrap(), Memory::after_power_on(&names(), OverrideCoding::default()));
+    let empty = Memory::after_power_on(&names(), OverrideCoding::of(&SINUMERIK));
+    assert_eq!(memory("").unwrap(), empty);
 }
 
 #[test]
