@@ -209,6 +209,8 @@ impl State {
             axis.jog_holder(number)
         } else if goes_on && before.is_waiting() {
             axis.jog_released(number, rule, enabled)
+        } else if goes_on {
+            (rule, self.unblocked(number, travel.request(), signals))
         } else {
             (rule, Input::None)
         };
@@ -221,6 +223,21 @@ impl State {
             self.log.note(Place::Axis(number), rule, [plus, minus, input], parent)
         };
         self.travel(number, travel, event);
+    }
+}
+
+impl State {
+    /// The signal that no longer blocks a movement: the fast stop has ended, or 12.2 or 12.3 selects another software limit switch.
+    fn unblocked(&self, number: AxisNumber, direction: i8, signals: &AxisToNck) -> Input {
+        if self.log.is_of_this_cycle(self.axes[number].signals.fast_stop_cause) {
+            axis_signal(number, axis_from_nck::ramp_function_generator_disable_active, false)
+        } else if direction > 0 {
+            let second = signals.second_software_limit_switch_plus();
+            axis_signal(number, axis_to_nck::second_software_limit_switch_plus, second)
+        } else {
+            let second = signals.second_software_limit_switch_minus();
+            axis_signal(number, axis_to_nck::second_software_limit_switch_minus, second)
+        }
     }
 }
 

@@ -106,10 +106,11 @@ impl State {
         to_nck: &ToNck,
     ) -> bool {
         let number = unit.leader();
-        let stopped = self.stop(unit.channel, parameters).is_some() || self.motion_forbidden(unit).is_some();
         let waits = !unit.members().all(|axis| self.axes[axis].enabling.is_on()) || self.axes[number].feed_disabled;
-        let requested = if stopped || !waits { None } else { self.approach_requested(unit, parameters, to_nck) };
-        let Some((direction, by)) = requested else { return false };
+        if !waits || self.stop(unit.channel, parameters).is_some() || self.motion_forbidden(unit).is_some() {
+            return false;
+        }
+        let Some((direction, by)) = self.approach_requested(unit, parameters, to_nck) else { return false };
         // An approach that begins on the cam first leaves it.
         let on_cam = parameters.axes[number].reference.cam_is_active
             && to_nck.axes[number].deceleration_reference_point_approach();
