@@ -158,7 +158,7 @@ impl Machine {
     /// Whether the last step began with power off and on.
     #[must_use]
     pub fn has_powered_on(&self) -> bool {
-        self.before.power_on
+        self.before.power_on.is_some()
     }
 
     /// The fault that stopped the PLC program, if any.
