@@ -143,7 +143,12 @@ mod tests {
 
     #[test]
     fn without_taken_edges_all_are_dashed_except_the_abort() {
-        let nothing = controls::texts().map(|texts| Exercised { texts, taken: Taken::default(), remarks: Vec::new() });
+        let nothing = controls::texts().map(|texts| Exercised {
+            texts,
+            taken: Taken::default(),
+            remarks: Vec::new(),
+            warnings: Vec::new(),
+        });
         let text = text(None, &nothing.collect::<Vec<_>>());
         let dashed = styled(&text, "stroke:#c00,stroke-dasharray:4");
         let abort = edges(&text).iter().position(|edge| edge.contains("AnyPhase")).unwrap();

@@ -7,8 +7,8 @@
 //! }
 //! ```
 //!
-//! Exit codes: 0 success; 1 an expectation failed, a limit was reached, a trace differs, a golden file is missing, machine data have
-//! findings, two traces differ (`diff`); 2 unusable input.
+//! Exit codes: 0 success; 1 an expectation failed, a limit was reached, a trace differs, a golden file is missing, findings in machine data
+//! change the behaviour, two traces differ (`diff`); 2 unusable input.
 
 mod alarms;
 mod completions;
@@ -43,7 +43,7 @@ use output::Output;
 
 /// The exit codes, as printed below the help.
 const EXIT_CODES: &str = "Exit codes: 0 success; 1 an expectation failed, a limit was reached, a trace differs, a golden \
-    file is missing, machine data have findings; 2 unusable input.";
+    file is missing, findings in machine data change the behaviour; 2 unusable input.";
 
 /// An open simulator of the NC/PLC interface of SINUMERIK-style controls.
 ///
@@ -164,10 +164,20 @@ enum Command {
 
 #[derive(Debug, Subcommand)]
 enum MachineData {
-    /// Reads machine data and reports every finding.
+    /// Reads machine data and reports every finding: errors, alarms at power on, implausible values, data that act otherwise than on a
+    /// control, values that a later file replaced, data that are not modelled.
+    ///
+    /// Exit codes: 0 usable; 1 a finding changes the behaviour (an alarm at power on, an implausible value, a datum that acts otherwise than
+    /// on a control), or a finding that --deny names; 2 unusable.
     Check {
         /// A directory, an archive file, or the name of a built-in machine.
         machine: PathBuf,
+        /// Lists every datum that is not modelled, instead of one line for each function.
+        #[arg(long)]
+        all: bool,
+        /// Ends with 1 if there are findings of this kind.
+        #[arg(long, value_enum, value_name = "KIND")]
+        deny: Vec<machine_data::Deny>,
     },
 }
 
@@ -215,8 +225,8 @@ fn run_command(programs: &Programs) -> ExitCode {
         Some(Command::Why { trace, edge }) => why::why(&trace, &edge, programs, &mut output),
         Some(Command::Flowchart { chart }) => flowchart::flowchart(chart.as_deref(), &mut output),
         Some(Command::Completions { shell }) => completions::completions(shell, &mut Arguments::command(), &mut output),
-        Some(Command::MachineData { command: MachineData::Check { machine } }) => {
-            machine_data::check(&machine, &mut output)
+        Some(Command::MachineData { command: MachineData::Check { machine, all, deny } }) => {
+            machine_data::check(&machine, all, &deny, &mut output)
         }
     };
     ExitCode::from(code)

@@ -1,6 +1,7 @@
 //! `opennck test`: runs all scenarios below the given paths in parallel and compares their traces with the golden
 //! files.
 
+use std::collections::BTreeSet;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -47,6 +48,10 @@ pub(super) fn test(paths: &[PathBuf], options: &Options, programs: &Programs, ou
         }
     }
     let (outcomes, taken) = all(&work, options, programs);
+    // One line for each machine with findings.
+    for warning in taken.iter().flat_map(|control| &control.warnings).collect::<BTreeSet<_>>() {
+        output.warning(warning);
+    }
     let named: Vec<_> = work.iter().map(|(name, _)| name.as_str()).zip(outcomes).collect();
     let mut code = report(&named, output);
     if let Some(junit) = &options.junit
@@ -104,7 +109,10 @@ fn all(work: &[(String, Work)], options: &Options, programs: &Programs) -> (Vec<
     for (_, outcome, taken) in done {
         if let Some(more) = taken {
             match sum.iter_mut().find(|known| known.texts.name() == more.texts.name()) {
-                Some(known) => known.taken.add(more.taken),
+                Some(known) => {
+                    known.taken.add(more.taken);
+                    known.warnings.extend(more.warnings);
+                }
                 None => sum.push(more),
             }
         }

@@ -17,12 +17,14 @@
 //! 6. [`Control::cause`] and the related methods, for each bit that changed, while the record is written.
 
 mod data;
+mod finding;
 mod log;
 mod opening;
 mod transitions;
 mod value;
 
 pub use data::{Data, Datum, Owner};
+pub use finding::{Class, Finding, summary};
 pub use log::Log;
 pub use opening::{AxisHints, Configuration, EncoderModel, Examined, Opened, Read, Settings, Site, StoredDatum};
 pub use transitions::{CHARTS, Chart, Edge, Rows, Taken, Transition, next, row};

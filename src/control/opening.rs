@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Control, Value};
+use super::{Control, Finding, Value};
 use crate::image::{Names, Profile};
 use crate::source::{Place, Problem, Table};
 use crate::units::{AxisNumber, PerAxis, Position};
@@ -96,8 +96,8 @@ pub struct Opened {
     pub axes: PerAxis<AxisHints>,
     /// Its gantry groupings: number and axes, the leading axis first.
     pub groupings: Vec<(u8, Vec<AxisNumber>)>,
-    /// Requests of its files that this version does not support, and other findings.
-    pub warnings: Vec<String>,
+    /// Findings about its files, the heaviest first.
+    pub findings: Vec<Finding>,
 }
 
 /// The mechanical data of an axis from the data of a control, used where the plant defines none.
@@ -120,6 +120,6 @@ pub struct Examined {
     pub is_empty: bool,
     /// A summary of what was read, as lines of text.
     pub summary: Vec<String>,
-    /// All findings, each with its place.
-    pub findings: Vec<String>,
+    /// The reasons of a refusal.
+    pub findings: Vec<Finding>,
 }

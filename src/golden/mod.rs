@@ -171,7 +171,7 @@ pub fn cases(file: &Path) -> Result<Vec<Case>, Problem> {
     Ok(cases)
 }
 
-/// The transitions that a control has taken.
+/// The transitions that a control has taken, and the findings about its machine.
 #[derive(Clone)]
 pub struct Exercised {
     /// The texts of the control, with the charts of its state machines.
@@ -180,6 +180,8 @@ pub struct Exercised {
     pub taken: Taken,
     /// What the rules of the scenario have to say although they are not broken.
     pub remarks: Vec<String>,
+    /// The findings about the files of the machine, in one line.
+    pub warnings: Vec<String>,
 }
 
 impl Case {
@@ -216,8 +218,10 @@ impl Case {
             Err(problem) => return (Outcome::Unusable(problem), None),
         };
         let outcome = self.outcome(&finished, update).unwrap_or_else(Outcome::Unusable);
-        let control = finished.session().machine().control();
-        (outcome, Some(Exercised { texts: control.texts(), taken: control.taken(), remarks: finished.remarks() }))
+        let machine = finished.session().machine();
+        let (control, warnings) = (machine.control(), machine.warnings().to_vec());
+        let remarks = finished.remarks();
+        (outcome, Some(Exercised { texts: control.texts(), taken: control.taken(), remarks, warnings }))
     }
 
     fn outcome(&self, finished: &Finished, update: Update) -> Result<Outcome, Problem> {

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
 
-use crate::control::Control;
+use crate::control::{Control, Finding};
 use crate::image::{Location, Memory, Names};
 use crate::plant::{Layout, Switch};
 use crate::units::{AxisNumber, Time};
@@ -24,6 +24,9 @@ pub(super) struct Definition {
     pub(super) control: Box<dyn Control>,
     /// Computed when they are first needed.
     pub(super) fingerprints: OnceLock<Fingerprints>,
+    /// Findings about its files, the heaviest first.
+    pub(super) findings: Vec<Finding>,
+    /// The findings in one line, if there are any.
     pub(super) warnings: Vec<String>,
 }
 

@@ -36,7 +36,7 @@ pub use saved::Snapshot;
 
 use std::sync::Arc;
 
-use crate::control::Control;
+use crate::control::{Control, Finding};
 use crate::image::{Memory, Names, OverrideCoding};
 use crate::plc::PlcProgram;
 use crate::trace::Recorder;
@@ -59,7 +59,13 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// Findings in its files that did not prevent opening, as text.
+    /// Findings in its files that did not prevent opening, the heaviest first.
+    #[must_use]
+    pub fn findings(&self) -> &[Finding] {
+        &self.definition.findings
+    }
+
+    /// The findings in one line; empty without findings. `opennck machine-data check` lists them.
     #[must_use]
     pub fn warnings(&self) -> &[String] {
         &self.definition.warnings

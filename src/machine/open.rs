@@ -9,7 +9,7 @@ use super::definition::Definition;
 use super::plc::PlcState;
 use super::state::State;
 use super::step::first_variables;
-use crate::control::{Configuration, Control, CycleTimes, EncoderModel, Opened, Settings, Site};
+use crate::control::{Configuration, Control, CycleTimes, EncoderModel, Finding, Opened, Settings, Site, summary};
 use crate::image::{Location, Memory, Names, Preset, Profile, SwitchSignals};
 use crate::plant::{EncoderKind, Hints, Layout, Plant, PlantDefinition, Switch};
 use crate::source::{Place, Problem, Table};
@@ -67,7 +67,7 @@ impl Machine {
         )?;
         settings.machine.finish()?;
         settings.compatibility.finish()?;
-        let Opened { control, names, axes, groupings, warnings } = opened;
+        let Opened { control, names, axes, groupings, findings } = opened;
         plant.check(&configuration.axis_names(), names.interface().tables().named_in, configuration.groupings())?;
         check_cycle_times(control.cycle_times(), control.texts().cycle_data())?;
         let memory = match &options.preset {
@@ -89,10 +89,23 @@ impl Machine {
             memory: memory.clone(),
             control: control.clone_box(),
             fingerprints: OnceLock::new(),
-            warnings,
+            warnings: warning(&findings, &plant_place).into_iter().collect(),
+            findings,
         };
         Ok(assemble(definition, control, memory))
     }
+}
+
+/// The findings in one line. `plant` is the place of `plant.toml`, or of the machine if it has none.
+fn warning(findings: &[Finding], plant: &Place) -> Option<String> {
+    let counts = summary(findings)?;
+    let file = Path::new(&*plant.file);
+    let machine = if file.ends_with("plant.toml") { file.parent() } else { Some(file) };
+    let machine = machine.filter(|machine| machine.exists()).map(Path::display);
+    Some(machine.map_or_else(
+        || format!("machine data: {counts}"),
+        |machine| format!("machine data of {machine}: {counts}; `opennck machine-data check {machine}` lists them"),
+    ))
 }
 
 fn encoders(plant: &PlantDefinition, axis: &str) -> [Option<EncoderModel>; 2] {

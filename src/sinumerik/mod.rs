@@ -23,6 +23,7 @@ mod jog;
 pub mod machine_data;
 mod monitoring;
 mod nck;
+mod opening;
 mod operation;
 mod parameters;
 mod publish;

@@ -29,6 +29,10 @@ pub struct Nck {
     pub(super) stored: Arc<MachineData>,
     pub(super) active: Arc<MachineData>,
     pub(super) presence: Arc<PerAxis<AxisPresence>>,
+    /// Values of the archive outside of their ranges (O-30): the model works with the nearest permitted ones.
+    out_of_range: Arc<[Target]>,
+    /// The axes whose MD30350 was entered at the control, and those whose entry is active (E-26).
+    output_entered: [AxisSet; 2],
     pub(super) parameters: Arc<Parameters>,
     pub(super) state: Box<State>,
     pub(super) resting: Box<Resting>,
@@ -45,6 +49,8 @@ impl Clone for Nck {
             stored: Arc::clone(&self.stored),
             active: Arc::clone(&self.active),
             presence: Arc::clone(&self.presence),
+            out_of_range: Arc::clone(&self.out_of_range),
+            output_entered: self.output_entered,
             parameters: Arc::clone(&self.parameters),
             state: self.state.clone(),
             resting: Box::new(self.resting.anew(&self.state)),
@@ -55,25 +61,59 @@ impl Clone for Nck {
     }
 }
 
+/// The data that the stages work with; MD30350 of the axes `entered` was entered at the control.
+fn parameters(
+    data: &MachineData,
+    presence: &PerAxis<AxisPresence>,
+    out_of_range: &[Target],
+    entered: AxisSet,
+) -> Parameters {
+    let given = |axis| AxisPresence {
+        output_is_given: presence[axis].output_is_given || entered.contains(axis),
+        ..presence[axis]
+    };
+    let presence = PerAxis::from_fn(given);
+    Parameters::new(&data.acting(out_of_range), &presence)
+}
+
 /// A saved control.
 #[derive(Serialize, Deserialize)]
 struct SavedNck {
     stored: MachineData,
     active: MachineData,
+    output_entered: [AxisSet; 2],
     state: State,
 }
 
 impl Nck {
     /// A control after power on.
     #[must_use]
-    pub(super) fn new(data: MachineData, presence: PerAxis<AxisPresence>, strobe: Strobe) -> Self {
+    pub(super) fn new(
+        data: MachineData,
+        presence: PerAxis<AxisPresence>,
+        out_of_range: Vec<Target>,
+        strobe: Strobe,
+    ) -> Self {
         let stored = Arc::new(data);
-        let parameters = Arc::new(Parameters::new(&stored, &presence));
+        let parameters = Arc::new(parameters(&stored, &presence, &out_of_range, AxisSet::NONE));
         let state = Box::new(State::new(&parameters));
         let resting = Box::new(Resting::new(&state));
         let (active, presence) = (Arc::clone(&stored), Arc::new(presence));
         let (cancel_key, activated) = (EventId::NONE, Vec::new());
-        let mut nck = Self { stored, active, presence, parameters, state, resting, strobe, cancel_key, activated };
+        let (out_of_range, output_entered) = (out_of_range.into(), [AxisSet::NONE; 2]);
+        let mut nck = Self {
+            stored,
+            active,
+            presence,
+            out_of_range,
+            output_entered,
+            parameters,
+            state,
+            resting,
+            strobe,
+            cancel_key,
+            activated,
+        };
         nck.fix_strobes();
         nck
     }
@@ -87,8 +127,18 @@ impl Nck {
     /// Power off and on: stored machine data become active, everything else starts again.
     pub fn power_on(&mut self) -> EventId {
         let cycle = self.state.log.cycle;
-        let before = std::mem::replace(&mut self.active, Arc::clone(&self.stored));
-        self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
+        let changes_system =
+            self.stored.general.scaling_system_is_metric != self.active.general.scaling_system_is_metric;
+        if changes_system {
+            Arc::make_mut(&mut self.stored).change_system(&self.active);
+        }
+        let mut before = std::mem::replace(&mut self.active, Arc::clone(&self.stored));
+        if changes_system {
+            // Lengths that keep their length did not change.
+            Arc::make_mut(&mut before).convert_like(&self.active);
+        }
+        self.output_entered[1] = self.output_entered[0];
+        self.parameters = Arc::new(self.parameters_now());
         let events = std::mem::take(&mut self.state.log.events);
         let taken = self.state.log.taken;
         *self.state = State::new(&self.parameters);
@@ -100,6 +150,11 @@ impl Nck {
         self.note_activated(&before, Rule::DataActiveAtPowerOn, event);
         self.state.note_after_power_on(event);
         event
+    }
+
+    /// From the active machine data.
+    fn parameters_now(&self) -> Parameters {
+        parameters(&self.active, &self.presence, &self.out_of_range, self.output_entered[1])
     }
 
     /// The data that the stages work with.
@@ -126,6 +181,9 @@ impl Nck {
     /// The value does not fit the datum, or only the control may write it. In this case nothing has changed.
     pub fn store(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
         Arc::make_mut(&mut self.stored).set(target, value)?;
+        if let (30350, Owner::Axis(axis)) = (target.datum().number, target.owner()) {
+            self.output_entered[0].set(axis, true);
+        }
         if target.datum().effect == Effect::Immediate {
             self.activate(Effect::Immediate, EventId::NONE);
         }
@@ -146,7 +204,7 @@ impl Nck {
         }
         let before = Arc::clone(&self.active);
         Arc::make_mut(&mut self.active).activate(&self.stored, level);
-        self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
+        self.parameters = Arc::new(self.parameters_now());
         self.state.prepare_position_control(&self.parameters);
         self.resting.wake_all();
         self.note_activated(&before, Rule::DataActive, cause);
@@ -345,6 +403,7 @@ impl Nck {
         let saved = SavedNck {
             stored: MachineData::clone(&self.stored),
             active: MachineData::clone(&self.active),
+            output_entered: self.output_entered,
             state: State::clone(&self.state),
         };
         postcard::to_stdvec(&saved).expect("plain data can always be written")
@@ -369,7 +428,8 @@ impl Nck {
         let same = postcard::to_stdvec(&saved.stored) == postcard::to_stdvec(&saved.active);
         self.stored = Arc::new(saved.stored);
         self.active = if same { Arc::clone(&self.stored) } else { Arc::new(saved.active) };
-        self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
+        self.output_entered = saved.output_entered;
+        self.parameters = Arc::new(self.parameters_now());
         let taken = self.state.log.taken;
         *self.state = saved.state;
         self.state.log.taken = taken;

@@ -44,6 +44,7 @@ rules! {
     ParameterSetRefused "25200" "9.0 to 9.2 select a parameter set that does not exist";
     ParameterSetJumps "26050" "the parameter set selected by 9.0 to 9.2 has another load gear: the actual value would jump";
     DriveDataSet "SIG-05" "drive data set selected by 21.0 to 21.4";
+    SystemOfUnits "MD10240" "basic system of units";
     // Emergency stop.
     EmergencyStop "E-06" "emergency stop";
     EmergencyStopAcknowledged "E-06" "emergency stop acknowledged";
@@ -51,6 +52,7 @@ rules! {
     HardwareLimitSwitch "MON-14" "hardware limit switch";
     SoftwareLimit "MON-13" "on the software limit switch";
     // What stops and holds movements.
+    DatumNotAllowed "O-30" "the axis cannot move with this value";
     StoppedByAlarm "ALARM" "an alarm stops the movement";
     StoppedByReset "RESET" "RESET is pressed: no movement";
     StoppedByEmergencyStop "E-06" "emergency stop: no movement";

@@ -228,11 +228,17 @@ fn machine_data_are_checked_with_file_line_and_identifier() {
     fs::write(directory.join("m.tea"), "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=99\nM17\n").unwrap();
     let output = opennck(&["machine-data", "check", "m.tea"], &directory);
     assert_eq!(output.status.code(), Some(1), "{}{}", out(&output), err(&output));
-    assert!(out(&output).contains("m.tea:1") && out(&output).contains("37100"), "{}", out(&output));
+    let alarm = "  m.tea:1: alarm at power on: MD37100 $MA_GANTRY_AXIS_TYPE[AX1] = 99, axis X1: 10650: \
+        channel CHAN1 axis X1 wrong gantry machine data, error code 1\n";
+    assert!(out(&output).contains(alarm), "{}", out(&output));
+    fs::write(directory.join("e.tea"), "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=x\nM17\n").unwrap();
+    let output = opennck(&["machine-data", "check", "e.tea"], &directory);
+    assert_eq!(output.status.code(), Some(2), "unusable: {}{}", out(&output), err(&output));
+    assert!(out(&output).contains("e.tea:1: error: MD37100 "), "{}", out(&output));
     fs::write(directory.join("n.tea"), "N10000 $MN_AXCONF_MACHAX_NAME_TAB[0]=\"nck\"\n").unwrap();
     let output = opennck(&["machine-data", "check", "n.tea"], &directory);
-    assert_eq!(output.status.code(), Some(1), "a run refuses it: {}{}", out(&output), err(&output));
-    assert!(out(&output).contains("n.tea: expected different names, found `nck`"), "{}", out(&output));
+    assert_eq!(output.status.code(), Some(2), "a run refuses it: {}{}", out(&output), err(&output));
+    assert!(out(&output).contains("n.tea: error: expected different names, found `nck`"), "{}", out(&output));
     fs::write(directory.join("empty.arc"), "").unwrap();
     let output = opennck(&["machine-data", "check", "empty.arc"], &directory);
     assert_eq!(output.status.code(), Some(2), "{}{}", out(&output), err(&output));
@@ -248,6 +254,57 @@ fn machine_data_are_checked_with_file_line_and_identifier() {
     }
     let output = opennck(&["machine-data", "check", "nowhere"], &directory);
     assert_eq!(output.status.code(), Some(2));
+}
+
+/// The lines of a command's output that start with a text.
+fn lines<'a>(output: &'a str, start: &str) -> Vec<&'a str> {
+    output.lines().filter(|line| line.starts_with(start)).collect()
+}
+
+#[test]
+fn findings_are_grouped_and_only_those_that_change_the_behaviour_end_with_1() {
+    let directory = directory("grouped_findings");
+    let data = "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1\nN37100 $MA_GANTRY_AXIS_TYPE[AX2]=11\nN35100 $MA_SPIND_VELO_LIMIT[AX1]=5\n\
+        N35100 $MA_SPIND_VELO_LIMIT[AX2]=5\nN35090 $MA_NUM_GEAR_STEPS[AX1]=1\nN36901 $MA_SAFE_FUNCTION_ENABLE[AX1]=0\n$TC_DP1[1,1]=120\n";
+    fs::create_dir(directory.join("m")).unwrap();
+    fs::write(directory.join("m/a.tea"), data).unwrap();
+    let check = |more: &[&str]| opennck(&[&["machine-data", "check", "m"], more].concat(), &directory);
+    let output = check(&[]);
+    assert_eq!(output.status.code(), Some(0), "{}{}", out(&output), err(&output));
+    assert!(
+        out(&output).contains("\n  spindles: 2 data, 3 values\n  Safety Integrated: 1 data, 1 values\n"),
+        "{}",
+        out(&output)
+    );
+    assert!(
+        out(&output).ends_with("\nfindings: 4 not modelled\n") && !out(&output).contains("MD35100"),
+        "{}",
+        out(&output)
+    );
+    let listed = check(&["--all"]);
+    assert_eq!(lines(&out(&listed), "    m/a.tea:").len(), 4, "{}", out(&listed));
+    assert_eq!(check(&["--deny", "not-modelled"]).status.code(), Some(1));
+    assert_eq!(check(&["--deny", "overlaid"]).status.code(), Some(0));
+    fs::write(directory.join("m/b.tea"), "N37100 $MA_GANTRY_AXIS_TYPE[AX2]=12\nN32450 $MA_BACKLASH[0,AX1]=0.01\n")
+        .unwrap();
+    let output = check(&[]);
+    assert_eq!(output.status.code(), Some(1), "{}{}", out(&output), err(&output));
+    let expected = [
+        "  m/a.tea:1: alarm at power on: MD37100 $MA_GANTRY_AXIS_TYPE[AX1] = 1, axis X1: 10651: channel CHAN1 illegal gantry \
+         configuration, reason 2001",
+        "  m/b.tea:1: alarm at power on: MD37100 $MA_GANTRY_AXIS_TYPE[AX2] = 12, axis Y1: 10651: channel CHAN1 illegal gantry \
+         configuration, reason 1002",
+        "  m/b.tea:2: acts otherwise: MD32450 $MA_BACKLASH[0,AX1] = 0.01, axis X1: backlash is not compensated",
+        "  m/b.tea:1: overlaid: MD37100 $MA_GANTRY_AXIS_TYPE[AX2] = 12, axis Y1: replaces 11 of m/a.tea:2",
+    ];
+    let text = out(&output);
+    let found: Vec<_> = lines(&text, "  m/").into_iter().filter(|line| line.contains("MD3")).collect();
+    assert_eq!(found, expected);
+    fs::write(directory.join("s.toml"), "title = \"A\"\nmachine = \"m\"\n[[step]]\nrun = \"10ms\"\n").unwrap();
+    let output = opennck(&["run", "s.toml"], &directory);
+    let summary = "2 alarms at power on, 1 acts otherwise than on a control (MD32450), 1 replaced by a later file, 4 not modelled";
+    assert_eq!(err(&output).lines().filter(|line| line.contains(summary)).count(), 1, "{}", err(&output));
+    assert_eq!(err(&output).lines().count(), 1, "one line: {}", err(&output));
 }
 
 #[test]

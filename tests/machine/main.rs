@@ -2,6 +2,7 @@
 //!
 //! All files form one binary, because each test binary links the library again.
 
+mod archives;
 mod causes;
 mod cli;
 mod determinism;

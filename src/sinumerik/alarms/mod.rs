@@ -321,6 +321,10 @@ alarms! {
     CLAMPING 26000
         [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
         "axis %1 clamping monitoring";
+    /// A movement is to start, and the machine datum of 0 that a control accepted makes it impossible (O-30).
+    DATUM_NOT_ALLOWED 26016
+        [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
+        "axis %1 machine datum %2 value not allowed";
     /// The parameter set has another load gear, and the axis is in position control with an encoder behind that gear. %2, %3: 1 to 6.
     PARAMETER_SET_NOT_POSSIBLE 26050 [FOLLOW_UP LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "axis %1 parameter set change from %2 to %3 not possible";

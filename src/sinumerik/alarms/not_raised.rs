@@ -3,7 +3,7 @@
 //!
 //! | numbers | not modelled |
 //! |---|---|
-//! | 2001, 2900, 4xxx but 4300, 26014 to 26017, 26024, 26025 | alarms of machine data: the model checks them before the control starts and reports them there |
+//! | 2001, 2900, 4xxx but 4300, 26014, 26015, 26017, 26024, 26025 | alarms of machine data: the model checks them before the control starts and reports them there |
 //! | 10657 | extended monitoring: MD37150 bit 0 with MD37135 |
 //! | 10620, 10630, 10631, 107xx, 12550, 14xxx, 16xxx, 17xxx, 20070, 20071, 26072, 26076 | programs, blocks, the PLC's positioning axes, working areas |
 //! | 20003, 20004, 20007, 20008, 22062, 22064 | distance-coded marks, and MD34200 = 6 and 7 |
@@ -100,7 +100,6 @@ alarms! {
     26006 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 encoder %2 encoder or output type %3 not possible";
     26014 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 machine datum %2 value not allowed";
     26015 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 machine datum %2[%3] value not allowed";
-    26016 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset "axis %1 machine datum %2 value not allowed";
     26017 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset "axis %1 machine datum %2[%3] value not allowed";
     26020 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] PowerOn "axis %1 encoder %2 hardware fault %3 at encoder initialisation";
     26024 [DISPLAY] Reset "axis %1 machine datum %2 value was changed";
@@ -118,7 +117,7 @@ alarms! {
 mod tests {
     use super::NOT_RAISED;
 
-    /// `4xxx but 4300`, `26014 to 26017`, `2001`.
+    /// `4xxx but 4300`, `26014`, `2001`.
     fn covers(numbers: &str, number: &str) -> bool {
         let (numbers, but) = numbers.split_once(" but ").unwrap_or((numbers, ""));
         let (first, last) = numbers.split_once(" to ").unwrap_or((numbers, numbers));

@@ -121,6 +121,17 @@ impl Grouping {
         let Some(Realigning { commands, progress, .. }) = self.coupling.realign(view.axes, limits, in_position) else {
             return wants;
         };
+        let hindered = |(axis, motion): &(AxisNumber, Motion)| {
+            let moves = matches!(motion, Motion::GoTo { target, .. } if *target != view.axes[*axis].setpoint.position);
+            moves.then(|| Some((*axis, hindered_by(view, *axis)?)))?
+        };
+        if let Some((axis, datum)) = commands.iter().find_map(hindered) {
+            // MD34040 = 0 became active after the approach (O-30).
+            let input = Input::Datum(datum, Some(axis), 0.0);
+            self.abort_synchronising([input, Input::None, Input::None], self.cause, log, &mut wants);
+            wants.push(Want::RaiseOfAxis { alarm: alarms::APPROACH_ABORTED, axis, cause: self.cause });
+            return wants;
+        }
         for (axis, motion) in commands {
             let setpoint = view.axes[axis].setpoint.position;
             let travel = match motion {
@@ -310,6 +321,13 @@ fn velocity_and_acceleration(view: &View<'_>, number: AxisNumber) -> Limits {
     let factor = if axis.feed_held { 0.0 } else { axis.feed_factor };
     let velocity = (parameters.reference.marker_velocity[encoder] * factor).min(parameters.maximum_velocity);
     Limits { velocity, acceleration: parameters.maximum_acceleration }
+}
+
+/// The datum of 0 with which an axis cannot make the synchronising motion.
+fn hindered_by(view: &View<'_>, number: AxisNumber) -> Option<u32> {
+    let (axis, parameters) = (&view.axes[number], &view.parameters.axes[number]);
+    let velocity = parameters.reference.marker_velocity[usize::from(axis.measuring_system.unwrap_or(0))];
+    parameters.immovable_by.or_else(|| (velocity <= 0.0).then_some(34040))
 }
 
 /// "Referenced/synchronized" of a measuring system, 0 or 1.

@@ -12,6 +12,7 @@
 
 use crate::image::{AxisToNck, Signal, ToNck, axis_from_nck, axis_to_nck, channel_to_nck};
 use crate::motion::Motion;
+use crate::sinumerik::alarms;
 use crate::sinumerik::axis::limits::Ahead;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::axis::travel::Travel;
@@ -24,7 +25,7 @@ use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::AxisNumber;
-use crate::variables::{EventId, Input, Place, Quantity};
+use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
 /// The direction of the traversing keys: +1, −1, or 0 if no key, both keys or disabled keys (4.4) are pressed.
 #[must_use]
@@ -110,6 +111,10 @@ impl State {
             self.show_jogging(number, Travel::None, rule, enabled, signals);
             return;
         }
+        if let Some(datum) = axis_parameters.immovable_by {
+            self.refuse_movement(number, datum, parameters, signals);
+            return;
+        }
         let direction = movement.direction(axis.setpoint.position);
         let velocity = axis.jog_velocity(axis_parameters, signals);
         // A movement that is held, and one without an enable, waits (O-27).
@@ -165,6 +170,15 @@ impl State {
             let cause = self.log.now(Place::Axis(number), cause, rule, inputs);
             self.travel(number, Travel::None, cause);
         }
+    }
+
+    /// A datum of 0 with which the axis cannot move (O-30).
+    fn refuse_movement(&mut self, number: AxisNumber, datum: u32, parameters: &Parameters, signals: &AxisToNck) {
+        let input = Input::Datum(datum, Some(number), 0.0);
+        let cause = self.log.note_one(Place::Axis(number), Rule::DatumNotAllowed, input, EventId::NONE);
+        let shown = [Parameter::Axis(number), Parameter::Number(datum.into()), Parameter::None, Parameter::None];
+        self.alarms.raise(alarms::DATUM_NOT_ALLOWED, Place::Axis(number), shown, cause);
+        self.block_jogging(number, parameters, signals, Rule::DatumNotAllowed, input, cause);
     }
 
     /// Blocks the movement by this rule. A movement with an end is dropped; that of a held key stays requested.

@@ -1,43 +1,44 @@
 //! The ASCII format of an archive (TEA, INI): one assignment per line, sections by channel, several members in a file.
 //!
 //! Reading is as tolerant as the import of the control: either kind of line ending, Latin-1, a byte order mark, missing
-//! block numbers, blanks around `=`, comments, checksums of lines. A malformed line is an error here. The control stops
-//! its import at such a line (alarm 12550 and others), and half of the archive would be in effect.
+//! block numbers, blanks around `=`, comments, checksums of lines. A malformed line is an error in a text file: the control stops
+//! its import at such a line (alarm 12550 and others), and half of the archive would be in effect. In a binary archive, which only a
+//! control writes, it is kept in mind and skipped.
 
+use crate::control::{Class, Finding};
 use crate::source::{Place, decode};
 use crate::units::ChannelNumber;
 
-use super::finding::{Finding, Line, Member, Reading, Severity};
+use super::reading::{Author, Line, Member, Reading};
+use super::scaling::System;
 
 /// Reads a file.
 pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) {
-    read_text(name, &decode(bytes), Broken::Refuse, reading);
-}
-
-/// The reaction to a line that is not an assignment.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Broken {
-    /// An error: a person wrote the file.
-    Refuse,
-    /// A warning: the control wrote the file, and it uses more kinds of line than the simulator knows.
-    Skip,
+    read_text(name, &decode(bytes), Author::Person, reading);
 }
 
 /// Reads a text; findings name `name` and the line.
-pub(super) fn read_text(name: &str, text: &str, broken: Broken, reading: &mut Reading) {
+pub(super) fn read_text(name: &str, text: &str, author: Author, reading: &mut Reading) {
     let file = Place::file(name);
     let mut channel = ChannelNumber::FIRST;
+    let mut system = None;
     let before = reading.lines.len();
     for (number, line) in (1..).zip(text.lines()) {
         let place = file.at_line(number);
         let line = line.trim_matches(|letter: char| letter.is_whitespace() || letter == '\0' || letter == '\u{feff}');
         // A header begins a member, and a member begins with channel 1.
         if line.starts_with('%') {
-            channel = ChannelNumber::FIRST;
+            (channel, system) = (ChannelNumber::FIRST, None);
             continue;
         }
         let line = without_comment(line);
-        if line.is_empty() || line.eq_ignore_ascii_case("METRIC") {
+        if line.is_empty() {
+            continue;
+        }
+        if let Some(declared) =
+            [System::Metric, System::Inch].into_iter().find(|of| line.eq_ignore_ascii_case(of.word()))
+        {
+            system = Some(declared);
             continue;
         }
         if ["M17", "M02", "M2", "M30"].iter().any(|end| line.eq_ignore_ascii_case(end)) {
@@ -48,25 +49,19 @@ pub(super) fn read_text(name: &str, text: &str, broken: Broken, reading: &mut Re
             Kind::Channel(number) => channel = number,
             Kind::Assignment { number, name, value } => {
                 let (name, value) = (name.to_owned(), value.to_owned());
-                reading.lines.push(Line { place, number, name, channel, value });
+                let file = reading.file;
+                reading.lines.push(Line { place, number, name, channel, value, author, file, system });
             }
-            Kind::Broken(what, cure) => reading.findings.push(Finding {
-                severity: if broken == Broken::Refuse { Severity::Error } else { Severity::Warning },
-                place: Some(place),
-                number: None,
-                identifier: String::new(),
-                what,
-                cure: cure.to_owned(),
-            }),
-            Kind::Inch => reading.findings.push(Finding {
-                severity: Severity::Error,
-                place: Some(place),
-                number: None,
-                identifier: String::new(),
-                what: "expected METRIC, found INCH: this simulator reads machine data of the metric basic system only"
-                    .to_owned(),
-                cure: "export the archive with MD10240 = 1".to_owned(),
-            }),
+            Kind::Broken(what, cure) => {
+                let finding = match author {
+                    Author::Person => Finding::new(Class::Unreadable, what, cure),
+                    Author::Control => Finding {
+                        group: "lines of an unknown kind",
+                        ..Finding::new(Class::NotModelled, format!("{what}; the line is ignored"), "")
+                    },
+                };
+                reading.findings.push(Finding { place: Some(place), ..finding });
+            }
         }
     }
     reading.members.push(Member { name: name.to_owned(), assignments: Some(reading.lines.len() - before) });
@@ -74,16 +69,12 @@ pub(super) fn read_text(name: &str, text: &str, broken: Broken, reading: &mut Re
 
 enum Kind<'a> {
     Channel(ChannelNumber),
-    Inch,
     Assignment { number: Option<u32>, name: &'a str, value: &'a str },
     Broken(String, &'static str),
 }
 
 /// Classifies a line without its comment.
 fn kind(line: &str) -> Kind<'_> {
-    if line.eq_ignore_ascii_case("INCH") {
-        return Kind::Inch;
-    }
     if let Some(inside) = strip_word(line, "CHANDATA") {
         let number = inside.trim().strip_prefix('(').and_then(|inside| inside.strip_suffix(')'));
         return number.and_then(|number| ChannelNumber::new(number.trim().parse().ok()?)).map_or_else(

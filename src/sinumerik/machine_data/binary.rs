@@ -8,8 +8,8 @@ use std::path::Path;
 
 use crate::source::{Place, Problem, decode};
 
-use super::ascii::{Broken, read_text};
-use super::finding::{Member, Reading};
+use super::ascii::read_text;
+use super::reading::{Author, Member, Reading};
 
 /// Length of a header; data are padded to a multiple of it.
 const BLOCK: usize = 512;
@@ -65,7 +65,7 @@ pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<()
         let (internal, folder) = (text(&header[..50]), text(&header[384..512]));
         if is_machine_data(&internal, &folder) {
             // Messages name the file and the member; line numbers are those of the member.
-            read_text(&format!("{name}({})", shown(header)), &decode(data), Broken::Skip, reading);
+            read_text(&format!("{name}({})", shown(header)), &decode(data), Author::Control, reading);
         } else if !internal.starts_with("@@") {
             reading.members.push(Member { name: format!("{folder}{}", shown(header)), assignments: None });
         }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
+use crate::control::Value;
 use crate::source;
 
 use super::table::{Datum, Row, Scope, Table};
@@ -107,29 +108,33 @@ impl Scope {
 }
 
 impl Datum {
+    /// The default of the value at an index; of a linear axis, or of a rotary one.
+    #[must_use]
+    pub fn default_value(&self, index: u8, is_rotary: bool) -> Option<Value> {
+        fn value<T: Table>(row: usize, table: &T, index: u8) -> Option<Value> {
+            (T::rows().get(row)?.get)(table, usize::from(index))
+        }
+        let row = row(self.number)?;
+        match self.scope {
+            Scope::General => value(row, &General::default(), index),
+            Scope::Setting => value(row, &Setting::default(), index),
+            Scope::Channel => value(row, &Channel::default(), index),
+            Scope::Axis if is_rotary => value(row, &Axis::rotary(), index),
+            Scope::Axis => value(row, &Axis::default(), index),
+        }
+    }
+
     /// The default of a linear axis, at the first index, as the control writes it.
     #[must_use]
     pub fn default_text(&self) -> String {
-        fn text<T: Table>(row: usize, datum: &Datum) -> String {
-            let value = T::rows().get(row).and_then(|row| (row.get)(&T::default(), 0));
-            value.map_or_else(String::new, |value| value.export(datum.kind))
-        }
-        let Some(row) = row(self.number) else {
-            return String::new();
-        };
-        match self.scope {
-            Scope::General => text::<General>(row, self),
-            Scope::Setting => text::<Setting>(row, self),
-            Scope::Channel => text::<Channel>(row, self),
-            Scope::Axis => text::<Axis>(row, self),
-        }
+        self.default_value(0, false).map_or_else(String::new, |value| value.export(self.kind))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::control::{Kind, Value};
+    use crate::control::Kind;
     use crate::sinumerik::machine_data::Effect;
 
     #[test]

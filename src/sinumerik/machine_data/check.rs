@@ -1,23 +1,21 @@
-//! The findings of `machine-data check` about a readable archive: unknown data, and values that contradict each other.
+//! Values of an archive that contradict each other.
 //!
 //! Definitions that the control rejects at power on (10650, 10651) are left to its alarms.
 
-use crate::control::Owner;
-use crate::source::Place;
+use crate::control::{Class, Finding, Owner};
 use crate::units::AxisNumber;
 
 use super::archive::Archive;
-use super::finding::{Finding, Severity};
-use super::{Axis, Datum, MachineData, Target, by_number};
+use super::import::with_number;
+use super::{Axis, MachineData, Target};
 
-/// All findings about an archive.
+/// All contradictions in an archive.
 #[must_use]
 pub fn check(archive: &Archive) -> Vec<Finding> {
-    let mut findings = archive.findings.clone();
+    let mut findings = Vec::new();
     cycles(archive, &mut findings);
     names(archive, &mut findings);
     for axis in MachineData::axis_numbers() {
-        gantry_code(archive, axis, &mut findings);
         monitoring_order(archive, axis, &mut findings);
         if archive.data.axes[axis].gantry_axis_type != 0 {
             gantry_limits(archive, axis, &mut findings);
@@ -44,17 +42,34 @@ pub(in crate::sinumerik) fn unequal_data(leading: &Axis, synchronous: &Axis) -> 
         .filter(|(_, [wanted, found])| (wanted - found).abs() > 0.0)
 }
 
-/// A finding at the place where the datum was given.
+/// A finding of implausible data about the value of a datum, at the place where it was given.
 fn finding(archive: &Archive, number: u32, owner: Owner, index: u8, what: String, cure: &str) -> Finding {
-    let place: Option<Place> =
-        Target::new(number, owner, index).ok().and_then(|target| archive.given.get(&target).cloned());
-    Finding {
-        severity: Severity::Warning,
-        place,
-        number: Some(number),
-        identifier: by_number(number).map(Datum::full_identifier).unwrap_or_default(),
-        what,
-        cure: cure.to_owned(),
+    archive.about(number, owner, index, Finding::new(Class::Implausible, what, cure))
+}
+
+impl Archive {
+    /// Whether a value is the default of its datum, for the type of its axis.
+    #[must_use]
+    pub fn has_default(&self, target: &Target) -> bool {
+        let is_rotary = matches!(target.owner(), Owner::Axis(axis) if self.data.axes[axis].is_rot_ax);
+        self.data.get(target) == target.datum().default_value(target.index(), is_rotary)
+    }
+
+    /// A finding about the value of a datum: with its place, number, name, value and owner.
+    #[must_use]
+    pub fn about(&self, number: u32, owner: Owner, index: u8, finding: Finding) -> Finding {
+        let Ok(target) = Target::new(number, owner, index) else {
+            return finding;
+        };
+        let value = self.data.get(&target).map(|value| value.export(target.datum().kind)).unwrap_or_default();
+        Finding {
+            place: self.given.get(&target).cloned(),
+            number: Some(number),
+            datum: with_number(Some(number), &target.to_string()),
+            value,
+            owner: self.data.owner_in_words(owner),
+            ..finding
+        }
     }
 }
 
@@ -64,13 +79,12 @@ fn cycles(archive: &Archive, findings: &mut Vec<Finding>) {
     let general = &archive.data.general;
     let (position, interpolation) = (general.posctrl_sysclock_time_ratio, general.ipo_sysclock_time_ratio);
     if interpolation % position.max(1) != 0 {
-        let what =
-            format!("expected a whole multiple of MD10060 = {position} (else alarm 4110), found {interpolation}");
+        let what = format!("expected a whole multiple of MD10060 = {position} (else alarm 4110)");
         findings.push(finding(archive, 10070, Owner::Nck, 0, what, "correct MD10070"));
     }
     let cycle = general.sysclock_cycle_time;
     if !(0.000_1..=0.032).contains(&cycle) {
-        let what = format!("expected a basic cycle from 0.0001 to 0.032 s, found {cycle} s");
+        let what = "expected a basic cycle from 0.0001 to 0.032 s".to_owned();
         findings.push(finding(archive, 10050, Owner::Nck, 0, what, "correct MD10050; its unit is seconds"));
     }
 }
@@ -93,23 +107,6 @@ fn names(archive: &Archive, findings: &mut Vec<Finding>) {
             let index = axis.number() - 1;
             findings.push(finding(archive, 10000, Owner::Nck, index, what, "give every machine axis its own name"));
         }
-    }
-}
-
-/// DEF-01, DEF-02: the code of MD37100.
-fn gantry_code(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>) {
-    let code = archive.data.axes[axis].gantry_axis_type;
-    if !matches!(code, 0..=8 | 11..=18) {
-        let name = archive.data.axis_name(axis);
-        let what = format!("expected 0, 1 to 8 or 11 to 18 for axis {name}, found {code}: alarm 10650 at power on");
-        findings.push(finding(
-            archive,
-            37100,
-            Owner::Axis(axis),
-            0,
-            what,
-            "for example 1 for the leading axis and 11 for a synchronous axis of grouping 1",
-        ));
     }
 }
 
@@ -142,8 +139,7 @@ fn monitoring_order(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Find
     ];
     for (lower, least, upper, found, cure) in order {
         if found < least && (archive.is_given_for(lower, owner) || archive.is_given_for(upper, owner)) {
-            let name = archive.data.axis_name(axis);
-            let what = format!("expected at least MD{lower} = {least} for axis {name}, found {found}");
+            let what = format!("expected at least MD{lower} = {least}");
             findings.push(finding(archive, upper, owner, 0, what, cure));
         }
     }
@@ -156,9 +152,9 @@ fn gantry_dynamics(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Findi
     let Some(leader) = MachineData::axis_numbers().find(|&other| axes[other].gantry_axis_type == grouping) else {
         return;
     };
-    let [leading, name] = [leader, axis].map(|axis| archive.data.axis_name(axis));
-    for (datum, [wanted, found]) in unequal_data(&axes[leader], &axes[axis]) {
-        let what = format!("DYN-03: expected {wanted} for axis {name}, as leading axis {leading} has, found {found}");
+    let leading = archive.data.axis_name(leader);
+    for (datum, [wanted, _]) in unequal_data(&axes[leader], &axes[axis]) {
+        let what = format!("DYN-03: expected {wanted}, as leading axis {leading} has");
         findings.push(finding(archive, datum, Owner::Axis(axis), 0, what, "set the same value within the grouping"));
     }
 }
@@ -167,23 +163,21 @@ fn gantry_dynamics(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Findi
 /// use.
 fn gantry_limits(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>) {
     let data = &archive.data.axes[axis];
-    let name = archive.data.axis_name(axis);
     let (warning, trip, reference) = (data.gantry_pos_tol_warning, data.gantry_pos_tol_error, data.gantry_pos_tol_ref);
     if warning <= 0.0 {
         return;
     }
     let owner = Owner::Axis(axis);
     if trip <= warning {
-        let what = format!("MON-16: expected more than MD37110 = {warning} for axis {name}, found {trip}");
+        let what = format!("MON-16: expected more than MD37110 = {warning}");
         findings.push(finding(archive, 37120, owner, 0, what, "set the trip limit above the warning limit"));
     }
     if reference <= trip {
-        let what = format!("MON-16: expected more than MD37120 = {trip} for axis {name}, found {reference}");
+        let what = format!("MON-16: expected more than MD37120 = {trip}");
         findings.push(finding(archive, 37130, owner, 0, what, "set the limit for referencing above the trip limit"));
     }
     if data.num_encs == 2 && data.enc_change_tol >= warning {
-        let what =
-            format!("REF-28: expected less than MD37110 = {warning} for axis {name}, found {}", data.enc_change_tol);
+        let what = format!("REF-28: expected less than MD37110 = {warning}");
         findings.push(finding(
             archive,
             36500,

@@ -21,8 +21,10 @@ General {
     10200 INT_INCR_PER_MM int_incr_per_mm: f64 = 1_000.0; "1/mm", Range::POSITIVE, PowerOn;
     /// computational resolution of rotary axes
     10210 INT_INCR_PER_DEG int_incr_per_deg: f64 = 1_000.0; "1/deg", Range::POSITIVE, PowerOn;
-    /// basic system metric; this simulator supports no other
-    10240 SCALING_SYSTEM_IS_METRIC scaling_system_is_metric: bool = true; "", Range::between(1.0, 1.0), PowerOn;
+    /// basic system of units: 1 metric, 0 inch: lengths of linear axes in inch, inch/min, inch/s2, inch/s3
+    10240 SCALING_SYSTEM_IS_METRIC scaling_system_is_metric: bool = true; "", Range::ANY, PowerOn;
+    /// millimetres in one inch
+    10250 SCALING_VALUE_INCH scaling_value_inch: f64 = 25.4; "mm/inch", Range::POSITIVE, PowerOn;
     /// mode of each mode group after power on: 0, 1 AUTOMATIC; 2 to 5 MDI; 6, 7 JOG; machine functions are selected by their signals (O-19)
     10720 OPERATING_MODE_DEFAULT operating_mode_default: [i32; 10] = [6; 10]; "", Range::between(0.0, 7.0), PowerOn;
     /// settings of JOG

@@ -16,10 +16,14 @@ mod binary;
 mod catalogue;
 mod channel;
 mod check;
-mod finding;
 mod general;
+mod groups;
+mod import;
 mod named;
+mod reading;
+mod scaling;
 mod setting;
+mod system;
 mod table;
 mod target;
 mod write;
@@ -30,8 +34,8 @@ pub use catalogue::{by_identifier, by_number, catalogue, nearest_identifier};
 pub use channel::Channel;
 pub use check::check;
 pub(super) use check::unequal_data;
-pub use finding::{Assignment, Finding, Member, Severity, refusal};
 pub use general::General;
+pub use reading::{Assignment, Member, refusal};
 pub use setting::Setting;
 pub use table::{Datum, Effect, Range, Scope};
 pub use target::Target;
@@ -43,6 +47,7 @@ use crate::image::{Block, SINUMERIK};
 use crate::source::Problem;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel};
 
+use scaling::System;
 use table::Table;
 
 /// All machine data of a machine.
@@ -189,9 +194,15 @@ impl MachineData {
         stored.map_err(|expected| refused(target, value, &expected))
     }
 
-    /// Writes a value like the import of an archive.
+    /// Writes a value within its range.
     fn store(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
         is_in_range(target, value)?;
+        self.import(target, value)
+    }
+
+    /// Writes a value like the import of an archive: any value of the type (O-30).
+    fn import(&mut self, target: &Target, value: &Value) -> Result<(), Problem> {
+        let (system, millimetres) = (self.system(), self.millimetres());
         let stored = match (target.datum().scope, target.owner()) {
             (Scope::General, _) => store_in(&mut self.general, target, value),
             (Scope::Setting, _) => store_in(&mut self.setting, target, value),
@@ -201,7 +212,10 @@ impl MachineData {
                 let was_rotary = axis.is_rot_ax;
                 let stored = store_in(axis, target, value);
                 if axis.is_rot_ax != was_rotary {
-                    let (linear, rotary) = (Axis::default(), Axis::rotary());
+                    let (mut linear, rotary) = (Axis::default(), Axis::rotary());
+                    if system == System::Inch {
+                        scaling::convert(&mut linear, false, millimetres, system);
+                    }
                     let (from, to) = if was_rotary { (&rotary, &linear) } else { (&linear, &rotary) };
                     axis.exchange_defaults(from, to);
                 }
@@ -225,6 +239,32 @@ impl MachineData {
             })
         };
         owners.into_iter().flat_map(of_owner).filter(|target| self.get(target) != before.get(target)).collect()
+    }
+
+    /// The data with the nearest permitted values in place of those at `targets` that are outside of their ranges.
+    #[must_use]
+    pub(super) fn within_range(&self, targets: &[Target]) -> Self {
+        let mut data = self.clone();
+        for target in targets {
+            let number = data.get(target).and_then(|value| value.number());
+            let range = &target.datum().range;
+            if let Some(number) = number.filter(|number| !range.contains(*number)) {
+                // The nearest value has the type of the datum, because the limits of its range do.
+                let _ = data.import(target, &Value::Real(range.nearest(number)));
+            }
+        }
+        data
+    }
+
+    /// The owner of a datum by name: `axis X1`, `channel CHAN1`; empty for the whole control.
+    #[must_use]
+    pub fn owner_in_words(&self, owner: Owner) -> String {
+        match owner {
+            Owner::Nck => String::new(),
+            Owner::Channel(channel) => format!("channel {}", self.channels[channel].chan_name),
+            Owner::Axis(axis) if self.axis_name(axis).is_empty() => format!("axis AX{axis}"),
+            Owner::Axis(axis) => format!("axis {}", self.axis_name(axis)),
+        }
     }
 
     /// Activates stored data: copies every datum whose class takes effect at this level. POWER ON copies all data, RESET all except POWER

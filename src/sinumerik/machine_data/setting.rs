@@ -5,8 +5,8 @@ use super::table::machine_data;
 machine_data! {
 /// The general setting data.
 Setting {
-    /// size of the variable increment
-    41010 JOG_VAR_INCR_SIZE jog_var_incr_size: f64 = 0.0; "mm, deg", Range::NOT_NEGATIVE, Immediate;
+    /// size of the variable increment, in units of MD31090
+    41010 JOG_VAR_INCR_SIZE jog_var_incr_size: f64 = 0.0; "", Range::NOT_NEGATIVE, Immediate;
     /// keys in continuous JOG: 1 travel while held, 0 from one press to the next
     41050 JOG_CONT_MODE_LEVELTRIGGRD jog_cont_mode_leveltriggrd: bool = true; "", Range::ANY, Immediate;
     /// axes that travel with a revolutional feedrate in JOG

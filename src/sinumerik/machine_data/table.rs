@@ -67,49 +67,61 @@ pub struct Range {
     pub minimum: Option<f64>,
     /// The largest value, if any.
     pub maximum: Option<f64>,
-    /// The smallest value itself is excluded.
-    pub above_minimum: bool,
+    /// Smaller values are permitted, because controls accept them, but no function works with them (O-30).
+    pub plausible_from: Option<f64>,
 }
 
 impl Range {
     /// Any value of the type.
-    pub const ANY: Self = Self { minimum: None, maximum: None, above_minimum: false };
+    pub const ANY: Self = Self { minimum: None, maximum: None, plausible_from: None };
     /// Larger than any value of a real machine, and small enough that sums of positions in nanometres stay exact.
     const LARGEST: f64 = 1e9;
     /// A position or a distance of either sign.
     pub const POSITION: Self = Self::between(-Self::LARGEST, Self::LARGEST);
     /// Zero or more.
     pub const NOT_NEGATIVE: Self = Self::between(0.0, Self::LARGEST);
-    /// More than zero.
-    pub const POSITIVE: Self = Self { above_minimum: true, ..Self::NOT_NEGATIVE };
-    /// A distance that is at least one increment.
-    pub const INCREMENT: Self = Self::between(0.000_001, Self::LARGEST);
+    /// More than zero; zero is permitted, but implausible.
+    pub const POSITIVE: Self = Self { plausible_from: Some(f64::MIN_POSITIVE), ..Self::NOT_NEGATIVE };
+    /// A distance that is at least one increment; less is permitted, but implausible.
+    pub const INCREMENT: Self = Self { plausible_from: Some(0.000_001), ..Self::NOT_NEGATIVE };
 
     /// From one value to another, both included.
     #[must_use]
     pub const fn between(minimum: f64, maximum: f64) -> Self {
-        Self { minimum: Some(minimum), maximum: Some(maximum), above_minimum: false }
+        Self { minimum: Some(minimum), maximum: Some(maximum), plausible_from: None }
     }
 
-    /// Whether a value is allowed.
+    /// Whether a value is permitted.
     #[must_use]
     pub fn contains(&self, value: f64) -> bool {
-        let low =
-            self.minimum.is_none_or(|minimum| if self.above_minimum { value > minimum } else { value >= minimum });
-        low && self.maximum.is_none_or(|maximum| value <= maximum)
+        self.minimum.is_none_or(|minimum| value >= minimum) && self.maximum.is_none_or(|maximum| value <= maximum)
+    }
+
+    /// Whether a value is permitted and functions can work with it.
+    #[must_use]
+    pub fn is_plausible(&self, value: f64) -> bool {
+        self.contains(value) && self.plausible_from.is_none_or(|least| value >= least)
+    }
+
+    /// The permitted value nearest to a value.
+    #[must_use]
+    pub fn nearest(&self, value: f64) -> f64 {
+        let value = self.minimum.map_or(value, |minimum| value.max(minimum));
+        self.maximum.map_or(value, |maximum| value.min(maximum))
     }
 }
 
+/// The plausible values.
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.minimum, self.maximum) {
+        let least = self.plausible_from.filter(|least| *least > f64::MIN_POSITIVE).or(self.minimum);
+        let above = self.plausible_from.is_some_and(|least| least <= f64::MIN_POSITIVE);
+        match (least, self.maximum) {
             (None, None) => f.write_str("any value"),
-            (Some(minimum), None) if self.above_minimum => write!(f, "more than {minimum}"),
+            (Some(minimum), None) if above => write!(f, "more than {minimum}"),
             (Some(minimum), None) => write!(f, "{minimum} or more"),
             (None, Some(maximum)) => write!(f, "{maximum} or less"),
-            (Some(minimum), Some(maximum)) if self.above_minimum => {
-                write!(f, "more than {minimum} and at most {maximum}")
-            }
+            (Some(minimum), Some(maximum)) if above => write!(f, "more than {minimum} and at most {maximum}"),
             (Some(minimum), Some(maximum)) => write!(f, "{minimum} to {maximum}"),
         }
     }

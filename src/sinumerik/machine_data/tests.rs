@@ -2,6 +2,7 @@
 
 use proptest::prelude::*;
 
+use crate::control::{Class, Finding};
 use crate::sinumerik::parameters::cycle_time;
 use crate::source::Place;
 use crate::units::Time;
@@ -20,6 +21,10 @@ fn refused(text: &str) -> Vec<String> {
 
 fn axis(number: u8) -> AxisNumber {
     AxisNumber::new(number).unwrap()
+}
+
+fn assert_near(found: f64, expected: f64) {
+    assert!((found - expected).abs() < 1e-9, "{found} instead of {expected}");
 }
 
 /// Sets a value by text, like a scenario.
@@ -144,15 +149,14 @@ mod targets {
             ("37100[X1]", Value::Integer(256)),
             ("37100[X1]", Value::Real(1.5)),
             ("34000[X1]", Value::Integer(2)),
-            ("34020[X1]", Value::Integer(0)),
+            ("34020[X1]", Value::Integer(-1)),
             ("34090[X1]", Value::Real(f64::INFINITY)),
             ("34090[X1]", Value::Real(f64::NAN)),
             ("34090[X1]", Value::Real(1e300)),
-            ("34300[X1]", Value::Real(1e-9)),
+            ("34300[X1]", Value::Real(-1e-9)),
             ("10050", Value::Real(1e-12)),
             ("34090[X1]", Value::Text("1".to_owned())),
             ("20000", Value::Integer(1)),
-            ("10240", Value::Boolean(false)),
             ("34093[X1]", Value::Real(1.0)),
         ];
         for (target, value) in cases {
@@ -300,6 +304,56 @@ mod ascii_archives {
         assert_eq!((archive.data.axes[axis(1)].refp_velo_pos, summary.taken, summary.members.len()), (2.0, 1, 2));
     }
 
+    /// O-30
+    #[test]
+    fn a_value_out_of_range_in_a_text_file_is_kept_and_one_of_another_type_is_an_error() {
+        let archive = archive("$MA_REFP_VELO_POS[AX1]=-1\n$MA_REFP_VELO_POS[AX2]=0\n$MA_REFP_VELO_POS[AX2]=10\n");
+        assert_eq!((archive.data.axes[axis(1)].refp_velo_pos, archive.data.axes[axis(2)].refp_velo_pos), (-1.0, 10.0));
+        assert_eq!(archive.findings.len(), 1, "only the last value counts: {:?}", archive.findings);
+        assert!(archive.findings[0].cure.ends_with("0 acts"), "{}", archive.findings[0]);
+        assert_eq!(refused("$MA_REFP_VELO_POS[AX1]=\"fast\"\n").len(), 1);
+    }
+
+    #[test]
+    fn lengths_of_an_inch_machine_are_in_inches_and_defaults_keep_their_length() {
+        let inch = archive("INCH\n$MA_REFP_SET_POS[0,AX1]=2\n$MA_IS_ROT_AX[AX2]=1\n$MN_SCALING_SYSTEM_IS_METRIC=0\n$MA_REFP_SET_POS[0,AX2]=2\n").data;
+        let x = &inch.axes[axis(1)];
+        assert_near(x.refp_set_pos[0], 2.0);
+        assert_eq!((x.max_ax_velo, x.max_ax_accel[0]), (10_000.0 / 25.4, 1.0 / 0.0254));
+        // A rotary axis has no lengths.
+        assert_near(inch.axes[axis(2)].max_ax_velo, 27.77);
+        let metric = inch.acting(&[]);
+        assert_eq!((metric.axes[axis(1)].refp_set_pos[0], metric.axes[axis(2)].refp_set_pos[0]), (50.8, 2.0));
+        assert!((metric.axes[axis(1)].max_ax_velo - 10_000.0).abs() < 1e-9);
+        // A file in the other system is converted, and says so.
+        let mixed = archive("METRIC\n$MN_SCALING_SYSTEM_IS_METRIC=0\n$MA_REFP_SET_POS[0,AX1]=25.4\n");
+        assert_near(mixed.data.axes[axis(1)].refp_set_pos[0], 1.0);
+        assert!(mixed.findings[0].to_string().contains("METRIC, but MD10240 = 0"), "{}", mixed.findings[0]);
+        let mixed = archive("INCH\n$MA_REFP_SET_POS[0,AX1]=2\n");
+        assert_near(mixed.data.axes[axis(1)].refp_set_pos[0], 50.8);
+        assert!(archive("$MN_SCALING_SYSTEM_IS_METRIC=0\n").write().contains("\nINCH\n"));
+    }
+
+    #[test]
+    fn a_text_file_is_laid_over_another_with_a_finding_per_changed_value() {
+        let files = [
+            ("a.arc", b"$MA_REFP_VELO_POS[AX1]=1\n$MA_REFP_SET_POS[1,AX1]=2\n$MC_FOREIGN=1\n".as_slice()),
+            ("b.tea", b"N34070 $MA_REFP_VELO_POS[AX1]=1\n$MA_REFP_SET_POS[1,AX1]=3\n$MA_REFP_SET_POS[2,AX1]=4\n"),
+            ("c.tea", b"$MA_REFP_SET_POS[1,X1]=5\n$MC_FOREIGN=2\n"),
+        ];
+        let archive = Archive::read(files).unwrap();
+        let positions = archive.data.axes[axis(1)].refp_set_pos;
+        assert_near(positions[1], 5.0);
+        assert_near(positions[2], 4.0);
+        let overlaid = archive.findings.iter().filter(|finding| finding.class == Class::Overlaid);
+        let expected = [
+            "b.tea:2: overlaid: MD34100 $MA_REFP_SET_POS[1,AX1] = 3, axis X1: replaces 2 of a.arc:2",
+            "c.tea:1: overlaid: MD34100 $MA_REFP_SET_POS[1,AX1] = 5, axis X1: replaces 3 of b.tea:2",
+            "c.tea:2: overlaid: $MC_FOREIGN = 2: replaces 1 of a.arc:3",
+        ];
+        assert_eq!(overlaid.map(ToString::to_string).collect::<Vec<_>>(), expected);
+    }
+
     #[test]
     fn what_a_rotary_axis_was_given_stays_and_the_rest_is_rotary() {
         let archive = archive("$MA_MAX_AX_VELO[AX1]=10000\n$MA_IS_ROT_AX[AX1]=1\n");
@@ -314,14 +368,14 @@ mod ascii_archives {
         assert_eq!(archive.unknown.len(), 3);
         assert_eq!(archive.unknown[2].value, "2");
         let warning = archive.findings[0].to_string();
-        assert!(warning.starts_with("a.tea:1: warning: MD35100 $MA_SPIND_VELO_LIMIT: "), "{warning}");
+        assert!(warning.starts_with("a.tea:1: not modelled: MD35100 $MA_SPIND_VELO_LIMIT: "), "{warning}");
         assert!(archive.summary.to_string().starts_with("0 machine data taken, 3 unknown kept"));
     }
 
     #[test]
     fn every_mistake_names_file_line_number_and_identifier() {
         let text = "N37110 $MA_GANTRY_AXIS_TYPE[AX1]=1\n$MA_GANTRY_AXIS_TYPE[AX1]=x\nN34100 $MA_REFP_SET_POS[7,AX1]=0\n\
-            N37100 $MA_GANTRY_AXIS_TYPE[XF]=1\nN37100 $MA_GANTRY_AXIS_TPYE[AX1]=1\n$MA_REFP_VELO_POS[AX1]=-1\n";
+            N37100 $MA_GANTRY_AXIS_TYPE[XF]=1\nN37100 $MA_GANTRY_AXIS_TPYE[AX1]=1\n$MA_NUM_ENCS[AX1]=1.5\n";
         let findings = refused(text);
         assert_eq!(findings.len(), 6);
         assert!(
@@ -332,12 +386,11 @@ mod ascii_archives {
         assert!(findings[2].contains("0 to 3") && findings[2].starts_with("a.tea:3: "));
         assert!(findings[3].contains("found `XF`") && findings[3].starts_with("a.tea:4: "));
         assert!(findings[4].contains("did you mean `GANTRY_AXIS_TYPE`?"));
-        assert!(findings[5].contains("more than 0") && findings[5].contains("found -1"));
+        assert!(findings[5].contains("a whole number from 0 to 255") && findings[5].contains("found 1.5"));
     }
 
     #[test]
-    fn inch_a_wrong_channel_and_a_line_that_is_none_are_refused() {
-        assert!(refused("INCH\n")[0].contains("expected METRIC, found INCH"));
+    fn a_wrong_channel_and_a_line_that_is_none_are_refused() {
         assert!(refused("CHANDATA(11)\n")[0].contains("CHANDATA(1) to CHANDATA(10)"));
         assert!(refused("G0 X10\n")[0].contains("found `G0 X10`"));
         assert!(refused("$MA_REFP_VELO_POS[AX1]=\n")[0].starts_with("a.tea:1: "));
@@ -345,9 +398,9 @@ mod ascii_archives {
 
     #[test]
     fn a_refusal_names_the_first_mistake_and_counts_the_others() {
-        let findings = Archive::read([("a.tea", b"INCH\nG0\n".as_slice())]).unwrap_err();
+        let findings = Archive::read([("a.tea", b"G1\nG0\n".as_slice())]).unwrap_err();
         let problem = refusal(&findings).to_string();
-        assert!(problem.starts_with("a.tea:1: expected METRIC") && problem.contains("1 more"), "{problem}");
+        assert!(problem.starts_with("a.tea:1: expected an assignment") && problem.contains("1 more"), "{problem}");
     }
 
     proptest! {
@@ -479,7 +532,7 @@ mod binary_archives {
         let summary = archive.summary.to_string();
         assert!(summary.contains("m.arc(INITIAL.INI): 3 assignments"), "{summary}");
         assert!(summary.contains(r"ignored: \ADRV.DIR\PS000001.TEA"), "{summary}");
-        assert!(archive.findings[0].to_string().starts_with("m.arc(INITIAL.INI):6: warning: "));
+        assert!(archive.findings[0].to_string().starts_with("m.arc(INITIAL.INI):6: not modelled: "));
     }
 
     #[test]
@@ -531,6 +584,45 @@ mod binary_archives {
         assert_eq!(archive.findings.len(), 240);
     }
 
+    /// O-30
+    #[test]
+    fn a_value_that_a_control_exported_is_never_an_error() {
+        let nc = r"\_NC_ACT.DIR\";
+        let text = "METRIC\n\nCHANDATA(1)\nN34020 $MA_REFP_VELO_SEARCH_CAM[AX2]=0\nN34060 $MA_REFP_MAX_MARKER_DIST[0,AX2]=-3\n\
+            N34100 $MA_REFP_SET_POS[7,AX2]=5\nN34200 $MA_ENC_REFP_MODE[0,AX2]=300\nN34099 $MA_REFP_SET_POS[0,AX2]=5\n\
+            N37100 $MA_GANTRY_AXIS_TYPE[AX77]=1\nN10050 $MN_SYSCLOCK_CYCLE_TIME=0\nM17\n";
+        let mut bytes = member("@@MMCIBN.002", "", "", b";---components---\n");
+        bytes.extend(member("_N_INITIAL_INI", "INITIAL.INI", nc, text.as_bytes()));
+        let archive = read(&bytes).unwrap();
+        let two = &archive.data.axes[axis(2)];
+        assert_eq!((two.refp_velo_search_cam, two.refp_max_marker_dist[0], two.enc_refp_mode[0]), (0.0, -3.0, 1));
+        assert_near(archive.data.general.sysclock_cycle_time, 0.0);
+        // What does not fit the catalogue at all is kept to be written back.
+        let kept: Vec<_> = archive.unknown.iter().map(|unknown| unknown.name.as_str()).collect();
+        let unfit = [
+            "$MA_REFP_SET_POS[7,AX2]",
+            "$MA_ENC_REFP_MODE[0,AX2]",
+            "$MA_REFP_SET_POS[0,AX2]",
+            "$MA_GANTRY_AXIS_TYPE[AX77]",
+        ];
+        assert_eq!(kept, unfit);
+        assert_eq!(archive.summary.unknown, 4);
+        let found: Vec<_> = archive.findings.iter().filter(|finding| finding.class == Class::Implausible).collect();
+        assert_eq!(
+            found.iter().map(|finding| finding.place.as_ref().unwrap().line).collect::<Vec<_>>(),
+            [4, 5, 6, 7, 8, 9, 10]
+        );
+        let text = found[0].to_string();
+        let expected = "m.arc(INITIAL.INI):4: implausible: MD34020 $MA_REFP_VELO_SEARCH_CAM[AX2] = 0, axis Y1: expected more than 0";
+        assert!(text.starts_with(expected), "{text}");
+        // The model works with permitted values.
+        let out_of_range: Vec<_> = archive.out_of_range.iter().map(Target::to_string).collect();
+        assert_eq!(out_of_range, ["$MN_SYSCLOCK_CYCLE_TIME", "$MA_REFP_MAX_MARKER_DIST[0,AX2]"]);
+        let limited = archive.data.within_range(&archive.out_of_range);
+        assert_near(limited.axes[axis(2)].refp_max_marker_dist[0], 0.0);
+        assert_near(limited.general.sysclock_cycle_time, 0.000_01);
+    }
+
     proptest! {
         #[test]
         fn any_bytes_behind_the_first_name_are_read_or_refused(bytes: Vec<u8>) {
@@ -574,10 +666,11 @@ mod checking {
         let findings = found(text);
         assert_eq!(findings.len(), 2, "{findings:?}");
         assert!(
-            findings[0].starts_with("a.tea:3: warning: MD37120 $MA_GANTRY_POS_TOL_ERROR: MON-16: "),
+            findings[0]
+                .starts_with("a.tea:3: implausible: MD37120 $MA_GANTRY_POS_TOL_ERROR[AX1] = 1, axis X1: MON-16: "),
             "{findings:?}"
         );
-        assert!(findings[1].starts_with("a.tea:4: warning: MD37130 "));
+        assert!(findings[1].starts_with("a.tea:4: implausible: MD37130 "));
         assert_eq!(found(&text.replace("WARNING[AX1]=2", "WARNING[AX1]=0")), [""; 0]);
         assert_eq!(found(&text.replace("TYPE[AX1]=1", "TYPE[AX1]=0")), [""; 0]);
     }
@@ -588,10 +681,10 @@ mod checking {
             $MA_SERVO_DISABLE_DELAY_TIME[AX3]=0.04\n";
         let findings = found(text);
         let starts = [
-            "warning: MD36000 $MA_STOP_LIMIT_COARSE: expected at least MD36010 = 0.05 for axis X1, found 0.04",
-            "a.tea:2: warning: MD36030 $MA_STANDSTILL_POS_TOL: expected at least MD36000 = 0.04 for axis Y1, found 0.03",
-            "warning: MD36200 $MA_AX_VELO_LIMIT: expected at least MD32000 = 12000 for axis Y1, found 11500",
-            "a.tea:4: warning: MD36620 $MA_SERVO_DISABLE_DELAY_TIME: expected at least MD36610 = 0.05 for axis Z1",
+            "implausible: MD36000 $MA_STOP_LIMIT_COARSE[AX1] = 0.04, axis X1: expected at least MD36010 = 0.05",
+            "a.tea:2: implausible: MD36030 $MA_STANDSTILL_POS_TOL[AX2] = 0.03, axis Y1: expected at least MD36000 = 0.04",
+            "implausible: MD36200 $MA_AX_VELO_LIMIT[0,AX2] = 11500, axis Y1: expected at least MD32000 = 12000",
+            "a.tea:4: implausible: MD36620 $MA_SERVO_DISABLE_DELAY_TIME[AX3] = 0.04, axis Z1: expected at least MD36610 = 0.05",
         ];
         assert_eq!(findings.len(), starts.len(), "{findings:?}");
         for (finding, start) in findings.iter().zip(starts) {
@@ -611,11 +704,11 @@ mod checking {
         );
         let findings = found(&text);
         let starts = [
-            "a.tea:3: warning: MD33000 $MA_FIPO_TYPE: DYN-03: expected 2 for axis Z1, as leading axis X1 has, found 1",
-            "a.tea:4: warning: MD32400 $MA_AX_JERK_ENABLE: DYN-03: expected 0 for axis Z1",
-            "warning: MD32410 $MA_AX_JERK_TIME: DYN-03: expected 0.004 for axis Z1, as leading axis X1 has, found 0.001",
-            "a.tea:6: warning: MD32420 $MA_JOG_AND_POS_JERK_ENABLE: DYN-03: ",
-            "a.tea:7: warning: MD32430 $MA_JOG_AND_POS_MAX_JERK: DYN-03: expected 100 for axis Z1",
+            "a.tea:3: implausible: MD33000 $MA_FIPO_TYPE[AX3] = 1, axis Z1: DYN-03: expected 2, as leading axis X1 has",
+            "a.tea:4: implausible: MD32400 $MA_AX_JERK_ENABLE[AX3] = 1, axis Z1: DYN-03: expected 0",
+            "implausible: MD32410 $MA_AX_JERK_TIME[AX3] = 0.001, axis Z1: DYN-03: expected 0.004, as leading axis X1 has",
+            "a.tea:6: implausible: MD32420 $MA_JOG_AND_POS_JERK_ENABLE[AX3] = 1, axis Z1: DYN-03: ",
+            "a.tea:7: implausible: MD32430 $MA_JOG_AND_POS_MAX_JERK[AX3] = 50, axis Z1: DYN-03: expected 100",
         ];
         assert_eq!(findings.len(), starts.len(), "{findings:?}");
         for (finding, start) in findings.iter().zip(starts) {
@@ -634,14 +727,16 @@ mod checking {
         let text = "$MA_GANTRY_AXIS_TYPE[AX1]=1\n$MA_GANTRY_POS_TOL_WARNING[AX1]=0.1\n$MA_NUM_ENCS[AX1]=2\n\
             $MA_GANTRY_POS_TOL_ERROR[AX1]=1\n$MA_GANTRY_POS_TOL_REF[AX1]=2\n";
         let findings = found(text);
-        assert!(findings.len() == 1 && findings[0].contains("MD36500 $MA_ENC_CHANGE_TOL: REF-28"), "{findings:?}");
+        assert!(
+            findings.len() == 1 && findings[0].contains("MD36500 $MA_ENC_CHANGE_TOL[AX1] = 0.1, axis X1: REF-28"),
+            "{findings:?}"
+        );
         assert_eq!(found(&text.replace("NUM_ENCS[AX1]=2", "NUM_ENCS[AX1]=1")), [""; 0]);
     }
 
     #[test]
-    fn a_code_that_the_control_refuses_cycles_and_names_are_found() {
-        assert!(found("$MA_GANTRY_AXIS_TYPE[AX1]=9")[0].contains("10650"));
-        assert!(found("$MN_SYSCLOCK_CYCLE_TIME=0.4")[0].starts_with("a.tea:1: warning: MD10050 "));
+    fn cycles_and_names_are_found() {
+        assert!(found("$MN_SYSCLOCK_CYCLE_TIME=0.4")[0].starts_with("a.tea:1: implausible: MD10050 "));
         assert!(found("$MN_POSCTRL_SYSCLOCK_TIME_RATIO=2")[0].contains("4110"));
         let twice = "$MN_AXCONF_MACHAX_NAME_TAB[0]=\"Q\"\n$MN_AXCONF_MACHAX_NAME_TAB[1]=\"Q\"";
         assert!(found(twice)[0].contains("which axis 1 has"));

@@ -34,7 +34,7 @@ impl Archive {
             let number = unknown.number.map(|number| format!("N{number} ")).unwrap_or_default();
             let _ = writeln!(section, "{number}{}={}", unknown.name, unknown.value);
         }
-        let mut text = "%_N_INITIAL_INI\n;$PATH=/\nMETRIC\n\n".to_owned();
+        let mut text = format!("%_N_INITIAL_INI\n;$PATH=/\n{}\n\n", self.data.system().word());
         for (channel, section) in sections {
             let _ = write!(text, "CHANDATA({channel})\n{section}");
         }

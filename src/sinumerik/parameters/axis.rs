@@ -11,8 +11,8 @@ use crate::units::{AxisNumber, ChannelNumber, Position, Time};
 pub struct AxisPresence {
     /// The axis exists: it belongs to the channel, or machine data or the plant name it.
     pub exists: bool,
-    /// The archive explicitly gives MD30350 = 0 and the axis is simulated: no signals in its data block (E-26).
-    pub silent: bool,
+    /// The archive, or an entry that became active, gives MD30350: it decides whether a simulated axis outputs signals (E-26).
+    pub output_is_given: bool,
     /// The archive does not give MD20050 for its channel: the default of that datum declares no geometry axis.
     pub geometry_by_default: bool,
     /// Its simulated mechanics: those of its machine data when the machine was opened.
@@ -44,10 +44,12 @@ pub struct Reference {
     pub cam_shift: PerEncoder<Position>,
     /// MD34100.
     pub set_position: [Position; 4],
-    /// MD34110.
+    /// MD34110; −1 for a spindle.
     pub cycle_number: i32,
     /// MD34200.
     pub mode: PerEncoder<u8>,
+    /// MD35000: a spindle. It has no reference point approach against a cam, and NC start does not need its reference.
+    pub is_spindle: bool,
     /// MD35150 as a share of MD34040.
     pub creep_tolerance: f64,
 }
@@ -80,7 +82,7 @@ pub struct Gantry {
 pub struct AxisParameters {
     /// Whether the axis exists.
     pub exists: bool,
-    /// No signals in its data block.
+    /// No signals in its data block: simulated (MD30130 = 0), and MD30350 = 0 was given (E-26).
     pub silent: bool,
     /// MD30300.
     pub rotary: bool,
@@ -88,6 +90,8 @@ pub struct AxisParameters {
     pub channel: ChannelNumber,
     /// MD30200.
     pub encoders: u8,
+    /// The datum of 0 with which the axis cannot move: MD32000 or MD32300 (O-30).
+    pub immovable_by: Option<u32>,
     /// MD32000.
     pub maximum_velocity: f64,
     /// MD32300[0].
@@ -149,10 +153,11 @@ pub(super) fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresenc
     let jerk = jerk(md, acceleration(1.0), [maximum_acceleration, jog_acceleration], cycle);
     AxisParameters {
         exists: presence.exists,
-        silent: presence.silent,
+        silent: presence.output_is_given && md.ctrlout_type == 0 && !md.simu_ax_vdi_output,
         rotary,
         channel: data.home_channel(number),
         encoders: md.num_encs,
+        immovable_by: immovable_by(md),
         maximum_velocity,
         maximum_acceleration,
         jog_acceleration,
@@ -194,17 +199,40 @@ fn reference(md: &Axis, maximum_velocity: f64, velocity: &impl Fn(f64) -> f64) -
         }),
         cam_shift: md.refp_cam_shift.map(Position::from_user),
         set_position: md.refp_set_pos.map(Position::from_user),
-        cycle_number: md.refp_cycle_nr,
+        cycle_number: if md.spind_assign_to_machax == 0 { md.refp_cycle_nr } else { -1 },
         mode: md.enc_refp_mode,
+        is_spindle: md.spind_assign_to_machax != 0,
         creep_tolerance: md.spind_des_velo_tol,
+    }
+}
+
+fn immovable_by(md: &Axis) -> Option<u32> {
+    let needed = [(32000, md.max_ax_velo), (32300, md.max_ax_accel[0])];
+    needed.into_iter().find(|(_, value)| *value <= 0.0).map(|(datum, _)| datum)
+}
+
+impl AxisParameters {
+    /// The datum of 0 with which a reference point approach on this encoder cannot end (O-30).
+    #[must_use]
+    pub(in crate::sinumerik) fn approach_hindered_by(&self, encoder: usize) -> Option<u32> {
+        let reference = &self.reference;
+        let needed = [
+            (34020, reference.cam_velocity, reference.cam_is_active),
+            (34040, reference.marker_velocity[encoder], true),
+            (34070, reference.position_velocity, true),
+        ];
+        let hinders = |(_, velocity, is_needed): &(u32, f64, bool)| *is_needed && *velocity <= 0.0;
+        self.immovable_by.or_else(|| needed.into_iter().find(hinders).map(|(datum, ..)| datum))
     }
 }
 
 /// Limited to the range of a position, so that sums stay exact.
 fn increments(data: &MachineData, md: &Axis) -> [Position; 6] {
+    // Index 1 of MD31090 is the weight in the inch system.
+    let weight = md.jog_incr_weight[usize::from(!data.general.scaling_system_is_metric && !md.is_rot_ax)];
     let [one, ten, hundred, thousand, ten_thousand] = data.general.jog_incr_size_tab;
     [one, ten, hundred, thousand, ten_thousand, data.setting.jog_var_incr_size]
-        .map(|size| Position::from_user((size * md.jog_incr_weight[0]).clamp(-1e9, 1e9)))
+        .map(|size| Position::from_user((size * weight).clamp(-1e9, 1e9)))
 }
 
 fn gantry(md: &Axis, geometry_axis: bool) -> Gantry {

@@ -12,7 +12,7 @@
 //! MD32100 = −1 reverses the traversing direction, for motor and encoder, so position control does not change. MD32110 = −1 reverses the
 //! encoder alone: if the mechanics do not need it, the loop is unstable and the axis runs away.
 //!
-//! Choices: the mechanics have the load gear of the first parameter set. A factor of 0 counts as 1. The smallest step of an encoder is
+//! Choices: the mechanics have the load gear of the first parameter set. A factor or a length of 0 counts as 1. The smallest step of an encoder is
 //! `resolution` of the plant, not MD31020 with a multiplication.
 
 use crate::motion::Feedback;
@@ -43,13 +43,14 @@ impl Mechanics {
             whole(above) / whole(below)
         };
         let sign = |value: i32| if value < 0 { -1.0 } else { 1.0 };
-        let revolution = if md.is_rot_ax { 360.0 } else { md.leadscrew_pitch };
+        let length = |value: f64| if value > 0.0 { value } else { 1.0 };
+        let revolution = if md.is_rot_ax { 360.0 } else { length(md.leadscrew_pitch) };
         let direction = sign(md.ax_motion_dir);
         let load_gear = |set: usize| ratio(md.drive_ax_ratio_denom[set], md.drive_ax_ratio_numera[set]);
         let line = |set: usize, encoder: usize| {
             let measuring_gear = ratio(md.drive_enc_ratio_numera[encoder], md.drive_enc_ratio_denom[encoder]);
             let way = if md.enc_is_linear[encoder] {
-                md.enc_grid_point_dist[encoder]
+                length(md.enc_grid_point_dist[encoder])
             } else if md.enc_is_direct[encoder] {
                 revolution * ratio(1, md.enc_resol[encoder]) * measuring_gear
             } else {
@@ -182,5 +183,8 @@ mod tests {
     fn a_factor_of_zero_divides_by_nothing() {
         let zero = with(|md| (md.drive_ax_ratio_numera[0], md.drive_enc_ratio_denom) = (0, [0; 2]));
         assert_eq!(zero.misfit(&Mechanics::default(), 0), None);
+        let zero =
+            with(|md| (md.leadscrew_pitch, md.enc_grid_point_dist, md.enc_is_linear) = (0.0, [0.0; 2], [true; 2]));
+        assert_eq!(zero.misfit(&with(|md| md.leadscrew_pitch = 1.0), 0).map(|misfit| misfit.command), Some(1.0));
     }
 }

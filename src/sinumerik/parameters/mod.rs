@@ -30,6 +30,8 @@ pub struct Parameters {
     pub servo_cycles: u32,
     /// Duration of a position-control cycle, in seconds.
     pub servo_cycle: f64,
+    /// MD10240 = 0: the basic system is inch.
+    pub is_inch: bool,
     /// MD11412: alarms with "mode group not ready" or "channel not ready" only cause "channel not ready".
     pub only_channel_not_ready: bool,
     /// MD11300: keys act as long as they are pressed, in INC and in the reference point approach.
@@ -81,6 +83,7 @@ impl Parameters {
             cycle,
             servo_cycles: servo_cycles(data),
             servo_cycle: cycle.seconds() / f64::from(servo_cycles(data)),
+            is_inch: !data.general.scaling_system_is_metric,
             only_channel_not_ready: data.general.alarm_reaction_chan_noready,
             jog_mode: data.general.jog_inc_mode_leveltriggrd,
             key_modes: KeyModes {

@@ -13,7 +13,7 @@ use crate::variables::{EventId, Input};
 
 impl State {
     /// DB10.
-    pub(super) fn show_nck(&self, rows: &mut impl Rows) {
+    pub(super) fn show_nck(&self, parameters: &Parameters, rows: &mut impl Rows) {
         let run_up = || Why::Event(self.run_up.cause);
         let [first, second, third] = &self.handwheels;
         let turned = |handwheel: &Handwheel| {
@@ -25,6 +25,10 @@ impl State {
         rows.number(nck_from_nck::handwheel_1_moved, first.counter, || turned(first));
         rows.number(nck_from_nck::handwheel_2_moved, second.counter, || turned(second));
         rows.number(nck_from_nck::handwheel_3_moved, third.counter, || turned(third));
+        rows.bit(nck_from_nck::inch_measuring_system_active, parameters.is_inch, || {
+            let scaling = Input::Datum(10240, None, f64::from(u8::from(!parameters.is_inch)));
+            Why::Tested(Rule::SystemOfUnits, [scaling, Input::None, Input::None], EventId::NONE)
+        });
         rows.bit(nck_from_nck::nc_cpu_ready, self.run_up.is_cpu_ready(), run_up);
         rows.bit(nck_from_nck::emergency_stop_active, self.emergency_stop.is_active(), || {
             Why::Event(self.emergency_stop.cause)

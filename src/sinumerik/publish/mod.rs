@@ -34,7 +34,7 @@ impl Nck {
             from_nck.clear_signals();
             (shown, decided) = (parameters.existing, AxisSet::ALL);
         }
-        state.show_nck(&mut Written::new(from_nck.nck.as_mut_bytes(), NckFromNck::FIRST));
+        state.show_nck(parameters, &mut Written::new(from_nck.nck.as_mut_bytes(), NckFromNck::FIRST));
         for group in parameters.existing_mode_groups() {
             let bytes = from_nck.mode_groups[group].as_mut_bytes();
             state.show_mode_group(group, parameters, &mut Written::new(bytes, ModeGroupFromNck::FIRST));
@@ -77,12 +77,14 @@ impl Nck {
         let mut asked = Asked::new(byte, bit);
         let (parameters, state) = (&*self.parameters, &mut *self.state);
         match place {
-            Place::Nck => state.show_nck(&mut asked),
+            Place::Nck => state.show_nck(parameters, &mut asked),
             Place::ModeGroup(group) => {
                 state.show_mode_group(group, parameters, &mut asked);
                 state.show_selection(group, &mut asked);
             }
             Place::Channel(channel) => state.show_channel(channel, parameters, &mut asked),
+            // What a silent axis had shown went with power off.
+            Place::Axis(axis) if parameters.axes[axis].silent => {}
             Place::Axis(axis) => {
                 state.show_axis(axis, &parameters.axes[axis], parameters, &mut asked);
                 state.show_movement(axis, &parameters.axes[axis], parameters, &mut asked);

@@ -7,7 +7,8 @@
 //!
 //! Choices where the manuals leave one: the search direction after the cam is opposite to MD34010 (E-19). An approach that begins
 //! on the cam leaves it with MD34040 for MD34050 = 0 and with MD34020 for MD34050 = 1. If the cam is not left within MD34030,
-//! alarm 20000 ends the approach. 20006 is raised when the axis passes the cam edge at the wrong speed for the second time. NC
+//! alarm 20000 ends the approach. A velocity of 0 that a control accepted (MD34020, MD34040, MD34070, MD32000, MD32300) ends it with 20005
+//! when it starts (O-30); a distance of 0 (MD34030, MD34060) ends it with the alarm of this distance. 20006 is raised when the axis passes the cam edge at the wrong speed for the second time. NC
 //! stop is not read. Contour monitoring (25050) stops an axis that is blocked.
 
 use crate::control::Log;
@@ -194,10 +195,13 @@ impl Approach {
         }
     }
 
-    /// The event that ends an approach in any phase: feed disable, or 0 % while the override does not act (phase 2).
+    /// The event that ends an approach in any phase: a datum of 0 that it needs, feed disable, or 0 % while the override does not act (phase
+    /// 2).
     fn interrupted(&mut self, log: &mut Log, view: &View<'_>) -> Option<Outcome> {
         let creeping = matches!(self.phase, Phase::LeaveCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark);
-        let input = if view.axis.feed_disabled {
+        let input = if let Some(datum) = view.parameters.approach_hindered_by(view.encoder) {
+            Input::Datum(datum, Some(view.number), 0.0)
+        } else if view.axis.feed_disabled {
             channel_signal(view.parameters.channel, channel_to_nck::feed_disable, true)
         } else if creeping && view.axis.feed_factor <= 0.0 {
             view.axis.zero_override(view.number).1

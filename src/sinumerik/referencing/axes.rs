@@ -4,7 +4,8 @@
 //! one, also if it was pressed while the approach ran, before REF was selected, or during RESET, emergency stop or an alarm that
 //! stops (O-26). A key that is pressed before the axes are in position control stays pending until they are, and the traverse command
 //! is already output (O-27). Channel-specific referencing (33.0 = 1) waits for an axis that cannot
-//! start in its turn (1.3, parked, MD34200 other than 1) until RESET or until REF is left.
+//! start in its turn (1.3, parked, MD34200 other than 1) until RESET or until REF is left. A spindle (MD35000) has no approach: its key
+//! starts none, and channel-specific referencing and NC start leave it out.
 
 use crate::image::{ToNck, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck};
 use crate::sinumerik::alarms;
@@ -142,7 +143,8 @@ impl State {
         let key = key_direction(signals);
         let has_zero_mark =
             self.axes[number].measuring_system.is_some_and(|active| reference.mode[usize::from(active)] == 1);
-        if !self.mode_group(unit).is_referencing() || !has_zero_mark || signals.axis_spindle_disable() {
+        let hindered = reference.is_spindle || signals.axis_spindle_disable();
+        if !self.mode_group(unit).is_referencing() || !has_zero_mark || hindered {
             return None;
         }
         let forward = if reference.cam_direction > 0.0 { 1 } else { -1 };

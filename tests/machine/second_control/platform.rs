@@ -452,7 +452,7 @@ impl Configuration for Platforms {
             names,
             axes: PerAxis::from_fn(|_| AxisHints { exists: true, ..AxisHints::default() }),
             groupings: Vec::new(),
-            warnings: Vec::new(),
+            findings: Vec::new(),
         })
     }
 }

@@ -1,0 +1,248 @@
+//! The findings at the opening of a machine: alarms that power on raises, data that act on a control otherwise than here, and data without
+//! effect.
+//!
+//! Only axes, channels and encoders that exist are listed. Data that are read but have no effect in the model are listed where they differ
+//! from their default. What a PLC program can see is a finding of the class "acts otherwise", everything else is "not modelled".
+
+use crate::control::{Class, EncoderModel, Finding, Owner, Site, Value};
+use crate::image::Names;
+use crate::sinumerik::alarms::Alarm;
+use crate::sinumerik::machine_data::{Archive, Axis, check};
+use crate::sinumerik::nck::Nck;
+use crate::sinumerik::parameters::groupings::Fault;
+use crate::units::{AxisNumber, ModeGroupNumber};
+use crate::variables::{Parameter, Place};
+
+/// Data of the catalogue that have no effect in the model, and what a control does with them. A PLC program can see it.
+const ACTS_OTHERWISE: &[(u32, &str)] = &[
+    (10735, "the extended functions of JOG are not modelled"),
+    (11410, "no alarm is suppressed"),
+    (11411, "no further alarm is enabled"),
+    (30242, "the corrections of the active encoder always affect the other one"),
+    (30320, "the position is not shown modulo"),
+    (32450, "backlash is not compensated"),
+    (32700, "the encoder error is not compensated"),
+    (32710, "sag is not compensated"),
+    (32750, "the temperature error is not compensated"),
+    (34102, "a reference point approach references one encoder"),
+    (34104, "an axis in follow-up is not referenced"),
+    (36052, "clamping has no special functions"),
+    (36730, "the signals of the drive are those of the plant"),
+];
+
+/// Data of the catalogue that have no effect in the model and no effect on the interface.
+const WITHOUT_EFFECT: &[u32] = &[
+    10200, 10210, 32060, 32070, 32090, 32402, 32650, 34220, 34230, 34232, 34310, 34320, 34330, 34800, 36042, 36520,
+    41100,
+];
+
+/// Data beside the catalogue with which a control shows a PLC program something that is not modelled, and their default.
+const SEEN_BY_THE_PLC: &[(u32, f64, &str)] = &[
+    (10450, 0.0, "software cams are not modelled"),
+    (24100, 0.0, "transformations are not modelled"),
+    (30460, 0.0, "PLC axes and their exchange are not modelled"),
+    (30500, 0.0, "indexing axes are not modelled"),
+    (33050, 1e8, "the lubrication pulse is not modelled"),
+    (36901, 0.0, "Safety Integrated is not modelled"),
+    (37000, 0.0, "travel to fixed stop is not modelled"),
+];
+
+/// All findings about a machine, the heaviest first.
+pub(super) fn findings(archive: &Archive, control: &Nck, names: &Names, site: &Site<'_>) -> Vec<Finding> {
+    let mut findings = archive.findings.clone();
+    findings.extend(check(archive));
+    let faults = control.parameters().groupings.faults.iter();
+    findings.extend(faults.map(|fault| at_power_on(fault, archive, control, names)));
+    mode_groups(archive, &mut findings);
+    for (number, _) in control.parameters().existing() {
+        let axis = &control.active().axes[number];
+        references(archive, number, axis, &mut findings);
+        functions(archive, number, axis, &mut findings);
+        encoders(archive, number, site, &mut findings);
+    }
+    without_effect(archive, control, &mut findings);
+    seen_by_the_plc(archive, control, &mut findings);
+    findings.sort_by(|a, b| a.class.cmp(&b.class).then_with(|| a.place.cmp(&b.place)));
+    findings
+}
+
+/// The finding of an alarm that the definition of a grouping raises at power on.
+fn at_power_on(fault: &Fault, archive: &Archive, control: &Nck, names: &Names) -> Finding {
+    let shown = |parameter: &Parameter| match parameter {
+        Parameter::None => String::new(),
+        Parameter::Channel(channel) => names.channels[*channel].clone().unwrap_or_else(|| format!("CHAN{channel}")),
+        Parameter::Axis(axis) => names.axes[*axis].clone().unwrap_or_else(|| format!("AX{axis}")),
+        Parameter::Number(number) => number.to_string(),
+        Parameter::Direction(sign) => if *sign < 0 { "-" } else { "+" }.to_owned(),
+    };
+    let alarm = Alarm::find(fault.alarm);
+    let mut text = alarm.map_or_else(String::new, |alarm| alarm.text.to_owned());
+    for (index, parameter) in fault.parameters.iter().enumerate() {
+        text = text.replace(&format!("%{}", index + 1), &shown(parameter));
+    }
+    let finding = Finding::new(
+        Class::AlarmAtPowerOn,
+        format!("{}: {text}", Alarm::name(fault.alarm)),
+        "the grouping is not formed; see the reasons of the alarm in the Diagnostics Manual, and correct MD37100",
+    );
+    match fault_axis(fault, control) {
+        Some(axis) => archive.about(37100, Owner::Axis(axis), 0, finding),
+        None => finding,
+    }
+}
+
+/// The axis whose MD37100 an alarm concerns: its own, or the first axis of the grouping in the reason.
+fn fault_axis(fault: &Fault, control: &Nck) -> Option<AxisNumber> {
+    if let Place::Axis(axis) = fault.place {
+        return Some(axis);
+    }
+    let reason = fault.parameters.iter().find_map(|parameter| match parameter {
+        Parameter::Number(reason) => Some(*reason),
+        Parameter::None | Parameter::Channel(_) | Parameter::Axis(_) | Parameter::Direction(_) => None,
+    })?;
+    let grouping = reason % 100;
+    let of_grouping = |axis: &AxisNumber| {
+        let code = i64::from(control.active().axes[*axis].gantry_axis_type);
+        if grouping == 0 { code != 0 } else { code == grouping || code == grouping + 10 }
+    };
+    control.parameters().existing().map(|(number, _)| number).find(of_grouping)
+}
+
+fn mode_groups(archive: &Archive, findings: &mut Vec<Finding>) {
+    for (index, group) in (0..).zip(archive.data.general.assign_chan_to_mode_group) {
+        if group > i32::from(ModeGroupNumber::MAX) {
+            let what = format!("channel {} is not modelled; the model has mode groups 1 and 2", index + 1);
+            findings.push(archive.about(10010, Owner::Nck, index, Finding::new(Class::ActsOtherwise, what, "")));
+        }
+    }
+}
+
+/// The reference point approach of the encoders that an axis has.
+fn references(archive: &Archive, number: AxisNumber, axis: &Axis, findings: &mut Vec<Finding>) {
+    let mut add = |datum: u32, index: u8, what: &str| {
+        findings.push(archive.about(datum, Owner::Axis(number), index, Finding::new(Class::ActsOtherwise, what, "")));
+    };
+    if axis.spind_assign_to_machax != 0 {
+        return;
+    }
+    for encoder in 0..axis.num_encs.min(2) {
+        let (mode, state) = (axis.enc_refp_mode[usize::from(encoder)], axis.enc_refp_state[usize::from(encoder)]);
+        if mode != 1 {
+            let what = "this kind of reference point approach is not modelled, and the encoder is never referenced; the model \
+                references incremental encoders with zero marks (1)";
+            add(34200, encoder, what);
+        } else if state != 0 {
+            add(34210, encoder, "the position of an incremental encoder is not restored at power on");
+        }
+    }
+}
+
+fn functions(archive: &Archive, number: AxisNumber, axis: &Axis, findings: &mut Vec<Finding>) {
+    let mut add = |datum: u32, what: &str| {
+        findings.push(archive.about(datum, Owner::Axis(number), 0, Finding::new(Class::ActsOtherwise, what, "")));
+    };
+    if axis.spind_assign_to_machax != 0 {
+        let what = "spindles are not modelled: the axis moves in JOG like a rotary axis, is never referenced, and its spindle signals \
+            stay 0";
+        add(35000, what);
+    }
+    if axis.is_rot_ax && axis.rot_is_modulo {
+        add(30310, "modulo only disables the software limits in the model; positions are not reset");
+    }
+    if axis.gantry_function_mask & 1 != 0 {
+        add(37150, "bit 0, extended monitoring, is not modelled");
+    }
+}
+
+fn encoders(archive: &Archive, number: AxisNumber, site: &Site<'_>, findings: &mut Vec<Finding>) {
+    for (index, kind) in (site.encoders)(archive.data.axis_name(number)).into_iter().enumerate() {
+        if matches!(kind, Some(EncoderModel::Absolute | EncoderModel::DistanceCoded)) {
+            let encoder = index + 1;
+            let what = format!("the type of encoder {encoder} is not modelled; an incremental encoder is used");
+            let owner = archive.data.owner_in_words(Owner::Axis(number));
+            findings.push(Finding { owner, ..Finding::new(Class::ActsOtherwise, what, "") });
+        }
+    }
+}
+
+/// Given data of the catalogue without effect that differ from their default.
+fn without_effect(archive: &Archive, control: &Nck, findings: &mut Vec<Finding>) {
+    let exists = |owner: Owner, index: u8, per_encoder: bool| match owner {
+        Owner::Axis(axis) => {
+            let parameters = &control.parameters().axes[axis];
+            parameters.exists && (!per_encoder || index < parameters.encoders)
+        }
+        Owner::Nck | Owner::Channel(_) => true,
+    };
+    for target in archive.given.keys() {
+        let (datum, owner, index) = (target.datum(), target.owner(), target.index());
+        let seen = ACTS_OTHERWISE.iter().find(|(number, _)| *number == datum.number).map(|(_, what)| *what);
+        if seen.is_none() && !WITHOUT_EFFECT.contains(&datum.number) {
+            continue;
+        }
+        if archive.has_default(target) || !exists(owner, index, datum.count == 2) {
+            continue;
+        }
+        let finding = match seen {
+            Some(what) => Finding::new(Class::ActsOtherwise, what, ""),
+            None => Finding {
+                group: "read, without effect in the model",
+                ..Finding::new(Class::NotModelled, "kept, no effect", "")
+            },
+        };
+        findings.push(archive.about(datum.number, owner, index, finding));
+    }
+}
+
+/// Unknown data with which a control shows a PLC program something: one finding for each datum and axis, where a value is not the default.
+fn seen_by_the_plc(archive: &Archive, control: &Nck, findings: &mut Vec<Finding>) {
+    let mut named: Vec<(u32, String)> = Vec::new();
+    for unknown in &archive.unknown {
+        let row = SEEN_BY_THE_PLC.iter().find(|(number, ..)| unknown.number == Some(*number));
+        let Some((number, default, what)) = row else { continue };
+        let value = Value::parse(&unknown.value).and_then(|value| value.number());
+        if value.is_none_or(|value| (value - default).abs() < f64::EPSILON) {
+            continue;
+        }
+        let inside = unknown.name.split_once('[').map_or("", |(_, inside)| inside.trim_end_matches(']'));
+        let axis = inside.rsplit(',').next().and_then(|name| archive.data.axis(name.trim()));
+        let is_axial = unknown.name.starts_with("$MA_");
+        let owner = match axis {
+            Some(axis) if is_axial && control.parameters().axes[axis].exists => {
+                archive.data.owner_in_words(Owner::Axis(axis))
+            }
+            Some(_) | None if is_axial => continue,
+            Some(_) | None => String::new(),
+        };
+        let key = (*number, owner);
+        if named.contains(&key) {
+            continue;
+        }
+        named.push(key.clone());
+        findings.push(Finding {
+            place: Some(unknown.place.clone()),
+            number: Some(*number),
+            datum: format!("MD{number} {}", unknown.name),
+            value: unknown.value.clone(),
+            owner: key.1,
+            ..Finding::new(Class::ActsOtherwise, *what, "")
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sinumerik::machine_data::by_number;
+
+    #[test]
+    fn every_listed_datum_is_in_the_catalogue_or_beside_it() {
+        let read = ACTS_OTHERWISE.iter().map(|(number, _)| number).chain(WITHOUT_EFFECT);
+        for number in read {
+            assert!(by_number(*number).is_some(), "{number}");
+        }
+        for (number, ..) in SEEN_BY_THE_PLC {
+            assert!(by_number(*number).is_none(), "{number}");
+        }
+    }
+}
