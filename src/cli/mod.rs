@@ -8,12 +8,13 @@
 //! ```
 //!
 //! Exit codes: 0 success; 1 an expectation failed, a limit was reached, a trace differs, a golden file is missing, findings in machine data
-//! change the behaviour, two traces differ (`diff`); 2 unusable input.
+//! change the behaviour, two traces differ (`diff`); 2 unusable input, or an output that cannot be written.
 
 mod alarms;
 mod completions;
 mod diff;
 pub mod example;
+mod files;
 mod flowchart;
 #[cfg(feature = "s7")]
 mod interrupt;
@@ -43,7 +44,7 @@ use output::Output;
 
 /// The exit codes, as printed below the help.
 const EXIT_CODES: &str = "Exit codes: 0 success; 1 an expectation failed, a limit was reached, a trace differs, a golden \
-    file is missing, findings in machine data change the behaviour; 2 unusable input.";
+    file is missing, findings in machine data change the behaviour; 2 unusable input, or an output that cannot be written.";
 
 /// An open simulator of the NC/PLC interface of SINUMERIK-style controls.
 ///
@@ -64,26 +65,10 @@ enum Command {
         #[arg(required = true, value_name = "SCENARIO")]
         scenarios: Vec<PathBuf>,
         #[command(flatten)]
-        files: run::Files,
+        options: run::Options,
     },
     /// Runs every scenario below the paths and compares each trace with its golden file.
-    Test {
-        /// Directories or scenario files.
-        #[arg(default_value = "golden", value_name = "PATH")]
-        paths: Vec<PathBuf>,
-        /// Rewrites the golden files of traces that changed.
-        #[arg(long)]
-        accept: bool,
-        /// Writes a report in JUnit format.
-        #[arg(long, value_name = "F.xml")]
-        junit: Option<PathBuf>,
-        /// Number of scenarios that run at the same time [default: the number of processors].
-        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-        jobs: Option<u16>,
-        /// Writes the flowchart of referencing and gantry as Mermaid; transitions that the scenarios took are marked.
-        #[arg(long, value_name = "F.mmd")]
-        flowchart: Option<PathBuf>,
-    },
+    Test(test::Arguments),
     /// Runs a machine in real time and serves it to S7 clients: operator panels, data collectors, test tools.
     ///
     /// Clients read and write DB10, DB11, DB21..., DB31..., the user data blocks, flags, inputs and outputs of the PLC, and read NC
@@ -200,19 +185,22 @@ fn run_command(programs: &Programs) -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
-            // If the message cannot be printed, there is no other place to report it.
-            let _ = error.print();
-            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+            let code = u8::try_from(error.exit_code()).unwrap_or(2);
+            let mut output = Output::default();
+            if error.use_stderr() {
+                // If the message cannot be printed, there is no other place to report it.
+                let _ = error.print();
+            } else {
+                output.note(error.print()); // --help and --version
+            }
+            return ExitCode::from(output.code(code));
         }
     };
     let mut output = Output::default();
     let code = match arguments.command {
         None => example::run(programs, &mut output),
-        Some(Command::Run { scenarios, files }) => run::run(&scenarios, &files, programs, &mut output),
-        Some(Command::Test { paths, accept, junit, jobs, flowchart }) => {
-            let options = test::Options { accept, junit, jobs, flowchart };
-            test::test(&paths, &options, programs, &mut output)
-        }
+        Some(Command::Run { scenarios, options }) => run::run(&scenarios, &options, programs, &mut output),
+        Some(Command::Test(arguments)) => test::test(&arguments, programs, &mut output),
         #[cfg(feature = "s7")]
         Some(Command::Serve(arguments)) => serve::serve(&arguments, programs, &mut output),
         #[cfg(feature = "s7")]
@@ -229,5 +217,5 @@ fn run_command(programs: &Programs) -> ExitCode {
             machine_data::check(&machine, all, &deny, &mut output)
         }
     };
-    ExitCode::from(code)
+    ExitCode::from(output.code(code))
 }

@@ -1,19 +1,18 @@
 //! `opennck run`: runs scenarios and prints their signal sequences with causes.
 
-use std::fs::File;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::output::{Output, apart};
+use super::files::Files;
+use super::output::Output;
 use crate::plc::Programs;
 use crate::scenario::{Failure, Finished, Prepared, Scenario, Variant};
-use crate::source::{Place, Problem, unwritable};
+use crate::source::{Place, Problem, Replacement};
 
-/// Files to which the trace is written as well.
+/// What runs, and the files to which the trace is written as well.
 #[derive(Clone, Debug, Default, Args)]
-pub(super) struct Files {
+pub(super) struct Options {
     /// Runs only the cases of a matrix whose values contain this text, as `plc = a`.
     #[arg(long, value_name = "TEXT")]
     case: Option<String>,
@@ -36,19 +35,19 @@ type Form = fn(&Finished) -> String;
 
 /// An open file and the format of its text.
 struct Waiting {
-    path: PathBuf,
-    file: File,
+    file: Replacement,
     text: Form,
 }
 
-impl Files {
+impl Options {
     /// Opens all files before anything runs.
-    fn open(&self, runs: usize, scenarios: &[PathBuf]) -> Result<Vec<Waiting>, Problem> {
-        let wanted: [(&str, &Option<PathBuf>, Form); 3] = [
+    fn open(&self, runs: usize, inputs: Vec<PathBuf>) -> Result<Vec<Waiting>, Problem> {
+        let wanted: [(&'static str, &Option<PathBuf>, Form); 3] = [
             ("--trace", &self.trace, Finished::json_lines),
             ("--vcd", &self.vcd, Finished::vcd),
             ("--svg", &self.svg, Finished::svg),
         ];
+        let mut files = Files::of(inputs);
         let mut waiting = Vec::new();
         for (option, path, text) in wanted {
             let Some(path) = path else {
@@ -60,20 +59,18 @@ impl Files {
                     "run each scenario separately, with its own file; `--case TEXT` chooses a case of a matrix",
                 ));
             }
-            apart(option, path, scenarios.iter().map(PathBuf::as_path))?;
-            let file = File::create(path).map_err(|error| unwritable(path, &error))?;
-            waiting.push(Waiting { path: path.clone(), file, text });
+            waiting.push(Waiting { file: files.open(option, path)?, text });
         }
         Ok(waiting)
     }
 }
 
 /// Reads all files before anything runs. If one file is unusable, nothing runs.
-pub(super) fn run(scenarios: &[PathBuf], files: &Files, programs: &Programs, output: &mut Output) -> u8 {
-    let mut ready = Vec::new();
+pub(super) fn run(scenarios: &[PathBuf], options: &Options, programs: &Programs, output: &mut Output) -> u8 {
+    let (mut ready, mut inputs) = (Vec::new(), Vec::new());
     let mut usable = true;
     for file in scenarios {
-        match prepare(file, files.case.as_deref(), programs) {
+        match prepare(file, options.case.as_deref(), programs, &mut inputs) {
             Ok(prepared) => ready.extend(prepared),
             Err(problem) => {
                 output.error(problem);
@@ -84,7 +81,7 @@ pub(super) fn run(scenarios: &[PathBuf], files: &Files, programs: &Programs, out
     if !usable {
         return 2;
     }
-    let mut waiting = match files.open(ready.len(), scenarios) {
+    let mut waiting = match options.open(ready.len(), inputs) {
         Ok(waiting) => waiting,
         Err(problem) => {
             output.error(problem);
@@ -99,16 +96,16 @@ pub(super) fn run(scenarios: &[PathBuf], files: &Files, programs: &Programs, out
         for warning in prepared.warnings() {
             output.warning(warning);
         }
-        let prepared = if files.margins { prepared.measure_margins() } else { prepared };
+        let prepared = if options.margins { prepared.measure_margins() } else { prepared };
         let finished = prepared.run();
         output.print(&finished.text());
         code = code.max(result(&finished, output));
-        if files.margins {
+        if options.margins {
             finished.margins().iter().for_each(|margin| output.line(margin));
         }
-        for Waiting { path, file, text } in &mut waiting {
-            if let Err(error) = file.write_all(text(&finished).as_bytes()) {
-                output.error(unwritable(path, &error));
+        for Waiting { mut file, text } in waiting.drain(..) {
+            if let Err(problem) = file.write(&text(&finished)).and_then(|()| file.finish()) {
+                output.error(problem);
                 code = 2;
             }
         }
@@ -117,8 +114,14 @@ pub(super) fn run(scenarios: &[PathBuf], files: &Files, programs: &Programs, out
 }
 
 /// All cases of one scenario under each of its profiles; with `wanted`, the cases whose values contain this text.
-fn prepare(file: &Path, wanted: Option<&str>, programs: &Programs) -> Result<Vec<Prepared>, Problem> {
+fn prepare(
+    file: &Path,
+    wanted: Option<&str>,
+    programs: &Programs,
+    inputs: &mut Vec<PathBuf>,
+) -> Result<Vec<Prepared>, Problem> {
     let cases = Scenario::read_cases(file)?;
+    inputs.extend(cases.iter().flat_map(Scenario::inputs));
     let is_wanted = |variant: &Variant, wanted| variant.to_string().contains(wanted) || variant.name.contains(wanted);
     let mut ready = Vec::new();
     let mut known = Vec::new();

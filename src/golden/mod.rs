@@ -110,7 +110,7 @@ pub fn scenario_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Problem> {
     let mut files = Vec::new();
     for path in paths {
         let before = files.len();
-        collect(path, &mut files)?;
+        collect(path, &mut Vec::new(), &mut files)?;
         if files.len() == before {
             return Err(Place::file(&path.display().to_string())
                 .problem("expected scenarios (*.toml), found none", "name a directory that contains scenarios"));
@@ -133,12 +133,18 @@ fn parts_of(files: &[PathBuf]) -> BTreeSet<PathBuf> {
     included.filter(|file| !names_machine(file)).map(|file| real(&file)).collect()
 }
 
-fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Problem> {
+/// A link to a folder above itself is not followed: it would show the same scenarios again, without end.
+fn collect(path: &Path, above: &mut Vec<PathBuf>, files: &mut Vec<PathBuf>) -> Result<(), Problem> {
     let metadata = std::fs::metadata(path).map_err(|error| unreadable(path, &error))?;
     if metadata.is_file() {
         files.push(path.to_owned());
         return Ok(());
     }
+    let folder = real(path);
+    if above.contains(&folder) {
+        return Ok(());
+    }
+    above.push(folder);
     let entries = std::fs::read_dir(path).map_err(|error| unreadable(path, &error))?;
     for entry in entries {
         let entry = entry.map_err(|error| unreadable(path, &error))?;
@@ -147,9 +153,10 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Problem> {
         let is_plant = path.file_name().is_some_and(|name| name == "plant.toml");
         let is_toml = path.extension().is_some_and(|extension| extension == "toml") && !is_plant;
         if path.is_dir() || is_toml {
-            collect(&path, files)?;
+            collect(&path, above, files)?;
         }
     }
+    above.pop();
     Ok(())
 }
 
@@ -184,6 +191,16 @@ pub struct Exercised {
     pub warnings: Vec<String>,
 }
 
+impl Exercised {
+    /// What a run has exercised.
+    #[must_use]
+    pub fn of(finished: &Finished) -> Self {
+        let machine = finished.session().machine();
+        let (control, warnings) = (machine.control(), machine.warnings().to_vec());
+        Self { texts: control.texts(), taken: control.taken(), remarks: finished.remarks(), warnings }
+    }
+}
+
 impl Case {
     /// The name of the case in reports: its file, the values of its matrix, and its profile if there are several.
     #[must_use]
@@ -201,7 +218,13 @@ impl Case {
     /// Runs the case and compares its trace with the golden file.
     #[must_use]
     pub fn run(&self, programs: &Programs, update: Update) -> Outcome {
-        self.run_watched(programs, update).0
+        self.run_finished(programs, update).0
+    }
+
+    /// Runs the case, and also returns the run, with its machine and trace; `None` if it could not run.
+    #[must_use]
+    pub fn run_finished(&self, programs: &Programs, update: Update) -> (Outcome, Option<Box<Finished>>) {
+        self.finished_on(programs, update, controls::read)
     }
 
     /// Runs the case, and also returns the transitions that its control has taken; `None` if it could not run.
@@ -213,15 +236,17 @@ impl Case {
     /// The same with a control that this project does not know: `read` reads the files of the machine.
     #[must_use]
     pub fn run_on(&self, programs: &Programs, update: Update, read: Read) -> (Outcome, Option<Exercised>) {
+        let (outcome, finished) = self.finished_on(programs, update, read);
+        (outcome, finished.as_deref().map(Exercised::of))
+    }
+
+    fn finished_on(&self, programs: &Programs, update: Update, read: Read) -> (Outcome, Option<Box<Finished>>) {
         let finished = match self.scenario.prepare_on(self.profile, programs, read) {
             Ok(prepared) => prepared.run(),
             Err(problem) => return (Outcome::Unusable(problem), None),
         };
         let outcome = self.outcome(&finished, update).unwrap_or_else(Outcome::Unusable);
-        let machine = finished.session().machine();
-        let (control, warnings) = (machine.control(), machine.warnings().to_vec());
-        let remarks = finished.remarks();
-        (outcome, Some(Exercised { texts: control.texts(), taken: control.taken(), remarks, warnings }))
+        (outcome, Some(Box::new(finished)))
     }
 
     fn outcome(&self, finished: &Finished, update: Update) -> Result<Outcome, Problem> {

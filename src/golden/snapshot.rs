@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::source::{Place, Problem, read_text, unwritable};
+use crate::source::{Place, Problem, read_text, replace};
 
 /// A golden file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,7 +49,7 @@ impl Snapshot {
     /// # Errors
     /// The file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), Problem> {
-        std::fs::write(path, self.to_string()).map_err(|error| unwritable(path, &error))
+        replace(path, &self.to_string())
     }
 }
 

@@ -6,6 +6,7 @@ use super::conditions::condition;
 use super::failure::Failure;
 use super::fields::{Named, in_the_case};
 use super::file::Scenario;
+use super::include::included_by;
 use super::operator::{Operator, Plan};
 use super::passing::Next;
 use super::session::Session;
@@ -113,6 +114,22 @@ impl Scenario {
     /// No file has this name.
     pub fn image_file(&self) -> Result<Option<PathBuf>, Problem> {
         self.plc_image.as_ref().map(|image| self.file_of(image)).transpose()
+    }
+
+    /// The files and folders that it reads: the file itself, those that it includes, its machine, its PLC image.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let mut inputs = vec![self.path.clone()];
+        let mut next = 0;
+        while let Some(file) = inputs.get(next) {
+            let included = included_by(file).unwrap_or_default();
+            let new: Vec<PathBuf> = included.into_iter().filter(|file| !inputs.contains(file)).collect();
+            inputs.extend(new);
+            next += 1;
+        }
+        inputs.push(self.directory().join(&self.machine.text));
+        inputs.extend(self.image_file().ok().flatten());
+        inputs
     }
 
     /// The file of a PLC image: a path, or a name that is searched in `plc_images` beside the scenario and in the folders above.

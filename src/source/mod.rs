@@ -2,10 +2,13 @@
 //!
 //! Every reader of a file in this project (machine data, `plant.toml`, PLC images, scenarios) reports with [`Problem`], so that all
 //! messages have one form. TOML files are read into a tree of [`Node`]s in which each value knows its place; merged files keep the places of both.
+//! Outputs are written with [`Replacement`]: a file is complete, or it is not changed.
 
 mod node;
+mod replacement;
 
 pub use node::{Node, Table, Value};
+pub use replacement::{Replacement, replace, target};
 
 use std::borrow::Cow;
 use std::fmt;

@@ -13,6 +13,7 @@ mod foreign_readers;
 mod own_interface;
 mod referencing;
 mod robustness;
+mod runner;
 mod s7;
 mod scenario_language;
 mod second_control;

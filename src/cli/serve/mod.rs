@@ -10,7 +10,7 @@ mod status;
 
 pub(super) use arguments::Arguments;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use indicatif::ProgressBar;
@@ -18,11 +18,12 @@ use tokio::runtime::Builder;
 
 use super::interrupt;
 use super::log::Log;
-use super::output::{Kept, Output};
+use super::files::Files;
+use super::output::Output;
 use crate::live::{Exchange, Keeper, Live, LiveOptions, MappedPlc, Opened};
 use crate::plc::Programs;
 use crate::s7::live::LiveServer;
-use crate::source::Problem;
+use crate::source::{Problem, Replacement};
 use status::{Status, status_line};
 
 /// Refresh interval of the status line.
@@ -54,7 +55,7 @@ struct Served {
     /// The banner.
     head: String,
     /// The file to which the trace is written at the end.
-    trace: Option<Kept>,
+    trace: Option<Replacement>,
 }
 
 impl Served {
@@ -63,7 +64,7 @@ impl Served {
         let Self { server, keeper, live, trace, .. } = self;
         drop(server);
         drop(keeper);
-        let Some(trace) = trace else {
+        let Some(mut trace) = trace else {
             return Ok(());
         };
         let ended = live.end();
@@ -72,21 +73,16 @@ impl Served {
             tracing::warn!("{lost} rows of the trace were lost: too many changes in one cycle");
         }
         let text = ended.and_then(|ended| ended.json_lines());
-        trace.write(&text.unwrap_or_default())
+        trace.write(&text.unwrap_or_default())?;
+        trace.finish()
     }
 }
 
 /// The file of `--trace`, which must differ from every other file of the command.
-fn trace_file(path: &Path, arguments: &Arguments) -> Result<Kept, Problem> {
-    if arguments.record.as_deref() == Some(path) {
-        return Err(Problem::new(
-            format!("expected different files for --record and --trace, found {} for both", path.display()),
-            "choose another file for the trace, for example one that ends in .jsonl",
-        ));
-    }
-    let Arguments { scenario, plc_image, image, identity, pcap, .. } = arguments;
-    let files = [scenario, image, identity, pcap].into_iter().flatten().map(PathBuf::as_path);
-    Kept::open("--trace", path, files.chain(plc_image.iter().map(Path::new)))
+fn trace_file(path: &Path, opened: &Opened, arguments: &Arguments) -> Result<Replacement, Problem> {
+    let Arguments { scenario, image, identity, pcap, record, .. } = arguments;
+    let files = [scenario, image, identity, pcap, record, &opened.image].into_iter().flatten().cloned();
+    Files::of(files.chain([opened.path.clone()])).open("--trace", path)
 }
 
 /// Opens everything, or reports what cannot be opened.
@@ -107,7 +103,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let _ = tracing::subscriber::set_global_default(Log { status: status.clone(), writes: arguments.log_writes });
     let exchange = Exchange { lock_step: arguments.lock_step, time_out: arguments.plc_timeout };
     let mapped = arguments.image.as_deref().map(|file| MappedPlc::create(file, machine, exchange)).transpose()?;
-    let trace = arguments.trace.as_deref().map(|path| trace_file(path, arguments)).transpose()?;
+    let trace = arguments.trace.as_deref().map(|path| trace_file(path, &opened, arguments)).transpose()?;
     // The recording is opened last: if opening failed after it, the new file would block the next attempt.
     let recording = arguments.record.as_deref().map(|path| opened.record(path)).transpose()?;
     let Opened { machine, operator, watch, .. } = opened;

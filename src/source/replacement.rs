@@ -1,0 +1,185 @@
+//! Outputs: a file is complete or not changed at all.
+//!
+//! A [`Replacement`] is a new file beside its target, and takes its place when it is complete. A full disk, a failed command or a kill
+//! leaves the old file; after a kill the new file stays beside it (`.NAME.PROCESS-NUMBER.new`) and can be deleted. Devices and pipes have no
+//! old content: they are written directly.
+
+use std::ffi::OsString;
+use std::fs::{File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::{Problem, unwritable};
+
+/// Tells apart the files that this process writes at the same time.
+static NUMBER: AtomicU64 = AtomicU64::new(0);
+
+/// A file that is being written, and takes the place of another one when it is complete.
+#[derive(Debug)]
+pub struct Replacement {
+    /// The target as the user named it, for messages.
+    named: PathBuf,
+    /// The target; a symbolic link is followed, so that it stays a link.
+    target: PathBuf,
+    /// The file beside the target; `None` for a device or pipe, and when it has taken the place of the target.
+    beside: Option<PathBuf>,
+    file: File,
+}
+
+impl Replacement {
+    /// Creates the new file. The target is not changed.
+    ///
+    /// # Errors
+    /// The folder of the target does not exist or cannot be written, or the target is a folder.
+    pub fn begin(path: &Path) -> Result<Self, Problem> {
+        Self::create(path).map_err(|error| unwritable(path, &error))
+    }
+
+    fn create(path: &Path) -> io::Result<Self> {
+        let target = target(path);
+        let named = path.to_owned();
+        let old = std::fs::metadata(&target).ok();
+        if old.as_ref().is_some_and(std::fs::Metadata::is_dir) {
+            return Err(io::ErrorKind::IsADirectory.into());
+        }
+        if old.as_ref().is_some_and(|old| !old.is_file()) {
+            let file = OpenOptions::new().write(true).open(&target)?;
+            return Ok(Self { named, target, beside: None, file });
+        }
+        if old.is_some() {
+            // A file that its owner has protected is not replaced, although the folder would permit it.
+            OpenOptions::new().write(true).open(&target)?;
+        }
+        let (beside, file) = create_beside(&target)?;
+        let replacement = Self { named, target, beside: Some(beside), file };
+        if let Some(old) = old {
+            replacement.file.set_permissions(old.permissions())?;
+        }
+        Ok(replacement)
+    }
+
+    /// Adds text to the new file.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write(&mut self, text: &str) -> Result<(), Problem> {
+        self.file.write_all(text.as_bytes()).map_err(|error| unwritable(&self.named, &error))
+    }
+
+    /// Puts the new file in the place of its target.
+    ///
+    /// # Errors
+    /// The target cannot be replaced.
+    pub fn finish(mut self) -> Result<(), Problem> {
+        let flushed = self.file.flush();
+        let placed = flushed.and_then(|()| self.beside.as_ref().map_or(Ok(()), |new| std::fs::rename(new, &self.target)));
+        placed.map_err(|error| unwritable(&self.named, &error))?;
+        self.beside = None;
+        Ok(())
+    }
+}
+
+impl Drop for Replacement {
+    /// Removes a file that is not complete.
+    fn drop(&mut self) {
+        if let Some(beside) = &self.beside {
+            let _ = std::fs::remove_file(beside);
+        }
+    }
+}
+
+/// Replaces the content of a file, or creates the file.
+///
+/// # Errors
+/// The file cannot be written; it then has its old content.
+pub fn replace(path: &Path, text: &str) -> Result<(), Problem> {
+    let mut file = Replacement::begin(path)?;
+    file.write(text)?;
+    file.finish()
+}
+
+/// The path with all symbolic links followed, also of a file that does not exist yet.
+#[must_use]
+pub fn target(path: &Path) -> PathBuf {
+    if let Ok(real) = path.canonicalize() {
+        return real;
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or_else(|| Path::new("."));
+    match (folder.canonicalize(), path.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        (Ok(_) | Err(_), _) => path.to_owned(),
+    }
+}
+
+/// A new file in the folder of another one.
+fn create_beside(target: &Path) -> io::Result<(PathBuf, File)> {
+    loop {
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let mut name = OsString::from(".");
+        name.push(target.file_name().unwrap_or_default());
+        name.push(format!(".{}-{number}.new", std::process::id()));
+        let beside = target.with_file_name(name);
+        match OpenOptions::new().write(true).create_new(true).open(&beside) {
+            Ok(file) => return Ok((beside, file)),
+            // An earlier process with the same number left it.
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder(name: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("opennck-{name}-{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).unwrap();
+        folder
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(folder).unwrap();
+        entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect()
+    }
+
+    #[test]
+    fn the_old_file_stays_until_the_new_one_is_complete() {
+        let folder = folder("replaced");
+        let path = folder.join("a.txt");
+        replace(&path, "old").unwrap();
+        let mut new = Replacement::begin(&path).unwrap();
+        new.write("half of the ne").unwrap();
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
+        drop(new);
+        assert_eq!((std::fs::read_to_string(&path).unwrap().as_str(), names(&folder)), ("old", vec!["a.txt".to_owned()]));
+        replace(&path, "new").unwrap();
+        assert_eq!((std::fs::read_to_string(&path).unwrap().as_str(), names(&folder)), ("new", vec!["a.txt".to_owned()]));
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_links_and_devices_are_written_directly() {
+        let folder = folder("links");
+        let (path, link) = (folder.join("a.txt"), folder.join("link"));
+        replace(&path, "old").unwrap();
+        std::os::unix::fs::symlink("a.txt", &link).unwrap();
+        replace(&link, "new").unwrap();
+        assert!(link.is_symlink());
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "new");
+        replace(Path::new("/dev/null"), "gone").unwrap();
+        let problem = replace(&folder, "x").unwrap_err();
+        assert!(problem.to_string().contains("cannot be written"), "{problem}");
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_full_disk_is_a_file_that_cannot_be_written() {
+        let problem = replace(Path::new("/dev/full"), "text").unwrap_err();
+        assert!(problem.to_string().starts_with("/dev/full: cannot be written: "), "{problem}");
+    }
+}
