@@ -19,6 +19,7 @@ The page `docs/plc_in_another_process.md` describes the file byte by byte. Two r
 
 import mmap
 import os
+import platform
 import re
 import struct
 import sys
@@ -40,6 +41,8 @@ NC_SLOTS = 80
 NC_SLOT_BYTES = 88
 PLC_SLOTS = 96
 PLC_SLOT_BYTES = 104
+LOCK_STEP = 120
+PROCESS = 136
 STATE = 256
 NEWEST_STEP = 264
 REQUEST = 272
@@ -53,6 +56,13 @@ ENDED, RUN, STOP = 0, 1, 2
 
 # The header has one page. A slot begins with its own 64 bytes, followed by the image.
 PAGE, HEAD = 4096, 64
+
+# Where stores become visible in their order, the numbers of a slot are sufficient, and the checksums are not needed.
+IN_ORDER = platform.machine() in ("x86_64", "AMD64")
+# An answer that lists its changes: the word after ANSWERS is their number plus one; each has an offset, the byte before and the byte after.
+CHANGE = struct.Struct("<IBBxx")
+# How long to look for the next step without a pause, in seconds; and between looks whether the NC still exists.
+SPIN, LOOK = 0.0003, 0.5
 
 WRITERS = {1: "PLC", 2: "NCK", 3: "HMI", 4: "machine"}
 

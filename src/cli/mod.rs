@@ -13,6 +13,7 @@
 mod alarms;
 mod completions;
 mod diff;
+mod durations;
 pub mod example;
 mod files;
 mod flowchart;
@@ -38,6 +39,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::controls;
+use crate::live::with_processes;
 use crate::plc::{MACHINE_CONTROL_PANEL_LAYOUT, Programs};
 use list::Format;
 use output::Output;
@@ -197,6 +199,7 @@ fn run_command(programs: &Programs) -> ExitCode {
         }
     };
     let mut output = Output::default();
+    let programs = &with_processes(programs.clone());
     let code = match arguments.command {
         None => example::run(programs, &mut output),
         Some(Command::Run { scenarios, options }) => run::run(&scenarios, &options, programs, &mut output),

@@ -1,17 +1,19 @@
 //! `opennck run`: runs scenarios and prints their signal sequences with causes.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use clap::Args;
 
+use super::durations::duration;
 use super::files::Files;
 use super::output::Output;
-use crate::plc::Programs;
+use crate::plc::{PlcProcess, Programs};
 use crate::scenario::{Failure, Finished, Prepared, Scenario, Variant};
 use crate::source::{Place, Problem, Replacement};
 
 /// What runs, and the files to which the trace is written as well.
-#[derive(Clone, Debug, Default, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Options {
     /// Runs only the cases of a matrix whose values contain this text, as `plc = a`.
     #[arg(long, value_name = "TEXT")]
@@ -19,6 +21,16 @@ pub(super) struct Options {
     /// Prints the smallest margin of each rule: cycles until a consequence would have been too late, or the distance of a compared value.
     #[arg(long)]
     margins: bool,
+    /// Runs the PLC program in another process: starts this command, which maps the file `{image}`, and ends it after the run.
+    ///
+    /// The process answers each scan (lock-step), so the trace is the same to the byte in every run. It replaces `plc` of the scenario; in a
+    /// scenario the same is `plc = { process = "…" }`. Its output is printed on standard error. The words of the command are separated by
+    /// spaces, quotes keep a word together; it is not run by a shell.
+    #[arg(long, value_name = "COMMAND")]
+    plc_process: Option<String>,
+    /// With --plc-process: how long the process may take until it opens the image, and for an answer.
+    #[arg(long, value_name = "TIME", requires = "plc_process", default_value = "10s", value_parser = duration)]
+    plc_timeout: Duration,
     /// Writes the trace as JSON lines, for programs; one scenario only.
     #[arg(long, value_name = "F.jsonl")]
     trace: Option<PathBuf>,
@@ -40,6 +52,16 @@ struct Waiting {
 }
 
 impl Options {
+    /// The PLC program in another process; it runs in the folder of the user.
+    fn process(&self) -> Option<PlcProcess> {
+        self.plc_process.clone().map(|command| PlcProcess {
+            command,
+            directory: PathBuf::new(),
+            time_out: self.plc_timeout,
+            is_shown: true,
+        })
+    }
+
     /// Opens all files before anything runs.
     fn open(&self, runs: usize, inputs: Vec<PathBuf>) -> Result<Vec<Waiting>, Problem> {
         let wanted: [(&'static str, &Option<PathBuf>, Form); 3] = [
@@ -70,7 +92,7 @@ pub(super) fn run(scenarios: &[PathBuf], options: &Options, programs: &Programs,
     let (mut ready, mut inputs) = (Vec::new(), Vec::new());
     let mut usable = true;
     for file in scenarios {
-        match prepare(file, options.case.as_deref(), programs, &mut inputs) {
+        match prepare(file, options, programs, &mut inputs) {
             Ok(prepared) => ready.extend(prepared),
             Err(problem) => {
                 output.error(problem);
@@ -116,11 +138,18 @@ pub(super) fn run(scenarios: &[PathBuf], options: &Options, programs: &Programs,
 /// All cases of one scenario under each of its profiles; with `wanted`, the cases whose values contain this text.
 fn prepare(
     file: &Path,
-    wanted: Option<&str>,
+    options: &Options,
     programs: &Programs,
     inputs: &mut Vec<PathBuf>,
 ) -> Result<Vec<Prepared>, Problem> {
-    let cases = Scenario::read_cases(file)?;
+    let wanted = options.case.as_deref();
+    let mut cases = Scenario::read_cases(file)?;
+    if let Some(process) = options.process() {
+        for case in &mut cases {
+            case.plc = None;
+            case.plc_process = Some((process.clone(), Place::file("--plc-process")));
+        }
+    }
     inputs.extend(cases.iter().flat_map(Scenario::inputs));
     let is_wanted = |variant: &Variant, wanted| variant.to_string().contains(wanted) || variant.name.contains(wanted);
     let mut ready = Vec::new();

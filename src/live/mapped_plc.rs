@@ -11,6 +11,7 @@
 //! restarts the PLC when a new process opens the file after a fault (alarm 2000 stays until power off and on, as on a control), and
 //! switches power off and on when requested.
 
+use std::fmt;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -20,7 +21,7 @@ use std::time::{Duration, Instant};
 
 use super::shared::Shared;
 use super::stepping::Live;
-use crate::image::AsBytes;
+use crate::image::{AsBytes, Memory, Names};
 use crate::image::mapped::{Look, MappedImage, Refusal, Rules, State, Step};
 use crate::machine::{Command, Machine};
 use crate::plc::{PlcFault, PlcIo, PlcProgram};
@@ -34,10 +35,12 @@ const KEEPER_INTERVAL: Duration = Duration::from_millis(10);
 const SHARE: u32 = 4;
 /// How long the last scans wait for their answer at the end.
 const LAST_ANSWER: Duration = Duration::from_millis(100);
-/// How long a scan polls for its answer without sleeping.
-const POLLING: Duration = Duration::from_micros(20);
+/// How long a scan polls for its answer without letting other threads run: a program needs some microseconds for a scan.
+const SPINNING: Duration = Duration::from_micros(50);
+/// How long it polls without sleeping: the other process may need this processor.
+const YIELDING: Duration = Duration::from_micros(300);
 /// How long it sleeps between polls after that.
-const POLL_INTERVAL: Duration = Duration::from_micros(20);
+const POLL_INTERVAL: Duration = Duration::from_micros(50);
 /// Shortest and longest interval between log lines about repeated events of the other process.
 const PAUSES: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(64)];
 
@@ -66,6 +69,16 @@ pub struct MappedPlc {
     plc_starts: u64,
     /// The machine is ending; scans no longer wait for the process.
     ends: Arc<AtomicBool>,
+    has_ended: Option<HasEnded>,
+}
+
+/// Tells whether the process has ended, and how.
+struct HasEnded(Box<dyn FnMut() -> Option<String> + Send>);
+
+impl fmt::Debug for HasEnded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("HasEnded")
+    }
 }
 
 impl MappedPlc {
@@ -74,10 +87,21 @@ impl MappedPlc {
     /// # Errors
     /// The file cannot be used, is not an image, or is in use by another machine.
     pub fn create(path: &Path, machine: &Machine, exchange: Exchange) -> Result<Self, Problem> {
+        Self::of(path, machine.memory(), machine.names(), machine.cycle_time(), exchange)
+    }
+
+    /// The same from the parts of a machine.
+    pub(super) fn of(
+        path: &Path,
+        memory: &Memory,
+        names: &Names,
+        cycle: Time,
+        exchange: Exchange,
+    ) -> Result<Self, Problem> {
         let time_out = i64::try_from(exchange.time_out.as_nanos()).unwrap_or(i64::MAX);
         let rules = Rules { lock_step: exchange.lock_step, time_out: Time::from_nanos(time_out) };
-        let image = MappedImage::create(path, machine.memory(), machine.names(), rules)?;
-        image.cycle_time(machine.cycle_time());
+        let image = MappedImage::create(path, memory, names, rules)?;
+        image.cycle_time(cycle);
         Ok(Self {
             least: 0,
             plc_starts: image.plc_starts_before(),
@@ -88,7 +112,29 @@ impl MappedPlc {
             last_scan: Instant::now(),
             refusal: None,
             ends: Arc::default(),
+            has_ended: None,
         })
+    }
+
+    /// Ends the waiting for an answer when the process has ended: this tells how, if it has.
+    pub(super) fn notice_end(&mut self, has_ended: impl FnMut() -> Option<String> + Send + 'static) {
+        self.has_ended = Some(HasEnded(Box::new(has_ended)));
+    }
+
+    /// Whether a process has opened the file since it was created.
+    pub(super) fn is_opened(&self) -> bool {
+        lock(&self.image).plc_starts() != self.plc_starts
+    }
+
+    /// How often a process has opened the file since it was created, and how often it has asked for power off and on.
+    pub(super) fn counts(&self) -> [u64; 2] {
+        let image = lock(&self.image);
+        [image.plc_starts(), image.power_requests()]
+    }
+
+    /// Shows the end to the process, so that it can end by itself.
+    pub(super) fn end(&self) {
+        lock(&self.image).state(State::Ended);
     }
 
     /// Waits until a process has opened the file, for a machine without a [`Keeper`]. In lock-step the process then answers from the first
@@ -98,7 +144,7 @@ impl MappedPlc {
     /// No process opened the file in time.
     pub fn wait_for_plc(&mut self, longest: Duration) -> Result<(), Problem> {
         let start = Instant::now();
-        while lock(&self.image).plc_starts() == self.plc_starts {
+        while !self.is_opened() {
             if start.elapsed() > longest {
                 return Err(Problem::new(
                     format!("no PLC process opened the image within {longest:?}"),
@@ -160,11 +206,19 @@ impl MappedPlc {
                 drop(image);
                 return Err(self.silence());
             }
-            if waited < POLLING {
+            if waited < SPINNING {
                 std::hint::spin_loop();
-            } else {
-                std::thread::sleep(POLL_INTERVAL);
+                continue;
             }
+            if waited < YIELDING {
+                std::thread::yield_now();
+                continue;
+            }
+            if let Some(how) = self.has_ended.as_mut().and_then(|HasEnded(has_ended)| has_ended()) {
+                image.give_up();
+                return Err(PlcFault::new(how));
+            }
+            std::thread::sleep(POLL_INTERVAL);
         }
     }
 

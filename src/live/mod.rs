@@ -35,7 +35,8 @@
 //!
 //! `stepping.rs` has the thread and its schedule, `shared.rs` the data shared between threads, `clocked.rs` the machine with its clock and
 //! recording, `seen.rs` the copy of the last step, `inbox.rs` the orders, `handle.rs` the boundary, `opening.rs` the inputs from which a
-//! machine is opened, `record.rs` the recording. `MappedPlc` (feature `mapped`) is a PLC program in another process.
+//! machine is opened, `record.rs` the recording. `MappedPlc` (feature `mapped`) is a PLC program in another
+//! process, `plc_process.rs` starts and ends this process for a scenario.
 
 #![expect(clippy::disallowed_methods, reason = "this module runs machines in real time")]
 
@@ -46,6 +47,8 @@ mod inbox;
 #[cfg(feature = "mapped")]
 mod mapped_plc;
 mod opening;
+#[cfg(feature = "mapped")]
+mod plc_process;
 mod record;
 mod seen;
 mod shared;
@@ -59,6 +62,8 @@ pub use inbox::Order;
 #[cfg(feature = "mapped")]
 pub use mapped_plc::{Exchange, Keeper, MappedPlc};
 pub use opening::{Opened, Opening};
+#[cfg(feature = "mapped")]
+pub use plc_process::with_processes;
 pub use record::Recording;
 pub use seen::Seen;
 pub use shared::Pace;

@@ -44,6 +44,8 @@ pub struct Opened {
     pub path: PathBuf,
     /// The name of its PLC program.
     pub plc: Option<String>,
+    /// The command of its PLC program in another process.
+    pub plc_process: Option<String>,
     /// The file of its PLC image.
     pub image: Option<PathBuf>,
     /// The changes merged into its plant.
@@ -88,6 +90,7 @@ impl Opening<'_> {
             entries: None,
             path: path.to_owned(),
             plc: self.plc.map(str::to_owned),
+            plc_process: None,
             image: self.plc_image.map(Path::to_owned),
             plant: None,
             machine_data: Vec::new(),
@@ -116,13 +119,15 @@ impl Opening<'_> {
         }
         if let Some(plc) = self.plc {
             scenario.plc = Some(override_named("--plc", plc));
+            scenario.plc_process = None;
         }
         if let Some(image) = self.plc_image {
             scenario.plc_image = Some(override_named("--plc-image", &absolute(image)));
         }
         let image = scenario.image_file()?;
         let prepared = scenario.prepare(profile.unwrap_or(scenario.profiles[0]), programs)?;
-        let (machine, operator, watch) = prepared.into_operator();
+        let (mut machine, operator, watch) = prepared.into_operator();
+        machine.begin_program()?;
         Ok(Opened {
             machine,
             operator: Some(operator),
@@ -130,6 +135,7 @@ impl Opening<'_> {
             entries: scenario.watch.map(|all| all.into_iter().map(|entry| (entry.name.text, entry.step)).collect()),
             path,
             plc: scenario.plc.map(|plc| plc.text),
+            plc_process: scenario.plc_process.map(|(process, _)| process.command),
             image,
             plant: scenario.plant,
             machine_data: scenario.machine_data.into_iter().map(|datum| (datum.target, datum.value)).collect(),
@@ -143,6 +149,10 @@ impl Opened {
     /// # Errors
     /// As for [`Recording::begin`], or the recording could not refer to the machine from its folder.
     pub fn record(&self, path: &Path) -> Result<Recording, Problem> {
+        if let Some(command) = &self.plc_process {
+            let what = format!("expected a PLC program that a recording can repeat, found the process `{command}`");
+            return Err(Place::file(&path.display().to_string()).problem(what, "record without `plc`, or without --record"));
+        }
         let machine = if self.path.exists() { from(path, &self.path)? } else { built_in(path, &self.path)? };
         let image = self.image.as_deref().map(|image| from(path, image)).transpose()?;
         let title = format!("A session with {}", machine.rsplit('/').next().unwrap_or_default());

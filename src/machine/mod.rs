@@ -39,6 +39,7 @@ use std::sync::Arc;
 use crate::control::{Control, Finding};
 use crate::image::{Memory, Names, OverrideCoding};
 use crate::plc::PlcProgram;
+use crate::source::Problem;
 use crate::trace::Recorder;
 use crate::units::{AxisNumber, ChannelNumber, Time};
 use crate::variables::{RParameters, RaisedAlarm, Variables};
@@ -153,6 +154,14 @@ impl Machine {
     #[must_use]
     pub fn control(&self) -> &(dyn Control + 'static) {
         &*self.control
+    }
+
+    /// Starts the PLC program if it is in another process. Without this call it starts in the first step.
+    ///
+    /// # Errors
+    /// The process cannot start.
+    pub fn begin_program(&mut self) -> Result<(), Problem> {
+        self.program.as_mut().map_or(Ok(()), |program| program.begin())
     }
 
     /// Whether the PLC is stopped, by a command or because its program failed.

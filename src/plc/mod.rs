@@ -27,6 +27,7 @@ mod bench;
 mod blocks;
 mod closure;
 mod io;
+mod process;
 mod programs;
 mod registry;
 #[cfg(test)]
@@ -35,6 +36,7 @@ mod tests;
 pub use blocks::{FallingEdge, OffDelay, OnDelay, ResetDominantLatch, RisingEdge, SetDominantLatch};
 pub use closure::{ClosureProgram, program, program_for, program_with_fault};
 pub use io::PlcIo;
+pub use process::PlcProcess;
 pub use programs::{
     LimitEdgeMarker, MACHINE_CONTROL_PANEL_LAYOUT, MachineControlPanel, enable_all, gantry_start, limit_edge_marker,
     machine_control_panel, shared_reference_cam,
@@ -65,6 +67,15 @@ impl PlcFault {
 pub trait PlcProgram: Send {
     /// The name of the program.
     fn name(&self) -> &str;
+
+    /// Called before the first step of a run. A program in another process starts here, so that one that cannot start is an error and not
+    /// a fault of the PLC.
+    ///
+    /// # Errors
+    /// The program cannot start.
+    fn begin(&mut self) -> Result<(), Problem> {
+        Ok(())
+    }
 
     /// OB100: runs once after power on and after each restart of the PLC, before the first scan.
     ///

@@ -13,6 +13,7 @@ use super::rules;
 use crate::control::{StoredDatum, Value as DatumValue};
 use crate::controls;
 use crate::image::Profile;
+use crate::plc::PlcProcess;
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean, read_text};
 use crate::units::Time;
 
@@ -31,6 +32,8 @@ pub struct Scenario {
     pub profiles: Vec<Profile>,
     /// The PLC program, by name.
     pub plc: Option<Named>,
+    /// The PLC program in another process, and its place in the file; it excludes `plc`.
+    pub plc_process: Option<(PlcProcess, Place)>,
     /// The PLC memory image, by name or file.
     pub plc_image: Option<Named>,
     /// The limit of simulated time.
@@ -145,13 +148,18 @@ impl Scenario {
         };
         let machine = required(table.take("machine"), "machine", "\"g1_example\"")?;
         let machine = named(&machine, "the name or directory of a machine")?;
+        let (plc, plc_process) = match table.take("plc") {
+            Some(node) if matches!(node.value, Value::Table(_)) => (None, Some(process(node, path)?)),
+            node => (node.map(|node| named(&node, "the name of a PLC program")).transpose()?, None),
+        };
         let scenario = Self {
             path: path.to_owned(),
             title,
             machine,
             covers: texts(table.take("covers"), "requirement IDs")?.into_iter().map(|id| id.text).collect(),
             profiles: profiles(table.take("profile"))?,
-            plc: table.take("plc").map(|node| named(&node, "the name of a PLC program")).transpose()?,
+            plc,
+            plc_process,
             plc_image: table
                 .take("plc_image")
                 .map(|node| named(&node, "the name or file of a PLC image"))
@@ -226,6 +234,26 @@ fn only_one(mut cases: Vec<Scenario>, path: &Path) -> Result<Scenario, Problem> 
             "`opennck run` and `opennck test` run all cases of a matrix; `--case TEXT` chooses one",
         )),
     }
+}
+
+/// `plc = { process = "python3 plc.py {image}", timeout = "10s" }`. The process runs in the folder of the scenario.
+fn process(node: Node, path: &Path) -> Result<(PlcProcess, Place), Problem> {
+    let place = node.place.clone();
+    let mut table = node.into_table("a PLC program in another process")?;
+    let (command, limit) = (table.take("process"), table.take("timeout"));
+    table.finish()?;
+    let cure = "write { process = \"python3 plc.py {image}\" }";
+    let command = command.ok_or_else(|| place.problem("expected the key `process`, found none", cure))?;
+    let time_out = match limit {
+        Some(limit) => match duration(&limit, "a time-out")? {
+            Duration::Time(time) => std::time::Duration::from_nanos(u64::try_from(time.nanos()).unwrap_or(0)),
+            Duration::Cycles(_) => return Err(limit.expected("a time of the computer", "write timeout = \"10s\"")),
+        },
+        None => PlcProcess::TIME_OUT,
+    };
+    let directory = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
+    let command = command.text("a command")?.to_owned();
+    Ok((PlcProcess { command, directory, time_out, is_shown: false }, place))
 }
 
 fn machine_data(node: Node) -> Result<Vec<StoredDatum>, Problem> {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::conditions::condition;
-use super::failure::Failure;
+use super::failure::{Failure, Missed};
 use super::fields::{Named, in_the_case};
 use super::file::Scenario;
 use super::include::included_by;
@@ -18,9 +18,10 @@ use crate::image::{Preset, Profile};
 use crate::machine::{Machine, OpenOptions};
 use crate::monitor::{Claim, Rule};
 use crate::plc::Programs;
-use crate::source::Problem;
+use crate::source::{Place, Problem};
 use crate::trace::{Head, Watch};
 use crate::units::Time;
+use crate::variables::Describe;
 
 /// A scenario that is ready to run: the machine is open, names are looked up, values are checked.
 pub struct Prepared {
@@ -28,6 +29,8 @@ pub struct Prepared {
     plan: Plan,
     head: Head,
     causes: bool,
+    /// Where the scenario names its PLC program, if this is in another process.
+    process: Option<Place>,
 }
 
 /// A scenario after its run.
@@ -83,13 +86,18 @@ impl Scenario {
             let program = programs.program(&name.text, machine.names());
             machine.load_program(program.map_err(|problem| problem.at(&name.place))?);
         }
+        if let Some((process, place)) = &self.plc_process {
+            let program = programs.process(process, machine.memory(), machine.names(), machine.cycle_time());
+            machine.load_program(program.map_err(|problem| problem.at(place))?);
+        }
+        let process = self.plc_process.as_ref().map(|(_, place)| place.clone());
         let mut session = Session::new(machine);
         session.set_watch(watch);
         let Session { machine, book, .. } = &mut session;
         book.look_back(looks_back, machine);
         book.limit = Some(self.limit);
         book.watch_over(rules, followed, machine);
-        Ok(Prepared { session, plan, head, causes: self.causes })
+        Ok(Prepared { session, plan, head, causes: self.causes, process })
     }
 
     fn open(&self, profile: Profile, read: Read) -> Result<Machine, Problem> {
@@ -185,7 +193,15 @@ impl Prepared {
     /// Runs the steps in order until one fails.
     #[must_use]
     pub fn run(mut self) -> Finished {
+        let begun = self.session.machine.begin_program();
+        let mut unusable = begun.err().map(|problem| match &self.process {
+            Some(place) => problem.at(place),
+            None => problem,
+        });
         let failure = loop {
+            if let Some(problem) = unusable.take() {
+                break Some(problem.into());
+            }
             let Session { machine, book, trace, .. } = &mut self.session;
             let note = &mut |machine: &Machine, text: &str| trace.note(machine.cycle() + 1, text);
             match self.plan.go_on(book, machine, note) {
@@ -201,11 +217,32 @@ impl Prepared {
             if let Err(failure) = ended {
                 break Some(failure);
             }
+            if let Some(failure) = self.end_of_process() {
+                break Some(failure);
+            }
         };
         let Session { machine, book, .. } = &mut self.session;
         let failure = book.finish(failure, machine);
         let failure = failure.map(|failure| failure.of_case(self.head.case.as_deref()));
         Finished { session: self.session, head: self.head, causes: self.causes, failure }
+    }
+
+    /// The failure of a PLC process that has ended or is silent. The PLC is then in STOP, and no step of the scenario is a test of it.
+    fn end_of_process(&self) -> Option<Failure> {
+        let place = self.process.as_ref()?;
+        let machine = &self.session.machine;
+        let fault = machine.plc_fault()?;
+        let alarms = machine.variables().alarms.iter();
+        let alarms = alarms.map(|alarm| format!("{} {}", machine.alarm_name(alarm.number), machine.alarm_text(alarm)));
+        let missed = Missed {
+            place: Some(place.clone()),
+            time: self.session.time(),
+            case: None,
+            what: fault.to_owned(),
+            operands: Vec::new(),
+            alarms: alarms.collect(),
+        };
+        Some(missed.into())
     }
 
     /// Returns the machine, for a caller that steps it, the operator that executes the scenario, and the signals of the trace.

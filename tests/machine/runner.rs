@@ -48,7 +48,7 @@ fn a_case_of_a_matrix_is_the_unit_of_list_filter_and_shard() {
     assert_eq!(all[0], "golden/area/flags.toml [plc = enable_all, plant.X.start = 120.0]");
     assert_eq!(listed(&["--filter", "gantry_start"], &directory), all[2..4]);
     assert_eq!(listed(&["--filter", "ref-04"], &directory), all[..4], "a cited rule");
-    assert_eq!(listed(&["--filter", "120.0", "--filter", "failing"], &directory), [&all[0], &all[2], &all[4]]);
+    assert_eq!(listed(&["--filter", "120.0", "--filter", "failing"], &directory), [all[0].clone(), all[2].clone(), all[4].clone()]);
     let mut parts = [listed(&["--shard", "1/2"], &directory), listed(&["--shard", "2/2"], &directory)].concat();
     assert_eq!(parts.len(), 5);
     parts.sort();

@@ -5,6 +5,7 @@ use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use crate::cli::durations::duration;
 use crate::cli::output::Output;
 use crate::live::{Opened, Opening, Speed};
 use crate::machine::Machine;
@@ -13,7 +14,6 @@ use crate::s7::Settings;
 use crate::s7::live::{LiveServerOptions, OwnIdentity, Terms, protected, protection};
 use crate::s7::server::{Faults, Limits, Network};
 use crate::source::Problem;
-use crate::units::Time;
 
 /// The machine, the server and its limits.
 #[derive(Debug, clap::Args)]
@@ -188,14 +188,6 @@ fn image(name: &str) -> Result<PathBuf, Problem> {
             "give a file that ends in .toml, or start in the folder with plc_images",
         )
     })
-}
-
-/// Parses `30s` or `10min`.
-fn duration(text: &str) -> Result<Duration, String> {
-    Time::parse(text)
-        .map(|time| Duration::from_nanos(time.nanos().unsigned_abs()))
-        .filter(|time| !time.is_zero())
-        .ok_or_else(|| format!("expected a time such as 500ms, 30s or 10min, found {text}"))
 }
 
 /// An address and a port, or a port of this computer.

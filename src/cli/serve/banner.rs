@@ -9,7 +9,7 @@ use crate::s7::live::Terms;
 /// The machine, its program and its files.
 pub(super) fn machine(opened: &Opened, arguments: &Arguments) -> String {
     let machine = &opened.machine;
-    let plc = match (&opened.plc, &arguments.image) {
+    let plc = match (opened.plc.as_ref().or(opened.plc_process.as_ref()), &arguments.image) {
         (Some(name), _) => format!("PLC program {name}"),
         (None, Some(file)) => format!("PLC program in another process, through {}", file.display()),
         (None, None) => "no PLC program: clients write the PLC signals".to_owned(),

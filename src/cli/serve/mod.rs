@@ -90,7 +90,7 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let opened = arguments.open(programs, output)?;
     let machine = &opened.machine;
     let server = arguments.server_options(machine)?;
-    if let (Some(_), Some(name)) = (&arguments.image, &opened.plc) {
+    if let (Some(_), Some(name)) = (&arguments.image, opened.plc.as_ref().or(opened.plc_process.as_ref())) {
         return Err(Problem::new(
             format!("expected one PLC program, found two: {name} in the scenario, and --image"),
             "remove `plc` from the scenario, or omit --image",

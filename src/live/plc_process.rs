@@ -1,0 +1,271 @@
+//! A PLC program in another process, which the simulator starts and ends: `plc = { process = "python3 plc.py {image}" }` in a scenario.
+//!
+//! The process maps a file of its own (in memory where the system has `/dev/shm`), in lock-step. It starts before the first step, and the
+//! first step waits until it has opened the file: a program that does not start, or never opens the file, is an error of the scenario. One
+//! that ends or is silent during the run is a fault of the PLC, as in [`MappedPlc`]: alarm 2000, with the last lines that it printed. At the
+//! end the process sees that the NC has ended, and has two seconds to end by itself; then it is killed. In each case it is waited for, so no
+//! process stays.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::mapped_plc::{Exchange, MappedPlc};
+use crate::image::{AsBytes, Memory, Names};
+use crate::plc::{PlcFault, PlcIo, PlcProcess, PlcProgram, Programs};
+use crate::source::{Problem, decode};
+use crate::units::Time;
+
+/// How long the process may take to end by itself.
+const LAST: Duration = Duration::from_secs(2);
+/// Polling interval while a process starts or ends.
+const INTERVAL: Duration = Duration::from_millis(2);
+/// The number of lines of its output in a message.
+const LINES: usize = 8;
+/// In the command, the mapped file.
+const IMAGE: &str = "{image}";
+
+/// Tells apart the files of this process.
+static NUMBER: AtomicU64 = AtomicU64::new(0);
+
+/// Adds PLC programs in other processes to these programs.
+#[must_use]
+pub fn with_processes(programs: Programs) -> Programs {
+    programs.with_processes(|process, memory, names, cycle| {
+        Ok(Box::new(ProcessProgram::create(process, memory, names, cycle)?))
+    })
+}
+
+/// A PLC program in a process of its own.
+struct ProcessProgram {
+    mapped: MappedPlc,
+    process: PlcProcess,
+    words: Vec<String>,
+    files: Files,
+    /// The process, once it runs.
+    child: Option<Arc<Mutex<Child>>>,
+    /// The counts of the file when the process had opened it.
+    counts: [u64; 2],
+}
+
+/// The files of the exchange, which are removed at the end.
+struct Files {
+    image: PathBuf,
+    /// What the process prints.
+    log: PathBuf,
+}
+
+impl Drop for Files {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.image);
+        let _ = fs::remove_file(&self.log);
+    }
+}
+
+impl ProcessProgram {
+    fn create(process: &PlcProcess, memory: &Memory, names: &Names, cycle: Time) -> Result<Self, Problem> {
+        let words = words(&process.command)?;
+        let in_memory = Path::new("/dev/shm");
+        let folder = if in_memory.is_dir() { in_memory.to_owned() } else { std::env::temp_dir() };
+        let name = format!("opennck-{}-{}", std::process::id(), NUMBER.fetch_add(1, Ordering::Relaxed));
+        let files = Files { image: folder.join(format!("{name}.image")), log: folder.join(format!("{name}.log")) };
+        // Files of an earlier process with the same number.
+        let _ = fs::remove_file(&files.image);
+        let exchange = Exchange { lock_step: true, time_out: process.time_out };
+        let mapped = MappedPlc::of(&files.image, memory, names, cycle, exchange)?;
+        Ok(Self { mapped, process: process.clone(), words, files, child: None, counts: [0; 2] })
+    }
+
+    /// Starts the process and waits until it has opened the file.
+    fn start(&mut self) -> Result<(), Problem> {
+        let program = &self.process.command;
+        let unstarted = |error: io::Error| {
+            Problem::new(
+                format!("the PLC process `{program}` cannot be started: {error}"),
+                format!("check the command; it runs in {}", shown(&self.process.directory)),
+            )
+        };
+        let image = self.files.image.to_string_lossy();
+        let mut words = self.words.iter().map(|word| word.replace(IMAGE, &image));
+        let mut command = Command::new(words.next().unwrap_or_default());
+        command.args(words).stdin(Stdio::null());
+        if !self.process.directory.as_os_str().is_empty() {
+            command.current_dir(&self.process.directory);
+        }
+        if self.process.is_shown {
+            command.stdout(io::stderr()).stderr(Stdio::inherit());
+        } else {
+            let log = File::create(&self.files.log).map_err(unstarted)?;
+            command.stdout(log.try_clone().map_err(unstarted)?).stderr(log);
+        }
+        let child = Arc::new(Mutex::new(command.spawn().map_err(unstarted)?));
+        self.child = Some(Arc::clone(&child));
+        let begin = Instant::now();
+        while !self.mapped.is_opened() {
+            if let Some(how) = ended(&child) {
+                let what = format!("the PLC process `{program}` ended before it opened the image ({how}){}", self.said());
+                return Err(Problem::new(what, "start the program by hand to see why; it opens the file in place of {image}"));
+            }
+            if begin.elapsed() > self.process.time_out {
+                let limit = self.process.time_out;
+                let what = format!("the PLC process `{program}` did not open the image within {limit:?}{}", self.said());
+                return Err(Problem::new(what, "open the file in place of {image} with `Image(path)`, or raise `timeout`"));
+            }
+            std::thread::sleep(INTERVAL);
+        }
+        self.counts = self.mapped.counts();
+        let (log, command) = (self.files.log.clone(), program.clone());
+        self.mapped.notice_end(move || {
+            let how = ended(&child)?;
+            Some(format!("the PLC process `{command}` ended while the NC runs ({how}){}", last_lines(&log)))
+        });
+        Ok(())
+    }
+
+    /// The last lines that the process printed.
+    fn said(&self) -> String {
+        last_lines(&self.files.log)
+    }
+
+    /// The requests of the process that nobody grants here.
+    fn refuse_requests(&self) -> Result<(), PlcFault> {
+        let [starts, powers] = self.mapped.counts();
+        let [starts_before, powers_before] = self.counts;
+        if starts != starts_before {
+            return Err(PlcFault::new(
+                "the image was opened again: a PLC in a scenario is one process that opens it once".to_owned(),
+            ));
+        }
+        if powers != powers_before {
+            return Err(PlcFault::new(
+                "the PLC process asks for power off and on; in a scenario a step does this: power_on = true".to_owned(),
+            ));
+        }
+        Ok(())
+    }
+}
+
+impl PlcProgram for ProcessProgram {
+    fn name(&self) -> &str {
+        &self.process.command
+    }
+
+    fn begin(&mut self) -> Result<(), Problem> {
+        if self.child.is_some() { Ok(()) } else { self.start() }
+    }
+
+    fn startup(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
+        self.begin().map_err(|problem| PlcFault::new(problem.to_string()))?;
+        self.mapped.startup(io)
+    }
+
+    fn scan(&mut self, io: &mut PlcIo<'_, AsBytes>) -> Result<(), PlcFault> {
+        let scanned = self.mapped.scan(io).map_err(|fault| match self.said() {
+            said if fault.reason.ends_with(&said) => fault,
+            said => PlcFault::new(fault.reason + &said),
+        });
+        scanned.and_then(|()| self.refuse_requests())
+    }
+
+    fn save(&self) -> Vec<u8> {
+        self.mapped.save()
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> Result<(), Problem> {
+        self.mapped.restore(saved)
+    }
+
+    fn fork(&self) -> Option<Box<dyn PlcProgram>> {
+        None
+    }
+
+    fn reset(&mut self) {
+        self.mapped.reset();
+    }
+}
+
+impl Drop for ProcessProgram {
+    fn drop(&mut self) {
+        let Some(child) = &self.child else { return };
+        self.mapped.end();
+        let begin = Instant::now();
+        while ended(child).is_none() {
+            if begin.elapsed() > LAST {
+                let mut child = child.lock().unwrap_or_else(PoisonError::into_inner);
+                let _ = child.kill();
+                let _ = child.wait();
+                return;
+            }
+            std::thread::sleep(INTERVAL);
+        }
+    }
+}
+
+/// How a process has ended, if it has. It is then no longer known to the system.
+fn ended(child: &Mutex<Child>) -> Option<String> {
+    match child.lock().unwrap_or_else(PoisonError::into_inner).try_wait() {
+        Ok(None) => None,
+        Ok(Some(status)) => Some(status.to_string()),
+        Err(error) => Some(error.to_string()),
+    }
+}
+
+/// The end of what a process printed, as further lines of a message.
+fn last_lines(log: &Path) -> String {
+    let text = decode(&fs::read(log).unwrap_or_default());
+    let lines: Vec<&str> = text.lines().map(str::trim_end).filter(|line| !line.is_empty()).collect();
+    let last = lines[lines.len().saturating_sub(LINES)..].iter();
+    last.map(|line| format!("\n  it printed: {}", line.replace(char::is_control, " "))).collect()
+}
+
+fn shown(directory: &Path) -> String {
+    if directory.as_os_str().is_empty() { "this folder".to_owned() } else { directory.display().to_string() }
+}
+
+/// The words of a command. It is not run by a shell, so that it means the same on each system.
+fn words(command: &str) -> Result<Vec<String>, Problem> {
+    let wrong = |what: &str| {
+        Problem::new(
+            format!("expected a command such as `python3 plc.py {IMAGE}`, found `{command}`"),
+            format!("{what}; {IMAGE} stands for the mapped file"),
+        )
+    };
+    let (mut words, mut word, mut quote) = (Vec::new(), None::<String>, None);
+    for character in command.chars() {
+        match (quote, character) {
+            (Some(open), _) if open == character => quote = None,
+            (None, '"' | '\'') => {
+                quote = Some(character);
+                word.get_or_insert_default();
+            }
+            (None, _) if character.is_whitespace() => words.extend(word.take()),
+            _ => word.get_or_insert_default().push(character),
+        }
+    }
+    words.extend(word);
+    if quote.is_some() {
+        return Err(wrong("close the quotes"));
+    }
+    if !words.iter().skip(1).any(|word| word.contains(IMAGE)) {
+        return Err(wrong(&format!("add {IMAGE} to the arguments")));
+    }
+    Ok(words)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quotes_keep_a_word_together_and_the_image_is_required() {
+        let command = "python3 'my plc.py' \"\" --image={image}";
+        assert_eq!(words(command).unwrap(), ["python3", "my plc.py", "", "--image={image}"]);
+        for command in ["", "{image}", "python3 plc.py", "python3 'plc.py {image}"] {
+            assert!(words(command).is_err(), "{command}");
+        }
+    }
+}
