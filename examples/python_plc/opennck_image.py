@@ -61,6 +61,7 @@ PAGE, HEAD = 4096, 64
 IN_ORDER = platform.machine() in ("x86_64", "AMD64")
 # An answer that lists its changes: the word after ANSWERS is their number plus one; each has an offset, the byte before and the byte after.
 CHANGE = struct.Struct("<IBBxx")
+STEP, ANSWER = struct.Struct("<6Q"), struct.Struct("<3Q")
 # How long to look for the next step without a pause, in seconds; and between looks whether the NC still exists.
 SPIN, LOOK = 0.0003, 0.5
 
@@ -89,27 +90,71 @@ class Step:
     """One step of the NC: the published image, and the image changed by the PLC."""
 
     def __init__(self, image, slot):
-        self.number, self.cycle, nanoseconds, since_last, self.starts, self.taken = struct.unpack_from("<6Q", slot)
+        self.number, self.cycle, nanoseconds, since_last, self.starts, self.taken = STEP.unpack_from(slot)
         self.time = nanoseconds / 1e9
         self.since_last = since_last / 1e9
         self.first_scan = False
-        self.before = slot[HEAD : HEAD + image.image_bytes]
-        self.image = bytearray(self.before)
-        self._find = image.find
+        self._slot = slot
+        self._bytes = image.image_bytes
+        self._places = image.places
+        self._image = None
+        self._written = {}  # the written bytes by offset
+
+    @property
+    def before(self):
+        """The image as the NC published it."""
+        return self._slot[HEAD : HEAD + self._bytes]
+
+    @property
+    def image(self):
+        """The image as a bytearray, for a program that changes bytes by itself."""
+        if self._image is None:
+            self._image = bytearray(self.before)
+            for offset in self._written:
+                self._image[offset] = self._written[offset]
+            self._written = self._image
+        return self._image
 
     def __getitem__(self, address):
-        offset, width, bit = self._find(address)
-        number = int.from_bytes(self.image[offset : offset + width], "big")
-        return number if bit is None else number >> bit & 1
+        offset, width, bit = self._places[address]
+        written = self._written
+        if self._image is not None:
+            value = int.from_bytes(written[offset : offset + width], "big")
+        elif not written:
+            value = int.from_bytes(self._slot[HEAD + offset : HEAD + offset + width], "big")
+        else:
+            value = 0
+            for at in range(offset, offset + width):
+                value = value << 8 | written.get(at, self._slot[HEAD + at])
+        return value if bit is None else value >> bit & 1
 
     def __setitem__(self, address, value):
-        offset, width, bit = self._find(address)
+        offset, width, bit = self._places[address]
+        written = self._written
         if bit is None:
-            self.image[offset : offset + width] = int(value).to_bytes(width, "big", signed=value < 0)
-        elif value:
-            self.image[offset] |= 1 << bit
-        else:
-            self.image[offset] &= ~(1 << bit) & 0xFF
+            for at, byte in enumerate(int(value).to_bytes(width, "big", signed=value < 0), offset):
+                written[at] = byte
+            return
+        byte = written[offset] if self._image is not None else written.get(offset, self._slot[HEAD + offset])
+        written[offset] = byte | 1 << bit if value else byte & ~(1 << bit) & 0xFF
+
+    def changes(self):
+        """The changed bytes: offset, before, after; None if the program has taken the whole image."""
+        if self._image is not None:
+            return None
+        slot = self._slot
+        return [(at, slot[HEAD + at], byte) for at, byte in self._written.items() if slot[HEAD + at] != byte]
+
+
+class Places(dict):
+    """Offset in the image, bytes, and bit of each address, looked up once."""
+
+    def __init__(self, look_up):
+        self._look_up = look_up
+
+    def __missing__(self, address):
+        place = self[address] = self._look_up(address)
+        return place
 
 
 def following(number):
@@ -188,7 +233,9 @@ class Image:
         self.sections = [Section(entries[size * n : size * (n + 1)]) for n in range(count)]
         if any(section.offset + section.length > self.image_bytes for section in self.sections):
             raise NotYet("its section table is invalid: a section ends beyond the image")
-        self._places = {}
+        self.places = Places(self._look_up)
+        self._lock_step = self.word(LOCK_STEP) != 0
+        self._process = self.word(PROCESS)
         self._newest = 0
         self._starts = self._answered = None
         if not self.is_served():
@@ -220,10 +267,7 @@ class Image:
 
     def find(self, address):
         """Offset in the image, bytes, and bit of an address such as DB31.DBX4.7, DB31.DBD24, MW20 or Q4.0."""
-        place = self._places.get(address)
-        if place is None:
-            place = self._places[address] = self._look_up(address)
-        return place
+        return self.places[address]
 
     def _look_up(self, address):
         match = ADDRESS.match(address)
@@ -251,17 +295,18 @@ class Image:
 
     def newest(self):
         """The newest step, if it is newer than the last one and contains the last answer; else None."""
-        number = self.word(NEWEST_STEP)
-        if number in (0, self._newest):
+        number = self.words[NEWEST_STEP // 8]
+        if number == self._newest or not number:
             return None
         size = self._nc_slot_bytes
         start = self._nc_slots + number % self._slots * size
-        slot = bytes(self.bytes[start : start + size])
-        if struct.unpack_from("<Q", slot)[0] != number or self.word(start) != number:
+        slot = self.map[start : start + size]
+        if STEP.unpack_from(slot)[0] != number or self.words[start // 8] != number:
             return None  # it was being written
-        checksum = struct.unpack_from("<Q", slot, size - 8)[0]
-        if checksum not in (0, zlib.crc32(slot[:-8])):
-            return None  # not all of it is visible yet
+        if not IN_ORDER:
+            checksum = struct.unpack_from("<Q", slot, size - 8)[0]
+            if checksum not in (0, zlib.crc32(slot[:-8])):
+                return None  # not all of it is visible yet
         step = Step(self, slot)
         if self._answered not in (None, step.taken):
             return None
@@ -274,17 +319,40 @@ class Image:
 
         If the file was left by an NC that crashed, no step of it is returned: the steps begin with the next NC.
         """
+        pause = getattr(os, "sched_yield", lambda: time.sleep(0))
         while True:
+            begin = looked = time.perf_counter()
             while self.is_served():
                 step = self.newest() if self.word(STATE) == RUN else None
-                if step is None:
-                    time.sleep(nap)
-                else:
+                if step is not None:
                     yield step
+                    begin = time.perf_counter()
+                    continue
+                now = time.perf_counter()
+                if self._lock_step and now - begin < SPIN:
+                    pause()  # an NC in lock-step goes on at once
+                    continue
+                if now - looked > LOOK:
+                    looked = now
+                    if not self._nc_exists():
+                        return
+                time.sleep(nap)
             if self._newest or not self._has_another_nc():
                 return
             self.close()
             self._open_soon()
+
+    def _nc_exists(self):
+        """Whether the process of the NC exists: one that was killed has not marked its end."""
+        if os.name != "posix" or self._newest == 0:
+            return True
+        try:
+            os.kill(self._process, 0)
+        except ProcessLookupError:
+            return False
+        except PermissionError:
+            pass
+        return True
 
     def _has_another_nc(self):
         """Whether another NC starts to serve the file. It first marks the old one as ended."""
@@ -302,11 +370,17 @@ class Image:
         number = following(self.word(NEWEST_ANSWER))
         size = self._plc_slot_bytes
         start = self._plc_slots + number % self._slots * size
-        head = struct.pack("<QQ", number, step.number).ljust(HEAD, b"\0")
-        slot = (head + step.before + step.image).ljust(size - 8, b"\0")
-        slot += struct.pack("<Q", zlib.crc32(slot))
+        changes = step.changes() if IN_ORDER else None
         self.store(start, 0)  # it is being written
-        self.bytes[start + 8 : start + size] = slot[8:]
+        if changes is not None and 8 * len(changes) <= self.image_bytes:
+            slot = ANSWER.pack(0, step.number, len(changes) + 1).ljust(HEAD, b"\0") + b"".join(CHANGE.pack(*change) for change in changes)
+            self.map[start + 8 : start + len(slot)] = slot[8:]
+            self.store(start + size - 8, 0)  # a list has no checksum
+        else:
+            head = ANSWER.pack(number, step.number, 0).ljust(HEAD, b"\0")
+            slot = (head + step.before + step.image).ljust(size - 8, b"\0")
+            slot += struct.pack("<Q", 0 if IN_ORDER else zlib.crc32(slot))
+            self.map[start + 8 : start + size] = slot[8:]
         self.store(start, number)
         self.store(NEWEST_ANSWER, number)
         self.store(ACKNOWLEDGE, step.number)

@@ -147,6 +147,20 @@ impl Layout {
         }
     }
 
+    /// Writes the bits that differ between two values of one byte of the image, if the PLC owns it. A byte beyond the image is ignored.
+    pub(super) fn change(&self, offset: usize, before: u8, after: u8, memory: &mut impl Parts) {
+        let at = self.pieces.partition_point(|piece| piece.offset <= offset);
+        let Some(piece) = at.checked_sub(1).map(|at| &self.pieces[at]) else { return };
+        let place = offset - piece.offset;
+        let is_foreign = matches!(piece.part, Part::FromNck | Part::Hmi | Part::Inputs);
+        if place >= piece.length || is_foreign {
+            return;
+        }
+        let byte = &mut memory.part_mut(piece.part)[piece.start + place];
+        let changed = before ^ after;
+        *byte = *byte & !changed | after & changed;
+    }
+
     /// The table of sections in the format of the file.
     pub(super) fn table(&self) -> Vec<u8> {
         self.sections.iter().flat_map(entry).collect()

@@ -94,9 +94,14 @@
 //! |---|---|---|---|
 //! | 0 | 8 | `NUMBER` | the number of the answer; 0 while it is being written |
 //! | 8 | 8 | `ANSWERS` | the step that it answers |
+//! | 16 | 8 | `CHANGES` | 0: the two images follow; otherwise the number of changed bytes plus one, and their list follows |
 //! | 64 | `IMAGE_BYTES` | `BEFORE` | the image of that step, unchanged |
 //! | 64 + `IMAGE_BYTES` | `IMAGE_BYTES` | `AFTER` | the image after the scan |
 //! | `PLC_SLOT_BYTES` - 8 | 8 | `CHECKSUM` | as in the NC slots; or 0 for no checksum, for a PLC that stores with barriers |
+//!
+//! A list of changes begins at byte 64 in place of the images, which it makes unnecessary: for each changed byte four bytes with its offset
+//! in the image (least significant first), the byte before, the byte after, and two bytes 0. The list needs barriers or x86-64: its
+//! `CHECKSUM` is 0.
 
 mod fields;
 mod layout;

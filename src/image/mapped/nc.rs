@@ -63,6 +63,9 @@ pub enum Refusal {
     /// The checksum is wrong.
     #[error("its checksum is neither 0 nor the CRC-32 of the bytes before it")]
     Checksum,
+    /// The list of changes is too long.
+    #[error("its list of changes is longer than its slot or names a byte beyond the image")]
+    Changes,
     /// The PLC must not answer this step.
     #[error("it answers a step from before its start, or a step that does not exist yet")]
     Step,
@@ -259,7 +262,16 @@ impl MappedImage {
         if number == self.seen || number == 0 {
             return Look::Nothing;
         }
-        match self.words.read_slot(self.geometry.plc_slot(number), number, &mut self.answer) {
+        let at = self.geometry.plc_slot(number);
+        let read = match self.changed() {
+            None => self.words.read_slot(at, number, &mut self.answer),
+            Some(bytes) if bytes <= self.answer.len() - WORD => {
+                let slot_bytes = self.geometry.plc_slot_bytes;
+                self.words.read_part(at, number, &mut self.answer[..bytes], slot_bytes)
+            }
+            Some(_) => return Look::Refused(Refusal::Changes),
+        };
+        match read {
             Err(Torn::Number) => return Look::Refused(Refusal::Number),
             Err(Torn::Checksum) => return Look::Refused(Refusal::Checksum),
             Ok(()) => self.seen = number,
@@ -270,8 +282,26 @@ impl MappedImage {
         }
     }
 
+    /// The bytes of the newest answer up to the end of its list of changes; `None` if it has images. The number of entries is stored plus
+    /// one.
+    fn changed(&self) -> Option<usize> {
+        let at = self.geometry.plc_slot(self.words.load(header::NEWEST_ANSWER));
+        let count = self.words.load(at + answer::CHANGES).checked_sub(1)?;
+        let bytes = usize::try_from(count).ok().and_then(|count| count.checked_mul(answer::CHANGE_BYTES));
+        Some(bytes.and_then(|bytes| bytes.checked_add(answer::BEFORE)).unwrap_or(usize::MAX))
+    }
+
     /// Takes the answer that was found: the bits that the PLC has changed.
     pub fn take(&mut self, memory: &mut impl Parts) {
+        if let Some(count) = field(&self.answer, answer::CHANGES).checked_sub(1) {
+            let count = usize::try_from(count).unwrap_or(0);
+            let entries = self.answer[answer::BEFORE..].as_chunks::<{ answer::CHANGE_BYTES }>().0;
+            for &[a, b, c, d, before, after, ..] in entries.iter().take(count) {
+                let offset = usize::try_from(u32::from_le_bytes([a, b, c, d])).unwrap_or(usize::MAX);
+                self.layout.change(offset, before, after, memory);
+            }
+            return;
+        }
         let images = &self.answer[answer::BEFORE..answer::BEFORE + 2 * self.geometry.image_bytes];
         let (before, after) = images.split_at(self.geometry.image_bytes);
         self.layout.scatter(before, after, memory);

@@ -154,10 +154,36 @@ impl PlcImage {
         }
         let number = next(self.words.load(header::NEWEST_ANSWER));
         self.answer[answer::ANSWERS..answer::ANSWERS + WORD].copy_from_slice(&self.newest.to_le_bytes());
-        self.words.write_slot(self.geometry.plc_slot(number), number, &mut self.answer);
+        let at = self.geometry.plc_slot(number);
+        match self.changes() {
+            Some(list) => self.words.write_part(at, number, &list, self.geometry.plc_slot_bytes),
+            None => {
+                self.answer[answer::CHANGES..answer::CHANGES + WORD].fill(0);
+                self.words.write_slot(at, number, &mut self.answer);
+            }
+        }
         self.words.store(header::NEWEST_ANSWER, number);
         self.words.store(header::ACKNOWLEDGE, self.newest);
         self.answered = Some(number);
+    }
+
+    /// The answer as a list of changes, if it is shorter than the images.
+    fn changes(&self) -> Option<Vec<u8>> {
+        let bytes = self.geometry.image_bytes;
+        let (before, after) = self.answer[answer::BEFORE..answer::BEFORE + 2 * bytes].split_at(bytes);
+        let mut list = self.answer[..answer::BEFORE].to_vec();
+        for (offset, (before, after)) in before.iter().zip(after).enumerate() {
+            if before != after {
+                list.extend_from_slice(&u32::try_from(offset).ok()?.to_le_bytes());
+                list.extend_from_slice(&[*before, *after, 0, 0]);
+            }
+            if list.len() > bytes {
+                return None;
+            }
+        }
+        let count = (list.len() - answer::BEFORE) / answer::CHANGE_BYTES;
+        list[answer::CHANGES..answer::CHANGES + WORD].copy_from_slice(&(count as u64 + 1).to_le_bytes());
+        Some(list)
     }
 
     /// Requests power off and on of the control.

@@ -73,6 +73,26 @@ impl Words {
         self.store(offset, number);
     }
 
+    /// Writes the beginning of a slot, without a checksum: for a list of changes. Barriers give its order.
+    pub(super) fn write_part(&self, offset: usize, number: u64, part: &[u8], slot_bytes: usize) {
+        self.store(offset, 0);
+        fence(Ordering::Release);
+        self.write(offset + WORD, &part[WORD..]);
+        self.store(offset + slot_bytes - WORD, 0);
+        self.store(offset, number);
+    }
+
+    /// Copies the beginning of a slot that has no checksum, if it is complete and has this number.
+    pub(super) fn read_part(&self, offset: usize, number: u64, part: &mut [u8], slot_bytes: usize) -> Result<(), Torn> {
+        self.read(offset, part);
+        let checksum = self.load(offset + slot_bytes - WORD);
+        fence(Ordering::Acquire);
+        if self.load(offset) != number || field(part, 0) != number {
+            return Err(Torn::Number);
+        }
+        if checksum == 0 { Ok(()) } else { Err(Torn::Checksum) }
+    }
+
     /// Copies a slot if it is complete and has this number.
     pub(super) fn read_slot(&self, offset: usize, number: u64, slot: &mut [u8]) -> Result<(), Torn> {
         if self.load(offset) != number {
