@@ -24,24 +24,34 @@ pub(super) struct Clocked {
     set_at: Time,
     pub(super) recording: Option<Recording>,
     trace: Option<(Trace, Watch)>,
+    /// The most bytes of memory for the trace; `None` when they are used up.
+    trace_bytes: Option<usize>,
     pub(super) operator: Option<Operator>,
+}
+
+/// The trace that is kept, and the most bytes of memory for it.
+#[derive(Debug)]
+pub(super) struct Kept {
+    pub(super) watch: Watch,
+    pub(super) bytes: usize,
 }
 
 impl Clocked {
     pub(super) fn new(
         machine: Machine,
         recording: Option<Recording>,
-        trace: Option<Watch>,
+        trace: Option<Kept>,
         operator: Option<Operator>,
     ) -> Self {
-        let trace = trace.map(|watch| {
+        let trace_bytes = trace.as_ref().map(|kept| kept.bytes);
+        let trace = trace.map(|Kept { watch, .. }| {
             let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), machine.time());
             trace.watch_values(&watch, machine.cycle(), machine.variables());
             (trace, watch)
         });
         let set = today();
         let (diagnosis, set_at) = (Buffer::new(&machine, set), machine.time());
-        Self { diagnosis, set, set_at, steps: 0, machine, recording, trace, operator }
+        Self { diagnosis, set, set_at, steps: 0, machine, recording, trace, trace_bytes, operator }
     }
 
     /// The number of steps taken since the start.
@@ -81,14 +91,15 @@ impl Clocked {
         lines
     }
 
-    /// Takes one step. Returns a log line if the scenario ended in this step.
-    pub(super) fn step(&mut self) -> Option<String> {
-        let Self { machine, steps, recording, trace, operator, .. } = self;
+    /// Takes one step. Returns a log line if the scenario or the trace ended in this step.
+    pub(super) fn step(&mut self) -> Vec<String> {
+        let Self { machine, steps, recording, trace, trace_bytes, operator, .. } = self;
+        let mut lines = Vec::new();
         let was_at_work = operator.as_ref().is_some_and(|operator| *operator.state() == State::Acting);
         if was_at_work && let Some(operator) = operator {
             let queued = machine.queued().len();
             for note in operator.act(machine) {
-                if let Some((trace, _)) = trace {
+                if let (Some((trace, _)), Some(_)) = (&mut *trace, &*trace_bytes) {
                     trace.note(machine.cycle() + 1, note.clone());
                 }
                 if let Some(recording) = recording {
@@ -104,19 +115,26 @@ impl Clocked {
         }
         machine.step();
         *steps += 1;
-        if let Some((trace, _)) = trace {
+        if let (Some((trace, _)), &mut Some(most)) = (trace, &mut *trace_bytes) {
             trace.extend(machine.recorder());
             trace.end_cycle(machine.cycle(), machine.time(), machine.variables());
+            if trace.bytes() > most {
+                let mib = most / (1024 * 1024);
+                trace.note(machine.cycle(), format!("the trace ends here: it has reached its limit of {mib} MiB"));
+                lines.push(format!("the trace has reached its limit of {mib} MiB and ends; the machine keeps running"));
+                *trace_bytes = None;
+            }
         }
         if was_at_work && let Some(operator) = operator {
             operator.look(machine);
         }
         machine.drain();
-        match operator.as_ref().filter(|_| was_at_work)?.state() {
-            State::Acting => None,
-            State::Done => Some("the scenario passed; the server keeps running".to_owned()),
-            State::Failed(failure) => Some(format!("the scenario failed; the server keeps running: {failure}")),
-        }
+        lines.extend(match operator.as_ref().filter(|_| was_at_work).map(Operator::state) {
+            None | Some(State::Acting) => None,
+            Some(State::Done) => Some("the scenario passed".to_owned()),
+            Some(State::Failed(failure)) => Some(format!("the scenario failed: {failure}")),
+        });
+        lines
     }
 
     /// Adds the CPU events of a step to the diagnostic buffer.

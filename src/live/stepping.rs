@@ -10,7 +10,7 @@ use std::sync::mpsc::{self, RecvTimeoutError, TryRecvError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::clocked::Clocked;
+use super::clocked::{Clocked, Kept};
 use super::handle::Handle;
 use super::record::Recording;
 use super::shared::{Pace, Shared};
@@ -23,6 +23,8 @@ use crate::variables::{Describe, RaisedAlarm};
 
 /// The delay above which the lost time is skipped.
 pub const GIVE_UP: Duration = Duration::from_millis(500);
+/// The most bytes of memory for a trace, unless the options say otherwise.
+const TRACE_BYTES: usize = 1 << 30;
 /// The accuracy with which a computer wakes a thread.
 const EXACT: Duration = Duration::from_millis(1);
 /// Polling interval of a machine that is held.
@@ -43,6 +45,8 @@ pub struct LiveOptions {
     pub recording: Option<Recording>,
     /// Keeps the trace in memory, with this content.
     pub trace: Option<Watch>,
+    /// The most bytes of memory for the trace, which ends there with a note; default 1 GiB.
+    pub trace_bytes: Option<usize>,
     /// A scenario that runs on a machine that has not run yet.
     pub operator: Option<Operator>,
     /// The machine shows its state after power on, and takes its first step only after [`Live::begin`].
@@ -78,7 +82,8 @@ impl Live {
     /// Starts a machine with options.
     #[must_use]
     pub fn start_with(machine: Machine, speed: Speed, options: LiveOptions) -> Self {
-        let LiveOptions { recording, trace, operator, is_held, is_lock_step } = options;
+        let LiveOptions { recording, trace, trace_bytes, operator, is_held, is_lock_step } = options;
+        let trace = trace.map(|watch| Kept { watch, bytes: trace_bytes.unwrap_or(TRACE_BYTES) });
         let clocked = Clocked::new(machine, recording, trace, operator);
         let shared = Arc::new(Shared::new(clocked, speed, is_held, is_lock_step));
         let (end, ended) = mpsc::channel();

@@ -106,6 +106,16 @@ impl Trace {
         self.notes.push((cycle, text.into()));
     }
 
+    /// The bytes of memory that its contents take.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let notes: usize = self.notes.iter().map(|(_, text)| text.len() + size_of::<(u64, String)>()).sum();
+        self.rows.len() * size_of::<Row>()
+            + self.events.len() * size_of::<Event>()
+            + self.values.len() * size_of::<ValueRow>()
+            + notes
+    }
+
     /// The rows that the machine has written.
     #[must_use]
     pub fn rows(&self) -> &[Row] {

@@ -62,12 +62,19 @@ pub(crate) struct Arguments {
     ///
     /// The machine, PLC program and image of the scenario are served, with its profile and plant; options on the command line take
     /// precedence. A step that fails is logged and ends the scenario. The server keeps running then, and also after the scenario has
-    /// passed. A recording contains the actions of the scenario as well.
+    /// passed, unless --exit is given. A recording contains the actions of the scenario as well.
     #[arg(long, value_name = "F.toml")]
     pub(super) scenario: Option<PathBuf>,
-    /// Writes the trace as JSON lines at the end; it is kept in memory until then.
+    /// With --scenario: ends when the scenario is over, with exit code 0 if it passed and 1 if it failed.
+    #[arg(long, requires = "scenario")]
+    pub(super) exit: bool,
+    /// Writes the trace as JSON lines at the end: after Ctrl-C, SIGTERM or SIGHUP. It is kept in memory until then, and the file keeps its
+    /// old content; so a kill or a crash leaves no trace.
     #[arg(long, value_name = "F.jsonl")]
     pub(super) trace: Option<PathBuf>,
+    /// With --trace: the memory for the trace, in MiB. The trace ends there with a note; the machine keeps running.
+    #[arg(long, value_name = "MIB", requires = "trace", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) trace_limit: u32,
     /// Addresses of the interface blocks: 840d_sl (DB10, DB11, DB21..., DB31...) or 828d (DB1800, DB3800...) [default: 840d_sl, or the
     /// profile of the scenario].
     #[arg(long, value_name = "PROFILE")]

@@ -23,9 +23,12 @@ use super::output::Output;
 use crate::live::{Exchange, Keeper, Live, LiveOptions, MappedPlc, Opened};
 use crate::plc::Programs;
 use crate::s7::live::LiveServer;
+use crate::scenario::{Failure, State};
 use crate::source::{Problem, Replacement};
 use status::{Status, status_line};
 
+/// How often the scenario is looked at with `--exit`.
+const LOOK: Duration = Duration::from_millis(10);
 /// Refresh interval of the status line.
 const DRAW: Duration = Duration::from_millis(200);
 
@@ -33,10 +36,10 @@ pub(super) fn serve(arguments: &Arguments, programs: &Programs, output: &mut Out
     let attended = open(arguments, programs, output).and_then(|served| {
         let attended = attend(arguments, &served, output);
         let closed = served.close();
-        attended.and(closed)
+        attended.and_then(|code| closed.map(|()| code))
     });
     match attended {
-        Ok(()) => 0,
+        Ok(code) => code,
         Err(problem) => {
             output.error(problem);
             2
@@ -109,7 +112,8 @@ fn open(arguments: &Arguments, programs: &Programs, output: &mut Output) -> Resu
     let Opened { machine, operator, watch, .. } = opened;
     let (is_held, is_lock_step) = (arguments.lock_step, arguments.lock_step);
     let trace_of = trace.is_some().then_some(watch);
-    let options = LiveOptions { recording, trace: trace_of, operator, is_held, is_lock_step };
+    let trace_bytes = usize::try_from(arguments.trace_limit).ok().and_then(|mib| mib.checked_mul(1024 * 1024));
+    let options = LiveOptions { recording, trace: trace_of, trace_bytes, operator, is_held, is_lock_step };
     let start = |machine| Live::start_with(machine, arguments.speed, options);
     let (live, keeper) = match mapped {
         Some(mapped) => {
@@ -158,8 +162,8 @@ fn waiting(image: &Path) -> String {
     )
 }
 
-/// Waits for Ctrl-C or SIGTERM.
-fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result<(), Problem> {
+/// Waits for Ctrl-C, SIGTERM or SIGHUP, or with `--exit` for the end of the scenario; returns the exit code.
+fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result<u8, Problem> {
     let Served { live, server, keeper, status: bar, head, .. } = served;
     let mut status = Status::new(live, server);
     let no_signals = |error: std::io::Error| {
@@ -174,10 +178,17 @@ fn attend(arguments: &Arguments, served: &Served, output: &mut Output) -> Result
         // From here on Ctrl-C and SIGTERM shut down in order.
         output.print(head);
         let mut draw = tokio::time::interval(DRAW);
+        let mut looks = tokio::time::interval(LOOK);
         loop {
             tokio::select! {
-                () = &mut end => return Ok(()),
+                () = &mut end => return Ok(0),
                 _ = draw.tick() => bar.set_message(status.line(arguments.speed)),
+                _ = looks.tick(), if arguments.exit => match live.with_soon(|_, scenario| scenario.cloned()).flatten() {
+                    Some(State::Done) => return Ok(0),
+                    Some(State::Failed(Failure::Missed(_))) => return Ok(1),
+                    Some(State::Failed(Failure::Unusable(_))) => return Ok(2),
+                    Some(State::Acting) | None => {}
+                },
             }
             if !live.is_running() {
                 return Err(Problem::new(
