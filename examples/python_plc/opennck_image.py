@@ -61,7 +61,7 @@ PAGE, HEAD = 4096, 64
 IN_ORDER = platform.machine() in ("x86_64", "AMD64")
 # An answer that lists its changes: the word after ANSWERS is their number plus one; each has an offset, the byte before and the byte after.
 CHANGE = struct.Struct("<IBBxx")
-STEP, ANSWER = struct.Struct("<6Q"), struct.Struct("<3Q")
+STEP, ANSWER = struct.Struct("<6Q"), struct.Struct("<4Q")
 # How long to look for the next step without a pause, in seconds; and between looks whether the NC still exists.
 SPIN, LOOK = 0.0003, 0.5
 
@@ -235,7 +235,7 @@ class Image:
             raise NotYet("its section table is invalid: a section ends beyond the image")
         self.places = Places(self._look_up)
         self._lock_step = self.word(LOCK_STEP) != 0
-        self._process = self.word(PROCESS)
+        self._process, self._own = self.word(PROCESS), os.getpid()
         self._newest = 0
         self._starts = self._answered = None
         if not self.is_served():
@@ -373,11 +373,11 @@ class Image:
         changes = step.changes() if IN_ORDER else None
         self.store(start, 0)  # it is being written
         if changes is not None and 8 * len(changes) <= self.image_bytes:
-            slot = ANSWER.pack(0, step.number, len(changes) + 1).ljust(HEAD, b"\0") + b"".join(CHANGE.pack(*change) for change in changes)
+            slot = ANSWER.pack(0, step.number, len(changes) + 1, self._own).ljust(HEAD, b"\0") + b"".join(CHANGE.pack(*change) for change in changes)
             self.map[start + 8 : start + len(slot)] = slot[8:]
             self.store(start + size - 8, 0)  # a list has no checksum
         else:
-            head = ANSWER.pack(number, step.number, 0).ljust(HEAD, b"\0")
+            head = ANSWER.pack(number, step.number, 0, self._own).ljust(HEAD, b"\0")
             slot = (head + step.before + step.image).ljust(size - 8, b"\0")
             slot += struct.pack("<Q", 0 if IN_ORDER else zlib.crc32(slot))
             self.map[start + 8 : start + size] = slot[8:]

@@ -32,15 +32,19 @@ impl Files {
     /// Refuses to write an output over an input, which would destroy the input, and two outputs to one file.
     pub(super) fn check(&mut self, option: &'static str, path: &Path) -> Result<(), Problem> {
         let real = target(path);
-        let refused = |what: String| Err(Place::file(&path.display().to_string()).problem(what, "choose another file name"));
+        let refused =
+            |what: String| Err(Place::file(&path.display().to_string()).problem(what, "choose another file name"));
         if let Some((other, _)) = self.outputs.iter().find(|(_, output)| *output == real) {
             return refused(format!("expected a separate file for {option}, found the file of {other}"));
         }
         let is_device = real.exists() && !real.is_file() && !real.is_dir();
         if !is_device {
-            let is_in = |input: &&PathBuf| **input == real || (real.is_file() && real.parent() == Some(input.as_path()));
+            let is_in =
+                |input: &&PathBuf| **input == real || (real.is_file() && real.parent() == Some(input.as_path()));
             if let Some(input) = self.inputs.iter().find(is_in) {
-                let what = format!("expected a separate file for {option}, found a file that this command also reads or writes");
+                let what = format!(
+                    "expected a separate file for {option}, found a file that this command also reads or writes"
+                );
                 return refused(if *input == real { what } else { format!("{what}, in {}", input.display()) });
             }
             let kind = path.extension().and_then(OsStr::to_str).unwrap_or_default().to_ascii_lowercase();

@@ -21,8 +21,8 @@ use std::time::{Duration, Instant};
 
 use super::shared::Shared;
 use super::stepping::Live;
-use crate::image::{AsBytes, Memory, Names};
 use crate::image::mapped::{Look, MappedImage, Refusal, Rules, State, Step};
+use crate::image::{AsBytes, Memory, Names};
 use crate::machine::{Command, Machine};
 use crate::plc::{PlcFault, PlcIo, PlcProgram};
 use crate::source::Problem;
@@ -328,7 +328,8 @@ impl Drop for Keeper {
 fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mpsc::Receiver<()>) {
     let mut powers = lock(image).power_requests();
     let mut was_stopped = false;
-    let (mut opened, mut switched) = (RepeatedEvent::default(), RepeatedEvent::default());
+    let [mut opened, mut switched, mut doubled] = std::array::from_fn(|_| RepeatedEvent::default());
+    let mut both = [0; 2];
     while ended.recv_timeout(KEEPER_INTERVAL) == Err(RecvTimeoutError::Timeout) {
         let mut lines = Vec::new();
         let mut clocked = shared.lend();
@@ -361,6 +362,10 @@ fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mp
                 let _ = machine.queue(Command::PowerOn);
             }
         }
+        if let Some(processes) = image.take_both() {
+            both = processes;
+            doubled.times += 1;
+        }
         was_stopped = is_stopped;
         drop(image);
         drop(clocked);
@@ -370,6 +375,12 @@ fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mp
         let switched = switched.line("the PLC process switches power off and on", now);
         for line in opened.into_iter().chain(lines).chain(switched) {
             tracing::info!("{line}");
+        }
+        let [one, other] = both;
+        let what =
+            format!("two PLC processes answer, {one} and {other}: each takes steps of the other; end one of them");
+        if let Some(line) = doubled.line(&what, now) {
+            tracing::warn!("{line}");
         }
     }
 }

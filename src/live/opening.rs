@@ -151,7 +151,9 @@ impl Opened {
     pub fn record(&self, path: &Path) -> Result<Recording, Problem> {
         if let Some(command) = &self.plc_process {
             let what = format!("expected a PLC program that a recording can repeat, found the process `{command}`");
-            return Err(Place::file(&path.display().to_string()).problem(what, "record without `plc`, or without --record"));
+            return Err(
+                Place::file(&path.display().to_string()).problem(what, "record without `plc`, or without --record")
+            );
         }
         let machine = if self.path.exists() { from(path, &self.path)? } else { built_in(path, &self.path)? };
         let image = self.image.as_deref().map(|image| from(path, image)).transpose()?;

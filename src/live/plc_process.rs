@@ -107,13 +107,21 @@ impl ProcessProgram {
         let begin = Instant::now();
         while !self.mapped.is_opened() {
             if let Some(how) = ended(&child) {
-                let what = format!("the PLC process `{program}` ended before it opened the image ({how}){}", self.said());
-                return Err(Problem::new(what, "start the program by hand to see why; it opens the file in place of {image}"));
+                let what =
+                    format!("the PLC process `{program}` ended before it opened the image ({how}){}", self.said());
+                return Err(Problem::new(
+                    what,
+                    "start the program by hand to see why; it opens the file in place of {image}",
+                ));
             }
             if begin.elapsed() > self.process.time_out {
                 let limit = self.process.time_out;
-                let what = format!("the PLC process `{program}` did not open the image within {limit:?}{}", self.said());
-                return Err(Problem::new(what, "open the file in place of {image} with `Image(path)`, or raise `timeout`"));
+                let what =
+                    format!("the PLC process `{program}` did not open the image within {limit:?}{}", self.said());
+                return Err(Problem::new(
+                    what,
+                    "open the file in place of {image} with `Image(path)`, or raise `timeout`",
+                ));
             }
             std::thread::sleep(INTERVAL);
         }

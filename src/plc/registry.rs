@@ -12,9 +12,7 @@ use super::{PlcProgram, enable_all, gantry_start, limit_edge_marker, machine_con
 
 type Constructor = Arc<dyn Fn(&Names) -> Result<Box<dyn PlcProgram>, Problem> + Send + Sync>;
 
-type Starter = Arc<
-    dyn Fn(&PlcProcess, &Memory, &Names, Time) -> Result<Box<dyn PlcProgram>, Problem> + Send + Sync,
->;
+type Starter = Arc<dyn Fn(&PlcProcess, &Memory, &Names, Time) -> Result<Box<dyn PlcProgram>, Problem> + Send + Sync>;
 
 /// PLC programs by name: the built-in programs, and those that a user adds with [`Programs::with`]. Also the way to run a program in
 /// another process, if there is one.

@@ -73,7 +73,8 @@ impl Replacement {
     /// The target cannot be replaced.
     pub fn finish(mut self) -> Result<(), Problem> {
         let flushed = self.file.flush();
-        let placed = flushed.and_then(|()| self.beside.as_ref().map_or(Ok(()), |new| std::fs::rename(new, &self.target)));
+        let placed =
+            flushed.and_then(|()| self.beside.as_ref().map_or(Ok(()), |new| std::fs::rename(new, &self.target)));
         placed.map_err(|error| unwritable(&self.named, &error))?;
         self.beside = None;
         Ok(())
@@ -154,9 +155,15 @@ mod tests {
         new.write("half of the ne").unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
         drop(new);
-        assert_eq!((std::fs::read_to_string(&path).unwrap().as_str(), names(&folder)), ("old", vec!["a.txt".to_owned()]));
+        assert_eq!(
+            (std::fs::read_to_string(&path).unwrap().as_str(), names(&folder)),
+            ("old", vec!["a.txt".to_owned()])
+        );
         replace(&path, "new").unwrap();
-        assert_eq!((std::fs::read_to_string(&path).unwrap().as_str(), names(&folder)), ("new", vec!["a.txt".to_owned()]));
+        assert_eq!(
+            (std::fs::read_to_string(&path).unwrap().as_str(), names(&folder)),
+            ("new", vec!["a.txt".to_owned()])
+        );
         std::fs::remove_dir_all(&folder).unwrap();
     }
 

@@ -173,7 +173,9 @@ fn no_output_replaces_an_input_of_the_same_command() {
     for output in ["--trace", "--vcd", "--svg"] {
         let refused = opennck(&["run", "good.toml", output, "./good.toml"], &directory);
         assert_eq!(refused.status.code(), Some(2));
-        assert!(err(&refused).contains(&format!("expected a separate file for {output}, found a file that this command")));
+        assert!(
+            err(&refused).contains(&format!("expected a separate file for {output}, found a file that this command"))
+        );
     }
     let serve = ["serve", "--scenario", "good.toml", "--s7", "127.0.0.1:0", "--trace", "good.toml"];
     let refused = opennck(&serve, &directory);

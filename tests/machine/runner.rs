@@ -48,14 +48,17 @@ fn a_case_of_a_matrix_is_the_unit_of_list_filter_and_shard() {
     assert_eq!(all[0], "golden/area/flags.toml [plc = enable_all, plant.X.start = 120.0]");
     assert_eq!(listed(&["--filter", "gantry_start"], &directory), all[2..4]);
     assert_eq!(listed(&["--filter", "ref-04"], &directory), all[..4], "a cited rule");
-    assert_eq!(listed(&["--filter", "120.0", "--filter", "failing"], &directory), [all[0].clone(), all[2].clone(), all[4].clone()]);
+    assert_eq!(
+        listed(&["--filter", "120.0", "--filter", "failing"], &directory),
+        [all[0].clone(), all[2].clone(), all[4].clone()]
+    );
     let mut parts = [listed(&["--shard", "1/2"], &directory), listed(&["--shard", "2/2"], &directory)].concat();
     assert_eq!(parts.len(), 5);
     parts.sort();
     let mut sorted = all.clone();
     sorted.sort();
     assert_eq!(parts, sorted, "the parts together are all cases");
-    let shuffled = |seed| listed(&["--shuffle", seed], &directory);
+    let shuffled = |seed: &str| listed(&["--shuffle", seed], &directory);
     assert_eq!(shuffled("7"), shuffled("7"));
     assert!((0..8).any(|seed| shuffled(&seed.to_string()) != all));
     let none = opennck(&["test", "--filter", "nowhere"], &directory);
@@ -78,7 +81,8 @@ fn reports_name_rules_files_and_times_and_show_the_signals_of_failures() {
     let directory = directory("reports");
     let output = opennck(&["test", "--format", "github", "--junit", "r.xml", "--html", "r.html"], &directory);
     assert_eq!(output.status.code(), Some(1), "{}", err(&output));
-    let annotation = "::error file=golden/failing.toml,line=5,title=golden/failing.toml::golden/failing.toml:5: expected `M0.1`";
+    let annotation =
+        "::error file=golden/failing.toml,line=5,title=golden/failing.toml::golden/failing.toml:5: expected `M0.1`";
     assert!(out(&output).contains(annotation), "{}", out(&output));
     let junit = fs::read_to_string(directory.join("r.xml")).unwrap();
     for words in [

@@ -111,7 +111,8 @@ impl Host {
 
     fn options(&self) -> Options {
         let Self { pdu, items, timeout, .. } = *self;
-        Options { pdu, items, timeout, ..Options::default() }
+        // The time limit is that of the whole request, whatever happens to its connections.
+        Options { pdu, items, timeout, patience: timeout, ..Options::default() }
     }
 
     async fn connect(&self, options: Options) -> Result<Client, Failure> {

@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
     /// PLC memory outside the interface: a file (*.toml), or a name in `plc_images` of this folder or a parent folder.
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) plc_image: Option<String>,
-    /// Networks from which clients may connect, for example 192.168.0.0/24; may be given several times.
+    /// Networks from which clients may connect and metrics may be read, for example 192.168.0.0/24; may be given several times.
     #[arg(long, value_name = "NET")]
     pub(super) allow: Vec<Network>,
     /// Records what clients do as a scenario: `opennck run F.toml` repeats it, byte for byte.
@@ -85,7 +85,7 @@ pub(crate) struct Arguments {
     /// including machine data. A write to a protected address gets return code 03; the other items of the request are not affected.
     #[arg(long, value_name = "ADDRESS")]
     pub(super) protect: Vec<String>,
-    /// Password of the CPU, up to eight characters. Other users can see it in the process list; use the environment variable to hide it.
+    /// Password of the CPU, up to eight characters. Each wrong one from an address doubles the time until the next answer. Other users can see it in the process list; use the environment variable to hide it.
     #[arg(long, env = "OPENNCK_S7_PASSWORD", hide_env_values = true)]
     pub(super) password: Option<String>,
     /// What needs the password: 1 nothing; 2 stop, restart and setting the clock; 3 also uploading blocks. Reading and writing values never

@@ -16,9 +16,9 @@ use std::time::Duration;
 use indicatif::ProgressBar;
 use tokio::runtime::Builder;
 
+use super::files::Files;
 use super::interrupt;
 use super::log::Log;
-use super::files::Files;
 use super::output::Output;
 use crate::live::{Exchange, Keeper, Live, LiveOptions, MappedPlc, Opened};
 use crate::plc::Programs;

@@ -71,7 +71,8 @@ impl FromStr for Shard {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let parts = text.split_once('/').and_then(|(part, of)| Some(Self { part: part.parse().ok()?, of: of.parse().ok()? }));
+        let parts =
+            text.split_once('/').and_then(|(part, of)| Some(Self { part: part.parse().ok()?, of: of.parse().ok()? }));
         parts
             .filter(|shard| (1..=shard.of).contains(&shard.part))
             .ok_or_else(|| format!("expected a part and the number of parts such as 3/16, found {text}"))

@@ -1,7 +1,7 @@
 //! Which cases run, and in which order: `--filter`, then `--shard`, then `--shuffle`.
 
-use super::arguments::{Arguments, Shard};
 use super::Work;
+use super::arguments::{Arguments, Shard};
 use crate::source::Problem;
 
 /// The selected cases. A file that cannot be used stays: it may hold the case that is looked for.

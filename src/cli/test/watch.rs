@@ -25,12 +25,8 @@ pub(super) fn again(arguments: &Arguments, programs: &Programs, output: &mut Out
     while !output.is_closed() {
         sleep(EVERY);
         let new = states(arguments);
-        let changed: BTreeSet<PathBuf> = known
-            .keys()
-            .chain(new.keys())
-            .filter(|path| known.get(*path) != new.get(*path))
-            .cloned()
-            .collect();
+        let changed: BTreeSet<PathBuf> =
+            known.keys().chain(new.keys()).filter(|path| known.get(*path) != new.get(*path)).cloned().collect();
         if changed.is_empty() {
             continue;
         }
@@ -39,7 +35,9 @@ pub(super) fn again(arguments: &Arguments, programs: &Programs, output: &mut Out
         }
         match found(arguments) {
             Ok(mut work) => {
-                work.retain(|work| work.inputs().iter().any(|input| changed.iter().any(|path| path.starts_with(input))));
+                work.retain(|work| {
+                    work.inputs().iter().any(|input| changed.iter().any(|path| path.starts_with(input)))
+                });
                 once(work, None, arguments, programs, output);
             }
             Err(problem) => output.error(problem),

@@ -91,6 +91,7 @@ pub mod answer {
         NUMBER 0 8;
         ANSWERS 8 8;
         CHANGES 16 8;
+        PROCESS 24 8;
         BEFORE 64 0;
     }
     /// The number of bytes of an entry in a list of changes: the offset in the image (four bytes), the byte before, the byte after.

@@ -95,6 +95,7 @@
 //! | 0 | 8 | `NUMBER` | the number of the answer; 0 while it is being written |
 //! | 8 | 8 | `ANSWERS` | the step that it answers |
 //! | 16 | 8 | `CHANGES` | 0: the two images follow; otherwise the number of changed bytes plus one, and their list follows |
+//! | 24 | 8 | `PROCESS` | process number of the PLC, by which the NC notices that two answer; 0: unknown |
 //! | 64 | `IMAGE_BYTES` | `BEFORE` | the image of that step, unchanged |
 //! | 64 + `IMAGE_BYTES` | `IMAGE_BYTES` | `AFTER` | the image after the scan |
 //! | `PLC_SLOT_BYTES` - 8 | 8 | `CHECKSUM` | as in the NC slots; or 0 for no checksum, for a PLC that stores with barriers |

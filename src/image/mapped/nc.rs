@@ -85,6 +85,35 @@ pub struct MappedImage {
     seen: u64,
     starts: u64,
     plc_starts_before: u64,
+    answering: Answering,
+}
+
+/// The processes that answer. One that has been replaced by another one, and answers again, shows that both run.
+#[derive(Debug, Default)]
+struct Answering {
+    newest: u64,
+    replaced: Vec<u64>,
+    both: Option<[u64; 2]>,
+}
+
+impl Answering {
+    /// Replaced processes that are remembered.
+    const MOST: usize = 16;
+
+    fn note(&mut self, process: u64) {
+        if process == 0 || process == self.newest {
+            return;
+        }
+        if self.replaced.contains(&process) {
+            self.both = Some([self.newest, process]);
+        }
+        if self.newest != 0 && !self.replaced.contains(&self.newest) {
+            self.replaced.push(self.newest);
+            let more = self.replaced.len().saturating_sub(Self::MOST);
+            self.replaced.drain(..more);
+        }
+        self.newest = process;
+    }
 }
 
 /// The positions of the slots.
@@ -179,6 +208,7 @@ impl MappedImage {
             seen,
             starts: 0,
             plc_starts_before,
+            answering: Answering::default(),
         };
         let first = Step { cycle: 0, time: Time::ZERO, since_last: Time::ZERO };
         image.publish(memory, first, false);
@@ -276,6 +306,7 @@ impl MappedImage {
             Err(Torn::Checksum) => return Look::Refused(Refusal::Checksum),
             Ok(()) => self.seen = number,
         }
+        self.answering.note(field(&self.answer, answer::PROCESS));
         match field(&self.answer, answer::ANSWERS) {
             answered if (least..=self.newest).contains(&answered) => Look::Answer(answered),
             _ => Look::Refused(Refusal::Step),
@@ -311,6 +342,11 @@ impl MappedImage {
     #[must_use]
     pub fn plc_starts(&self) -> u64 {
         self.words.load(header::PLC_STARTS)
+    }
+
+    /// Two PLC processes that answer in turn, by their numbers, if there are any since the last call. Each takes steps of the other.
+    pub fn take_both(&mut self) -> Option<[u64; 2]> {
+        self.answering.both.take()
     }
 
     /// The number of power off/on requests of the PLC.

@@ -154,6 +154,8 @@ impl PlcImage {
         }
         let number = next(self.words.load(header::NEWEST_ANSWER));
         self.answer[answer::ANSWERS..answer::ANSWERS + WORD].copy_from_slice(&self.newest.to_le_bytes());
+        let process = u64::from(std::process::id());
+        self.answer[answer::PROCESS..answer::PROCESS + WORD].copy_from_slice(&process.to_le_bytes());
         let at = self.geometry.plc_slot(number);
         match self.changes() {
             Some(list) => self.words.write_part(at, number, &list, self.geometry.plc_slot_bytes),

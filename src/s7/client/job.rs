@@ -38,6 +38,8 @@ pub(super) struct Job {
     /// Whether it may be repeated on another connection.
     pub(super) repeat: bool,
     pub(super) asked: Instant,
+    /// Whether it was sent on an earlier connection.
+    pub(super) was_sent: bool,
     pub(super) reply: ReplyTo,
 }
 

@@ -9,7 +9,8 @@
 //! | the connection is lost, it only reads | repeated on the next connection |
 //! | the connection is lost, it changes something and was sent | it fails and reports that it was sent; never repeated |
 //! | the connection is lost, it was not sent yet | it waits for the next connection |
-//! | it waited too long for a connection | it fails and reports that it was not sent |
+//! | it waited too long for a connection | it fails and reports whether it was sent |
+//! | it is repeated on one connection after the other | it fails when it has waited for longer than for a connection and for an answer |
 //!
 //! Several consecutive requests without an answer, and no other input, count as a lost connection as well.
 
@@ -283,25 +284,35 @@ impl Link {
 
     /// The next deadline.
     fn deadline(&self) -> Instant {
-        let sent = self.in_flight.values().map(|waiting| waiting.sent + self.options.timeout);
+        let sent = self.in_flight.values().map(|waiting| self.end_of(waiting));
         let asked = self.queue.iter().map(|job| job.asked + self.options.patience);
         sent.chain(asked).min().unwrap_or_else(|| Instant::now() + Duration::from_hours(1))
+    }
+
+    /// When a request in flight fails. One that is repeated also has a limit for all its connections together: otherwise a server that
+    /// accepts and drops connections would hold it for ever.
+    fn end_of(&self, InFlight { job, sent }: &InFlight) -> Instant {
+        let answered = *sent + self.options.timeout;
+        if job.was_sent { answered.min(job.asked + self.options.patience.max(self.options.timeout)) } else { answered }
     }
 
     /// Ends requests that exceeded their time limit.
     fn expire(&mut self) {
         let now = Instant::now();
         let (timeout, patience, heard) = (self.options.timeout, self.options.patience, self.heard);
-        let late = self.in_flight.extract_if(.., |_, waiting| waiting.sent + timeout <= now).collect::<Vec<_>>();
-        for (_, InFlight { job, sent }) in late {
+        let ends: Vec<u16> =
+            self.in_flight.iter().filter(|(_, waiting)| self.end_of(waiting) <= now).map(|(at, _)| *at).collect();
+        let late: Vec<InFlight> = ends.iter().filter_map(|at| self.in_flight.remove(at)).collect();
+        for InFlight { job, sent } in late {
             self.silences += u32::from(sent >= heard);
-            let error = Error::TimedOut { what: job.what.to_owned(), after: timeout, sent: true };
+            let after = if job.was_sent { now - job.asked } else { timeout };
+            let error = Error::TimedOut { what: job.what.to_owned(), after: rounded(after), sent: true };
             self.answer(job, Err(Failure::Error(error)));
         }
         let (late, queue) = std::mem::take(&mut self.queue).into_iter().partition(|job| job.asked + patience <= now);
         self.queue = queue;
         for job in Vec::from(late) {
-            let error = Error::TimedOut { what: job.what.to_owned(), after: patience, sent: false };
+            let error = Error::TimedOut { what: job.what.to_owned(), after: patience, sent: job.was_sent };
             self.answer(job, Err(Failure::Error(error)));
         }
     }
@@ -310,8 +321,9 @@ impl Link {
     fn take_back(&mut self, cause: &str) {
         let may_repeat = self.options.reconnect.is_some();
         let sent = std::mem::take(&mut self.in_flight);
-        for (_, InFlight { job, .. }) in sent.into_iter().rev() {
+        for (_, InFlight { mut job, .. }) in sent.into_iter().rev() {
             if job.repeat && may_repeat {
+                job.was_sent = true;
                 self.queue.push_front(job);
             } else {
                 let error = Error::Lost { what: job.what.to_owned(), sent: true, cause: cause.to_owned() };
@@ -331,7 +343,7 @@ impl Link {
                 self.accept(command);
             }
             for job in std::mem::take(&mut self.queue) {
-                let error = Error::Lost { what: job.what.to_owned(), sent: false, cause: cause.to_owned() };
+                let error = Error::Lost { what: job.what.to_owned(), sent: job.was_sent, cause: cause.to_owned() };
                 self.answer(job, Err(Failure::Error(error)));
             }
             return None;
@@ -371,6 +383,11 @@ impl Link {
         self.accept(command);
         self.queue.retain(|job| !matches!(job.reply, ReplyTo::Subscription(_)));
     }
+}
+
+/// A time in whole milliseconds, for messages.
+fn rounded(time: Duration) -> Duration {
+    Duration::from_millis(u64::try_from(time.as_millis()).unwrap_or(u64::MAX))
 }
 
 /// Whether a message answers a request: same kind, same function.

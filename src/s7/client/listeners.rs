@@ -25,6 +25,7 @@ impl Link {
             pdu: subscribed.pdu,
             repeat: false, // it is requested again together with the other subscriptions
             asked: Instant::now(),
+            was_sent: false,
             reply: ReplyTo::Subscription(subscribed.identifier),
         };
         self.queue.push_back(job);
@@ -61,6 +62,7 @@ impl Link {
             pdu: 0,
             repeat: false,
             asked: Instant::now(),
+            was_sent: false,
             reply: ReplyTo::NoReceiver,
         });
     }

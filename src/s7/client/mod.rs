@@ -178,7 +178,7 @@ impl Client {
         let Question { what, kind, parameter, data, pdu, repeat } = question;
         let (parameter, data) = (parameter.to_vec(), data.to_vec());
         let (asked, reply) = (Instant::now(), ReplyTo::Caller(reply));
-        let job = Job { what, kind, parameter, data, pdu, repeat, asked, reply };
+        let job = Job { what, kind, parameter, data, pdu, repeat, asked, was_sent: false, reply };
         // If the task has ended, the answer channel reports it as well.
         let _ = self.commands.send(LinkCommand::Ask(job)).await;
         answer

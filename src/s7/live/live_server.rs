@@ -95,12 +95,13 @@ impl LiveServer {
         let metrics_addresses = for_metrics.iter().filter_map(|listener| listener.local_addr().ok()).collect();
         // The capture file is created last, when nothing else can fail.
         let capture = capture.as_deref().map(captured).transpose()?;
+        let networks = limits.networks.clone();
         let lender = Lender::new(live.clone(), is_read_only, connections, terms);
         let server = Arc::new(Server::new(lender, settings, limits).with(Instruments { faults, capture }));
         for listener in for_metrics {
             let (live, server) = (live.clone(), Arc::clone(&server));
             let text = move || metrics::text(&live, server.clients(), server.counters());
-            runtime.spawn(metrics::serve(listener, text));
+            runtime.spawn(metrics::serve(listener, networks.clone(), text));
         }
         let (end, ended) = watch::channel(false);
         let served = Arc::clone(&server);

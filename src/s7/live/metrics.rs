@@ -15,7 +15,7 @@ use tokio::task::{AbortHandle, JoinSet};
 use tokio::time::{sleep, timeout};
 
 use crate::live::Handle;
-use crate::s7::server::{Counters, Refused};
+use crate::s7::server::{Counters, Network, Refused};
 use crate::variables::Describe;
 
 /// The longest request.
@@ -27,14 +27,21 @@ const PLACES: usize = 16;
 
 /// Answers requests until it is dropped. At the limit the oldest request is dropped: a scrape takes milliseconds, and idle connections must
 /// not block it.
-pub(super) async fn serve(listener: TcpListener, text: impl Fn() -> String + Send + Sync + 'static) {
+pub(super) async fn serve(
+    listener: TcpListener,
+    networks: Vec<Network>,
+    text: impl Fn() -> String + Send + Sync + 'static,
+) {
     let text = Arc::new(text);
     let (mut tasks, mut places) = (JoinSet::new(), VecDeque::<AbortHandle>::new());
     loop {
-        let Ok((mut stream, _)) = listener.accept().await else {
+        let Ok((mut stream, peer)) = listener.accept().await else {
             sleep(Duration::from_millis(50)).await;
             continue;
         };
+        if !networks.is_empty() && !networks.iter().any(|network| network.contains(peer.ip())) {
+            continue; // as for S7 clients; the connection closes without an answer
+        }
         while tasks.try_join_next().is_some() {}
         places.retain(|place| !place.is_finished());
         if places.len() >= PLACES

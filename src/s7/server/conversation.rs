@@ -15,7 +15,7 @@ use tokio::io::{AsyncRead, AsyncReadExt, AsyncWriteExt, ReadBuf};
 use tokio::net::TcpStream;
 use tokio::sync::watch;
 use tokio::task::yield_now;
-use tokio::time::{Instant, Interval, MissedTickBehavior, interval, sleep, timeout};
+use tokio::time::{Instant, Interval, MissedTickBehavior, interval, sleep, sleep_until, timeout};
 
 use super::end::End;
 use super::faults::Faulty;
@@ -208,6 +208,10 @@ impl<'a, S: Stations> Conversation<'a, S> {
             let (answered, connection, written) = self.answer(start, length);
             start += answered;
             owed = written.or(owed);
+            if let Some(guess) = self.session.take_guess() {
+                let address = self.witness.peer().ip().to_canonical();
+                sleep_until(self.server.guesses.answer_at(address, guess, Instant::now())).await;
+            }
             if connection == Connection::Closed {
                 self.settle(&mut owed).await;
                 return self.end_session().await;

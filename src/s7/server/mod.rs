@@ -10,6 +10,7 @@
 //! | answers leave in one write, in order, without TCP delay | clients that read once get the complete answer |
 //! | the server stops reading from a client that does not read its answers, and closes its connection after a while | it does not hold up others |
 //! | at the client limit, the oldest connection without a request is closed | idle connections do not block new clients |
+//! | each wrong password from an address doubles the time until the next answer to one | a password of eight characters cannot be guessed |
 //! | a client is idle if it has received no answer for a long time, not if it has sent nothing | incomplete packets do not keep a place |
 //! | a client with subscriptions is never idle; TCP keep-alive detects lost clients | panels stay connected overnight |
 //!
@@ -21,6 +22,7 @@ mod conversation;
 mod counters;
 mod end;
 mod faults;
+mod guesses;
 mod limits;
 mod refusals;
 mod sending;
@@ -41,6 +43,7 @@ pub use accepting::listen;
 pub use capture::Capture;
 pub use counters::{Counter, Counters};
 pub use faults::Faults;
+use guesses::Guesses;
 pub use limits::{Limits, Network};
 pub use refusals::Refused;
 use strangers::Strangers;
@@ -86,6 +89,7 @@ pub struct Server<S> {
     counters: Counters,
     flood: Flood,
     strangers: Strangers,
+    guesses: Guesses,
     instruments: Instruments,
     begin: Instant,
 }
@@ -105,6 +109,7 @@ impl<S: Stations> Server<S> {
             counters: Counters::default(),
             flood: Flood::default(),
             strangers: Strangers::default(),
+            guesses: Guesses::default(),
             instruments: Instruments::default(),
             begin,
         }

@@ -37,6 +37,7 @@ use crate::units::Time;
 use exchange::Exchange;
 pub use failure::Failure;
 use pending::{Parts, Uploads};
+pub(super) use security::Guess;
 use subscriptions::Subscriptions;
 
 /// The shortest PDU that is agreed.
@@ -96,6 +97,7 @@ pub struct Session {
     /// Buffer for NC variables.
     scratch: Vec<u8>,
     knows_password: bool,
+    guess: Option<Guess>,
     sequence: u8,
     parts: Parts,
     uploads: Uploads,
@@ -120,6 +122,7 @@ impl Session {
             pieces: Vec::new(),
             scratch: Vec::new(),
             knows_password: false,
+            guess: None,
             sequence: 0,
             parts: Parts::default(),
             uploads: Uploads::default(),

@@ -8,7 +8,21 @@ use super::exchange::Exchange;
 use crate::s7::wire::header::ErrorCode;
 use crate::s7::wire::user_data::Request;
 
+/// A password that a client has given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Guess {
+    /// It is the password.
+    Right,
+    /// It is not.
+    Wrong,
+}
+
 impl Session {
+    /// The password that was given since the last call, for a server that slows down guessing.
+    pub fn take_guess(&mut self) -> Option<Guess> {
+        self.guess.take()
+    }
+
     /// Whether this client may use functions of this protection level.
     pub(super) fn permit(&self, level: u8, exchange: &Exchange<'_>) -> Result<(), ErrorCode> {
         let is_protected = exchange.station.protection().level >= level;
@@ -23,8 +37,11 @@ impl Session {
         let given = <[u8; 8]>::try_from(request.payload).map_err(|_| ErrorCode::NOT_SUPPORTED)?;
         match exchange.station.protection().password {
             None => return Err(ErrorCode::NO_PASSWORD),
-            Some(password) if password != unfolded(given) => return Err(ErrorCode::WRONG_PASSWORD),
-            Some(_) => self.knows_password = true,
+            Some(password) if password != unfolded(given) => {
+                self.guess = Some(Guess::Wrong);
+                return Err(ErrorCode::WRONG_PASSWORD);
+            }
+            Some(_) => (self.knows_password, self.guess) = (true, Some(Guess::Right)),
         }
         self.acknowledge(request, exchange);
         Ok(())
