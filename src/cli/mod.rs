@@ -75,7 +75,7 @@ enum Command {
     ///
     /// Clients read and write DB10, DB11, DB21..., DB31..., the user data blocks, flags, inputs and outputs of the PLC, and read NC
     /// variables. All values read by one request are of the same cycle. All values written by one request take effect together at the start
-    /// of the next cycle. Ctrl-C or SIGTERM ends the command with exit code 0.
+    /// of the next cycle. Ctrl-C, SIGTERM or SIGHUP ends the command with exit code 0.
     #[cfg(feature = "s7")]
     Serve(Box<serve::Arguments>),
     /// Reads, writes and watches a PLC or an NCK by S7 communication: this simulator, a control, or any other device.

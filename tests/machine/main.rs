@@ -11,6 +11,7 @@ mod dynamics;
 mod first_test;
 mod foreign_readers;
 mod own_interface;
+mod plc_process;
 mod referencing;
 mod robustness;
 mod runner;

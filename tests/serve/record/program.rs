@@ -127,6 +127,50 @@ fn a_scenario_brings_its_plant_profile_and_image_into_the_recording() {
 
 #[test]
 #[cfg(unix)]
+fn with_exit_the_server_ends_with_its_scenario() {
+    let folder = folder("exits");
+    let scenario = "machine = \"g1_example\"\n[[step]]\nrun = \"100ms\"\n[[step]]\nexpect = \"M0.0 == 0\"\n";
+    fs::write(folder.join("good.toml"), scenario).unwrap();
+    fs::write(folder.join("bad.toml"), scenario.replace("== 0", "== 1")).unwrap();
+    for (name, code) in [("good.toml", 0), ("bad.toml", 1)] {
+        let trace = format!("{name}.jsonl");
+        let arguments = ["serve", "--scenario", name, "--exit", "--s7", "127.0.0.1:0", "--trace", &trace];
+        let output = run(&folder, &arguments);
+        assert_eq!(output.status.code(), Some(code), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(folder.join(&trace).is_file());
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_closed_terminal_ends_the_server_with_its_trace_and_a_long_trace_has_an_end() {
+    let folder = folder("hangup");
+    let scenario =
+        "machine = \"g1_example\"\nplc = \"enable_all\"\n[[step]]\nset = { \"M0.0\" = 1 }\n[[step]]\nrun = \"100ms\"\n";
+    fs::write(folder.join("s.toml"), scenario).unwrap();
+    let mut program = Program::start(&folder, &["--scenario", "s.toml", "--trace", "t.jsonl"]);
+    program.wait_for_log("the scenario passed");
+    assert_eq!(program.end("-HUP"), Some(0));
+    assert!(fs::read_to_string(folder.join("t.jsonl")).unwrap().contains("\"signal\":\"M0.0\""));
+    let counts = "machine = \"g1_example\"\nlimit = \"1h\"\nwatch = [\"X.position\", \"Y.position\"]\n[[step]]\nset = { \"M0.0\" = 1 }\n\
+        [[step]]\npulse = [\"M0.1\"]\nfor = \"1cycles\"\n[[step]]\ninclude = \"more.toml\"\ntimes = 20000\n";
+    fs::write(
+        folder.join("more.toml"),
+        "[[step]]\npulse = [\"M0.2\"]\nfor = \"1cycles\"\n[[step]]\nrun = \"1cycles\"\n",
+    )
+    .unwrap();
+    fs::write(folder.join("long.toml"), counts).unwrap();
+    let arguments = ["--scenario", "long.toml", "--speed", "1000", "--trace", "t.jsonl", "--trace-limit", "1"];
+    let mut program = Program::start(&folder, &arguments);
+    program.wait_for_log("the trace has reached its limit of 1 MiB and ends; the machine keeps running");
+    assert_eq!(program.end("-TERM"), Some(0));
+    let trace = fs::read_to_string(folder.join("t.jsonl")).unwrap();
+    let last = trace.lines().last().unwrap();
+    assert!(last.contains("the trace ends here: it has reached its limit of 1 MiB"), "{last}");
+}
+
+#[test]
+#[cfg(unix)]
 fn a_crash_loses_at_most_one_second() {
     let folder = folder("killed");
     let mut program = Program::start(&folder, &["g1_example", "--record", "killed.toml"]);
