@@ -154,7 +154,10 @@ fn an_output_on_a_full_disk_ends_with_2_and_a_closed_one_does_not() {
     let shell = format!("{} signals | head -1 >/dev/null; exit ${{PIPESTATUS[0]}}", env!("CARGO_BIN_EXE_opennck"));
     let closed = Command::new("bash").args(["-c", &shell]).output().unwrap();
     assert_eq!((closed.status.code(), err(&closed).as_str()), (Some(0), ""));
-    let trace = opennck(&["run", "golden/failing.toml", "--trace", "/dev/full"], &directory);
+    let trace = opennck(
+        &["run", "golden/area/flags.toml", "--case", "gantry_start, plant.X.start = 120", "--trace", "/dev/full"],
+        &directory,
+    );
     assert!(err(&trace).contains("/dev/full: cannot be written: "), "{}", err(&trace));
     assert_eq!(trace.status.code(), Some(2));
 }

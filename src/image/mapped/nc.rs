@@ -82,7 +82,7 @@ pub struct MappedImage {
     step: Vec<u8>,
     pub(super) answer: Vec<u8>,
     newest: u64,
-    seen: u64,
+    pub(super) seen: u64,
     starts: u64,
     plc_starts_before: u64,
     answering: Answering,
@@ -293,7 +293,7 @@ impl MappedImage {
             return Look::Nothing;
         }
         let at = self.geometry.plc_slot(number);
-        let read = match self.changed() {
+        let read = match self.changed(at) {
             None => self.words.read_slot(at, number, &mut self.answer),
             Some(bytes) if bytes <= self.answer.len() - WORD => {
                 let slot_bytes = self.geometry.plc_slot_bytes;
@@ -313,10 +313,9 @@ impl MappedImage {
         }
     }
 
-    /// The bytes of the newest answer up to the end of its list of changes; `None` if it has images. The number of entries is stored plus
+    /// The bytes of the answer in the slot at this position up to the end of its list of changes; `None` if it has images. The number of entries is stored plus
     /// one.
-    fn changed(&self) -> Option<usize> {
-        let at = self.geometry.plc_slot(self.words.load(header::NEWEST_ANSWER));
+    fn changed(&self, at: usize) -> Option<usize> {
         let count = self.words.load(at + answer::CHANGES).checked_sub(1)?;
         let bytes = usize::try_from(count).ok().and_then(|count| count.checked_mul(answer::CHANGE_BYTES));
         Some(bytes.and_then(|bytes| bytes.checked_add(answer::BEFORE)).unwrap_or(usize::MAX))

@@ -135,6 +135,63 @@ fn a_step_arrives_complete_and_only_bits_that_the_plc_changed_are_taken() {
 }
 
 #[test]
+fn a_list_of_changes_and_two_images_say_the_same() {
+    let file = File::new("list");
+    let mut memory = Memory::new();
+    let (mut nc, mut plc) = both(&file, &memory);
+    let flags = plc.offset(Area::Flags, 0).unwrap();
+    let bytes = plc.offset(Area::Flags, 200).unwrap() - flags;
+    for changed in [0, 3, bytes] {
+        let number = nc.publish(&memory, step(1), false);
+        plc.next_step().unwrap();
+        plc.image_mut()[flags..flags + changed].iter_mut().for_each(|byte| *byte ^= 0b101);
+        plc.answer();
+        let answered = nc.words.load(header::NEWEST_ANSWER);
+        let entries = nc.words.load(nc.geometry.plc_slot(answered) + answer::CHANGES);
+        assert_eq!(entries, changed as u64 + 1);
+        let mut expected = memory.clone();
+        for byte in 0..changed {
+            expected.flags.set_byte(byte, expected.flags.byte(byte) ^ 0b101);
+        }
+        assert_eq!(nc.look(number), Look::Answer(number));
+        nc.take(&mut memory);
+        assert_eq!(memory, expected);
+    }
+    // A list may name what the PLC does not own, and what does not exist.
+    let number = nc.publish(&memory, step(2), false);
+    plc.next_step().unwrap();
+    plc.image_mut()[flags] ^= 1;
+    plc.answer();
+    let slot = nc.geometry.plc_slot(nc.words.load(header::NEWEST_ANSWER));
+    for offset in [at(&plc, 31, 101), nc.geometry.image_bytes, usize::try_from(u32::MAX).unwrap()] {
+        nc.words.store(slot + answer::BEFORE, offset as u64 | 0xFF << 40);
+        nc.seen = 0;
+        assert_eq!(nc.look(0), Look::Answer(number));
+        let before = memory.clone();
+        nc.take(&mut memory);
+        assert_eq!(memory, before);
+    }
+}
+
+#[test]
+fn two_processes_that_answer_in_turn_are_noticed_and_one_after_the_other_is_not() {
+    let file = File::new("two");
+    let memory = Memory::new();
+    let (mut nc, mut plc) = both(&file, &memory);
+    let mut answer_as = |process: u64| {
+        let number = nc.publish(&memory, step(1), false);
+        plc.next_step().unwrap();
+        plc.answer();
+        let slot = nc.geometry.plc_slot(nc.words.load(header::NEWEST_ANSWER));
+        nc.words.store(slot + answer::PROCESS, process);
+        assert_eq!(nc.look(number), Look::Answer(number));
+        nc.take_both()
+    };
+    let both: Vec<_> = [7, 7, 8, 8, 9, 0, 8, 8, 9].into_iter().map(&mut answer_as).collect();
+    assert_eq!(both, [None, None, None, None, None, None, Some([9, 8]), None, Some([8, 9])]);
+}
+
+#[test]
 fn a_plc_that_counts_in_its_flags_counts_every_answer_once() {
     let file = File::new("counts");
     let mut memory = Memory::new();
@@ -255,8 +312,15 @@ fn an_invalid_header_or_slot_is_rejected_without_reading_beyond_the_file() {
     plc.next_step().unwrap();
     plc.answer();
     let slot = nc.geometry.plc_slot(1);
-    nc.words.store(slot + 64, 1);
-    assert_eq!(nc.look(number), Look::Refused(Refusal::Checksum));
+    for too_long in [nc.geometry.image_bytes as u64, u64::MAX] {
+        nc.words.store(slot + answer::CHANGES, too_long);
+        assert_eq!(nc.look(number), Look::Refused(Refusal::Changes));
+    }
+    for changes in [0, 1] {
+        nc.words.store(slot + answer::CHANGES, changes); // images, or a list
+        nc.words.store(slot + nc.geometry.plc_slot_bytes - 8, 7);
+        assert_eq!(nc.look(number), Look::Refused(Refusal::Checksum));
+    }
     nc.words.store(slot + nc.geometry.plc_slot_bytes - 8, 0); // none: a PLC with barriers
     assert_eq!(nc.look(number), Look::Answer(number));
     nc.words.store(header::NEWEST_ANSWER, u64::MAX);
