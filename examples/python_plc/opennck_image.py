@@ -63,7 +63,7 @@ IN_ORDER = platform.machine() in ("x86_64", "AMD64")
 CHANGE = struct.Struct("<IBBxx")
 STEP, ANSWER = struct.Struct("<6Q"), struct.Struct("<4Q")
 # How long to look for the next step without a pause, in seconds; and between looks whether the NC still exists.
-SPIN, LOOK = 0.0003, 0.5
+SPIN, LOOK = 0.0002, 0.5
 
 WRITERS = {1: "PLC", 2: "NCK", 3: "HMI", 4: "machine"}
 
@@ -319,7 +319,6 @@ class Image:
 
         If the file was left by an NC that crashed, no step of it is returned: the steps begin with the next NC.
         """
-        pause = getattr(os, "sched_yield", lambda: time.sleep(0))
         while True:
             begin = looked = time.perf_counter()
             while self.is_served():
@@ -330,8 +329,7 @@ class Image:
                     continue
                 now = time.perf_counter()
                 if self._lock_step and now - begin < SPIN:
-                    pause()  # an NC in lock-step goes on at once
-                    continue
+                    continue  # an NC in lock-step goes on at once
                 if now - looked > LOOK:
                     looked = now
                     if not self._nc_exists():

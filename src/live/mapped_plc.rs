@@ -35,10 +35,9 @@ const KEEPER_INTERVAL: Duration = Duration::from_millis(10);
 const SHARE: u32 = 4;
 /// How long the last scans wait for their answer at the end.
 const LAST_ANSWER: Duration = Duration::from_millis(100);
-/// How long a scan polls for its answer without letting other threads run: a program needs some microseconds for a scan.
-const SPINNING: Duration = Duration::from_micros(50);
-/// How long it polls without sleeping: the other process may need this processor.
-const YIELDING: Duration = Duration::from_micros(300);
+/// How long a scan polls for its answer without sleeping: several times as long as an empty program needs. To let other threads run instead
+/// (`yield_now`) is slower on a busy computer: they run for milliseconds.
+const SPINNING: Duration = Duration::from_micros(200);
 /// How long it sleeps between polls after that.
 const POLL_INTERVAL: Duration = Duration::from_micros(50);
 /// Shortest and longest interval between log lines about repeated events of the other process.
@@ -208,10 +207,6 @@ impl MappedPlc {
             }
             if waited < SPINNING {
                 std::hint::spin_loop();
-                continue;
-            }
-            if waited < YIELDING {
-                std::thread::yield_now();
                 continue;
             }
             if let Some(how) = self.has_ended.as_mut().and_then(|HasEnded(has_ended)| has_ended()) {
