@@ -11,6 +11,7 @@ use super::output::Output;
 use crate::plc::{PlcProcess, Programs};
 use crate::scenario::{Failure, Finished, Prepared, Scenario, Variant};
 use crate::source::{Place, Problem, Replacement};
+use crate::units::Time;
 
 /// What runs, and the files to which the trace is written as well.
 #[derive(Clone, Debug, Args)]
@@ -57,7 +58,7 @@ impl Options {
         self.plc_process.clone().map(|command| PlcProcess {
             command,
             directory: PathBuf::new(),
-            time_out: self.plc_timeout,
+            time_out: Time::from_nanos(i64::try_from(self.plc_timeout.as_nanos()).unwrap_or(i64::MAX)),
             is_shown: true,
         })
     }

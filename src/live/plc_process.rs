@@ -44,6 +44,7 @@ pub fn with_processes(programs: Programs) -> Programs {
 struct ProcessProgram {
     mapped: MappedPlc,
     process: PlcProcess,
+    time_out: Duration,
     words: Vec<String>,
     files: Files,
     /// The process, once it runs.
@@ -75,9 +76,10 @@ impl ProcessProgram {
         let files = Files { image: folder.join(format!("{name}.image")), log: folder.join(format!("{name}.log")) };
         // Files of an earlier process with the same number.
         let _ = fs::remove_file(&files.image);
-        let exchange = Exchange { lock_step: true, time_out: process.time_out };
+        let time_out = Duration::from_nanos(u64::try_from(process.time_out.nanos()).unwrap_or(0));
+        let exchange = Exchange { lock_step: true, time_out };
         let mapped = MappedPlc::of(&files.image, memory, names, cycle, exchange)?;
-        Ok(Self { mapped, process: process.clone(), words, files, child: None, counts: [0; 2] })
+        Ok(Self { mapped, process: process.clone(), time_out, words, files, child: None, counts: [0; 2] })
     }
 
     /// Starts the process and waits until it has opened the file.
@@ -114,8 +116,8 @@ impl ProcessProgram {
                     "start the program by hand to see why; it opens the file in place of {image}",
                 ));
             }
-            if begin.elapsed() > self.process.time_out {
-                let limit = self.process.time_out;
+            if begin.elapsed() > self.time_out {
+                let limit = self.time_out;
                 let what =
                     format!("the PLC process `{program}` did not open the image within {limit:?}{}", self.said());
                 return Err(Problem::new(

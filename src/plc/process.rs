@@ -1,7 +1,8 @@
 //! The description of a PLC program in another process; `live` runs it.
 
 use std::path::PathBuf;
-use std::time::Duration;
+
+use crate::units::Time;
 
 /// A PLC program in another process, which maps the interface as a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -11,12 +12,12 @@ pub struct PlcProcess {
     /// The folder in which it runs.
     pub directory: PathBuf,
     /// How long it may take until it opens the file, and for an answer, by the clock of the computer.
-    pub time_out: Duration,
+    pub time_out: Time,
     /// Whether its output is printed on standard error; otherwise its last lines are part of a failure.
     pub is_shown: bool,
 }
 
 impl PlcProcess {
     /// The time-out unless a scenario says otherwise: a computer that runs many tests is slow.
-    pub const TIME_OUT: Duration = Duration::from_secs(10);
+    pub const TIME_OUT: Time = Time::from_millis(10_000);
 }

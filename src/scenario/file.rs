@@ -246,7 +246,7 @@ fn process(node: Node, path: &Path) -> Result<(PlcProcess, Place), Problem> {
     let command = command.ok_or_else(|| place.problem("expected the key `process`, found none", cure))?;
     let time_out = match limit {
         Some(limit) => match duration(&limit, "a time-out")? {
-            Duration::Time(time) => std::time::Duration::from_nanos(u64::try_from(time.nanos()).unwrap_or(0)),
+            Duration::Time(time) => time,
             Duration::Cycles(_) => return Err(limit.expected("a time of the computer", "write timeout = \"10s\"")),
         },
         None => PlcProcess::TIME_OUT,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::Work;
+use super::work::Work;
 use crate::golden::Outcome;
 
 /// The command by which a job annotates a line: `::error file=…,line=…,title=…::message`.

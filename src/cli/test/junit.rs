@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, Property, Report, TestCase, TestCaseStatus, TestSuite};
 
-use super::{Ran, Work};
+use super::work::{Ran, Work};
 use crate::golden::Outcome;
 use crate::source::Problem;
 

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::time::Duration;
 
-use super::{Ran, Work, sum};
+use super::work::{Ran, Work, sum};
 use crate::golden::Outcome;
 
 const HEAD: &str = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>OpenNCK scenarios</title>\n<style>\n\

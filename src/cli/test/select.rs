@@ -1,11 +1,30 @@
 //! Which cases run, and in which order: `--filter`, then `--shard`, then `--shuffle`.
 
-use super::Work;
 use super::arguments::{Arguments, Shard};
+use super::work::{Item, Work};
+use crate::golden::{cases, scenario_files};
 use crate::source::Problem;
 
+/// The selected cases, in the order in which they run.
+pub(super) fn found(arguments: &Arguments) -> Result<Vec<Work>, Problem> {
+    let mut work = Vec::new();
+    for file in scenario_files(&arguments.paths)? {
+        match cases(&file) {
+            Err(problem) => {
+                work.push(Work { name: file.display().to_string(), file, item: Item::Unusable(problem) });
+            }
+            Ok(cases) => work.extend(cases.into_iter().map(|case| Work {
+                name: case.name(),
+                file: file.clone(),
+                item: Item::Case(Box::new(case)),
+            })),
+        }
+    }
+    select(work, arguments)
+}
+
 /// The selected cases. A file that cannot be used stays: it may hold the case that is looked for.
-pub(super) fn select(mut work: Vec<Work>, arguments: &Arguments) -> Result<Vec<Work>, Problem> {
+fn select(mut work: Vec<Work>, arguments: &Arguments) -> Result<Vec<Work>, Problem> {
     let Arguments { filter, shard, shuffle, .. } = arguments;
     if !filter.is_empty() {
         let all = work.len();

@@ -8,7 +8,9 @@ use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
 use super::arguments::Arguments;
-use super::{Work, found, once};
+use super::select::found;
+use super::suite::once;
+use super::work::Work;
 use crate::cli::output::Output;
 use crate::plc::Programs;
 
@@ -38,7 +40,7 @@ pub(super) fn again(arguments: &Arguments, programs: &Programs, output: &mut Out
                 work.retain(|work| {
                     work.inputs().iter().any(|input| changed.iter().any(|path| path.starts_with(input)))
                 });
-                once(work, None, arguments, programs, output);
+                once(&work, None, arguments, programs, output);
             }
             Err(problem) => output.error(problem),
         }

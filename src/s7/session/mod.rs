@@ -17,6 +17,7 @@ mod control;
 mod cyclic;
 mod exchange;
 mod failure;
+mod guess;
 mod parts;
 mod pending;
 mod security;
@@ -36,8 +37,8 @@ use crate::units::Time;
 
 use exchange::Exchange;
 pub use failure::Failure;
+pub(super) use guess::Guess;
 use pending::{Parts, Uploads};
-pub(super) use security::Guess;
 use subscriptions::Subscriptions;
 
 /// The shortest PDU that is agreed.

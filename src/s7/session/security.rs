@@ -5,17 +5,9 @@
 
 use super::Session;
 use super::exchange::Exchange;
+use super::guess::Guess;
 use crate::s7::wire::header::ErrorCode;
 use crate::s7::wire::user_data::Request;
-
-/// A password that a client has given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Guess {
-    /// It is the password.
-    Right,
-    /// It is not.
-    Wrong,
-}
 
 impl Session {
     /// The password that was given since the last call, for a server that slows down guessing.
