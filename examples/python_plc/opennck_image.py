@@ -236,6 +236,7 @@ class Image:
         self.places = Places(self._look_up)
         self._lock_step = self.word(LOCK_STEP) != 0
         self._process, self._own = self.word(PROCESS), os.getpid()
+        self._had_nc = self._nc_runs()
         self._newest = 0
         self._starts = self._answered = None
         if not self.is_served():
@@ -341,14 +342,17 @@ class Image:
             self._open_soon()
 
     def _nc_exists(self):
-        """Whether the process of the NC exists: one that was killed has not marked its end."""
-        if os.name != "posix" or self._newest == 0:
+        """Whether the NC of this session exists: one that was killed has not marked its end. A file that was left by an NC waits for the next."""
+        return not self._had_nc or self._nc_runs()
+
+    def _nc_runs(self):
+        if os.name != "posix":
             return True
         try:
             os.kill(self._process, 0)
         except ProcessLookupError:
             return False
-        except PermissionError:
+        except (PermissionError, OverflowError):
             pass
         return True
 

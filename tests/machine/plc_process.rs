@@ -16,8 +16,6 @@ with Image(sys.argv[1]) as image:
         for db in (31, 32, 33):
             for bit in ('1.5', '2.1', '21.7'):
                 step[f'DB{db}.DBX{bit}'] = 1
-            step[f'DB{db}.DBB0'] = 0b00011011
-        step['DB21.DBB4'] = 0b00011011
         MORE
         image.answer(step)
 ";
