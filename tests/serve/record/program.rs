@@ -146,7 +146,7 @@ fn with_exit_the_server_ends_with_its_scenario() {
 fn a_closed_terminal_ends_the_server_with_its_trace_and_a_long_trace_has_an_end() {
     let folder = folder("hangup");
     let scenario =
-        "machine = \"g1_example\"\nplc = \"enable_all\"\n[[step]]\nset = { \"M0.0\" = 1 }\n[[step]]\nrun = \"100ms\"\n";
+        "machine = \"g1_example\"\nwatch = [\"M0.*\"]\n[[step]]\nset = { \"M0.0\" = 1 }\n[[step]]\nrun = \"100ms\"\n";
     fs::write(folder.join("s.toml"), scenario).unwrap();
     let mut program = Program::start(&folder, &["--scenario", "s.toml", "--trace", "t.jsonl"]);
     program.wait_for_log("the scenario passed");
