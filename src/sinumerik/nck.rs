@@ -211,7 +211,7 @@ impl Nck {
     }
 
     /// Records one event for all data that became active, and remembers them for the record of the machine.
-    fn note_activated(&mut self, before: &MachineData, rule: Rule, cause: EventId) {
+    pub(super) fn note_activated(&mut self, before: &MachineData, rule: Rule, cause: EventId) {
         let changed = self.active.differences(before);
         let shown = |target: &Target| shown(&self.active, target);
         let mut inputs = [Input::None; 3];
@@ -320,6 +320,7 @@ impl Nck {
     /// Reads the data of the PLC and their changes, and commands setpoints.
     pub fn decide(&mut self, to_nck: &ToNck, changes: Changes) {
         let cancel_key = std::mem::take(&mut self.cancel_key);
+        self.store_differences();
         self.state.note_power_on();
         self.state.run_up(&self.parameters);
         self.state.select_modes(&self.parameters, to_nck);

@@ -149,9 +149,6 @@ fn functions(archive: &Archive, number: AxisNumber, axis: &Axis, findings: &mut 
     if axis.is_rot_ax && axis.rot_is_modulo {
         add(30310, "modulo only disables the software limits in the model; positions are not reset");
     }
-    if axis.gantry_function_mask & 1 != 0 {
-        add(37150, "bit 0, extended monitoring, is not modelled");
-    }
 }
 
 fn encoders(archive: &Archive, number: AxisNumber, site: &Site<'_>, findings: &mut Vec<Finding>) {

@@ -138,8 +138,10 @@ rules! {
     Overloaded "DYN-02" "the leading axis demands more than the synchronous axis can do";
     NotMonitored "BRK-02" "not monitored while the grouping is open or in follow-up";
     WarningLimit "MON-02" "above the warning limit";
-    WarningLimitBeyondBase "MON-08" "difference exceeds its value at the return to position control by more than the warning limit";
-    TripLimitBeyondBase "MON-08" "difference exceeds its value at the return to position control by more than the trip limit";
+    WarningLimitBeyondBase "MON-08" "further from the base than the warning limit";
+    TripLimitBeyondBase "MON-08" "further from the base than the trip limit";
+    TripLimitExtended "MON-09" "above the trip limit in extended monitoring";
+    DifferenceStored "MON-11" "the difference that tripped in extended monitoring is stored";
     WarningGone "MON-02" "not above the warning limit";
     TripLimitSynchronised "MON-04" "above the trip limit";
     TripLimitNotSynchronised "MON-05" "above the trip limit";

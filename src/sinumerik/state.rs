@@ -122,6 +122,9 @@ impl State {
             declared: Declared::default(),
             overwritten: true,
         };
+        for grouping in &mut state.groupings {
+            grouping.remember_trips(parameters);
+        }
         state.form_units(parameters);
         state.prepare_position_control(parameters);
         state

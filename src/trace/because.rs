@@ -39,6 +39,7 @@ pub(super) fn input_name(quantity: Quantity, length: Position) -> (&'static str,
         Quantity::SynchronismDifference => (AxisValue::SynchronismDifference.name(), length.user()),
         Quantity::Position => (AxisValue::Position.name(), length.user()),
         Quantity::Deviation => ("deviation", length.user()),
+        Quantity::Base => ("base", length.user()),
         Quantity::Distance => ("distance", length.user()),
         // Events contain user units per second; all texts show user units per minute.
         Quantity::Velocity => (AxisValue::Velocity.name(), length.user() * 60.0),

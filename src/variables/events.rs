@@ -57,6 +57,8 @@ pub enum Quantity {
     Position,
     /// Following error, or deviation from the setpoint.
     Deviation,
+    /// The difference from which the limits of a grouping count.
+    Base,
     /// Distance travelled.
     Distance,
     /// Actual velocity with its sign, in millionths of a user unit per second.

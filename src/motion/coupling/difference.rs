@@ -9,31 +9,21 @@
 use arrayvec::ArrayVec;
 
 use super::policy::{BeforeReference, OffsetSource, Reaction, TwoStage};
-use super::state::{Axes, Coupled, Coupling, Halt, MEMBERS, Stage};
+use super::state::{Axes, Connection, Coupled, Coupling, Halt, MEMBERS, Stage};
 use crate::units::{AxisNumber, Position};
 
 /// A limit in effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limit {
-    /// The largest permitted difference.
+    /// The largest permitted distance from the base, in both directions.
     pub at: Position,
-    /// The part of it that is the base, if the limit counts beyond a base.
+    /// The difference from which the limit counts; `None` if it counts from zero.
     pub base: Option<Position>,
 }
 
 impl Limit {
-    fn new(at: Position, base: Option<Position>) -> Self {
-        Self { at: base.map_or(at, |base| at + base), base }
-    }
-
-    /// The limit itself, without the base.
-    #[must_use]
-    pub fn own(self) -> Position {
-        self.base.map_or(self.at, |base| self.at - base)
-    }
-
     fn is_exceeded_by(self, difference: Position) -> bool {
-        difference.abs() > self.at
+        (difference - self.base.unwrap_or(Position::ZERO)).abs() > self.at
     }
 }
 
@@ -115,12 +105,19 @@ impl Coupled {
         }
     }
 
-    /// The limits in effect. A base widens the first limit, and the second limit if that is defined to count beyond the base.
+    /// The limits in effect. They count from the kept base if they are defined to do so; the smaller second limit then acts.
     fn limits(&self, limits: TwoStage) -> (Option<Limit>, Limit) {
-        let second = Limit::new(limits.second, None);
-        let beyond_base = limits.second_beyond_base.filter(|_| self.kept.is_some());
-        let beyond_base = beyond_base.map(|at| Limit::new(at, self.kept)).filter(|limit| limit.at < second.at);
-        (limits.first.map(|at| Limit::new(at, self.kept)), beyond_base.unwrap_or(second))
+        let base = self.kept.filter(|_| limits.second_beyond_base.is_some());
+        let beyond_base = limits.second_beyond_base.filter(|_| base.is_some());
+        let second = beyond_base.map_or(limits.second, |at| at.min(limits.second));
+        (limits.first.map(|at| Limit { at, base }), Limit { at: second, base })
+    }
+
+    /// While members realign, the base follows the difference towards zero; otherwise the realignment itself would exceed the limits.
+    fn lower_base(&mut self, difference: Position) {
+        if let Some(base) = &mut self.kept {
+            *base = difference.clamp(Position::ZERO.min(*base), Position::ZERO.max(*base));
+        }
     }
 
     fn compare(&mut self, difference: Position, limits: Option<TwoStage>, events: &mut Events) {
@@ -188,12 +185,17 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
     pub fn compare(&mut self, axes: &impl Axes, events: &mut Events) {
         events.clear();
         let (leader, open) = (self.leader, self.is_open());
+        let realigns = matches!(self.connection, Connection::Realigning(_) | Connection::Settling);
         for coupled in &mut self.followers {
             let counts = self.policy.before_reference == BeforeReference::Relative
                 || coupled.absolute_base().is_none()
                 || coupled.is_referenced(leader, axes);
             let limits = coupled.follower.limits.filter(|_| counts && !open);
-            coupled.compare(coupled.difference(leader, axes), limits, events);
+            let difference = coupled.difference(leader, axes);
+            if realigns {
+                coupled.lower_base(difference);
+            }
+            coupled.compare(difference, limits, events);
         }
         for event in &*events {
             let reaction = match event.what {
@@ -239,10 +241,10 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         self.halt = self.halt.filter(|halt| *halt == Halt::Locked);
     }
 
-    /// Position control is active again after a loss: the amount of each difference is the base beyond which limits count.
+    /// Keeps each present difference, with its sign, as the base from which limits count.
     pub fn keep_bases(&mut self, axes: &impl Axes) {
         for coupled in &mut self.followers {
-            coupled.kept = Some(coupled.difference(self.leader, axes).abs());
+            coupled.kept = Some(coupled.difference(self.leader, axes));
         }
     }
 

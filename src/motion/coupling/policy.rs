@@ -69,13 +69,13 @@ pub struct TwoStage {
     pub first: Option<Position>,
     /// The second limit.
     pub second: Position,
-    /// A second limit that counts beyond the base left by [`Coupling::keep_bases`](super::Coupling::keep_bases). While there is a base, the
-    /// smaller of the two second limits acts.
+    /// With a value, both stages count from the base of [`Coupling::keep_bases`](super::Coupling::keep_bases). While there is a base, this is
+    /// another second limit, and the smaller one acts. `None`: the limits count from zero, also while there is a base.
     pub second_beyond_base: Option<Position>,
 }
 
 impl TwoStage {
-    /// Two limits that do not depend on the base, except that the first one always counts beyond it.
+    /// Two limits that count from zero.
     #[must_use]
     pub const fn new(first: Option<Position>, second: Position) -> Self {
         Self { first, second, second_beyond_base: None }

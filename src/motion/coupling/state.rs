@@ -48,7 +48,7 @@ pub(super) struct Coupled {
     pub difference: Position,
     /// The limits that it exceeded then.
     pub stage: Stage,
-    /// The amount beyond which limits count.
+    /// The difference from which limits count.
     pub kept: Option<Position>,
 }
 

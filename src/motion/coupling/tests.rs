@@ -414,24 +414,46 @@ fn a_halt_lasts_until_its_reset_or_for_good_and_persisting_differences_do_not_re
 }
 
 #[test]
-fn a_base_widens_the_first_limit_and_the_second_as_far_as_that_is_below_the_other_one() {
+fn limits_count_from_the_base_in_both_directions_and_the_smaller_second_one_acts() {
     let limits = |second| TwoStage { second_beyond_base: Some(mm(1.0)), ..TwoStage::new(Some(mm(0.1)), second) };
     let mut coupling = pair(POLICY, limits(mm(10.0)));
     coupling.keep_bases(&Bench::at(&[0, -2_000_000]));
-    assert_eq!(events(&mut coupling, &Bench::at(&[0, 2_100_000])), []);
+    assert_eq!(events(&mut coupling, &Bench::at(&[0, -2_100_000])), []);
+    assert_eq!(events(&mut coupling, &Bench::at(&[0, -1_900_000])), []);
     let limit = |what: &What| match *what {
         What::FirstExceeded(limit) | What::SecondExceeded(limit) => Some((limit.at, limit.base)),
         What::FirstBack(_) | What::SecondBack(_) | What::Realigned | What::Released | What::Closed => None,
     };
-    let found = events(&mut coupling, &Bench::at(&[0, 3_100_000]));
-    let base = Some(mm(2.0));
-    assert_eq!(found.iter().filter_map(limit).collect::<Vec<_>>(), [(mm(2.1), base), (mm(3.0), base)]);
-    coupling.set_limits(|_| Some(limits(mm(2.5))));
-    assert_eq!(events(&mut coupling, &Bench::at(&[0, 2_000_000])).len(), 2);
-    let found = events(&mut coupling, &Bench::at(&[0, 2_600_000]));
-    assert_eq!(found.iter().filter_map(limit).next_back(), Some((mm(2.5), None)), "the other limit is smaller");
+    let found = events(&mut coupling, &Bench::at(&[0, -900_000]));
+    let base = Some(mm(-2.0));
+    assert_eq!(found.iter().filter_map(limit).collect::<Vec<_>>(), [(mm(0.1), base), (mm(1.0), base)]);
+    coupling.set_limits(|_| Some(limits(mm(0.5))));
+    assert_eq!(events(&mut coupling, &Bench::at(&[0, -2_000_000])).len(), 2);
+    let found = events(&mut coupling, &Bench::at(&[0, -2_600_000]));
+    assert_eq!(found.iter().filter_map(limit).next_back(), Some((mm(0.5), base)), "the other limit is smaller");
+    coupling.set_limits(|_| Some(TwoStage::new(Some(mm(3.0)), mm(2.6))));
+    assert_eq!(events(&mut coupling, &Bench::at(&[0, -2_600_000])).len(), 2, "limits from zero: within both");
+    coupling.set_limits(|_| Some(limits(mm(0.5))));
+    assert_eq!(events(&mut coupling, &Bench::at(&[0, -2_000_000])), []);
     coupling.clear_bases();
-    assert_eq!(events(&mut coupling, &Bench::at(&[0, 2_600_000])), [], "limits without base change nothing here");
+    assert_eq!(events(&mut coupling, &Bench::at(&[0, -2_000_000])).len(), 2, "from zero again");
+}
+
+#[test]
+fn the_base_follows_the_difference_towards_zero_while_members_realign_and_never_back() {
+    let limits = TwoStage { second_beyond_base: Some(mm(0.2)), ..TwoStage::new(Some(mm(0.1)), mm(10.0)) };
+    let mut coupling = pair(POLICY, limits);
+    let at = |difference: i64| Bench::at(&[0, difference]);
+    coupling.keep_bases(&at(2_000_000));
+    coupling.begin_realignment(Realign { moves: Moves::All, target: Target::LeaderActual }, &at(2_000_000));
+    assert_eq!(events(&mut coupling, &at(2_100_000)), [], "not beyond, and no higher base");
+    assert_eq!(events(&mut coupling, &at(1_000_000)), []);
+    coupling.abort_realignment();
+    assert_eq!(events(&mut coupling, &at(900_000)), [], "still braking");
+    coupling.settle(true);
+    assert_eq!(events(&mut coupling, &at(1_000_000)), []);
+    assert_eq!(events(&mut coupling, &at(1_000_001)).len(), 1, "0.9 is the base now");
+    assert_eq!(events(&mut coupling, &at(699_999)).len(), 1);
 }
 
 #[test]

@@ -216,6 +216,9 @@ alarms! {
     GANTRY_OVERLOADED 10656
         [MODE_GROUP_NOT_READY LOCAL CHANNEL_NOT_READY INTERFACE_SIGNALS DISPLAY] ModeGroupReset
         "channel %1 axis %2 gantry synchronized axis dynamically overloaded";
+    /// Power was switched off after a trip in extended monitoring (MD37150 bit 0), and MD37135 still shows the difference.
+    GANTRY_SWITCHED_OFF 10657 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "channel %1 axis %2 switched off while the gantry error limit was exceeded";
     /// The grouping cannot be closed. %3: the thousands digit gives the reason (7: motion pending), the last two digits the grouping.
     IMPERMISSIBLE_AXIS_STATE 10658 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP LOCAL] Reset
         "channel %1 axis %2 impermissible axis state %3";

@@ -4,7 +4,6 @@
 //! | numbers | not modelled |
 //! |---|---|
 //! | 2001, 2900, 4xxx but 4300, 26014, 26015, 26017, 26024, 26025 | alarms of machine data: the model checks them before the control starts and reports them there |
-//! | 10657 | extended monitoring: MD37150 bit 0 with MD37135 |
 //! | 10620, 10630, 10631, 107xx, 12550, 14xxx, 16xxx, 17xxx, 20070, 20071, 26072, 26076 | programs, blocks, the PLC's positioning axes, working areas |
 //! | 20003, 20004, 20007, 20008, 22062, 22064 | distance-coded marks, and MD34200 = 6 and 7 |
 //! | 20052, 20053, 20060, 20062 | geometry axes, and overlaid movements such as DRF |
@@ -46,7 +45,6 @@ alarms! {
     10620 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %3 axis %2 reaches software limit switch %4";
     10630 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %2 axis %3 reaches working area limit %4";
     10631 [DISPLAY] ByItself "channel %1 axis %2 rests on working area limit %3";
-    10657 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 switched off while the gantry error limit was exceeded";
     10720 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %3 axis %2 programmed end point is behind software limit switch %4";
     10721 [LOCAL INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %3 axis %2 programmed end point is behind software limit switch %4";
     10722 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %5 axis %2 software limit switch violated, residual distance %3 %4";

@@ -12,6 +12,7 @@
 //! | `synchronisation.rs` | section 3; loss and return of synchronism |
 //! | `closing.rs` | whether an open grouping may close (10658) |
 //! | `synchronism.rs` | limits and alarms of the difference (10652, 10653) |
+//! | `extended.rs` | extended monitoring: MD37150 bit 0 and MD37135 (10657) |
 //! | `setpoints.rs`, `overload.rs` | the movement of the axis that leads, and the overload of a synchronous axis (10656) |
 //! | `declarations.rs` | data that are reported (4300, unequal data) |
 //!
@@ -19,6 +20,7 @@
 
 pub(super) mod closing;
 pub(super) mod declarations;
+pub(super) mod extended;
 pub(super) mod grouping;
 pub(super) mod overload;
 pub(super) mod setpoints;

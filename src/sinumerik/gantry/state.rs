@@ -1,8 +1,10 @@
 //! The state of gantry groupings, and the table of transitions of a grouping.
 
+use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
 use crate::control::{Log, Transition, next, row};
+use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::{Definition, GantryCoupling, SYNCHRONOUS_AXES};
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, AxisSet, Position};
@@ -105,6 +107,33 @@ pub(in crate::sinumerik) struct Monitored {
     pub causes: LimitCauses,
 }
 
+/// The state of extended monitoring of a grouping.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Extended {
+    /// All axes have been referenced since power on.
+    pub ready: bool,
+    /// Synchronous axes that tripped in extended monitoring; their 10653 stays.
+    pub tripped: AxisSet,
+    /// Synchronous axes that were switched off like this: 10657.
+    pub switched_off: AxisSet,
+    /// Differences to be written into MD37135.
+    pub differences: ArrayVec<(AxisNumber, Position), SYNCHRONOUS_AXES>,
+}
+
+impl Extended {
+    /// Whether extended monitoring of a synchronous axis acts.
+    pub(in crate::sinumerik) fn acts(&self, axis: AxisNumber, parameters: &Parameters) -> bool {
+        self.ready && parameters.axes[axis].gantry.extended_monitoring
+    }
+
+    /// An axis tripped in extended monitoring.
+    pub(in crate::sinumerik) fn trip(&mut self, axis: AxisNumber, difference: Position) {
+        self.tripped.set(axis, true);
+        self.differences.retain(|(other, _)| *other != axis);
+        self.differences.push((axis, difference));
+    }
+}
+
 /// One grouping.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct Grouping {
@@ -130,10 +159,12 @@ pub(in crate::sinumerik) struct Grouping {
     pub followed_up: bool,
     /// Follow-up has ended and position control is not yet active again.
     pub returning: bool,
-    /// Synchronism was lost by follow-up and has not been restored or restarted since.
+    /// Synchronism was lost in operation: it has not been restored, and no reference has been set anew since.
     pub lost_in_operation: bool,
     /// Closing was prevented by 10658 (BRK-05).
     pub kept_open: bool,
+    /// Extended monitoring.
+    pub extended: Extended,
     /// The events that set or reset the warning and the trip of each synchronous axis.
     pub limit_causes: [LimitCauses; SYNCHRONOUS_AXES],
     /// The latest event of the grouping.
@@ -158,6 +189,7 @@ impl Grouping {
             returning: false,
             lost_in_operation: false,
             kept_open: false,
+            extended: Extended::default(),
             limit_causes: [LimitCauses::default(); SYNCHRONOUS_AXES],
             cause: EventId::NONE,
         }
@@ -195,23 +227,22 @@ impl Grouping {
 
     /// Makes a transition of the table.
     pub(in crate::sinumerik) fn step(&mut self, log: &mut Log, by: Rule, inputs: [Input; 3], parent: EventId) {
+        self.lost_in_operation |= self.phase == Phase::Synchronised;
         self.phase = next(TRANSITIONS, &mut log.taken.0[GROUPING_CHART], self.phase, by);
         self.cause = log.note(Place::Axis(self.coupling.leader()), by, inputs, parent);
         match self.phase {
             Phase::WaitingForStart => (self.message, self.waited_for) = (true, true),
             Phase::ReferencingLeadingAxis => self.waited_for = false,
-            Phase::NotSynchronised => self.lost_in_operation |= by == Rule::SynchronismLostFollowUp,
-            Phase::ReferencingSynchronousAxis | Phase::Synchronising | Phase::Synchronised | Phase::Open => {}
+            Phase::Synchronised => self.clear_bases(),
+            Phase::Open => self.coupling.clear_bases(),
+            Phase::NotSynchronised | Phase::ReferencingSynchronousAxis | Phase::Synchronising => {}
         }
         if self.phase != Phase::Synchronising {
             self.coupling.abort_realignment();
         }
-        if matches!(self.phase, Phase::ReferencingLeadingAxis | Phase::Synchronised | Phase::Open) {
-            self.clear_bases();
-        }
     }
 
-    /// The limits count from 0 again, until synchronism is lost in operation again.
+    /// The limits count from 0 until synchronism is lost in operation again (E-14).
     pub(in crate::sinumerik) fn clear_bases(&mut self) {
         self.lost_in_operation = false;
         self.coupling.clear_bases();

@@ -227,15 +227,13 @@ impl Grouping {
             self.returning = true;
             self.coupling.clear_bases();
         }
-        if unreferenced.is_some() {
-            self.clear_bases();
-        }
+        self.extended.ready |= unreferenced.is_none();
         // If an enable is missing on another axis, follow-up ends in hold.
         let back = self.coupling.members().all(|axis| axes[axis].enabling.is_on());
         if back && std::mem::take(&mut self.returning) {
             self.restore_synchronism(view, locked, log, wants);
             if self.lost_in_operation {
-                // If synchronism is not restored, the present difference is the base of the limits (MON-08).
+                // If synchronism is not restored, the present difference is the base of the limits (E-14).
                 self.coupling.keep_bases(axes);
             }
         }
@@ -290,6 +288,9 @@ impl Grouping {
             let input = Input::Datum(37140, Some(self.coupling.leader()), 0.0);
             self.step(log, Rule::Closed, [input, Input::None, Input::None], EventId::NONE);
             self.coupling.close(view.axes);
+            if self.lost_in_operation {
+                self.coupling.keep_bases(view.axes);
+            }
         }
     }
 

@@ -38,6 +38,7 @@ impl Nck {
                 state.alarms.cancel(Cancel::ModeGroupReset, |place| parameters.concerns_mode_group(place, group));
             }
         }
+        self.release_trips();
         self.activate(Effect::Reset, last);
     }
 }

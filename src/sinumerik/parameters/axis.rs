@@ -71,6 +71,10 @@ pub struct Gantry {
     pub geometry_axis: bool,
     /// MD30505.
     pub hirth: bool,
+    /// MD37135.
+    pub tripped_difference: Position,
+    /// MD37150 bit 0: extended monitoring.
+    pub extended_monitoring: bool,
     /// MD37150 bit 1: the synchronous axis is referenced in the leading axis' direction.
     pub direction_of_leading_axis: bool,
     /// MD37150 bit 2: no message 10655.
@@ -244,6 +248,8 @@ fn gantry(md: &Axis, geometry_axis: bool) -> Gantry {
         concurrent: md.is_concurrent_pos_ax,
         geometry_axis,
         hirth: md.hirth_is_active,
+        tripped_difference: Position::from_user(md.gantry_act_pos_tol_error),
+        extended_monitoring: md.gantry_function_mask & 1 != 0,
         direction_of_leading_axis: md.gantry_function_mask & 2 != 0,
         suppress_message: md.gantry_function_mask & 4 != 0,
     }

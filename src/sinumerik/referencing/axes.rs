@@ -310,6 +310,12 @@ impl State {
             axis.causes.reference[usize::from(active)] = event;
         }
         self.value_shifted(number, shift);
+        // The base of the limits ends with a new reference (E-14).
+        for grouping in &mut self.groupings {
+            if grouping.coupling.members().any(|axis| axis == number) {
+                grouping.clear_bases();
+            }
+        }
     }
 
     fn is_gantry_axis(&self, number: AxisNumber) -> bool {
