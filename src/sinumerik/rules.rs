@@ -32,7 +32,7 @@ rules! {
     DriveReady "O-20" "the drive has started up";
     DriveLost "drive" "the drive is not ready";
     PulsesEnabled "O-20" "pulses enabled";
-    PulsesDisabled "O-20" "pulses disabled";
+    PulsesDisabled "O-25" "pulses disabled";
     ControllerOn "O-20" "controller enable";
     ControllerOff "SIG-01" "controller enable missing in the unit";
     FollowUp "SIG-02" "follow-up mode without controller enable";

@@ -1,4 +1,14 @@
-//! Enabling: from drive ready to position control and back (decision O-20).
+//! Enabling: from drive ready to position control and back (decisions O-20 and O-25).
+//!
+//! | step | condition |
+//! |---|---|
+//! | 93.5 | the drive has started up |
+//! | 93.7 | 93.5, 21.7 and 2.1 of the axis: the pulses need both enables |
+//! | 61.7, 61.6, 61.5 | pulses and 2.1 on every axis of the unit |
+//!
+//! When 21.7 or the drive goes, the pulses of the axis go at once. When 2.1 goes, they go with position control: once the unit stands, at the
+//! latest when MD36620 has passed. Choice where the manuals leave one: the pulses belong to the axis, as 93.7 does, so an axis that only
+//! another axis of its grouping holds keeps them, and so does an axis in follow-up by an alarm.
 //!
 //! Called once per cycle in the stage "enabling", after modes and RESET and before any motion. Reads 1.4 to 1.6, 2.1 and 21.7 of
 //! each axis. The axes of a closed grouping form one unit; they are enabled, braked and held together (SIG-01, SIG-02). Writes
@@ -23,6 +33,8 @@ struct Conditions {
     follow_up: bool,
     /// Pulses and measuring system are active on every axis.
     healthy: bool,
+    /// The pulses that are missing are being enabled.
+    starting: bool,
     alarm: EventId,
     /// Every setpoint and every axis is at rest.
     standing: bool,
@@ -117,7 +129,7 @@ impl State {
     pub(in crate::sinumerik) fn enable(&mut self, parameters: &Parameters, to_nck: &ToNck, resting: &Resting) {
         for number in resting.deciding().iter() {
             self.axes[number].monitor.clamped = to_nck.axes[number].clamping_in_progress();
-            self.enable_pulses(number, to_nck.axes[number].pulse_enable());
+            self.enable_pulses(number, &to_nck.axes[number]);
         }
         let mut next = 0;
         while let Some(index) = self.next_deciding(next, resting) {
@@ -143,6 +155,8 @@ impl State {
                 if was_on && moved && !self.axes[axis].enabling.pulses_enabled() {
                     self.report_follow_up_in_motion(axis);
                 }
+                // The controller enable takes the pulses along.
+                self.disable_pulses(axis, &to_nck.axes[axis]);
             }
         }
     }
@@ -158,20 +172,45 @@ impl State {
         unit.members().any(|axis| self.axes[axis].enabling.is_on())
     }
 
-    fn enable_pulses(&mut self, number: AxisNumber, enable: bool) {
-        let axis = &mut self.axes[number];
-        let (run_up, before) = (self.run_up.is_nc_ready(), axis.enabling.pulses);
-        axis.enabling.pulses = if axis.drive_ready && run_up && enable { (before + 1).min(STEP) } else { 0 };
-        let (was, is) = (before >= STEP, axis.enabling.pulses_enabled());
-        if was != is {
-            let rule = if is { Rule::PulsesEnabled } else { Rule::PulsesDisabled };
-            let inputs = [
-                axis_signal(number, axis_to_nck::pulse_enable, enable),
-                axis_signal(number, axis_from_nck::drive_ready, axis.drive_ready),
-                if run_up { Input::None } else { nck_signal(nck_from_nck::nc_ready, false) },
-            ];
-            axis.causes.drive = self.log.note(Place::Axis(number), rule, inputs, axis.causes.drive);
+    fn enable_pulses(&mut self, number: AxisNumber, signals: &AxisToNck) {
+        let (axis, run_up) = (&self.axes[number], self.run_up.is_nc_ready());
+        let controller = signals.controller_enable() || axis.enabling.control != ControllerState::Off;
+        let enable = axis.drive_ready && run_up && signals.pulse_enable() && controller;
+        let pulses = if enable { (axis.enabling.pulses + 1).min(STEP) } else { 0 };
+        self.set_pulses(number, pulses, signals);
+    }
+
+    fn disable_pulses(&mut self, number: AxisNumber, signals: &AxisToNck) {
+        if self.axes[number].enabling.control == ControllerState::Off && !signals.controller_enable() {
+            self.set_pulses(number, 0, signals);
         }
+    }
+
+    fn set_pulses(&mut self, number: AxisNumber, pulses: u8, signals: &AxisToNck) {
+        let axis = &mut self.axes[number];
+        let was = axis.enabling.pulses_enabled();
+        axis.enabling.pulses = pulses;
+        let is = axis.enabling.pulses_enabled();
+        if was == is {
+            return;
+        }
+        let run_up = self.run_up.is_nc_ready();
+        let rule = if is { Rule::PulsesEnabled } else { Rule::PulsesDisabled };
+        let all = [
+            (signals.pulse_enable(), axis_signal(number, axis_to_nck::pulse_enable, signals.pulse_enable())),
+            (axis.drive_ready, axis_signal(number, axis_from_nck::drive_ready, axis.drive_ready)),
+            (
+                signals.controller_enable(),
+                axis_signal(number, axis_to_nck::controller_enable, signals.controller_enable()),
+            ),
+            (run_up, nck_signal(nck_from_nck::nc_ready, run_up)),
+        ];
+        // The enables that are there, or those that are missing.
+        let mut inputs = [Input::None; 3];
+        for (input, (_, tested)) in inputs.iter_mut().zip(all.into_iter().filter(|(on, _)| *on == is)) {
+            *input = tested;
+        }
+        axis.causes.drive = self.log.note(Place::Axis(number), rule, inputs, axis.causes.drive);
     }
 
     fn conditions(&self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) -> Conditions {
@@ -179,6 +218,7 @@ impl State {
             enable: true,
             follow_up: false,
             healthy: true,
+            starting: true,
             alarm: self.emergency_stop.active_cause().unwrap_or(EventId::NONE),
             standing: true,
             moving: false,
@@ -196,6 +236,7 @@ impl State {
             let Some((missing, cause)) = axis.missing_enable(signals) else { continue };
             if signals.controller_enable() {
                 conditions.healthy = false;
+                conditions.starting &= signals.pulse_enable() && axis.drive_ready && axis.measuring_system.is_some();
             } else {
                 conditions.enable = false;
             }
@@ -236,7 +277,8 @@ impl State {
         let off = matches!(control, ControllerState::Off | ControllerState::SwitchingOn(_));
         let follow_up = off && (conditions.follow_up && !conditions.enable || conditions.alarm.is_some() || parked);
         // Follow-up lasts until position control is active, so that control starts at the actual value.
-        let follow_up = follow_up || before.follow_up && matches!(control, ControllerState::SwitchingOn(_));
+        let waits_for_pulses = off && conditions.enable && conditions.starting && !conditions.alarm.is_some();
+        let follow_up = follow_up || before.follow_up && waits_for_pulses;
         self.axes[number].enabling.control = control;
         self.axes[number].enabling.follow_up = follow_up;
         let after = self.axes[number].enabling;
