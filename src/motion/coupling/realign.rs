@@ -46,12 +46,13 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         self.connection = Connection::Realigning(Realignment { target, moves: how.moves, waited: 0 });
     }
 
-    /// One cycle of a realignment; `None` if none is running.
+    /// One cycle of a realignment; `None` if none is running. It ends only in a cycle in which it `may_end`.
     pub fn realign(
         &mut self,
         axes: &impl Axes,
         limits: impl Fn(AxisNumber) -> Limits,
         is_in_position: impl Fn(AxisNumber) -> bool,
+        may_end: bool,
     ) -> Option<Realigning> {
         let Connection::Realigning(mut realignment) = self.connection else { return None };
         let mut commands = ArrayVec::new();
@@ -69,7 +70,7 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
             commands.push((axis, Motion::GoTo { target, velocity, acceleration }));
         }
         realignment.waited += u64::from(late.is_some());
-        let (progress, events) = if arrived {
+        let (progress, events) = if arrived && may_end {
             self.connection = Connection::Closed;
             (Progress::Done(realignment.target), self.for_each(What::Realigned, axes))
         } else {

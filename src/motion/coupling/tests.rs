@@ -239,7 +239,7 @@ proptest! {
         prop_assert!(!coupling.is_closed());
         let mut cycles = 0;
         loop {
-            let realigning = coupling.realign(&bench, |_| limits, |_| true).unwrap();
+            let realigning = coupling.realign(&bench, |_| limits, |_| true, true).unwrap();
             if let Progress::Done(at) = realigning.progress {
                 prop_assert_eq!(at, target);
                 prop_assert_eq!(realigning.events.len(), factors.len());
@@ -463,11 +463,13 @@ fn a_member_that_rests_on_its_target_and_is_not_in_position_is_waited_for() {
     coupling.begin_realignment(Realign { moves: Moves::Followers, target: Target::LeaderActual }, &bench);
     let limits = Limits { velocity: 1e6, acceleration: 1e9 };
     for cycle in 1..=3 {
-        let progress = coupling.realign(&bench, |_| limits, |number| number != axis(3)).unwrap().progress;
+        let progress = coupling.realign(&bench, |_| limits, |number| number != axis(3), true).unwrap().progress;
         assert_eq!(progress, Progress::Waiting(axis(3), cycle));
     }
+    let progress = coupling.realign(&bench, |_| limits, |_| true, false).unwrap().progress;
+    assert_eq!(progress, Progress::Running, "all in position, and it must not end yet");
     coupling.abort_realignment();
-    assert!(coupling.realign(&bench, |_| limits, |_| true).is_none());
+    assert!(coupling.realign(&bench, |_| limits, |_| true, true).is_none());
     coupling.settle(true);
     assert!(coupling.is_closed());
 }

@@ -153,6 +153,8 @@ pub(in crate::sinumerik) struct Grouping {
     pub message: bool,
     /// The grouping waited before the synchronising motion; 101.4 was set.
     pub waited_for: bool,
+    /// The cycles for which the synchronising motion has been shown, up to the smallest number (O-32).
+    pub shown_cycles: u8,
     /// 29.4 of the leading axis in the last cycle.
     pub start_was: bool,
     /// The axes were in follow-up in the last cycle.
@@ -184,6 +186,7 @@ impl Grouping {
             from_referencing: false,
             message: false,
             waited_for: false,
+            shown_cycles: 0,
             start_was: false,
             followed_up: false,
             returning: false,
@@ -233,9 +236,10 @@ impl Grouping {
         match self.phase {
             Phase::WaitingForStart => (self.message, self.waited_for) = (true, true),
             Phase::ReferencingLeadingAxis => self.waited_for = false,
+            Phase::Synchronising => self.shown_cycles = 0,
             Phase::Synchronised => self.clear_bases(),
             Phase::Open => self.coupling.clear_bases(),
-            Phase::NotSynchronised | Phase::ReferencingSynchronousAxis | Phase::Synchronising => {}
+            Phase::NotSynchronised | Phase::ReferencingSynchronousAxis => {}
         }
         if self.phase != Phase::Synchronising {
             self.coupling.abort_realignment();

@@ -16,6 +16,9 @@ use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
+/// The smallest number of cycles of a synchronising motion (O-32).
+const SHOWN_CYCLES: u8 = 2;
+
 impl Grouping {
     /// Section 3: starts automatically, or waits (REF-06, REF-07, REF-11).
     pub(in crate::sinumerik) fn compare_positions(
@@ -118,7 +121,10 @@ impl Grouping {
             let axis = &view.axes[number];
             axis.deviation().abs() <= axis.active_set(&view.parameters.axes[number]).exact_stop_fine
         };
-        let Some(Realigning { commands, progress, .. }) = self.coupling.realign(view.axes, limits, in_position) else {
+        // O-32: 10655 and 101.4 are shown for two cycles, also where nothing has to move.
+        let may_end = self.shown_cycles >= SHOWN_CYCLES;
+        let realigning = self.coupling.realign(view.axes, limits, in_position, may_end);
+        let Some(Realigning { commands, progress, .. }) = realigning else {
             return wants;
         };
         let hindered = |(axis, motion): &(AxisNumber, Motion)| {
@@ -291,6 +297,13 @@ impl Grouping {
             if self.lost_in_operation {
                 self.coupling.keep_bases(view.axes);
             }
+        }
+    }
+
+    /// Counts the cycles in which the synchronising motion is shown.
+    pub(in crate::sinumerik) fn count_shown(&mut self) {
+        if self.phase == Phase::Synchronising {
+            self.shown_cycles = (self.shown_cycles + 1).min(SHOWN_CYCLES);
         }
     }
 

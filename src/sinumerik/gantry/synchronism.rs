@@ -70,6 +70,7 @@ impl State {
     pub(in crate::sinumerik) fn monitor_grouping(&mut self, index: usize, parameters: &Parameters) {
         let defined = self.definition_cause;
         self.ask(index, parameters, |grouping, view, log, wants| {
+            grouping.count_shown();
             grouping.monitor(view, defined, log, wants);
             wants.extend(grouping.message(view));
         });
