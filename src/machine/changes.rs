@@ -1,5 +1,6 @@
 //! Finds the changes of a step for the record. Whole parts are compared first, then their bytes.
 
+use super::state::State;
 use super::written::{FIXED, Force};
 use super::{Machine, Switch};
 use crate::control::{Activated, Changes};
@@ -10,8 +11,22 @@ use crate::units::{AxisNumber, AxisSet};
 use crate::variables::{EventId, Happening, Place};
 
 impl Machine {
-    /// The differences of the PLC's half from the end of the last cycle.
+    /// The differences of the PLC's half from the last cycle, as the control sees it.
     pub(super) fn plc_changes(&mut self) -> Changes {
+        let written = self.written_changes();
+        let State { to_nck, memory, .. } = &mut self.state;
+        to_nck.advance(&memory.to_nck);
+        let Some(before) = to_nck.seen_before() else { return written };
+        let now: &[u8] = to_nck.seen(&memory.to_nck);
+        if now == &**before {
+            return Changes { axes: AxisSet::NONE, shared: false };
+        }
+        let (axes, shared) = self.definition.names.interface().plc_changes(before, now);
+        Changes { axes, shared }
+    }
+
+    /// The differences of the PLC's half from the end of the last cycle.
+    fn written_changes(&mut self) -> Changes {
         let before = self.before.parts.iter().find(|(part, _)| *part == Part::ToNck);
         let now: &[u8] = &self.state.memory.to_nck;
         self.before.plc_wrote = true;

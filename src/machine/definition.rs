@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
 
+use super::delay::Delay;
 use crate::control::{Control, Finding};
 use crate::image::{Location, Memory, Names};
 use crate::plant::{Layout, Switch};
@@ -20,6 +21,8 @@ pub(super) struct Definition {
     pub(super) memory: Memory,
     /// The cycle of the PLC program; the NC cycle if not defined.
     pub(super) plc_cycle: Option<Time>,
+    /// How late the PLC's half reaches the control, and the NCK's half the PLC program.
+    pub(super) delays: [Time; 2],
     /// The control as it was opened.
     pub(super) control: Box<dyn Control>,
     /// Computed when they are first needed.
@@ -45,7 +48,7 @@ impl Definition {
         *self.fingerprints.get_or_init(|| Fingerprints {
             plc_image: hash(&postcard::to_stdvec(&self.memory).unwrap_or_default()),
             // Numbers in this text are exact.
-            plant: hash(format!("{:?}", (&self.layout, self.plc_cycle)).as_bytes()),
+            plant: hash(format!("{:?}", (&self.layout, self.plc_cycle, self.delays)).as_bytes()),
             machine_data: hash(format!("{:?}", self.control).as_bytes()),
         })
     }
@@ -54,4 +57,17 @@ impl Definition {
 /// FNV-1a, 64 bits.
 pub(super) fn hash(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xCBF2_9CE4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
+}
+
+impl Definition {
+    /// The numbers of cycles of the two delays.
+    pub(super) fn delay_cycles(&self, cycle: Time) -> [u64; 2] {
+        self.delays.map(|delay| if delay == Time::ZERO { 0 } else { delay.in_cycles(cycle) })
+    }
+
+    /// The two delays with this memory at both ends.
+    pub(super) fn delays(&self, cycle: Time, memory: &Memory) -> (Delay, Delay) {
+        let [to_nck, from_nck] = self.delay_cycles(cycle);
+        (Delay::new(to_nck, &memory.to_nck), Delay::new(from_nck, &memory.from_nck))
+    }
 }

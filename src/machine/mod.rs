@@ -13,12 +13,13 @@
 //! ```
 //!
 //! `step.rs` defines the order of a step, `open.rs` reads machines, `command.rs` lists the commands from outside, `queue.rs` queues them
-//! and executes them at the edge of the next step, `changes.rs` finds the changes for the record, `saved.rs` saves, restores and forks.
+//! and executes them at the edge of the next step, `delay.rs` delays the halves of the interface, `changes.rs` finds the changes for the record, `saved.rs` saves, restores and forks.
 
 mod before;
 mod changes;
 mod command;
 mod definition;
+mod delay;
 mod describe;
 mod open;
 mod plc;

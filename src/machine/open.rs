@@ -6,6 +6,7 @@ use std::sync::{Arc, OnceLock};
 use super::Machine;
 use super::before::Before;
 use super::definition::Definition;
+use super::delay::MOST_CYCLES;
 use super::plc::PlcState;
 use super::state::State;
 use super::step::first_variables;
@@ -75,6 +76,8 @@ impl Machine {
             None => Memory::after_power_on(&names, control.override_coding()),
         };
         check_plc_cycle(plant.plc_cycle, &*control, &plant_place)?;
+        check_delay("to_nck_delay", plant.to_nck_delay, &*control, &plant_place)?;
+        check_delay("from_nck_delay", plant.from_nck_delay, &*control, &plant_place)?;
         let hints = PerAxis::from_fn(|axis| Hints {
             exists: axes[axis].exists,
             cam_direction: axes[axis].cam_direction,
@@ -83,6 +86,7 @@ impl Machine {
         let layout = Layout::new(&plant, &names.axes, &hints, &groupings);
         let definition = Definition {
             plc_cycle: plant.plc_cycle,
+            delays: [plant.to_nck_delay, plant.from_nck_delay],
             unwired: unwired(&layout, &names),
             layout,
             names,
@@ -119,10 +123,13 @@ fn encoders(plant: &PlantDefinition, axis: &str) -> [Option<EncoderModel>; 2] {
 
 fn assemble(definition: Definition, control: Box<dyn Control>, memory: Memory) -> Machine {
     let before = Before::new(&memory);
+    let (to_nck, from_nck) = definition.delays(control.cycle_times().interpolation, &memory);
     let state = State {
         cycle: 0,
         time: Time::ZERO,
         memory,
+        to_nck,
+        from_nck,
         variables: Variables::default(),
         r_parameters: RParameters::default(),
         plant: Plant::new(&definition.layout),
@@ -173,6 +180,19 @@ fn check_cycle_times(times: CycleTimes, cycle_data: &str) -> Result<(), Problem>
     if position_control == 0 {
         let what = "expected at least one position-control cycle in an interpolation cycle, found 0";
         return Err(Problem::new(what, format!("change {cycle_data}")));
+    }
+    Ok(())
+}
+
+fn check_delay(name: &str, delay: Time, control: &dyn Control, place: &Place) -> Result<(), Problem> {
+    let cycle = control.cycle_times().interpolation;
+    if delay.nanos() % cycle.nanos() != 0 || delay > cycle.times(MOST_CYCLES) {
+        return Err(place.problem(
+            format!(
+                "expected {name} to be whole NC cycles of {cycle} s, at most {MOST_CYCLES} of them, found {delay} s"
+            ),
+            format!("change [machine] {name}, or {}", control.texts().cycle_data()),
+        ));
     }
     Ok(())
 }

@@ -236,6 +236,8 @@ impl Machine {
         memory.recode_overrides(&self.definition.names, before, now);
         self.before.power_on = Some(Box::new(memory.clone()));
         self.state.memory = memory;
+        let cycle = self.cycle_time();
+        (self.state.to_nck, self.state.from_nck) = self.definition.delays(cycle, &self.state.memory);
         self.state.variables = crate::variables::Variables::default();
         self.state.forces.clear();
         self.before.written.clear();

@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::command::Command;
+use super::delay::Delay;
 use super::plc::PlcState;
 use super::written::Force;
 use crate::control::PlcSide;
@@ -21,6 +22,10 @@ pub(super) struct State {
     /// Simulated time since the machine was opened.
     pub(super) time: Time,
     pub(super) memory: Memory,
+    /// The PLC's half on its way to the control.
+    pub(super) to_nck: Delay,
+    /// The NCK's half on its way to the PLC program.
+    pub(super) from_nck: Delay,
     pub(super) variables: Variables,
     pub(super) r_parameters: RParameters,
     pub(super) plant: Plant,
@@ -38,6 +43,6 @@ pub(super) struct State {
 impl State {
     /// The data that the control reads.
     pub(super) fn plc_side(&self) -> PlcSide<'_> {
-        PlcSide { to_nck: &self.memory.to_nck, hmi: &self.memory.hmi }
+        PlcSide { to_nck: self.to_nck.seen(&self.memory.to_nck), hmi: &self.memory.hmi }
     }
 }

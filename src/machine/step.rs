@@ -43,6 +43,8 @@ impl Machine {
         let State { memory, variables, .. } = &mut self.state;
         let out = ControlSide { from_nck: &mut memory.from_nck, hmi: &mut memory.hmi };
         self.control.publish(out, variables, restless);
+        let State { from_nck, memory, .. } = &mut self.state;
+        from_nck.advance(&memory.from_nck);
         self.state.variables.alarms.date(self.state.time);
         self.record();
     }
@@ -64,7 +66,7 @@ impl Machine {
         let memory = &mut self.state.memory;
         let mut io = PlcIo::<AsBytes> {
             to_nck: &mut memory.to_nck,
-            from_nck: &memory.from_nck,
+            from_nck: self.state.from_nck.seen(&memory.from_nck),
             hmi: &memory.hmi,
             inputs: &memory.inputs,
             outputs: &mut memory.outputs,

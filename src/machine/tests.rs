@@ -756,3 +756,63 @@ fn a_cycle_takes_as_long_as_the_mechanics_move_in_it_also_at_power_on() {
         assert_eq!(machine.variables().axes[x].slide - slide, Position::from_user(passed.seconds()));
     }
 }
+
+/// O-28: with 6 and 4 ms, a bit of the PLC reaches the control three cycles later. Bytes on their way are part of the state.
+#[test]
+fn what_is_on_its_way_between_plc_and_nck_is_saved_restored_and_forked() {
+    let delayed = || {
+        let mut machine = example_with("[machine]\nto_nck_delay = \"6ms\"\nfrom_nck_delay = \"4ms\"\n");
+        machine.load_program(enable_all().boxed());
+        machine
+    };
+    let mut machine = delayed();
+    run(&mut machine, 60);
+    set(&mut machine, "DB11.DBX0.1", 1);
+    run(&mut machine, 2);
+    let (saved, mut fork, mut restored) = (machine.save(), machine.fork().unwrap(), delayed());
+    restored.restore(&saved).unwrap();
+    for machine in [&mut machine, &mut fork, &mut restored] {
+        run(machine, 1);
+        assert_eq!(get(machine, "DB11.DBX6.1"), 0);
+        run(machine, 1);
+        assert_eq!(get(machine, "DB11.DBX6.1"), 1);
+        run(machine, 20);
+    }
+    assert!(machine.save() == fork.save() && machine.save() == restored.save());
+    let refused = example().restore(&saved);
+    assert!(refused.is_err(), "a machine without delays, and without a program");
+    let mut other = example();
+    other.load_program(enable_all().boxed());
+    assert!(other.restore(&saved).unwrap_err().to_string().contains("the same plant"));
+}
+
+/// O-28: no cycle is skipped for an axis at rest when a byte arrives late.
+#[test]
+fn axes_at_rest_wake_up_when_a_late_byte_arrives() {
+    let machines = [0, 1, 2].map(|kind| {
+        let mut machine = example_with("[machine]\nto_nck_delay = \"10ms\"\n");
+        machine.load_program(enable_all().boxed());
+        match kind {
+            0 => {}
+            1 => machine.never_rest(),
+            _ => machine.decide_always(),
+        }
+        run(&mut machine, 200);
+        set(&mut machine, "DB32.DBX4.7", 1);
+        run(&mut machine, 100);
+        set(&mut machine, "DB32.DBX4.7", 0);
+        run(&mut machine, 200);
+        machine.save()
+    });
+    assert!(machines[0] == machines[1] && machines[0] == machines[2]);
+}
+
+#[test]
+fn a_delay_is_whole_cycles() {
+    for delay in ["3ms", "1h"] {
+        let plant_over = Some(Table::parse(&format!("[machine]\nfrom_nck_delay = \"{delay}\"\n"), "test").unwrap());
+        let options = OpenOptions { plant_over, ..OpenOptions::default() };
+        let error = Machine::open_with("g1_example", options).unwrap_err().to_string();
+        assert!(error.contains("expected from_nck_delay to be whole NC cycles of 0.002 s"), "{error}");
+    }
+}

@@ -15,6 +15,10 @@ use crate::units::{Position, Time};
 pub struct PlantDefinition {
     /// Time between two PLC scans; `None` means the NC cycle.
     pub plc_cycle: Option<Time>,
+    /// How late the PLC's half of the interface reaches the control (O-28).
+    pub to_nck_delay: Time,
+    /// How late the control's half reaches the PLC program (O-28).
+    pub from_nck_delay: Time,
     /// The other keys of `[machine]`: they belong to the control.
     pub machine: Option<Table>,
     /// The keys of `[compatibility]`: they belong to the control.
@@ -177,6 +181,13 @@ impl PlantDefinition {
         if let Some(node) = table.take("machine") {
             let mut machine = node.into_table("the table [machine]")?;
             plant.plc_cycle = machine.take("plc_cycle").map(|node| plc_cycle(&node)).transpose()?;
+            for (key, delay) in
+                [("to_nck_delay", &mut plant.to_nck_delay), ("from_nck_delay", &mut plant.from_nck_delay)]
+            {
+                if let Some(node) = machine.take(key) {
+                    *delay = time(&node)?;
+                }
+            }
             plant.machine = Some(machine);
         }
         if let Some(node) = table.take("compatibility") {
@@ -418,6 +429,8 @@ mod tests {
     const EXAMPLE: &str = r#"
 [machine]
 plc_cycle = "10ms"
+to_nck_delay = "4ms"
+from_nck_delay = "2ms"
 db11_5_2 = "mirror"
 [X]
 start = 120.0
@@ -448,6 +461,7 @@ stiffness = 0.25
     fn a_plant_is_read_as_written() {
         let plant = PlantDefinition::parse(EXAMPLE, "plant.toml").unwrap();
         assert_eq!(plant.plc_cycle, Some(Time::from_millis(10)));
+        assert_eq!([plant.to_nck_delay, plant.from_nck_delay], [4, 2].map(Time::from_millis));
         // The key belongs to the control.
         assert_eq!(plant.machine.unwrap().keys().collect::<Vec<_>>(), ["db11_5_2"]);
         let x = &plant.axes["X"];
