@@ -1,4 +1,9 @@
 //! The state of the simulated mechanics: slides moved by drives, bridges that pull them together, and faults.
+//!
+//! A bridge between 0 and rigid removes its stiffness as a share of a difference per second: (1 − stiffness) of it is left after one second,
+//! and the power of this share with the cycle after one cycle. This approaches the rigid bridge, which removes all of it at once. The slide
+//! and its motor move together: the velocity of the motor includes the pull of the bridge. Drives that hold a misalignment therefore stand
+//! still, with a deviation that grows with the stiffness up to half of the misalignment each.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +20,8 @@ struct Slide {
     /// The encoder counts at that position, kept because most slides rest most of the time.
     counts: [Position; 2],
     drive: Drive,
+    /// Velocity by the pull of a bridge, in addition to that of the drive.
+    pulled: f64,
     encoders: [Encoder; 2],
     ready_in: Time,
     blocked: bool,
@@ -67,6 +74,7 @@ impl Plant {
         for (axis, slide) in self.slides.iter_mut() {
             if let (Some(slide), Some(mechanics)) = (slide, &layout.axes[axis]) {
                 slide.drive = Drive::default();
+                slide.pulled = 0.0;
                 slide.ready_in = mechanics.ready_after;
                 for (encoder, dead) in slide.encoders.iter_mut().zip(&mut slide.dead) {
                     encoder.restart(slide.position);
@@ -151,37 +159,43 @@ impl Plant {
     }
 
     /// A bridge removes its share of a difference, half of it on each slide, or all of it on the only slide that can move.
-    /// Returns whether there was a difference.
+    /// Returns whether a slide moved.
     fn pull(&mut self, first: AxisNumber, other: AxisNumber, offset: Position, stiffness: f64, cycle: f64) -> bool {
         let (Some(a), Some(b)) = (self.slides[first], self.slides[other]) else {
             return false;
         };
         let strain = (b.position - a.position - offset).increments() as f64;
-        let share = if stiffness >= 1.0 { 1.0 } else { stiffness * cycle };
+        if strain == 0.0 || stiffness <= 0.0 {
+            return false;
+        }
+        let share = share_per_cycle(stiffness, cycle);
         let (to_a, to_b) = match (a.blocked, b.blocked) {
             (false, false) => (0.5, 0.5),
             (false, true) => (1.0, 0.0),
             (true, false) => (0.0, 1.0),
             (true, true) => return false,
         };
-        if strain == 0.0 || share == 0.0 {
-            return false;
-        }
         #[expect(clippy::cast_possible_truncation, reason = "a strain fits by far; the cast saturates")]
         let whole = |movement: f64| Position::new(movement.round() as i64);
         let taken = whole(strain * share);
         let moved_a = whole(strain * share * to_a);
         let moved_b = if to_b > 0.0 { taken - moved_a } else { Position::ZERO };
+        if taken == Position::ZERO && moved_a == Position::ZERO {
+            return false;
+        }
         let rigid = stiffness >= 1.0;
+        let by = |moved: Position| if rigid { 0.0 } else { moved.increments() as f64 / cycle };
         let velocity = 0.5 * (a.drive.velocity() + b.drive.velocity());
         if let Some(slide) = &mut self.slides[first] {
             slide.position += moved_a;
+            slide.pulled += by(moved_a);
             if rigid {
                 slide.drive.force(if b.blocked { 0.0 } else { velocity });
             }
         }
         if let Some(slide) = &mut self.slides[other] {
             slide.position -= moved_b;
+            slide.pulled -= by(moved_b);
             if rigid {
                 slide.drive.force(if a.blocked { 0.0 } else { velocity });
             }
@@ -252,6 +266,22 @@ impl Plant {
     }
 }
 
+/// The share of a difference that a bridge removes in a cycle: 1 − (1 − stiffness)^cycle, with the cycle in seconds. The power is the
+/// product of the square roots that belong to the binary digits of the cycle.
+fn share_per_cycle(stiffness: f64, cycle: f64) -> f64 {
+    let (mut left, mut root, mut part, mut rest) = (1.0, 1.0 - stiffness, 1.0, cycle.min(1.0));
+    for _ in 0..DIGITS {
+        (root, part) = (root.sqrt(), 0.5 * part);
+        if rest >= part {
+            (left, rest) = (left * root, rest - part);
+        }
+    }
+    1.0 - left
+}
+
+/// Binary digits of a cycle in seconds: better than a billionth of a second.
+const DIGITS: u32 = 32;
+
 impl Slide {
     fn new(mechanics: &AxisMechanics) -> Self {
         Self {
@@ -259,6 +289,7 @@ impl Slide {
             reported: mechanics.start,
             counts: mechanics.encoders.map(|encoder| encoder.value(mechanics.start)),
             drive: Drive::default(),
+            pulled: 0.0,
             encoders: mechanics.encoders,
             ready_in: mechanics.ready_after,
             blocked: false,
@@ -284,7 +315,7 @@ impl Slide {
         Feedback {
             encoders: self.signals(),
             half_count: [self.encoders[0].half_count(), self.encoders[1].half_count()],
-            velocity: self.drive.velocity(),
+            velocity: self.drive.velocity() + self.pulled,
             drive_ready: self.ready_in == Time::ZERO && !self.drive_fault,
             drive_fault: self.drive_fault,
             encoder_faults: self.dead.map(|dead| dead.is_some()),
@@ -335,7 +366,8 @@ impl Slide {
 
     /// A command of `None` is a drive without power. Returns whether anything changed.
     fn advance(&mut self, command: Option<f64>, time_constant: f64, cycle: f64) -> bool {
-        let before = (self.position, self.drive);
+        let before = (self.position, self.drive, self.pulled);
+        self.pulled = 0.0;
         match command {
             None if self.drift != 0.0 => self.drive.force(self.drift),
             None => self.drive.answer(0.0, time_constant, cycle),
@@ -346,7 +378,7 @@ impl Slide {
         } else {
             self.position = self.drive.moved(self.position, cycle);
         }
-        before != (self.position, self.drive)
+        before != (self.position, self.drive, self.pulled)
     }
 }
 
@@ -396,6 +428,24 @@ mod tests {
         );
         plant.clear_fault(Fault { axis, kind: FaultKind::DriveFault });
         assert!(plant.feedback(axis).drive_ready && !plant.feedback(axis).drive_fault);
+    }
+
+    #[test]
+    fn a_bridge_leaves_the_rest_of_a_difference_after_a_second_and_all_of_it_at_once_if_it_is_rigid() {
+        for stiffness in [0.1, 0.5, 0.9, 0.999, 1.0 - 1e-12] {
+            for cycle in [0.001, 0.002, 0.008, 0.0125] {
+                let mut left = 1.0;
+                let mut time = 0.0;
+                while time < 1.0 - 1e-9 {
+                    left *= 1.0 - share_per_cycle(stiffness, cycle);
+                    time += cycle;
+                }
+                assert!((left - (1.0 - stiffness)).abs() < 1e-6, "{stiffness} {cycle} {left}");
+            }
+        }
+        assert!((share_per_cycle(1.0, 0.002) - 1.0).abs() < 1e-15);
+        let shares = [0.9, 0.999, 1.0 - 1e-12, 1.0].map(|stiffness| share_per_cycle(stiffness, 0.002));
+        assert!(shares.windows(2).all(|pair| pair[0] < pair[1]), "{shares:?}");
     }
 
     #[test]

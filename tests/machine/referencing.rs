@@ -135,3 +135,48 @@ fn a_disturbance_at_any_moment_can_be_recovered_from() -> Result<(), Failure> {
     }
     Ok(())
 }
+
+/// The result of referencing and synchronising over a bridge: what ended it, and how far apart the slides are then.
+fn over_a_bridge(stiffness: f64, apart: f64) -> Result<(String, f64), Failure> {
+    let over = format!(
+        "[XF]\nstart = {:?}\n[XF.encoder1]\nzero_mark = 0.3\n[bridge.1]\noffset = {{ XF = 0.0 }}\nstiffness = {stiffness:?}\n",
+        120.0 + apart
+    );
+    let options = OpenOptions { plant_over: Some(Table::parse(&over, "over").unwrap()), ..OpenOptions::default() };
+    let machine = Machine::open_with(Path::new("machine_data/g1_example"), options).unwrap();
+    let mut session = Session::new(machine).with_program(Box::new(enable_all()));
+    session.set("DB11.DBX0.2", true)?;
+    session.set("DB11.DBX1.2", true)?;
+    session.run("100ms")?;
+    session.pulse("X.traversing_key_plus")?;
+    // Without an alarm, section 3 is reached; then the start ends in synchronism or in an alarm.
+    session.wait("DB31.DBX101.4 || DB31.DBX101.5 || alarms() > 0", "30s")?;
+    if session.value("DB31.DBX101.4")? == 1.0 {
+        session.set("X.start_gantry_synchronization", true)?;
+        session.wait("DB31.DBX101.5 || alarms() > alarm(10655) + alarm(10654)", "10s")?;
+    }
+    let synchronised = session.value("DB31.DBX101.5")? == 1.0;
+    session.run("3s")?;
+    let ended = if synchronised { "synchronised" } else { "alarm" };
+    session.expect("abs(X.velocity) < 5 && abs(XF.velocity) < 5 && X.axis_stationary && XF.axis_stationary")?;
+    Ok((ended.to_owned(), session.value("XF.slide - X.slide")?))
+}
+
+/// REF-02, REF-12: over every bridge from free to rigid, with every misalignment, referencing ends: synchronised or with an alarm, and at
+/// standstill. Without misalignment and with a free bridge it succeeds; a large misalignment over a stiff bridge does not.
+#[test]
+fn over_every_bridge_from_free_to_rigid_referencing_ends() -> Result<(), Failure> {
+    for stiffness in [0.0, 0.1, 0.5, 0.9, 0.99, 0.999, 1.0 - 1e-9, 1.0] {
+        for apart in [0.0, 0.01, 0.3, 5.0] {
+            let (ended, left) = over_a_bridge(stiffness, apart)?;
+            if apart == 0.0 || stiffness == 0.0 {
+                assert_eq!(ended, "synchronised", "stiffness {stiffness}, {apart} mm apart");
+            }
+            if stiffness > 0.9 && apart > 1.0 {
+                assert_eq!(ended, "alarm", "stiffness {stiffness}, {apart} mm apart");
+            }
+            println!("{stiffness} {apart} {ended} {left}");
+        }
+    }
+    Ok(())
+}

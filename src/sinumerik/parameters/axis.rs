@@ -54,6 +54,10 @@ pub struct Reference {
     pub creep_tolerance: f64,
 }
 
+/// The time in which an axis stands after its setpoint has come to rest. The manuals give no datum; a reference point approach that waits
+/// longer ends.
+const STANDSTILL_LIMIT: Time = Time::from_millis(10_000);
+
 /// The gantry data of one axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gantry {
@@ -116,6 +120,8 @@ pub struct AxisParameters {
     pub dynamics: Dynamics,
     /// MD36020 in cycles.
     pub positioning_cycles: u64,
+    /// [`STANDSTILL_LIMIT`] in cycles.
+    pub standstill_cycles: u64,
     /// MD36060; if it is 0, an axis without any motion counts as below it.
     pub standstill_velocity: f64,
     /// MD36600: a hardware limit switch sets the setpoint velocity to 0 without a ramp.
@@ -172,6 +178,7 @@ pub(super) fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresenc
         handwheel_stop_conditions: md.handwh_stop_cond,
         dynamics: dynamics(md, jerk, &presence.mechanics, &velocity),
         positioning_cycles: cycles(md.positioning_time),
+        standstill_cycles: STANDSTILL_LIMIT.in_cycles(cycle),
         standstill_velocity: velocity(md.standstill_velo_tol).max(f64::MIN_POSITIVE),
         limit_without_ramp: md.brake_mode_choice == 1,
         modulo: md.is_rot_ax && md.rot_is_modulo,

@@ -8,7 +8,9 @@
 //! Choices where the manuals leave one: the search direction after the cam is opposite to MD34010 (E-19). An approach that begins
 //! on the cam leaves it with MD34040 for MD34050 = 0 and with MD34020 for MD34050 = 1. If the cam is not left within MD34030,
 //! alarm 20000 ends the approach. A velocity of 0 that a control accepted (MD34020, MD34040, MD34070, MD32000, MD32300) ends it with 20005
-//! when it starts (O-30); a distance of 0 (MD34030, MD34060) ends it with the alarm of this distance. 20006 is raised when the axis passes the cam edge at the wrong speed for the second time. NC
+//! when it starts (O-30); a distance of 0 (MD34030, MD34060) ends it with the alarm of this distance. An axis whose setpoint rests on or
+//! off the cam and that does not stand (MD36060) within 10 s ends it with 20005. 20006 is raised when the axis passes the cam edge at the
+//! wrong speed for the second time. NC
 //! stop is not read. Contour monitoring (25050) stops an axis that is blocked.
 
 use crate::control::Log;
@@ -77,6 +79,7 @@ impl Approach {
     fn step(&mut self, log: &mut Log, number: AxisNumber, by: Rule, inputs: [Input; 3]) {
         self.phase = next(TRANSITIONS, &mut log.taken.0[APPROACH_CHART], self.phase, by);
         self.cause = log.note(Place::Axis(number), by, inputs, self.cause);
+        self.waited = 0;
     }
 
     /// Starts towards the cam; `cam_direction` is a sign, `cause` the event that requested the approach.
@@ -161,7 +164,7 @@ impl Approach {
             Phase::LeaveCam | Phase::SearchEdge => {
                 return self.too_far(log, view, reference.maximum_cam_distance, alarms::CAM_NOT_REACHED, 34030);
             }
-            Phase::BrakeOnCam | Phase::BrakeOffCam => {}
+            Phase::BrakeOnCam | Phase::BrakeOffCam => return self.standstill(log, view),
             Phase::SearchMark => {
                 let Some(mark) = axis.zero_mark else {
                     let maximum = reference.maximum_marker_distance[view.encoder];
@@ -174,7 +177,6 @@ impl Approach {
             Phase::GoToReferencePoint if axis.arrived => {
                 let inputs = [Input::Length(Quantity::Position, view.number, self.target), Input::None, Input::None];
                 self.step(log, view.number, Rule::ReferencePointReached, inputs);
-                self.waited = 0;
             }
             Phase::GoToReferencePoint => {}
             Phase::ExactStop => return self.exact_stop(log, view),
@@ -263,6 +265,20 @@ impl Approach {
             Input::None,
         ];
         self.fail(log, view, alarm, inputs)
+    }
+
+    /// Waits for standstill after the setpoint has come to rest.
+    fn standstill(&mut self, log: &mut Log, view: &View<'_>) -> Outcome {
+        self.waited = if view.axis.setpoint.is_at_rest() { self.waited + 1 } else { 0 };
+        if self.waited <= view.parameters.standstill_cycles {
+            return Outcome::Running;
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "a velocity for display; the cast saturates")]
+        let velocity = Position::new(view.axis.velocity as i64);
+        let measured = Input::Length(Quantity::Velocity, view.number, velocity);
+        let limit = view.parameters.standstill_velocity * 60.0 / Position::PER_USER_UNIT;
+        let inputs = [measured, Input::Datum(36060, Some(view.number), limit), Input::None];
+        self.fail(log, view, alarms::APPROACH_ABORTED, inputs)
     }
 
     fn exact_stop(&mut self, log: &mut Log, view: &View<'_>) -> Outcome {
