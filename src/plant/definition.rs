@@ -520,7 +520,7 @@ stiffness = 0.25
         let plant = PlantDefinition::parse(EXAMPLE, "plant.toml").unwrap();
         assert!(plant.check(&["X", "Y", "XF"], "MD10000", 8).is_ok());
         let message = plant.check(&["Y", "XF"], "the list of drives", 8).unwrap_err().to_string();
-        assert!(message.contains("(the list of drives), found `X`") && message.contains("plant.toml:5"), "{message}");
+        assert!(message.contains("(the list of drives), found `X`") && message.contains("plant.toml:7"), "{message}");
     }
 
     #[test]
