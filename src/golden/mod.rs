@@ -18,7 +18,7 @@ use crate::image::Profile;
 use crate::plc::Programs;
 use crate::scenario::{Compare, Failure, Finished, Scenario, included_by, names_machine};
 use crate::source::{Place, Problem, unreadable};
-use crate::trace::{difference, difference_in_sequence};
+use crate::trace::{Watch, difference, difference_in_sequence};
 use crate::units::Time;
 
 /// What to do with a golden file that is missing or whose trace differs.
@@ -41,6 +41,8 @@ pub struct Case {
     pub profile: Profile,
     /// Its golden file.
     pub snap: PathBuf,
+    /// Whether the cause of every edge and of every alarm is also checked ([`Trace::check_causes`](crate::trace::Trace::check_causes)).
+    pub check_causes: bool,
 }
 
 /// The result of a case.
@@ -52,6 +54,8 @@ pub enum Outcome {
     Accepted,
     /// An expectation failed: the report.
     Failed(String),
+    /// All expectations hold, but causes in the trace are wrong: the findings.
+    Untrue(String),
     /// All expectations hold, but the trace differs: the first difference.
     Differs(String),
     /// All expectations hold, but the golden file does not exist: its path.
@@ -72,7 +76,7 @@ impl Outcome {
     pub const fn exit_code(&self) -> u8 {
         match self {
             Self::Held | Self::Accepted => 0,
-            Self::Failed(_) | Self::Differs(_) | Self::Missing(_) => 1,
+            Self::Failed(_) | Self::Untrue(_) | Self::Differs(_) | Self::Missing(_) => 1,
             Self::Unusable(_) => 2,
         }
     }
@@ -84,6 +88,7 @@ impl fmt::Display for Outcome {
             Self::Held => f.write_str("held"),
             Self::Accepted => f.write_str("accepted"),
             Self::Failed(failure) => f.write_str(failure),
+            Self::Untrue(findings) => f.write_str(findings),
             Self::Differs(difference) => {
                 write!(
                     f,
@@ -172,7 +177,7 @@ pub fn cases(file: &Path) -> Result<Vec<Case>, Problem> {
             let extension = if index == 0 { "snap".to_owned() } else { format!("{}.snap", profile.name()) };
             let plain = file.with_extension(extension);
             let snap = scenario.variant.as_ref().map_or_else(|| plain.clone(), |variant| variant.beside(&plain));
-            cases.push(Case { scenario: scenario.clone(), profile, snap });
+            cases.push(Case { scenario: scenario.clone(), profile, snap, check_causes: false });
         }
     }
     Ok(cases)
@@ -258,6 +263,9 @@ impl Case {
             }
             None => {}
         }
+        if let Some(findings) = self.check_causes.then(|| wrong_causes(finished)).flatten() {
+            return Ok(Outcome::Untrue(findings));
+        }
         let body = finished.golden();
         let known = if self.snap.is_file() { Some(Snapshot::read(&self.snap)?) } else { None };
         let different = known.as_ref().map(|known| self.difference(&known.body, &body));
@@ -311,6 +319,22 @@ impl Case {
             Compare::Within(tolerance) => difference_in_sequence(&expected, &found, Some(tolerance)),
         }
     }
+}
+
+/// The number of wrong causes of one scenario that are printed.
+const SHOWN: usize = 20;
+
+/// The wrong causes in the trace of a scenario, for all signals and alarms.
+fn wrong_causes(finished: &Finished) -> Option<String> {
+    let session = finished.session();
+    let findings = session.trace().check_causes(session.machine(), &Watch::default());
+    if findings.is_empty() {
+        return None;
+    }
+    let rows = findings.iter().take(SHOWN).map(|finding| format!("\n  {finding}"));
+    let more = findings.len().saturating_sub(SHOWN);
+    let more = if more == 0 { String::new() } else { format!("\n  {more} more") };
+    Some(format!("{} causes are wrong:{}{more}", findings.len(), rows.collect::<String>()))
 }
 
 /// Runs every scenario below a directory, for `cargo test`. `INSTA_UPDATE` selects what happens to golden files, as in insta: `no` changes

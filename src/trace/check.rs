@@ -1,9 +1,10 @@
 //! Checks the causes in a trace: replays the record and compares each cause with it. Called after a run, on its complete trace.
 //!
-//! The cause of an edge is an event. It is correct if the event happened in the cycle of the edge, if it has an input or a parent event,
-//! and if each signal among its inputs had the value in the event. For a signal of the PLC, this is the value at the end of the cycle, after
-//! inputs, scan and forces. For a signal of the control, it is the value decided in the cycle or the value published in the cycle before.
-//! Machine data, lengths and alarms among the inputs are not compared.
+//! The cause of an edge of a signal, and of an alarm that is raised or cleared, is an event. It is correct if the event happened in the
+//! cycle of the edge, if it has an input or a parent event, and if each signal among its inputs had the value in the event. For a signal of
+//! the PLC, this is the value at the end of the cycle, after inputs, scan and forces. For a signal of the control, it is the value decided
+//! in the cycle or the value published in the cycle before. An alarm among the inputs must be pending, or be raised or cleared in the cycle.
+//! Machine data, faults and lengths among the inputs are not compared.
 
 use std::fmt;
 
@@ -13,14 +14,14 @@ use super::printable::{mask_in_byte, signal_at, signal_name};
 use super::{By, Change, Row, Trace, Watch};
 use crate::image::{Format, Interface, Location, Memory, Part};
 use crate::units::Time;
-use crate::variables::{Describe, Event, Input, SignalBit};
+use crate::variables::{AlarmNumber, Describe, Event, EventId, Input, RaisedAlarm, SignalBit, place_name};
 
 /// A wrong or missing cause.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CauseFinding {
-    /// When the signal changed, since the start of the trace.
+    /// When the signal or the alarm changed, since the start of the trace.
     pub time: Time,
-    /// The signal: its symbol and its address.
+    /// The signal with its symbol and its address, or the alarm with its place.
     pub signal: String,
     /// The cause as printed in the trace, if there is one.
     pub because: Option<String>,
@@ -41,6 +42,8 @@ pub enum CauseFault {
     Untrue(String, u64, u64),
     /// The event contains these bits, which are no signal.
     Unknown(String),
+    /// The event contains this alarm, which was not pending.
+    NotPending(String),
 }
 
 impl fmt::Display for CauseFinding {
@@ -52,47 +55,63 @@ impl fmt::Display for CauseFinding {
             CauseFault::AnotherCycle(time) => write!(f, "the cause is an event at {time} s")?,
             CauseFault::Untrue(signal, named, found) => write!(f, "the cause names {signal} = {named}, found {found}")?,
             CauseFault::Unknown(bits) => write!(f, "the cause names {bits}, which is no signal")?,
+            CauseFault::NotPending(alarm) => write!(f, "the cause names alarm {alarm}, which is not pending")?,
         }
         self.because.as_ref().map_or(Ok(()), |because| write!(f, " ({because})"))
     }
 }
 
 impl Trace {
-    /// Checks the cause of each edge of the control, for the signals selected by `watch`. If the trace lost rows, the findings after them
-    /// are not reliable.
+    /// Checks the cause of each edge of the control, for the signals selected by `watch`, and of each alarm that is raised or cleared. If
+    /// the trace lost rows, the findings after them are not reliable.
     #[must_use]
     pub fn check_causes(&self, describe: &dyn Describe, watch: &Watch) -> Vec<CauseFinding> {
         let names = describe.names();
         let mut places = Places::new(names, watch);
         let mut memory = self.start.clone();
+        let mut pending: Vec<RaisedAlarm> = Vec::new();
         let mut findings = Vec::new();
         for rows in self.rows.chunk_by(|one, next| one.cycle == next.cycle) {
             let cycle = rows[0].cycle;
             for row in rows {
-                if let Change::Byte { part, offset, new, .. } = row.change {
-                    memory.write(byte(part, offset), new.into());
+                match row.change {
+                    Change::Byte { part, offset, new, .. } => memory.write(byte(part, offset), new.into()),
+                    Change::Alarm { alarm, raised: true, .. } => pending.push(alarm),
+                    Change::Alarm { raised: false, .. } | Change::Happened { .. } | Change::Overwritten { .. } => {}
                 }
             }
-            let seen = Seen { memory: &memory, rows, interface: names.interface() };
+            let seen = Seen { memory: &memory, pending: &pending, rows, interface: names.interface() };
+            let mut check = |cause: EventId, what: String| {
+                let event = self.event(cause, cycle);
+                findings.extend(self.faults(event, cycle, &seen, describe).into_iter().map(|fault| CauseFinding {
+                    time: self.time(cycle),
+                    signal: what.clone(),
+                    because: event.map(|event| because(event, describe)),
+                    fault,
+                }));
+            };
             for row in rows {
-                let Change::Byte { part, offset, old, new, by, causes } = row.change else { continue };
-                for printable in places.at(part, offset) {
-                    let changed = (old ^ new) & mask_in_byte(printable.location, offset);
-                    let bit = changed.trailing_zeros() as usize;
-                    if changed == 0 || by[bit] != By::Nck {
-                        continue;
+                match row.change {
+                    Change::Byte { part, offset, old, new, by, causes } => {
+                        for printable in places.at(part, offset) {
+                            let changed = (old ^ new) & mask_in_byte(printable.location, offset);
+                            let bit = changed.trailing_zeros() as usize;
+                            if changed != 0 && by[bit] == By::Nck {
+                                check(causes[bit], printable.called());
+                            }
+                        }
                     }
-                    let event = self.event(causes[bit], cycle);
-                    let signal = match &printable.symbol {
-                        Some(symbol) => format!("{symbol} ({})", printable.address),
-                        None => printable.address.clone(),
-                    };
-                    findings.extend(self.faults(event, cycle, &seen, describe).into_iter().map(|fault| CauseFinding {
-                        time: self.time(cycle),
-                        signal: signal.clone(),
-                        because: event.map(|event| because(event, describe)),
-                        fault,
-                    }));
+                    Change::Alarm { alarm, raised, cause } => {
+                        let state = if raised { "raised" } else { "cleared" };
+                        let place = place_name(alarm.place, names);
+                        check(cause, format!("alarm {} of {place} {state}", describe.alarm_name(alarm.number)));
+                    }
+                    Change::Happened { .. } | Change::Overwritten { .. } => {}
+                }
+            }
+            for row in rows {
+                if let Change::Alarm { alarm, raised: false, .. } = row.change {
+                    pending.retain(|known| *known != alarm);
                 }
             }
         }
@@ -109,6 +128,11 @@ impl Trace {
             faults.push(CauseFault::Empty);
         }
         for input in event.inputs {
+            if let Input::Alarm(number) = input
+                && !seen.pending.iter().any(|alarm| alarm.number.0 == number)
+            {
+                faults.push(CauseFault::NotPending(describe.alarm_name(AlarmNumber(number))));
+            }
             let Some((bit, named)) = input.signal() else { continue };
             let (name, named) = (signal_name(bit, describe.names()), u64::from(named));
             match seen.values(bit) {
@@ -121,9 +145,11 @@ impl Trace {
     }
 }
 
-/// The memory at the end of a cycle, and the changes in this cycle.
+/// The memory and the alarms at the end of a cycle, and the changes in this cycle.
 struct Seen<'a> {
     memory: &'a Memory,
+    /// Also alarms that are cleared in this cycle.
+    pending: &'a [RaisedAlarm],
     rows: &'a [Row],
     interface: &'static Interface,
 }

@@ -34,10 +34,7 @@ impl<'a> Places<'a> {
             let mask = mask_in_byte(printable.location, offset);
             if left & mask != 0 {
                 left &= !mask;
-                called.push(match &printable.symbol {
-                    Some(symbol) => format!("{symbol} ({})", printable.address),
-                    None => printable.address.clone(),
-                });
+                called.push(printable.called());
             }
         }
         for bit in (0..8).filter(|bit| left & (1 << bit) != 0) {

@@ -13,6 +13,16 @@ pub(super) struct Printable {
     pub(super) order: Order,
 }
 
+impl Printable {
+    /// The symbol with the address, or the address alone.
+    pub(super) fn called(&self) -> String {
+        match &self.symbol {
+            Some(symbol) => format!("{symbol} ({})", self.address),
+            None => self.address.clone(),
+        }
+    }
+}
+
 /// Order of addresses: inputs, outputs, flags, timers, counters, data blocks; then number, byte, bit.
 pub(super) type Order = (u8, u32, u32, u32);
 

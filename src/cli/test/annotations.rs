@@ -17,7 +17,9 @@ pub(super) fn annotation(work: &Work, outcome: &Outcome) -> String {
 fn place(work: &Work, outcome: &Outcome, text: &str) -> (String, Option<u32>) {
     let scenario = || work.file.display().to_string();
     let (file, line) = match outcome {
-        Outcome::Held | Outcome::Accepted | Outcome::Missing(_) | Outcome::Differs(_) => (scenario(), None),
+        Outcome::Held | Outcome::Accepted | Outcome::Missing(_) | Outcome::Untrue(_) | Outcome::Differs(_) => {
+            (scenario(), None)
+        }
         // The text begins with the place: `FILE:LINE: …`.
         Outcome::Failed(_) | Outcome::Unusable(_) => match placed(text) {
             Some((file, line)) => (file.to_owned(), Some(line)),

@@ -14,6 +14,10 @@ pub(crate) struct Arguments {
     /// Rewrites the golden files of traces that changed.
     #[arg(long)]
     pub(super) accept: bool,
+    /// Also checks the cause of every edge of the control and of every alarm: its event happened in this cycle, has an input or a
+    /// parent, and the inputs had the values that it names.
+    #[arg(long)]
+    pub(super) check_causes: bool,
     /// Runs only the cases whose name contains this text, or that cite this rule in `covers`; may be given several times.
     ///
     /// The name of a case is its file, the values of its matrix and its profile, as `--list` prints it. Finding no case is an error.

@@ -27,7 +27,9 @@ pub(super) fn text(done: &[(&Work, Ran)], took: Duration) -> Result<String, Prob
 fn case(work: &Work, Ran { outcome, time, .. }: &Ran) -> TestCase {
     let status = match outcome {
         Outcome::Held | Outcome::Accepted => TestCaseStatus::success(),
-        Outcome::Failed(_) | Outcome::Differs(_) | Outcome::Missing(_) => bad(NonSuccessKind::Failure, outcome),
+        Outcome::Failed(_) | Outcome::Untrue(_) | Outcome::Differs(_) | Outcome::Missing(_) => {
+            bad(NonSuccessKind::Failure, outcome)
+        }
         Outcome::Unusable(_) => bad(NonSuccessKind::Error, outcome),
     };
     let mut case = TestCase::new(work.name.as_str(), status);

@@ -49,6 +49,7 @@ fn row(text: &mut String, index: usize, work: &Work, Ran { outcome, time, .. }: 
         Outcome::Held => "passed",
         Outcome::Accepted => "accepted",
         Outcome::Failed(_) => "failed",
+        Outcome::Untrue(_) => "wrong causes",
         Outcome::Differs(_) => "differs",
         Outcome::Missing(_) => "no golden file",
         Outcome::Unusable(_) => "unusable",

@@ -13,10 +13,9 @@ pub(super) fn found(arguments: &Arguments) -> Result<Vec<Work>, Problem> {
             Err(problem) => {
                 work.push(Work { name: file.display().to_string(), file, item: Item::Unusable(problem) });
             }
-            Ok(cases) => work.extend(cases.into_iter().map(|case| Work {
-                name: case.name(),
-                file: file.clone(),
-                item: Item::Case(Box::new(case)),
+            Ok(cases) => work.extend(cases.into_iter().map(|mut case| {
+                case.check_causes = arguments.check_causes;
+                Work { name: case.name(), file: file.clone(), item: Item::Case(Box::new(case)) }
             })),
         }
     }

@@ -62,6 +62,7 @@ pub(super) fn counts(done: &[(&Work, Ran)], left: usize) -> String {
         (count(|outcome| matches!(outcome, Outcome::Held)), "passed"),
         (count(|outcome| matches!(outcome, Outcome::Accepted)), "accepted"),
         (count(|outcome| matches!(outcome, Outcome::Failed(_))), "failed"),
+        (count(|outcome| matches!(outcome, Outcome::Untrue(_))), "with wrong causes"),
         (count(|outcome| matches!(outcome, Outcome::Differs(_))), "differ"),
         (count(|outcome| matches!(outcome, Outcome::Missing(_))), "without a golden file"),
         (count(|outcome| matches!(outcome, Outcome::Unusable(_))), "unusable"),
