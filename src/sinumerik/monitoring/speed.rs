@@ -36,7 +36,10 @@ impl State {
         }
         if too_long {
             let commanded = (Quantity::VelocityCommand, wanted);
-            let inputs = velocities(number, commanded, 36210, limits.speed_setpoint_limit);
+            let [commanded, ..] = velocities(number, commanded, 36210, limits.speed_setpoint_limit);
+            // The datum is a percentage of the rated speed.
+            let percent = Input::Datum(36210, Some(number), limits.speed_setpoint_percent);
+            let inputs = [commanded, percent, Input::None];
             self.raise_monitoring(alarms::SPEED_SETPOINT, number, Rule::SpeedSetpointMonitoring, inputs);
         }
     }

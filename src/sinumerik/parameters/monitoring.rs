@@ -32,6 +32,8 @@ pub(in crate::sinumerik) struct Monitoring {
     pub contour_tolerance: Position,
     /// MD36210 of the rated speed (MD32250, MD32260), at the load.
     pub speed_setpoint_limit: f64,
+    /// MD36210 itself.
+    pub speed_setpoint_percent: f64,
     /// MD36220 in cycles.
     pub speed_setpoint_cycles: u64,
     /// MD36300 as a velocity.
@@ -61,6 +63,7 @@ pub(in crate::sinumerik) fn monitoring(md: &Axis, cycle: Time) -> Monitoring {
         standstill_cycles: cycles(md.standstill_delay_time),
         clamping_tolerance: Position::from_user(md.clamp_pos_tol),
         contour_tolerance: Position::from_user(md.contour_tol),
+        speed_setpoint_percent: md.ctrlout_limit,
         speed_setpoint_limit: (md.ctrlout_limit / 100.0 * full_speed / 60.0 * revolution).min(f64::MAX),
         speed_setpoint_cycles: cycles(md.ctrlout_limit_time),
         frequency_limit,
