@@ -4,8 +4,9 @@
 //! cycle of the edge, if it has an input or a parent event, and if each signal among its inputs had the value in the event. For a signal of
 //! the PLC, this is the value at the end of the cycle, after inputs, scan and forces. For a signal of the control, it is the value decided
 //! in the cycle or the value published in the cycle before. An alarm among the inputs must be pending, or be raised or cleared in the cycle.
-//! Machine data, faults and lengths among the inputs are not compared.
+//! A machine datum that became active in the trace must have that value. Faults and lengths among the inputs are not compared.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use super::because::because;
@@ -13,8 +14,10 @@ use super::places::Places;
 use super::printable::{mask_in_byte, signal_at, signal_name};
 use super::{By, Change, Row, Trace, Watch};
 use crate::image::{Format, Interface, Location, Memory, Part};
-use crate::units::Time;
-use crate::variables::{AlarmNumber, Describe, Event, EventId, Input, RaisedAlarm, SignalBit, place_name};
+use crate::units::{AxisNumber, Time};
+use crate::variables::{
+    AlarmNumber, Describe, Event, EventId, Happening, Input, Place, RaisedAlarm, SignalBit, place_name,
+};
 
 /// A wrong or missing cause.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +43,8 @@ pub enum CauseFault {
     AnotherCycle(Time),
     /// The event contains this signal with the first value, but the signal had the second value.
     Untrue(String, u64, u64),
+    /// The event contains this machine datum with the first value, but the second value is active.
+    OtherDatum(String, f64, f64),
     /// The event contains these bits, which are no signal.
     Unknown(String),
     /// The event contains this alarm, which was not pending.
@@ -54,6 +59,9 @@ impl fmt::Display for CauseFinding {
             CauseFault::Empty => f.write_str("the cause has neither an input nor a parent event")?,
             CauseFault::AnotherCycle(time) => write!(f, "the cause is an event at {time} s")?,
             CauseFault::Untrue(signal, named, found) => write!(f, "the cause names {signal} = {named}, found {found}")?,
+            CauseFault::OtherDatum(datum, named, active) => {
+                write!(f, "the cause names {datum} = {named}, active is {active}")?
+            }
             CauseFault::Unknown(bits) => write!(f, "the cause names {bits}, which is no signal")?,
             CauseFault::NotPending(alarm) => write!(f, "the cause names alarm {alarm}, which is not pending")?,
         }
@@ -70,6 +78,7 @@ impl Trace {
         let mut places = Places::new(names, watch);
         let mut memory = self.start.clone();
         let mut pending: Vec<RaisedAlarm> = Vec::new();
+        let mut data = BTreeMap::new();
         let mut findings = Vec::new();
         for rows in self.rows.chunk_by(|one, next| one.cycle == next.cycle) {
             let cycle = rows[0].cycle;
@@ -77,10 +86,13 @@ impl Trace {
                 match row.change {
                     Change::Byte { part, offset, new, .. } => memory.write(byte(part, offset), new.into()),
                     Change::Alarm { alarm, raised: true, .. } => pending.push(alarm),
+                    Change::Happened { what: Happening::DatumActive(datum), .. } if datum.index.is_none() => {
+                        data.extend(datum.value.map(|value| ((datum.number, axis_of(datum.place)), value)));
+                    }
                     Change::Alarm { raised: false, .. } | Change::Happened { .. } | Change::Overwritten { .. } => {}
                 }
             }
-            let seen = Seen { memory: &memory, pending: &pending, rows, interface: names.interface() };
+            let seen = Seen { memory: &memory, pending: &pending, data: &data, rows, interface: names.interface() };
             let mut check = |cause: EventId, what: String| {
                 let event = self.event(cause, cycle);
                 findings.extend(self.faults(event, cycle, &seen, describe).into_iter().map(|fault| CauseFinding {
@@ -133,6 +145,11 @@ impl Trace {
             {
                 faults.push(CauseFault::NotPending(describe.alarm_name(AlarmNumber(number))));
             }
+            if let Input::Datum(number, axis, named) = input
+                && let Some(&active) = seen.data.get(&(number, axis)).filter(|&&active| (active - named).abs() > 1e-6)
+            {
+                faults.push(CauseFault::OtherDatum(describe.datum_name(number), named, active));
+            }
             let Some((bit, named)) = input.signal() else { continue };
             let (name, named) = (signal_name(bit, describe.names()), u64::from(named));
             match seen.values(bit) {
@@ -150,6 +167,8 @@ struct Seen<'a> {
     memory: &'a Memory,
     /// Also alarms that are cleared in this cycle.
     pending: &'a [RaisedAlarm],
+    /// The machine data that became active so far, by number and axis.
+    data: &'a BTreeMap<(u32, Option<AxisNumber>), f64>,
     rows: &'a [Row],
     interface: &'static Interface,
 }
@@ -172,6 +191,13 @@ impl Seen<'_> {
             Change::Byte { .. } | Change::Alarm { .. } | Change::Happened { .. } | Change::Overwritten { .. } => None,
         });
         Some([now, before.unwrap_or(now)])
+    }
+}
+
+fn axis_of(place: Place) -> Option<AxisNumber> {
+    match place {
+        Place::Axis(axis) => Some(axis),
+        Place::Nck | Place::ModeGroup(_) | Place::Channel(_) => None,
     }
 }
 
