@@ -44,16 +44,21 @@ impl Log {
     /// The activation behind an event that tests these inputs now.
     fn activation(&self, inputs: &[Input; 3]) -> EventId {
         let (data, event) = &self.activated;
-        let is_new = |input: &Input| match *input {
-            Input::Datum(number, axis, _) => data.contains(&(number, axis)),
+        if !data.is_empty() && inputs.iter().any(|input| self.is_new(input)) { *event } else { EventId::NONE }
+    }
+
+    /// Whether this is a machine datum that became active in the present cycle.
+    #[must_use]
+    pub fn is_new(&self, input: &Input) -> bool {
+        match *input {
+            Input::Datum(number, axis, _) => self.activated.0.contains(&(number, axis)),
             Input::None
             | Input::Bit(..)
             | Input::Number(..)
             | Input::Length(..)
             | Input::Alarm(_)
             | Input::Fault(_) => false,
-        };
-        if !data.is_empty() && inputs.iter().any(is_new) { *event } else { EventId::NONE }
+        }
     }
 
     /// Records that a rule allowed an action.

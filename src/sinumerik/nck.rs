@@ -14,7 +14,7 @@ use crate::sinumerik::parameters::axis::AxisPresence;
 use crate::sinumerik::referencing::state::Phase as ApproachPhase;
 use crate::sinumerik::resting::Resting;
 use crate::sinumerik::rules::Rule;
-use crate::sinumerik::state::State;
+use crate::sinumerik::state::{Standing, State};
 use crate::sinumerik::strobe::Strobe;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, PerAxis};
@@ -141,7 +141,12 @@ impl Nck {
         self.parameters = Arc::new(self.parameters_now());
         let events = std::mem::take(&mut self.state.log.events);
         let taken = self.state.log.taken;
+        let faults = PerAxis::from_fn(|number| self.state.axes[number].causes.fault);
         *self.state = State::new(&self.parameters);
+        for (number, axis) in self.state.axes.iter_mut() {
+            // A fault outlasts power off.
+            axis.causes.fault = faults[number];
+        }
         let log = &mut self.state.log;
         (log.cycle, log.events, log.taken) = (cycle, events, taken);
         self.resting.begin_anew(&self.state);
@@ -249,7 +254,7 @@ impl Nck {
     pub fn plc_missing(&mut self) -> EventId {
         if !self.state.plc_missing {
             self.state.plc_missing = true;
-            self.state.plc_cause = self.state.log.note_plain(Place::Nck, Rule::PlcMissing, EventId::NONE);
+            self.state.plc_cause = self.state.log.note_plain(Place::Nck, Rule::PlcStopped, EventId::NONE);
         }
         self.state.plc_cause
     }
@@ -293,6 +298,7 @@ impl Nck {
     /// A cycle begins.
     pub(super) fn begin(&mut self, cycle: u64) {
         self.state.log.begin(cycle);
+        self.state.alarms.begin();
     }
 
     /// A client or a scenario wrote these bits.
@@ -384,6 +390,8 @@ impl Nck {
         let (awake, decided) = (self.awake(), self.decided());
         let mut summary = self.state.summary;
         let synchronising = self.state.synchronising();
+        summary.before =
+            Standing { standing: summary.standing, in_motion: summary.in_motion, referenced: summary.referenced };
         for number in awake.iter() {
             let axis = &self.state.axes[number];
             summary.standing.set(number, axis.is_stationary(&self.parameters.axes[number]));

@@ -29,6 +29,8 @@ rules! {
     FaultEnds "fault" "a fault ends";
     AsAfterPowerOn "power on" "as after power on";
     RunUp "O-20" "start-up of control and drives";
+    DrivesReady "O-20" "all drives are ready";
+    DrivesNotReady "O-20" "a drive is not ready";
     DriveReady "O-20" "the drive has started up";
     DriveLost "drive" "the drive is not ready";
     PulsesEnabled "O-20" "pulses enabled";
@@ -64,6 +66,10 @@ rules! {
     TargetReached "REF-31" "the setpoint has reached the target";
     CommandOfLeadingAxis "SIG-09" "the traverse command of the leading axis is also displayed here";
     WithoutCommand "SIG-09" "follows a synchronous axis without a traverse command";
+    AllStationary "channel" "all axes of the channel are stationary";
+    NotAllStationary "channel" "an axis of the channel is not stationary";
+    ChannelReferenced "channel" "all axes of the channel that need their reference point are referenced";
+    ChannelNotReferenced "channel" "an axis of the channel that needs its reference point is not referenced";
     ChannelActive "channel" "an axis of the channel moves or is to move";
     ChannelAtRest "channel" "no axis of the channel moves or is to move";
     // Modes.
@@ -148,6 +154,7 @@ rules! {
     TripGone "MON-04" "within the trip limit";
     // Alarms and states that follow from values.
     EnableLostInMotion "21612" "enable reset during motion";
+    PlcStopped "PLC" "the PLC program does not run";
     PlcMissing "2000" "no sign of life from the PLC program";
     StandstillMonitoring "25040" "actual position outside the standstill tolerance";
     ClampingMonitoring "26000" "actual position outside the clamping tolerance";
@@ -167,6 +174,17 @@ rules! {
     DriveFault "25201" "the drive reports a fault";
     DriveReadyAgain "25201" "the drive is ready again";
     DriveNotReady "25202" "the drive does not start up";
+    AlarmPending "ALARM" "an alarm is pending";
+    ConditionHolds "ALARM" "the condition of the alarm holds";
+    OnSoftwareLimit "10621" "at rest on the software limit switch or beyond it";
+    OffSoftwareLimit "10621" "no longer at rest on the software limit switch or beyond it";
+    KeyMeetsHandwheel "20050" "a traversing key is pressed while a handwheel moves the axis";
+    KeyMeetsNoHandwheel "20050" "no traversing key is pressed while a handwheel moves the axis";
+    HandwheelMeetsKey "20051" "a handwheel is turned while a traversing key moves the axis";
+    KeyMovementEnded "20051" "no traversing key moves the axis";
+    NoLongerJogging "JOG" "the axis is not jogged in this mode, machine function or grouping";
+    MessageSuppressed "MD37150" "the message of the grouping is suppressed";
+    SwitchOverReported "21613" "the switch-over is reported for one cycle";
     CancelKey "ALARM" "alarm-cancel key";
     AlarmCancelled "ALARM" "alarm cancelled";
     ExactStop "exact stop" "";

@@ -66,6 +66,16 @@ pub(super) struct Summary {
     /// The setpoint rests and the velocity is below MD36060.
     pub standing: AxisSet,
     pub in_motion: AxisSet,
+    /// The same in the previous cycle: an axis that differs changed a signal of its channel.
+    pub before: Standing,
+}
+
+/// The axes that stand, move and are referenced.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Standing {
+    pub standing: AxisSet,
+    pub in_motion: AxisSet,
+    pub referenced: AxisSet,
 }
 
 /// The state of the control between cycles: plain data, without machine data.

@@ -14,6 +14,7 @@ use opennck::image::{Location, Part, SINUMERIK, Writer};
 use opennck::machine::{Command, DatumValue, Fault, FaultKind, Machine, Switch};
 use opennck::sinumerik::machine_data::Target;
 use opennck::sinumerik::{APPROACH_TRANSITIONS, ApproachPhase, GROUPING_TRANSITIONS, GroupingPhase, Nck};
+use opennck::trace::{Trace, Watch};
 use opennck::units::{AxisNumber, ChannelNumber, Position};
 use opennck::variables::{AlarmNumber, Place};
 use proptest::prelude::{Just, Strategy, any, prop_oneof};
@@ -187,6 +188,8 @@ struct Bench {
     drifts: bool,
     steps: u64,
     hash: u64,
+    /// The record since the bench was opened, to judge the causes in it.
+    trace: Trace,
 }
 
 #[derive(Clone, Copy, Default)]
@@ -244,6 +247,7 @@ impl Bench {
             steps: 0,
             hash: 0xcbf2_9ce4_8422_2325,
             twin: with_twin.then(|| machine.fork().unwrap()),
+            trace: Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), machine.time()),
             machine,
         };
         if let Some(twin) = &mut bench.twin {
@@ -545,6 +549,7 @@ impl Bench {
             twin.drain();
             ensure(same, self, || "the machine with resting axes differs".to_owned())?;
         }
+        self.trace.extend(self.machine.recorder());
         self.machine.drain();
         self.steps += 1;
         let memory = self.machine.memory();
@@ -616,6 +621,15 @@ impl Bench {
         }
         (self.fresh, self.pushed) = (false, false);
         Ok(())
+    }
+
+    /// Checks that every edge of the control and every alarm has a correct cause.
+    fn check_causes(&self) -> Result<(), TestCaseError> {
+        let findings = self.trace.check_causes(&self.machine, &Watch::default());
+        ensure(findings.is_empty(), self, || {
+            let shown: Vec<_> = findings.iter().take(5).map(ToString::to_string).collect();
+            format!("{} causes are wrong:\n{}", findings.len(), shown.join("\n"))
+        })
     }
 
     /// Checks that a synchronised grouping has no difference above its trip limit without 101.2 and alarm 10653.
@@ -719,6 +733,7 @@ fn run(machine: &str, acts: &[Act], released: bool, with_twin: bool) -> Result<(
     bench.fresh = true;
     acts.iter().try_for_each(|act| bench.act(act))?;
     bench.ends(released)?;
+    bench.check_causes()?;
     Ok((bench.hash, bench.steps, bench.machine.control().taken()))
 }
 

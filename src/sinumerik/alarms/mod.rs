@@ -4,6 +4,7 @@
 //! are published in the same cycle; its reactions act from the next cycle on. To add an alarm, add a row to [`alarms!`] and a call of
 //! [`Pending::raise`].
 
+mod ended;
 pub(super) mod not_raised;
 mod raised;
 
@@ -378,13 +379,21 @@ struct Entry {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Pending {
     entries: ArrayVec<Entry, { Alarms::CAPACITY }>,
+    /// The alarms that ended in this cycle, each with the event that ended it.
+    #[serde(skip)]
+    ended: ArrayVec<(RaisedAlarm, EventId), { Alarms::CAPACITY }>,
     changed: bool,
     /// Counts the changes of the list.
     version: u32,
 }
 
 impl Pending {
-    /// Raises an alarm, or keeps it raised.
+    /// A cycle begins.
+    pub(super) fn begin(&mut self) {
+        self.ended.clear();
+    }
+
+    /// Raises an alarm, or keeps it raised. If it is new, `cause` is an event of this cycle.
     pub(super) fn raise(&mut self, number: AlarmNumber, place: Place, parameters: [Parameter; 4], cause: EventId) {
         let alarm = RaisedAlarm { number, place, parameters };
         if let Some(entry) = self.entries.iter_mut().find(|entry| entry.alarm == alarm) {
@@ -396,28 +405,62 @@ impl Pending {
         self.note_changed(added);
     }
 
-    /// Removes the alarms that this action clears, at places for which `concerns` is true. Returns whether any were removed.
-    pub(super) fn cancel(&mut self, by: Cancel, concerns: impl Fn(Place) -> bool) -> bool {
-        let before = self.entries.len();
-        self.entries.retain(|entry| {
-            let class = Alarm::find(entry.alarm.number).map_or(Cancel::PowerOn, |alarm| alarm.cancel);
-            class == Cancel::ByItself || class > by || !concerns(entry.alarm.place)
-        });
-        let removed = self.entries.len() != before;
-        self.note_changed(removed);
-        removed
+    /// Removes the alarms that this action clears, at places for which `concerns` is true, after the event of the action.
+    pub(super) fn cancel(&mut self, by: Cancel, event: EventId, concerns: impl Fn(Place) -> bool) {
+        self.remove(event, |entry| is_cancelled(&entry.alarm, by, &concerns));
     }
 
-    /// Ends a cycle: removes alarms that clear by themselves and were not raised in it.
-    pub(super) fn settle(&mut self) {
-        let before = self.entries.len();
+    /// Whether this action would clear an alarm.
+    #[must_use]
+    pub(super) fn cancels(&self, by: Cancel, concerns: impl Fn(Place) -> bool) -> bool {
+        self.entries.iter().any(|entry| is_cancelled(&entry.alarm, by, &concerns))
+    }
+
+    /// Removes an alarm that clears by itself: its condition has ended, as this event says.
+    pub(super) fn end(&mut self, alarm: &RaisedAlarm, event: EventId) {
+        self.remove(event, |entry| entry.alarm == *alarm);
+    }
+
+    fn remove(&mut self, event: EventId, is_meant: impl Fn(&Entry) -> bool) {
+        let (before, ended) = (self.entries.len(), &mut self.ended);
         self.entries.retain(|entry| {
-            let stays =
-                entry.fresh || Alarm::find(entry.alarm.number).is_none_or(|alarm| alarm.cancel != Cancel::ByItself);
-            entry.fresh = false;
-            stays
+            let removed = is_meant(entry);
+            if removed && ended.is_full() {
+                ended.pop_at(0);
+            }
+            if removed {
+                ended.push((entry.alarm, event));
+            }
+            !removed
         });
         self.note_changed(self.entries.len() != before);
+    }
+
+    /// The alarms that clear by themselves and that nothing has raised in this cycle, with the events behind them.
+    pub(super) fn expired(&self) -> ArrayVec<(RaisedAlarm, EventId), { Alarms::CAPACITY }> {
+        let clears = |number| Alarm::find(number).is_some_and(|alarm| alarm.cancel == Cancel::ByItself);
+        let expired = self.entries.iter().filter(|entry| !entry.fresh && clears(entry.alarm.number));
+        expired.map(|entry| (entry.alarm, entry.cause)).collect()
+    }
+
+    /// Ends a cycle: an alarm that clears by itself must be raised again in the next one.
+    pub(super) fn settle(&mut self) {
+        for entry in &mut self.entries {
+            entry.fresh = false;
+        }
+    }
+
+    /// The event that ended an alarm in this cycle.
+    #[must_use]
+    pub(super) fn end_of(&self, number: AlarmNumber, place: Place) -> EventId {
+        self.last_end(|alarm| (alarm.number, alarm.place) == (number, place))
+    }
+
+    /// The event that ended the last of the alarms that are meant and ended in this cycle.
+    #[must_use]
+    pub(super) fn last_end(&self, meant: impl Fn(&RaisedAlarm) -> bool) -> EventId {
+        let last = self.ended.iter().rev().find(|(alarm, _)| meant(alarm));
+        last.map_or(EventId::NONE, |(_, event)| *event)
     }
 
     fn note_changed(&mut self, changed: bool) {
@@ -491,6 +534,12 @@ impl Pending {
     }
 }
 
+/// Whether an action clears an alarm.
+fn is_cancelled(alarm: &RaisedAlarm, by: Cancel, concerns: impl Fn(Place) -> bool) -> bool {
+    let class = Alarm::find(alarm.number).map_or(Cancel::PowerOn, |alarm| alarm.cancel);
+    class != Cancel::ByItself && class <= by && concerns(alarm.place)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -525,11 +574,11 @@ mod tests {
         for number in [ENABLE_RESET, GANTRY_TRIP_LIMIT, GANTRY_CONFIGURATION, GANTRY_WAITING] {
             raise(&mut pending, number);
         }
-        pending.cancel(Cancel::CancelKey, |_| true);
+        pending.cancel(Cancel::CancelKey, EventId(7), |_| true);
         assert!(!has(&pending, ENABLE_RESET) && has(&pending, GANTRY_TRIP_LIMIT));
-        pending.cancel(Cancel::ModeGroupReset, |place| place != Place::Nck);
+        pending.cancel(Cancel::ModeGroupReset, EventId(8), |place| place != Place::Nck);
         assert!(has(&pending, GANTRY_TRIP_LIMIT), "its place is excluded");
-        pending.cancel(Cancel::ModeGroupReset, |_| true);
+        pending.cancel(Cancel::ModeGroupReset, EventId(9), |_| true);
         assert!(!has(&pending, GANTRY_TRIP_LIMIT));
         assert!(has(&pending, GANTRY_CONFIGURATION) && has(&pending, GANTRY_WAITING));
     }
@@ -540,9 +589,15 @@ mod tests {
         raise(&mut pending, GANTRY_WARNING_LIMIT);
         pending.settle();
         raise(&mut pending, GANTRY_WARNING_LIMIT);
+        assert!(pending.expired().is_empty());
         pending.settle();
-        assert!(has(&pending, GANTRY_WARNING_LIMIT));
+        raise(&mut pending, GANTRY_TRIP_LIMIT);
         pending.settle();
-        assert_eq!(pending.iter().count(), 0);
+        let [(alarm, _)] = pending.expired()[..] else { panic!("only the one that clears by itself") };
+        pending.end(&alarm, EventId(9));
+        assert!(!has(&pending, GANTRY_WARNING_LIMIT) && has(&pending, GANTRY_TRIP_LIMIT));
+        assert_eq!(pending.end_of(GANTRY_WARNING_LIMIT, Place::Nck), EventId(9));
+        pending.begin();
+        assert_eq!(pending.end_of(GANTRY_WARNING_LIMIT, Place::Nck), EventId::NONE);
     }
 }

@@ -3,15 +3,48 @@
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, ChannelNumber};
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, RaisedAlarm};
 
 impl State {
+    /// An alarm of an axis: `%1` channel, `%2` axis.
+    pub(in crate::sinumerik) fn axis_alarm(&self, number: AlarmNumber, axis: AxisNumber) -> RaisedAlarm {
+        let unit = self.units.iter().find(|unit| unit.members().any(|member| member == axis));
+        let channel = unit.map_or(ChannelNumber::FIRST, |unit| unit.channel);
+        let parameters = [Parameter::Channel(channel), Parameter::Axis(axis), Parameter::None, Parameter::None];
+        RaisedAlarm { number, place: Place::Axis(axis), parameters }
+    }
+
     /// Raises an alarm of an axis: `%1` channel, `%2` axis.
     pub(in crate::sinumerik) fn raise_axis_alarm(&mut self, alarm: AlarmNumber, number: AxisNumber, event: EventId) {
-        let unit = self.units.iter().find(|unit| unit.members().any(|axis| axis == number));
-        let channel = unit.map_or(ChannelNumber::FIRST, |unit| unit.channel);
-        let parameters = [Parameter::Channel(channel), Parameter::Axis(number), Parameter::None, Parameter::None];
-        self.alarms.raise(alarm, Place::Axis(number), parameters, event);
+        let RaisedAlarm { number, place, parameters } = self.axis_alarm(alarm, number);
+        self.alarms.raise(number, place, parameters, event);
+    }
+
+    /// Raises an alarm whose condition these inputs fulfil. The event behind it is recorded when it is new.
+    pub(in crate::sinumerik) fn raise_new(
+        &mut self,
+        alarm: RaisedAlarm,
+        rule: Rule,
+        inputs: [Input; 3],
+        parent: EventId,
+    ) {
+        let is_new = !self.alarms.iter().any(|(known, _)| *known == alarm);
+        let event = if is_new { self.log.note(alarm.place, rule, inputs, parent) } else { EventId::NONE };
+        self.alarms.raise(alarm.number, alarm.place, alarm.parameters, event);
+    }
+
+    /// The same; the event behind it is `cause` if that is of this cycle.
+    pub(in crate::sinumerik) fn raise_tested(
+        &mut self,
+        alarm: RaisedAlarm,
+        cause: EventId,
+        rule: Rule,
+        inputs: [Input; 3],
+    ) {
+        let RaisedAlarm { number, place, parameters } = alarm;
+        let is_known = self.alarms.iter().any(|(known, _)| *known == alarm);
+        let cause = if is_known { EventId::NONE } else { self.log.now(place, cause, rule, inputs) };
+        self.alarms.raise(number, place, parameters, cause);
     }
 
     /// Raises an alarm with the event behind it, which is recorded when the alarm is new; `%1` is the axis.
@@ -31,11 +64,14 @@ impl State {
             // A hardware fault acts whether or not the axis moves.
             let breaks =
                 matches!(rule, Rule::DriveFault | Rule::DriveNotReady | Rule::EncoderFault | Rule::EncoderPollution);
-            // Only the selection of the PLC leads to a missing encoder.
             let parent = if rule == Rule::EncoderMissing {
+                // Only the selection of the PLC leads to a missing encoder.
                 EventId::NONE
+            } else if rule == Rule::MeasuringSystem {
+                causes.measuring_system
             } else if breaks {
-                causes.fault
+                // A fault without an event is there since power on.
+                if causes.fault.is_some() { causes.fault } else { self.as_after_power_on }
             } else {
                 causes.movement()
             };

@@ -305,6 +305,9 @@ impl State {
             };
             let event = self.log.note_one(Place::Axis(number), rule, input, parent);
             self.axes[number].causes.enabling = event;
+            if before.follow_up != after.follow_up {
+                self.axes[number].causes.follow_up = event;
+            }
         }
     }
 }

@@ -7,7 +7,7 @@
 //! referenced, and not for modulo axes. JOG brakes so that the axis stops exactly on the limit; 10621 is pending until it is
 //! moved away.
 
-use crate::image::{ToNck, axis_to_nck};
+use crate::image::{AxisToNck, Signal, ToNck, axis_to_nck};
 use crate::motion::Motion;
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::LimitSwitches;
@@ -16,7 +16,7 @@ use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, ChannelNumber, Position};
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, Quantity, RaisedAlarm};
 
 /// Setpoint 0 at once, without a ramp.
 const WITHOUT_RAMP: f64 = 1e18;
@@ -53,24 +53,13 @@ impl State {
             }
             for (pressed, direction) in [(minus, -1), (plus, 1)] {
                 if pressed {
-                    let cause = self.axes[number].limits.cause;
-                    self.raise_limit(alarms::HARDWARE_LIMIT_SWITCH, unit.channel, number, direction, cause);
+                    let limits = self.axes[number].limits;
+                    let inputs = [limits.input(number, direction), Input::None, Input::None];
+                    let alarm = limit_alarm(alarms::HARDWARE_LIMIT_SWITCH, unit.channel, number, direction);
+                    self.raise_tested(alarm, limits.cause, Rule::HardwareLimitSwitch, inputs);
                 }
             }
         }
-    }
-
-    fn raise_limit(
-        &mut self,
-        alarm: AlarmNumber,
-        channel: ChannelNumber,
-        number: AxisNumber,
-        direction: i8,
-        cause: EventId,
-    ) {
-        let channel = Parameter::Channel(channel);
-        let parameters = [channel, Parameter::Axis(number), Parameter::Direction(direction), Parameter::None];
-        self.alarms.raise(alarm, Place::Axis(number), parameters, cause);
     }
 
     /// The axis of the unit that a movement in this direction would move further onto its hardware limit switch.
@@ -109,12 +98,8 @@ impl State {
         if axis.modulo || !self.axes[number].is_referenced() {
             return None;
         }
-        let [minus, plus] = axis.software_limits;
-        Some(if direction > 0 {
-            plus[usize::from(signals.second_software_limit_switch_plus())]
-        } else {
-            minus[usize::from(signals.second_software_limit_switch_minus())]
-        })
+        let (second, _) = selects_second(signals, direction);
+        Some(axis.software_limits[usize::from(direction > 0)][usize::from(second)])
     }
 
     /// The software limit ahead of a movement in JOG in this direction.
@@ -138,12 +123,53 @@ impl State {
     pub(in crate::sinumerik) fn watch_software_limits(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
         let number = unit.leader();
         for direction in [-1, 1] {
-            let Some(limit) = self.software_limit(number, direction, parameters, to_nck) else { continue };
-            let way = (limit - self.axes[number].setpoint.position).increments();
-            if way.signum() * i64::from(direction) <= 0 && self.axes[number].setpoint.is_at_rest() {
-                let cause = self.axes[number].causes.motion;
-                self.raise_limit(alarms::ON_SOFTWARE_LIMIT, unit.channel, number, direction, cause);
+            let limit = self.software_limit(number, direction, parameters, to_nck);
+            let axis = &self.axes[number];
+            let beyond = limit.is_some_and(|limit| {
+                (limit - axis.setpoint.position).increments().signum() * i64::from(direction) <= 0
+            });
+            let holds = beyond && axis.setpoint.is_at_rest();
+            let alarm = limit_alarm(alarms::ON_SOFTWARE_LIMIT, unit.channel, number, direction);
+            if !holds && !self.alarms.is_pending(alarm.number, alarm.place) {
+                continue;
             }
+            let tested = |limit: Position| {
+                let (second, signal) = selects_second(&to_nck.axes[number], direction);
+                let datum = [[36100, 36120], [36110, 36130]][usize::from(direction > 0)][usize::from(second)];
+                [
+                    Input::Length(Quantity::Position, number, axis.setpoint.position),
+                    Input::Datum(datum, Some(number), limit.user()),
+                    axis_signal(number, signal, second),
+                ]
+            };
+            let motion = axis.causes.motion;
+            if holds {
+                let inputs = limit.map_or([Input::None; 3], tested);
+                self.raise_tested(alarm, motion, Rule::OnSoftwareLimit, inputs);
+                continue;
+            }
+            let (inputs, parent) = match limit {
+                None => self.reference_inputs(number, parameters),
+                // The setpoint moves: the movement is the cause.
+                Some(_) if beyond => ([Input::None; 3], motion),
+                Some(limit) => (tested(limit), motion),
+            };
+            self.end_tested(&alarm, Rule::OffSoftwareLimit, inputs, parent);
         }
+    }
+}
+
+/// The alarm of a limit: `%1` channel, `%2` axis, `%3` direction.
+const fn limit_alarm(number: AlarmNumber, channel: ChannelNumber, axis: AxisNumber, direction: i8) -> RaisedAlarm {
+    let shown = [Parameter::Channel(channel), Parameter::Axis(axis), Parameter::Direction(direction), Parameter::None];
+    RaisedAlarm { number, place: Place::Axis(axis), parameters: shown }
+}
+
+/// Whether the second software limit of a direction is selected, and the signal that selects it.
+fn selects_second(signals: &AxisToNck, direction: i8) -> (bool, Signal) {
+    if direction > 0 {
+        (signals.second_software_limit_switch_plus(), axis_to_nck::second_software_limit_switch_plus)
+    } else {
+        (signals.second_software_limit_switch_minus(), axis_to_nck::second_software_limit_switch_minus)
     }
 }

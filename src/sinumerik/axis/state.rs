@@ -20,8 +20,10 @@ use crate::variables::{EventId, Input};
 pub(in crate::sinumerik) struct Causes {
     /// 93.5, 93.7.
     pub drive: EventId,
-    /// 61.3, 61.5 to 61.7.
+    /// 61.5 to 61.7.
     pub enabling: EventId,
+    /// 61.3.
+    pub follow_up: EventId,
     /// 102.5, 102.6.
     pub measuring_system: EventId,
     /// 60.4, 60.5.

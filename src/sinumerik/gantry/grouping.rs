@@ -22,7 +22,7 @@ use crate::sinumerik::referencing::approach::Outcome;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity};
+use crate::variables::{AlarmNumber, EventId, Input, Place, Quantity, RaisedAlarm};
 
 impl State {
     /// One cycle of a grouping.
@@ -184,7 +184,10 @@ impl State {
                 Want::AbortApproach(axis) => self.axes[axis].approach.abort(),
                 Want::TakeSetpoint { axis, of } => self.axes[axis].setpoint = self.axes[of].setpoint,
                 Want::RaiseOfAxis { alarm, axis, cause } => self.raise_axis_alarm(alarm, axis, cause),
-                Want::Raise { alarm, place, shown, cause } => self.alarms.raise(alarm, place, shown, cause),
+                Want::Raise { alarm, place, shown, cause } => {
+                    let alarm = RaisedAlarm { number: alarm, place, parameters: shown };
+                    self.raise_tested(alarm, cause, Rule::ConditionHolds, [Input::None; 3]);
+                }
             }
         }
     }

@@ -154,12 +154,11 @@ impl Grouping {
         match progress {
             Progress::Running => {}
             Progress::Waiting(axis, cycles) if cycles > view.parameters.axes[axis].positioning_cycles => {
-                let cause = self.cause;
-                wants.push(Want::RaiseOfAxis { alarm: alarms::APPROACH_ABORTED, axis, cause });
                 let set = view.axes[axis].active_set(&view.parameters.axes[axis]);
                 let measured = Input::Length(Quantity::Deviation, axis, view.axes[axis].deviation().abs());
                 let limit = Input::Datum(36010, Some(axis), set.exact_stop_fine.user());
-                self.abort_synchronising([measured, limit, Input::None], cause, log, &mut wants);
+                self.abort_synchronising([measured, limit, Input::None], self.cause, log, &mut wants);
+                wants.push(Want::RaiseOfAxis { alarm: alarms::APPROACH_ABORTED, axis, cause: self.cause });
             }
             Progress::Waiting(..) => {}
             Progress::Done(target) => self.close_synchronised(target, view, log, &mut wants),

@@ -18,10 +18,12 @@
 //! following pulses. A handwheel that is deselected drops its distance. 20051 stays until the key has ended its movement. A key
 //! that is pressed while a handwheel moves the axis (20050) moves nothing until it is released and pressed again.
 
-use crate::image::{AxisToNck, NckHmi, Signal, axis_to_nck, nck_hmi};
+use crate::image::{AxisToNck, NckHmi, Signal, axis_from_nck, axis_to_nck, nck_hmi};
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::travel::Travel;
+use crate::sinumerik::axis::traversing::keys;
 use crate::sinumerik::inputs::{axis_signal, nck_signal};
+use crate::sinumerik::jog::keys::key_direction;
 use crate::sinumerik::jog::state::{By, Movement};
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
@@ -108,26 +110,30 @@ impl State {
             (jogging.handwheels, jogging.inverted, jogging.handwheel_cause) = (active, inverted, event);
             jogging.still = 0;
             if active == 0 {
-                self.drop_way_of_handwheels(number);
+                self.drop_way_of_handwheels(number, Input::None, event);
             }
         }
         let axis_parameters = &parameters.axes[number];
-        let (mut moved, mut detents) = (false, 0.0);
+        let (mut turned, mut detents) = (None, 0.0);
         for (bit, handwheel) in self.handwheels.iter().enumerate() {
             let per_detent = parameters.handwheel_pulses[bit];
             if active >> bit & 1 == 1 && handwheel.moved != 0 && per_detent.abs() > 0.0 {
-                moved = true;
+                turned = Some(handwheel.cause);
                 detents += (handwheel.moved as f64 / per_detent).clamp(-1e12, 1e12);
             }
         }
-        let hold = self.handwheel_hold(number, axis_parameters, signals);
+        let moved = turned.is_some();
+        let (hold, held_by) = self.handwheel_hold(number, axis_parameters, signals);
         let jogging = &mut self.axes[number].jogging;
+        jogging.turn_cause = turned.unwrap_or(jogging.turn_cause);
         let increment = limited(jogging.function.way(axis_parameters), axis_parameters.handwheel_maximum);
         // Counted only while needed, so that an axis with an assigned handwheel can rest.
         jogging.still = if moved || !jogging.movement.is_by_handwheel() { 0 } else { jogging.still + 1 };
         let drops = parameters.handwheel_drops_rest && jogging.still > parameters.handwheel_still_cycles;
         if hold == Hold::Abort || drops {
-            self.drop_way_of_handwheels(number);
+            let rest = Input::Datum(11346, None, f64::from(parameters.handwheel_true_distance));
+            let parent = jogging.turn_cause;
+            self.drop_way_of_handwheels(number, if hold == Hold::Abort { held_by } else { rest }, parent);
         }
         let jogging = &mut self.axes[number].jogging;
         if !moved || increment == Position::ZERO || hold == Hold::Abort {
@@ -150,13 +156,12 @@ impl State {
         };
     }
 
-    fn drop_way_of_handwheels(&mut self, number: AxisNumber) {
+    fn drop_way_of_handwheels(&mut self, number: AxisNumber, input: Input, parent: EventId) {
         let jogging = &mut self.axes[number].jogging;
         if jogging.movement.is_by_handwheel() {
             jogging.movement = Movement::None;
             jogging.carry = 0.0;
-            let parent = jogging.handwheel_cause;
-            let event = self.log.note_plain(Place::Axis(number), Rule::HandwheelDropped, parent);
+            let event = self.log.note_one(Place::Axis(number), Rule::HandwheelDropped, input, parent);
             self.travel(number, Travel::None, event);
         }
     }
@@ -180,37 +185,65 @@ impl State {
         ]
     }
 
-    /// The stop conditions of MD32084.
-    fn handwheel_hold(&self, number: AxisNumber, parameters: &AxisParameters, signals: &AxisToNck) -> Hold {
+    /// The stop conditions of MD32084, and the signal of the one that decides.
+    fn handwheel_hold(&self, number: AxisNumber, parameters: &AxisParameters, signals: &AxisToNck) -> (Hold, Input) {
         let axis = &self.axes[number];
         let off = !axis.enabling.is_on();
         let pulses = axis.enabling.pulses_enabled();
         let aborts = |bit: u8| parameters.handwheel_stop_conditions >> bit & 1 == 1;
+        let control = axis_signal(number, axis_from_nck::position_controller_active, axis.enabling.controllers()[2]);
         let conditions = [
-            (0, axis.feed_factor <= 0.0),
-            (2, axis.feed_held),
-            (3, signals.clamping_in_progress() && aborts(3)),
-            (4, off && pulses),
-            (5, off && !pulses),
+            (0, axis.feed_factor <= 0.0, axis.zero_override(number).1),
+            (2, axis.feed_held, axis.feed_holder),
+            (
+                3,
+                signals.clamping_in_progress() && aborts(3),
+                axis_signal(number, axis_to_nck::clamping_in_progress, true),
+            ),
+            (4, off && pulses, control),
+            (5, off && !pulses, control),
         ];
-        conditions.into_iter().filter(|&(_, holds)| holds).fold(Hold::None, |hold, (bit, _)| {
-            if hold == Hold::Abort || aborts(bit) { Hold::Abort } else { Hold::Interrupt }
+        let held = conditions.into_iter().filter(|&(_, holds, _)| holds);
+        held.fold((Hold::None, Input::None), |(hold, by), (bit, _, input)| match hold {
+            Hold::Abort => (hold, by),
+            Hold::None | Hold::Interrupt if aborts(bit) => (Hold::Abort, input),
+            Hold::None | Hold::Interrupt => (Hold::Interrupt, by),
         })
     }
 
     /// 20050 and 20051: a key is pressed while a handwheel moves the axis, or the opposite.
-    pub(in crate::sinumerik) fn raise_handwheel_alarms(&mut self, number: AxisNumber, key: i8) {
-        let jogging = &mut self.axes[number].jogging;
-        let cause = jogging.handwheel_cause;
+    pub(in crate::sinumerik) fn watch_keys_and_handwheels(&mut self, number: AxisNumber, signals: &AxisToNck) {
+        let key = key_direction(signals);
+        let axis = &mut self.axes[number];
+        let jogging = &mut axis.jogging;
         let meets = jogging.key_meets_handwheel(key);
         jogging.refused &= jogging.movement != Movement::None && !jogging.movement.is_by_handwheel();
-        if jogging.refused {
-            self.raise_axis_alarm(alarms::HANDWHEEL_NOT_POSSIBLE, number, cause);
+        let refused = jogging.refused;
+        let keys = keys(number, signals);
+        let assigned = active_handwheel(number, jogging.handwheels);
+        let (turned, motion) = (jogging.turn_cause, axis.causes.motion);
+        let [plus, minus, _] = keys;
+        let alarm = self.axis_alarm(alarms::HANDWHEEL_NOT_POSSIBLE, number);
+        if refused {
+            self.raise_new(alarm, Rule::HandwheelMeetsKey, [plus, minus, assigned], turned);
+        } else {
+            self.end_tested(&alarm, Rule::KeyMovementEnded, keys, motion);
         }
+        let alarm = self.axis_alarm(alarms::HANDWHEEL_ACTIVE, number);
         if meets {
-            self.raise_axis_alarm(alarms::HANDWHEEL_ACTIVE, number, cause);
+            self.raise_new(alarm, Rule::KeyMeetsHandwheel, [plus, minus, assigned], turned);
+        } else {
+            self.end_tested(&alarm, Rule::KeyMeetsNoHandwheel, keys, motion);
         }
     }
+}
+
+/// DBX64.0 to 64.2: the first handwheel that moves an axis, as an input.
+#[must_use]
+pub(in crate::sinumerik) fn active_handwheel(number: AxisNumber, handwheels: u8) -> Input {
+    let signals =
+        [axis_from_nck::handwheel_1_active, axis_from_nck::handwheel_2_active, axis_from_nck::handwheel_3_active];
+    signals.get(handwheels.trailing_zeros() as usize).map_or(Input::None, |signal| axis_signal(number, *signal, true))
 }
 
 /// The velocity of a handwheel movement, with the override.

@@ -18,7 +18,7 @@ use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::axis::traversing::keys;
 use crate::sinumerik::inputs::{axis_signal, channel_signal};
-use crate::sinumerik::jog::handwheels;
+use crate::sinumerik::jog::handwheels::{self, active_handwheel};
 use crate::sinumerik::jog::state::{By, Movement};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
@@ -80,7 +80,7 @@ impl State {
         let way = jogging.function.way(axis_parameters);
         jogging.take_keys(key, signals.traversing_key_disable(), way, parameters.key_modes);
         self.take_handwheels(number, parameters, signals);
-        self.raise_handwheel_alarms(number, key);
+        self.watch_keys_and_handwheels(number, signals);
         let axis = &self.axes[number];
         if let Some(stop) = stop {
             // The unit brakes as commanded (O-04).
@@ -229,7 +229,8 @@ impl State {
             (rule, Input::None)
         };
         let event = if axis.jogging.movement.is_by_handwheel() {
-            self.log.note_one(Place::Axis(number), rule, input, axis.jogging.handwheel_cause)
+            let assigned = active_handwheel(number, axis.jogging.handwheels);
+            self.log.note(Place::Axis(number), rule, [assigned, input, Input::None], axis.jogging.turn_cause)
         } else {
             // The event that starts a movement does not depend on the previous movement.
             let parent = if before.request() == 0 { EventId::NONE } else { axis.causes.motion };

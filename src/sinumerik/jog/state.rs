@@ -161,6 +161,8 @@ pub(in crate::sinumerik) struct Jogging {
     pub handwheels: u8,
     /// The event behind the assignment.
     pub handwheel_cause: EventId,
+    /// The last turn of a handwheel that moves it.
+    pub turn_cause: EventId,
     /// The direction of the handwheels is inverted, 67.0.
     pub inverted: bool,
     /// The remaining fraction of an increment.

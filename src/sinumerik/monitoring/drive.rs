@@ -4,7 +4,9 @@
 //! raised for a drive that has not started up within [`START_UP_LIMIT`] after 108.5 (drives in cyclic operation). The manuals give no
 //! time.
 
+use crate::image::{axis_from_nck, nck_from_nck};
 use crate::sinumerik::alarms;
+use crate::sinumerik::inputs::{axis_signal, nck_signal};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
@@ -33,6 +35,8 @@ impl State {
             }
             return;
         }
+        let not_ready = axis_signal(number, axis_from_nck::drive_ready, false);
+        let cyclic = nck_signal(nck_from_nck::drives_in_cyclic_operation, true);
         if fault {
             self.raise_monitoring(alarms::DRIVE_FAULT, number, Rule::DriveFault, [Input::None; 3]);
         }
@@ -48,7 +52,12 @@ impl State {
             let (monitor, limit) = (&mut self.axes[number].monitor, START_UP_LIMIT.in_cycles(parameters.cycle));
             monitor.drive_waits = (monitor.drive_waits + 1).min(limit + 1);
             if monitor.drive_waits > limit {
-                self.raise_monitoring(alarms::WAITING_FOR_DRIVE, number, Rule::DriveNotReady, [Input::None; 3]);
+                self.raise_monitoring(
+                    alarms::WAITING_FOR_DRIVE,
+                    number,
+                    Rule::DriveNotReady,
+                    [not_ready, cyclic, Input::None],
+                );
             }
         }
     }

@@ -14,7 +14,9 @@
 //! Switch-over: two referenced encoders must not differ by more than MD36500. An encoder that is not referenced has no position
 //! to compare. Selecting a second measuring system that does not exist according to MD30200 has no effect.
 
+use crate::image::axis_from_nck;
 use crate::sinumerik::alarms;
+use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
@@ -89,7 +91,12 @@ impl State {
             (true, true) => (alarms::ACTIVE_ENCODER_POLLUTION, Rule::EncoderPollution),
             (false, true) => (alarms::PASSIVE_ENCODER_POLLUTION, Rule::EncoderPollution),
         };
-        self.raise_monitoring(alarm, number, rule, [Input::None; 3]);
+        let activated = [
+            axis_from_nck::position_measuring_system_1_activated,
+            axis_from_nck::position_measuring_system_2_activated,
+        ];
+        let selected = axis_signal(number, activated[encoder], self.is_active(number, encoder));
+        self.raise_monitoring(alarm, number, rule, [selected, Input::None, Input::None]);
         let cause = self.alarms.cause(alarm, Place::Axis(number));
         self.lose_reference(number, encoder, cause);
     }

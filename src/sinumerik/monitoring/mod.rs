@@ -21,13 +21,16 @@ mod position;
 mod speed;
 pub(super) mod state;
 
+use crate::image::nck_from_nck;
 use crate::sinumerik::alarms;
+use crate::sinumerik::inputs::nck_signal;
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
+use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, AxisSet};
-use crate::variables::{Parameter, Place};
+use crate::variables::{Input, Parameter, Place, RaisedAlarm};
 
 impl Nck {
     /// The stage "monitoring and alarms".
@@ -45,17 +48,19 @@ impl Nck {
             state.monitor_axis(number, &parameters.axes[number], parameters);
         }
         for fault in &parameters.groupings.faults {
-            let cause = state.definition_cause;
-            state.alarms.raise(fault.alarm, fault.place, fault.parameters, cause);
+            let alarm = RaisedAlarm { number: fault.alarm, place: fault.place, parameters: fault.parameters };
+            state.raise_tested(alarm, state.definition_cause, Rule::ConditionHolds, [Input::None; 3]);
         }
+        let of_nck = |number| RaisedAlarm { number, place: Place::Nck, parameters: [Parameter::None; 4] };
         if let Some(cause) = state.emergency_stop.active_cause() {
-            state.alarms.raise(alarms::EMERGENCY_STOP, Place::Nck, [Parameter::None; 4], cause);
+            let shown = nck_signal(nck_from_nck::emergency_stop_active, true);
+            let inputs = [shown, Input::None, Input::None];
+            state.raise_tested(of_nck(alarms::EMERGENCY_STOP), cause, Rule::EmergencyStop, inputs);
         }
         if state.plc_missing {
-            let cause = state.plc_cause;
-            state.alarms.raise(alarms::PLC_SIGN_OF_LIFE, Place::Nck, [Parameter::None; 4], cause);
+            state.raise_new(of_nck(alarms::PLC_SIGN_OF_LIFE), Rule::PlcMissing, [Input::None; 3], state.plc_cause);
         }
-        state.alarms.settle();
+        state.end_expired(parameters);
     }
 }
 

@@ -39,7 +39,7 @@ impl State {
             ];
             let cause = self.log.note(Place::Nck, Rule::EmergencyStopAcknowledged, inputs, self.emergency_stop.cause);
             self.emergency_stop = EmergencyStop { active: false, cause };
-            self.alarms.cancel(Cancel::ModeGroupReset, |_| true);
+            self.alarms.cancel(Cancel::ModeGroupReset, cause, |_| true);
         }
     }
 }

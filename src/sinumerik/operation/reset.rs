@@ -35,7 +35,8 @@ impl Nck {
         for group in parameters.existing_mode_groups() {
             let mut channels = parameters.existing_channels().filter(|(_, of)| *of == group);
             if channels.all(|(channel, _)| state.channels[channel].reset) {
-                state.alarms.cancel(Cancel::ModeGroupReset, |place| parameters.concerns_mode_group(place, group));
+                let concerns = |place| parameters.concerns_mode_group(place, group);
+                state.alarms.cancel(Cancel::ModeGroupReset, last, concerns);
             }
         }
         self.release_trips();
@@ -67,8 +68,7 @@ impl State {
         let place = Place::Channel(channel);
         let event = self.log.note_one(place, Rule::ResetDone, input, EventId::NONE);
         self.channels[channel].reset_cause = event;
-        self.channels[channel].cancel_cause = event;
-        self.alarms.cancel(Cancel::Reset, |place| parameters.concerns_channel(place, channel));
+        self.alarms.cancel(Cancel::Reset, event, |place| parameters.concerns_channel(place, channel));
         for index in 0..self.groupings.len() {
             let leader = self.groupings[index].coupling.leader();
             if parameters.axes[leader].channel == channel {
@@ -110,43 +110,21 @@ impl State {
         parameters: &Parameters,
     ) {
         let concerns = |place| channel.is_none_or(|channel| parameters.concerns_channel(place, channel));
-        if self.alarms.cancel(by, concerns) {
+        if self.alarms.cancels(by, concerns) {
             let shown = channel.unwrap_or(ChannelNumber::FIRST);
             let event = self.log.note_one(Place::Channel(shown), Rule::AlarmCancelled, pressed, cause);
-            for (number, _) in parameters.existing_channels() {
-                if channel.is_none_or(|channel| channel == number) {
-                    self.channels[number].cancel_cause = event;
-                }
-            }
+            self.alarms.cancel(by, event, concerns);
         }
     }
 
-    /// The alarm that resets "mode group ready" of a group. An alarm that concerns a single axis does not stop the others.
-    pub(in crate::sinumerik) fn mode_group_not_ready(
-        &self,
-        group: ModeGroupNumber,
-        parameters: &Parameters,
-    ) -> Option<EventId> {
-        self.mode_group_alarm(group, parameters).map(|(_, cause)| cause)
-    }
-
-    /// The number of this alarm, and the event behind it.
+    /// The alarm that resets "mode group ready" of a group, and the event behind it. An alarm that concerns a single axis does not stop the
+    /// others.
     pub(in crate::sinumerik) fn mode_group_alarm(
         &self,
         group: ModeGroupNumber,
         parameters: &Parameters,
     ) -> Option<(AlarmNumber, EventId)> {
         self.alarms.first_alarm(|place, alarm| takes_ready(group, parameters, place, alarm))
-    }
-
-    /// The first alarm with a reaction that concerns a channel.
-    pub(in crate::sinumerik) fn channel_alarm(
-        &self,
-        channel: ChannelNumber,
-        reaction: Reaction,
-        parameters: &Parameters,
-    ) -> Option<EventId> {
-        self.alarms.first(|place, alarm| alarm.reaction.has(reaction) && parameters.concerns_channel(place, channel))
     }
 
     /// Whether the axes that need their reference point for NC start are referenced: those with MD34110 above −1, unless MD20700
@@ -157,7 +135,12 @@ impl State {
 }
 
 /// Whether an alarm at this place resets "mode group ready" of a group.
-fn takes_ready(group: ModeGroupNumber, parameters: &Parameters, place: Place, alarm: &Alarm) -> bool {
+pub(in crate::sinumerik) fn takes_ready(
+    group: ModeGroupNumber,
+    parameters: &Parameters,
+    place: Place,
+    alarm: &Alarm,
+) -> bool {
     let only_channel = parameters.only_channel_not_ready && alarm.reaction.has(Reaction::CHANNEL_NOT_READY);
     let not_ready = alarm.reaction.has(Reaction::MODE_GROUP_NOT_READY) && !only_channel;
     not_ready && parameters.concerns_mode_group(place, group)

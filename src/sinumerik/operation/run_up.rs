@@ -1,11 +1,14 @@
 //! Start-up of the control: 104.7, then 108.5, 108.6 and 108.7, a few cycles apart (O-20).
 
+use crate::image::axis_from_nck::drive_ready;
+use crate::image::nck_from_nck::{drives_in_cyclic_operation, drives_ready};
 use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::inputs::{axis_signal, nck_signal};
 use crate::sinumerik::operation::state::RunUp;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
-use crate::variables::{EventId, Place};
+use crate::variables::{EventId, Input, Place};
 
 /// Duration of each step in cycles.
 const STEP: u8 = 2;
@@ -21,13 +24,36 @@ impl State {
         if run_up.cycles < 2 * STEP || run_up.cycles < 3 * STEP && ready {
             run_up.cycles += 1;
         }
-        let steps = |r: &RunUp| (r.is_cpu_ready(), r.are_drives_cyclic(), r.are_drives_ready(), r.is_nc_ready());
-        if steps(&before) != steps(run_up) {
-            // After the start-up, a later change comes from a drive.
-            let drives = parameters.existing.iter().map(|axis| self.axes[axis].monitor.drive_cause);
-            let parent = drives.max().unwrap_or(EventId::NONE);
-            run_up.cause = self.log.note_plain(Place::Nck, Rule::RunUp, parent);
+        let steps = |r: &RunUp| (r.is_cpu_ready(), r.are_drives_cyclic(), r.is_nc_ready());
+        let (stepped, changed) =
+            (steps(&before) != steps(run_up), before.are_drives_ready() != run_up.are_drives_ready());
+        if stepped {
+            // Each step follows the one before; the last one also waits for the drives.
+            let input = if run_up.is_nc_ready() { nck_signal(drives_ready, true) } else { Input::None };
+            let parent = if before.cause.is_some() { before.cause } else { self.power_on_cause };
+            run_up.cause = self.log.note_one(Place::Nck, Rule::RunUp, input, parent);
         }
+        if changed {
+            let shown = run_up.are_drives_ready();
+            self.run_up.drives_cause = self.note_drives(shown, stepped, parameters);
+        }
+    }
+
+    /// 108.6 has changed: the drive that became ready last, or one that is not ready.
+    fn note_drives(&mut self, ready: bool, stepped: bool, parameters: &Parameters) -> EventId {
+        let (cause, without) = (|axis| self.axes[axis].monitor.drive_cause, self.summary.drive_ready);
+        let axis = if ready {
+            parameters.existing.iter().max_by_key(|&axis| cause(axis))
+        } else {
+            parameters.existing.without(without).iter().next()
+        };
+        let silent = axis.is_none_or(|axis| parameters.axes[axis].silent);
+        let shown = |axis| axis_signal(axis, drive_ready, ready);
+        let drive = if silent { Input::None } else { axis.map_or(Input::None, shown) };
+        let cyclic = if ready { nck_signal(drives_in_cyclic_operation, true) } else { Input::None };
+        let parent = if stepped { self.run_up.cause } else { axis.map_or(EventId::NONE, cause) };
+        let rule = if ready { Rule::DrivesReady } else { Rule::DrivesNotReady };
+        self.log.note(Place::Nck, rule, [drive, cyclic, Input::None], parent)
     }
 
     /// 108.7.

@@ -15,8 +15,6 @@ pub(in crate::sinumerik) struct Channel {
     pub reset: bool,
     /// The latest RESET.
     pub reset_cause: EventId,
-    /// The last event that cleared alarms: RESET, the cancel key or NC start.
-    pub cancel_cause: EventId,
     /// NC start in the last cycle.
     pub start_was: bool,
     /// Channel-specific referencing.
@@ -142,6 +140,8 @@ pub(in crate::sinumerik) struct RunUp {
     pub drives_ready: bool,
     /// The event behind the latest step.
     pub cause: EventId,
+    /// The event behind 108.6.
+    pub drives_cause: EventId,
 }
 
 impl RunUp {

@@ -83,6 +83,8 @@ pub struct Gantry {
     pub direction_of_leading_axis: bool,
     /// MD37150 bit 2: no message 10655.
     pub suppress_message: bool,
+    /// MD37150.
+    pub function_mask: u32,
 }
 
 /// One axis.
@@ -258,6 +260,7 @@ fn gantry(md: &Axis, geometry_axis: bool) -> Gantry {
         tripped_difference: Position::from_user(md.gantry_act_pos_tol_error),
         extended_monitoring: md.gantry_function_mask & 1 != 0,
         direction_of_leading_axis: md.gantry_function_mask & 2 != 0,
+        function_mask: md.gantry_function_mask,
         suppress_message: md.gantry_function_mask & 4 != 0,
     }
 }

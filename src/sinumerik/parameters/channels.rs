@@ -16,6 +16,8 @@ pub struct ChannelParameters {
     pub axes: AxisSet,
     /// The axes that need their reference point for NC start: MD34110 above −1, unless MD20700 is 0.
     pub reference_needed: AxisSet,
+    /// MD20700.
+    pub start_locked: bool,
 }
 
 /// All channels.
@@ -30,6 +32,7 @@ pub(in crate::sinumerik) fn channels(
         let needed = own().filter(|(_, axis)| locked && axis.reference.cycle_number > -1);
         ChannelParameters {
             mode_group: data.mode_group(channel),
+            start_locked: locked,
             axes: own().map(|(number, _)| number).collect(),
             reference_needed: needed.map(|(number, _)| number).collect(),
         }

@@ -42,6 +42,8 @@ pub struct Parameters {
     pub handwheel_pulses: [f64; 3],
     /// MD11346 is 0 or 2: a handwheel at standstill drops its remaining distance.
     pub handwheel_drops_rest: bool,
+    /// MD11346.
+    pub handwheel_true_distance: u8,
     /// Number of cycles without a pulse after which a handwheel counts as being at standstill.
     pub handwheel_still_cycles: u64,
     /// MD12000.
@@ -91,6 +93,7 @@ impl Parameters {
                 continuous_held: data.setting.jog_cont_mode_leveltriggrd,
             },
             handwheel_pulses: std::array::from_fn(|index| data.general.handwh_imp_per_latch[index]),
+            handwheel_true_distance: data.general.handwh_true_distance,
             handwheel_drops_rest: data.general.handwh_true_distance.is_multiple_of(2),
             handwheel_still_cycles: Time::from_millis(100).in_cycles(cycle),
             axis_override_is_gray: data.general.ovr_ax_is_gray_code,

@@ -1,53 +1,44 @@
-//! The events behind raised and cleared alarms, for the record.
+//! The events behind alarms, and the causes of the signals that show whether alarms are pending.
 
-use crate::sinumerik::alarms::{self, Alarm, Cancel};
-use crate::sinumerik::gantry::state::Grouping;
+use crate::sinumerik::alarms::Alarm;
 use crate::sinumerik::nck::Nck;
+use crate::sinumerik::publish::rows::Why;
+use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
-use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, EventId, Place};
+use crate::variables::{AlarmNumber, EventId, Input, Place};
 
 impl Nck {
     /// The event behind a pending alarm.
     #[must_use]
     pub fn alarm_cause(&self, number: AlarmNumber, place: Place) -> EventId {
-        let pending = &self.state.alarms;
-        pending
-            .iter()
-            .find(|(alarm, _)| alarm.number == number && alarm.place == place)
-            .map_or(EventId::NONE, |(_, cause)| cause)
+        self.state.alarms.cause(number, place)
     }
 
-    /// The event that cleared an alarm: for an alarm that clears by itself, the latest event of its place; otherwise RESET, a key
-    /// or power on.
+    /// The event that cleared an alarm in this cycle. Power on clears all of them.
     #[must_use]
     pub fn cleared_cause(&self, number: AlarmNumber, place: Place) -> EventId {
-        let state = &*self.state;
-        let cancel = Alarm::find(number).map(|alarm| alarm.cancel);
-        let cause = match (number, place) {
-            (alarms::EMERGENCY_STOP, _) => state.emergency_stop.cause,
-            (alarms::GANTRY_WARNING_LIMIT, Place::Axis(axis)) => state.warning_cause(axis),
-            (alarms::GANTRY_WAITING | alarms::GANTRY_SYNCHRONISING, Place::Axis(axis)) => {
-                let reset = state.channels[self.parameters.axes[axis].channel].reset_cause;
-                state.grouping_of(axis).map_or(EventId::NONE, |grouping| grouping.cause.max(reset))
-            }
-            (alarms::WAITING_FOR_DRIVE, Place::Axis(_)) => state.run_up.cause,
-            (_, Place::Axis(axis)) if cancel == Some(Cancel::ByItself) => state.axes[axis].causes.motion,
-            (_, Place::Axis(axis)) => state.channels[self.parameters.axes[axis].channel].cancel_cause,
-            (_, Place::Channel(channel)) => state.channels[channel].cancel_cause,
-            (_, Place::Nck | Place::ModeGroup(_)) => state.cancel_event(),
-        };
-        if cause.is_some() { cause } else { state.as_after_power_on }
+        let event = self.state.alarms.end_of(number, place);
+        if event.is_some() { event } else { self.state.as_after_power_on }
     }
 }
 
 impl State {
-    fn grouping_of(&self, axis: AxisNumber) -> Option<&Grouping> {
-        self.groupings.iter().find(|grouping| grouping.coupling.leader() == axis)
+    /// The cause of a signal that shows whether an alarm of these is pending: the alarm, or the event that cleared the last one in this
+    /// cycle.
+    pub(super) fn why_alarm(&self, meant: impl Fn(Place, &Alarm) -> bool) -> Why {
+        let Some((number, cause)) = self.alarms.first_alarm(&meant) else {
+            return Why::Event(
+                self.alarms.last_end(|ended| Alarm::find(ended.number).is_some_and(|alarm| meant(ended.place, alarm))),
+            );
+        };
+        if self.log.is_of_this_cycle(cause) {
+            return Why::Event(cause);
+        }
+        Why::Tested(Rule::AlarmPending, [Input::Alarm(number.0), Input::None, Input::None], cause)
     }
 
-    fn warning_cause(&self, axis: AxisNumber) -> EventId {
-        let mut all = self.groupings.iter().flat_map(Grouping::monitored);
-        all.find(|monitored| monitored.axis == axis).map_or(EventId::NONE, |monitored| monitored.causes.warning)
+    /// The first of these events that is of this cycle: each would have caused the change.
+    pub(super) fn of_this_cycle<const N: usize>(&self, events: [EventId; N]) -> Option<Why> {
+        events.into_iter().find(|&event| self.log.is_of_this_cycle(event)).map(Why::Event)
     }
 }

@@ -10,7 +10,7 @@ use crate::sinumerik::publish::rows::{Rows, Why};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
-use crate::variables::{Input, Place, Quantity};
+use crate::variables::{EventId, Input, Place, Quantity};
 
 impl State {
     /// DB31 to DB61 of one axis: the signals that a movement alone can change.
@@ -70,8 +70,7 @@ impl State {
     ) {
         let axis = &self.axes[number];
         let causes = &axis.causes;
-        let channel = parameters.channel;
-        let mode = || self.mode_groups[all.mode_group(channel)].cause();
+        let mode = || self.mode_groups[all.mode_group(parameters.channel)].cause();
         let [first, second] = &axis.monitor.encoders;
         rows.bit(axis_from_nck::encoder_limit_frequency_exceeded_1, first.frequency_exceeded, || {
             Why::Event(first.frequency_cause)
@@ -82,24 +81,30 @@ impl State {
         rows.bit(axis_from_nck::referenced_synchronized_1, axis.referenced[0], || Why::Event(causes.reference[0]));
         rows.bit(axis_from_nck::referenced_synchronized_2, axis.referenced[1], || Why::Event(causes.reference[1]));
         let [current, speed, position] = axis.enabling.controllers();
-        let alarm = self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, Some(Place::Axis(number)));
-        let cancelled = || self.channels[channel].cancel_cause;
-        rows.bit(axis_from_nck::axis_specific_alarm, alarm.is_some(), || Why::Event(alarm.unwrap_or_else(cancelled)));
-        let drive = || axis.monitor.drive_cause;
+        let place = Place::Axis(number);
+        let alarm = self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, Some(place));
+        let why_alarm = || self.why_alarm(|at, alarm| at == place && alarm.reaction.has(Reaction::INTERFACE_SIGNALS));
+        rows.bit(axis_from_nck::axis_specific_alarm, alarm.is_some(), why_alarm);
+        let drive = || Why::Event(axis.monitor.drive_cause);
+        let measuring_system = || Why::Event(causes.measuring_system);
         let ready = axis.drive_ready && axis.measuring_system.is_some() && alarm.is_none();
-        rows.bit(axis_from_nck::axis_ready, ready, || {
-            Why::Event(alarm.unwrap_or_else(|| match axis.measuring_system {
-                None => causes.measuring_system,
-                Some(_) if !axis.drive_ready => drive(),
-                Some(_) => drive().max(causes.measuring_system).max(cancelled()),
-            }))
+        rows.bit(axis_from_nck::axis_ready, ready, || match axis.measuring_system {
+            _ if alarm.is_some() => why_alarm(),
+            None => measuring_system(),
+            Some(_) if !axis.drive_ready => drive(),
+            // Of the three conditions, the drive and the alarms were not fulfilled before if they have changed in this cycle.
+            Some(_) => match (self.of_this_cycle([axis.monitor.drive_cause]), why_alarm()) {
+                (Some(drive), _) => drive,
+                (None, Why::Event(EventId::NONE)) => measuring_system(),
+                (None, cleared) => cleared,
+            },
         });
         // A parked axis has no actual value to follow.
         let follows_up = axis.enabling.follow_up && axis.measuring_system.is_some();
         let enabling = || Why::Event(causes.enabling);
         rows.bit(axis_from_nck::follow_up_active, follows_up, || match axis.measuring_system {
-            None => Why::Event(causes.measuring_system),
-            Some(_) => Why::Event(causes.enabling.max(causes.measuring_system)),
+            None => measuring_system(),
+            Some(_) => self.of_this_cycle([causes.follow_up, causes.measuring_system]).unwrap_or_else(enabling),
         });
         rows.bit(axis_from_nck::position_controller_active, position, enabling);
         rows.bit(axis_from_nck::speed_controller_active, speed, enabling);
@@ -127,9 +132,8 @@ impl State {
             Why::Event(axis.signals.fast_stop_cause)
         });
         rows.number(axis_from_nck::active_drive_data_set, axis.drive_data_set, || Why::Event(causes.drive_data_set));
-        rows.bit(axis_from_nck::drive_ready, axis.drive_ready, || Why::Event(drive()));
+        rows.bit(axis_from_nck::drive_ready, axis.drive_ready, drive);
         rows.bit(axis_from_nck::pulses_enabled, axis.enabling.pulses_enabled(), || Why::Event(causes.drive));
-        let measuring_system = || Why::Event(causes.measuring_system);
         let active = axis.measuring_system;
         rows.bit(axis_from_nck::position_measuring_system_1_activated, active == Some(0), measuring_system);
         rows.bit(axis_from_nck::position_measuring_system_2_activated, active == Some(1), measuring_system);

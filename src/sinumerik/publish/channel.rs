@@ -1,17 +1,16 @@
 //! The signals of a channel: DB21 to DB30.
 
-use std::cmp::Reverse;
-
-use crate::image::channel_from_nck;
-use crate::sinumerik::alarms::Reaction;
+use crate::image::{axis_from_nck, channel_from_nck};
+use crate::sinumerik::alarms::{Alarm, Reaction};
 use crate::sinumerik::axis::travel::command_signal;
+use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::publish::rows::{Rows, Why};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
-use crate::units::{AxisNumber, ChannelNumber};
-use crate::variables::{EventId, Input};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber};
+use crate::variables::{EventId, Input, Place};
 
 impl State {
     /// "At least one axis is being traversed in JOG", or is being referenced; also while feed stop, an override of 0 % or a missing enable
@@ -24,9 +23,6 @@ impl State {
     pub(super) fn show_channel(&self, channel: ChannelNumber, parameters: &Parameters, rows: &mut impl Rows) {
         let active = self.is_channel_active(channel, parameters);
         let motion = || self.activity(|of| of == channel, active, parameters);
-        // The first alarm with the reaction of a group signal; without one, the event that cancelled the last alarm.
-        let alarm = |reaction| self.channel_alarm(channel, reaction, parameters);
-        let or_cancelled = |alarm: Option<EventId>| alarm.unwrap_or(self.channels[channel].cancel_cause);
         rows.bit(channel_from_nck::referencing_active, self.channels[channel].is_referencing(), || {
             Why::Event(self.channels[channel].referencing.cause)
         });
@@ -36,79 +32,139 @@ impl State {
         rows.bit(channel_from_nck::channel_state_reset, !active, motion);
         let referenced = self.is_referenced(channel, parameters);
         rows.bit(channel_from_nck::all_axes_requiring_reference_point_are_referenced, referenced, || {
-            Why::Event(self.reference_event(channel, parameters))
+            self.why_referenced(channel, referenced, parameters)
         });
         let standing = self.summary.standing.has_all_of(parameters.channels[channel].axes);
         rows.bit(channel_from_nck::all_axes_stationary, standing, || {
-            Why::Event(self.motion_event(|of| of == channel, parameters))
+            self.why_stationary(channel, standing, parameters)
         });
-        let not_ready = alarm(Reaction::CHANNEL_NOT_READY);
-        let ready = self.run_up.is_nc_ready() && not_ready.is_none();
-        rows.bit(channel_from_nck::channel_ready, ready, || Why::Event(or_cancelled(not_ready).max(self.run_up.cause)));
-        let pending = alarm(Reaction::INTERFACE_SIGNALS);
-        rows.bit(channel_from_nck::channel_specific_nck_alarm_active, pending.is_some(), || {
-            Why::Event(or_cancelled(pending))
-        });
-        let stopping = alarm(Reaction::STOP);
-        rows.bit(channel_from_nck::nck_alarm_with_machining_stop_active, stopping.is_some(), || {
-            Why::Event(or_cancelled(stopping))
-        });
+        let of_channel = |reaction: Reaction| {
+            move |place: Place, alarm: &Alarm| {
+                alarm.reaction.has(reaction) && parameters.concerns_channel(place, channel)
+            }
+        };
+        let pending = |reaction| self.alarms.first(of_channel(reaction)).is_some();
+        let why = |reaction| move || self.why_alarm(of_channel(reaction));
+        let ready = self.run_up.is_nc_ready() && !pending(Reaction::CHANNEL_NOT_READY);
+        rows.bit(channel_from_nck::channel_ready, ready, || self.why_ready(ready, why(Reaction::CHANNEL_NOT_READY)));
+        let alarm = Reaction::INTERFACE_SIGNALS;
+        rows.bit(channel_from_nck::channel_specific_nck_alarm_active, pending(alarm), why(alarm));
+        let stop = Reaction::STOP;
+        rows.bit(channel_from_nck::nck_alarm_with_machining_stop_active, pending(stop), why(stop));
     }
 
-    /// The event that started or ended the activity of channels.
+    /// The event that started or ended the activity of channels: the axis that began or ended to move in this cycle.
     pub(super) fn activity(
         &self,
         channels: impl Fn(ChannelNumber) -> bool + Copy,
         active: bool,
         parameters: &Parameters,
     ) -> Why {
-        let of_channels = parameters.existing().filter(|(_, axis)| channels(axis.channel)).map(|(number, _)| number);
-        let counts = |axis: &AxisNumber| !active || self.summary.in_motion.contains(*axis);
-        // The axis that started or stopped last; the first of axes that move together.
-        let order = |axis: &AxisNumber| {
-            let commanded = active && self.axes[*axis].travel.is_pending();
-            (commanded, self.axes[*axis].causes.motion, Reverse(*axis))
+        let (now, before) = (self.summary.in_motion, self.summary.before.in_motion);
+        let changed = if active { now.without(before) } else { before.without(now) };
+        // An axis with a command first, then the first of axes that change together.
+        let is_meant = |axis: &AxisNumber| channels(parameters.axes[*axis].channel);
+        let commanded = |axis: &AxisNumber| active && self.axes[*axis].travel.is_pending();
+        let changed: AxisSet = changed.iter().filter(is_meant).collect();
+        let Some(number) = changed.iter().find(commanded).or_else(|| changed.iter().next()) else {
+            return Why::Event(EventId::NONE);
         };
-        let Some(number) = of_channels.filter(counts).max_by_key(order) else { return Why::Event(EventId::NONE) };
         let axis = &self.axes[number];
-        let section_3 = if active && self.synchronising().contains(number) {
-            self.groupings.iter().find(|grouping| grouping.coupling.members().any(|member| member == number))
-        } else {
-            None
-        };
-        let parent = match section_3 {
-            Some(grouping) => grouping.cause,
-            None if active && axis.approach.is_running() => axis.approach.cause(),
-            None => axis.causes.motion,
-        };
-        if self.log.is_of_this_cycle(axis.causes.motion) {
-            return Why::Event(axis.causes.motion);
-        }
-        if section_3.is_some() && self.log.is_of_this_cycle(parent) {
-            return Why::Event(parent);
-        }
         // An axis without signals shows nothing.
         let audible = |input| if parameters.axes[number].silent { Input::None } else { input };
-        if active {
-            let shown = if axis.travel.is_pending() { axis.travel.shown(number, parameters) } else { Input::None };
-            return Why::Tested(Rule::ChannelActive, [audible(shown), Input::None, Input::None], parent);
+        let tested = |rule, first, second, parent: EventId| match self.of_this_cycle([parent]) {
+            Some(event) => event,
+            None => Why::Tested(rule, [audible(first), audible(second), Input::None], parent),
+        };
+        if !active {
+            let [plus, minus] = [1, -1].map(|sign| axis_signal(number, command_signal(sign), false));
+            return tested(Rule::ChannelAtRest, plus, minus, axis.causes.motion);
         }
-        if !parent.is_some() {
+        if axis.travel.is_pending() {
+            return tested(Rule::ChannelActive, axis.travel.shown(number, parameters), Input::None, axis.causes.motion);
+        }
+        if axis.approach.is_running() {
+            return tested(Rule::ChannelActive, Input::None, Input::None, axis.approach.cause());
+        }
+        let section_3 = self.groupings.iter().find(|grouping| {
+            grouping.phase == Phase::Synchronising && grouping.coupling.members().any(|member| member == number)
+        });
+        if let Some(grouping) = section_3 {
+            return tested(Rule::ChannelActive, Input::None, Input::None, grouping.cause);
+        }
+        let follow_up = axis_signal(number, axis_from_nck::follow_up_active, axis.enabling.follow_up);
+        tested(Rule::ChannelActive, follow_up, Input::None, axis.causes.movement())
+    }
+
+    /// The cause of 36.3: the axis that is no longer stationary, or that was the last one.
+    fn why_stationary(&self, channel: ChannelNumber, standing: bool, parameters: &Parameters) -> Why {
+        let (now, before) = (self.summary.standing, self.summary.before.standing);
+        let changed = if standing { now.without(before) } else { before.without(now) };
+        let Some(number) = changed.and(parameters.channels[channel].axes).iter().next() else {
             return Why::Event(EventId::NONE);
+        };
+        let rule = if standing { Rule::AllStationary } else { Rule::NotAllStationary };
+        let input = if parameters.axes[number].silent {
+            Input::None
+        } else {
+            axis_signal(number, axis_from_nck::axis_stationary, standing)
+        };
+        Why::Tested(rule, [input, Input::None, Input::None], self.axes[number].causes.movement())
+    }
+
+    /// The cause of 36.2: the axis that is no longer referenced, or that was the last one; or machine data.
+    fn why_referenced(&self, channel: ChannelNumber, referenced: bool, parameters: &Parameters) -> Why {
+        let (now, before) = (self.summary.referenced, self.summary.before.referenced);
+        let changed = if referenced { now.without(before) } else { before.without(now) };
+        let rule = if referenced { Rule::ChannelReferenced } else { Rule::ChannelNotReferenced };
+        let channels = &parameters.channels[channel];
+        if let Some(number) = changed.and(channels.reference_needed).iter().next() {
+            let (inputs, parent) = self.reference_inputs(number, parameters);
+            return Why::Tested(rule, inputs, parent);
         }
-        let [plus, minus] = [1, -1].map(|sign| audible(axis_signal(number, command_signal(sign), false)));
-        Why::Tested(Rule::ChannelAtRest, [plus, minus, Input::None], parent)
+        let cycle = |number| {
+            let cycle = f64::from(parameters.axes[number].reference.cycle_number);
+            Input::Datum(34110, Some(number), cycle)
+        };
+        let lock = Input::Datum(20700, None, f64::from(u8::from(channels.start_locked)));
+        let mut data = channels.axes.iter().map(cycle).chain([lock]);
+        let datum = data.find(|datum| self.log.is_new(datum));
+        datum.map_or(Why::Event(EventId::NONE), |datum| {
+            Why::Tested(rule, [datum, Input::None, Input::None], EventId::NONE)
+        })
     }
 
-    /// The latest movement of any axis of these channels.
-    pub(super) fn motion_event(&self, channels: impl Fn(ChannelNumber) -> bool, parameters: &Parameters) -> EventId {
-        let axes = parameters.existing().filter(|(_, axis)| channels(axis.channel));
-        axes.map(|(number, _)| self.axes[number].causes.motion).max().unwrap_or(EventId::NONE)
-    }
-
-    fn reference_event(&self, channel: ChannelNumber, parameters: &Parameters) -> EventId {
-        let axes = parameters.existing().filter(|(_, axis)| axis.channel == channel);
-        let causes = axes.map(|(number, _)| self.axes[number].causes.reference);
-        causes.map(|[first, second]| first.max(second)).max().unwrap_or(EventId::NONE)
+    /// Whether the active measuring system of an axis is referenced, as inputs, and the event behind it.
+    pub(in crate::sinumerik) fn reference_inputs(
+        &self,
+        number: AxisNumber,
+        parameters: &Parameters,
+    ) -> ([Input; 3], EventId) {
+        use axis_from_nck::{
+            position_measuring_system_1_activated, position_measuring_system_2_activated, referenced_synchronized_1,
+            referenced_synchronized_2,
+        };
+        let axis = &self.axes[number];
+        let shown = |signal, value| {
+            if parameters.axes[number].silent { Input::None } else { axis_signal(number, signal, value) }
+        };
+        let (reference, selected) = (axis.causes.reference, axis.causes.measuring_system);
+        match axis.measuring_system {
+            None => {
+                let first = shown(position_measuring_system_1_activated, false);
+                let second = shown(position_measuring_system_2_activated, false);
+                ([first, second, Input::None], selected)
+            }
+            Some(0) => {
+                let value = shown(referenced_synchronized_1, axis.referenced[0]);
+                let active = shown(position_measuring_system_1_activated, true);
+                ([value, active, Input::None], reference[0].max(selected))
+            }
+            Some(_) => {
+                let value = shown(referenced_synchronized_2, axis.referenced[1]);
+                let active = shown(position_measuring_system_2_activated, true);
+                ([value, active, Input::None], reference[1].max(selected))
+            }
+        }
     }
 }

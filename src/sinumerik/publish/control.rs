@@ -3,6 +3,7 @@
 use crate::image::{mode_group_from_nck, mode_group_hmi, nck_from_nck};
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::jog::state::{Function, Handwheel};
+use crate::sinumerik::operation::reset::takes_ready;
 use crate::sinumerik::operation::state::{MachineFunction, Mode};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::publish::rows::{Rows, Why};
@@ -16,11 +17,10 @@ impl State {
     pub(super) fn show_nck(&self, parameters: &Parameters, rows: &mut impl Rows) {
         let run_up = || Why::Event(self.run_up.cause);
         let [first, second, third] = &self.handwheels;
-        let turned = |handwheel: &Handwheel| {
-            if self.log.is_of_this_cycle(handwheel.cause) {
-                return Why::Event(handwheel.cause);
-            }
-            Why::Tested(Rule::HandwheelTurned, [Input::None; 3], handwheel.cause)
+        // A counter that no turn has changed was reset by power on.
+        let turned = |handwheel: &Handwheel| match handwheel.cause {
+            EventId::NONE => Why::Event(EventId::NONE),
+            turn => Why::Tested(Rule::HandwheelTurned, [Input::None; 3], turn),
         };
         rows.number(nck_from_nck::handwheel_1_moved, first.counter, || turned(first));
         rows.number(nck_from_nck::handwheel_2_moved, second.counter, || turned(second));
@@ -34,18 +34,20 @@ impl State {
             Why::Event(self.emergency_stop.cause)
         });
         rows.bit(nck_from_nck::drives_in_cyclic_operation, self.run_up.are_drives_cyclic(), run_up);
-        rows.bit(nck_from_nck::drives_ready, self.run_up.are_drives_ready(), run_up);
+        rows.bit(nck_from_nck::drives_ready, self.run_up.are_drives_ready(), || Why::Event(self.run_up.drives_cause));
         rows.bit(nck_from_nck::nc_ready, self.is_nc_ready(), || {
-            Why::Event(if self.run_up.is_nc_ready() && !self.is_nc_ready() {
-                self.any_alarm_event(Reaction::NC_NOT_READY)
-            } else {
-                self.run_up.cause
-            })
+            let alarm = || self.why_alarm(|_, alarm| alarm.reaction.has(Reaction::NC_NOT_READY));
+            self.why_ready(self.is_nc_ready(), alarm)
         });
         let alarm = self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, None);
         rows.bit(nck_from_nck::nc_alarm_active, alarm.is_some(), || {
-            Why::Event(self.any_alarm_event(Reaction::INTERFACE_SIGNALS))
+            self.why_alarm(|_, alarm| alarm.reaction.has(Reaction::INTERFACE_SIGNALS))
         });
+    }
+
+    /// The cause of a ready signal: the end of start-up, or the alarms that reset it.
+    pub(super) fn why_ready(&self, ready: bool, alarm: impl Fn() -> Why) -> Why {
+        if ready && let Some(started) = self.of_this_cycle([self.run_up.cause]) { started } else { alarm() }
     }
 
     /// DB11 of one mode group.
@@ -55,10 +57,11 @@ impl State {
         rows.bit(mode_group_from_nck::active_mode_automatic, group.mode == Mode::Automatic, mode);
         rows.bit(mode_group_from_nck::active_mode_mdi, group.mode == Mode::Mda, mode);
         rows.bit(mode_group_from_nck::active_mode_jog, group.mode == Mode::Jog, mode);
-        let not_ready = self.mode_group_not_ready(number, parameters);
+        let not_ready = self.mode_group_alarm(number, parameters);
         let ready = self.run_up.is_nc_ready() && not_ready.is_none();
         rows.bit(mode_group_from_nck::mode_group_ready, ready, || {
-            Why::Event(not_ready.unwrap_or_else(|| self.cancel_event()).max(self.run_up.cause))
+            let alarm = || self.why_alarm(|place, alarm| takes_ready(number, parameters, place, alarm));
+            self.why_ready(ready, alarm)
         });
         let mut channels = parameters.existing_channels().filter(|(_, group)| *group == number);
         let reset = channels.all(|(channel, _)| !self.is_channel_active(channel, parameters));
@@ -82,14 +85,5 @@ impl State {
     pub(super) fn show_selection(&self, number: ModeGroupNumber, rows: &mut impl Rows) {
         let group = &self.mode_groups[number];
         rows.bit(mode_group_hmi::ref_selected, group.is_referencing(), || Why::Event(group.function_cause));
-    }
-
-    fn any_alarm_event(&self, reaction: Reaction) -> EventId {
-        self.alarms.with_reaction(reaction, None).unwrap_or_else(|| self.cancel_event())
-    }
-
-    /// The last event that cleared alarms, in any channel.
-    pub(super) fn cancel_event(&self) -> EventId {
-        self.channels.iter().map(|(_, channel)| channel.cancel_cause).max().unwrap_or(EventId::NONE)
     }
 }
