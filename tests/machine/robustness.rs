@@ -632,11 +632,23 @@ impl Bench {
         })
     }
 
-    /// Checks that a synchronised grouping has no difference above its trip limit without 101.2 and alarm 10653.
+    /// Checks that all axes of a grouping that is synchronised or ready are referenced, and that a synchronised one has no difference above
+    /// its trip limit without 101.2 and alarm 10653.
     fn check_synchronism(&self) -> Result<(), TestCaseError> {
         let (memory, variables) = (self.machine.memory(), self.machine.variables());
         for grouping in &self.groupings {
-            if !memory.from_nck().axes[grouping.leader].gantry_grouping_is_synchronized() {
+            let leader = &memory.from_nck().axes[grouping.leader];
+            let (synchronised, ready) =
+                (leader.gantry_grouping_is_synchronized(), leader.gantry_synchronization_ready_to_start());
+            let mut members = std::iter::once(grouping.leader).chain(grouping.followers.iter().copied());
+            let unreferenced = members.find(|&axis| {
+                let signals = &memory.from_nck().axes[axis];
+                !signals.referenced_synchronized_1() && !signals.referenced_synchronized_2()
+            });
+            ensure(!(synchronised || ready) || unreferenced.is_none(), self, || {
+                format!("101.4 or 101.5 of axis {} with an axis that is not referenced", grouping.leader.number())
+            })?;
+            if !synchronised {
                 continue;
             }
             for (&axis, target) in grouping.followers.iter().zip(&grouping.trip_limits) {

@@ -194,37 +194,23 @@ impl Grouping {
         self.open_or_close(view, log, wants);
         let (axes, phase) = (view.axes, self.phase);
         let follower = self.coupling.members().find(|&axis| axes[axis].enabling.follow_up);
-        let unreferenced = self.coupling.members().find(|&axis| !axes[axis].is_referenced());
         let followed_up = std::mem::replace(&mut self.followed_up, follower.is_some());
-        let lost = follower
-            .map(|axis| {
-                (
-                    Rule::SynchronismLostFollowUp,
-                    axis_signal(axis, axis_from_nck::follow_up_active, true),
-                    axes[axis].causes.enabling,
-                )
-            })
-            .or_else(|| {
-                let axis = unreferenced?;
-                let (causes, active) = (axes[axis].causes, axes[axis].measuring_system.unwrap_or(0));
-                let cause = causes.reference[usize::from(active)].max(causes.measuring_system);
-                Some((Rule::SynchronismLostReference, axis_signal(axis, referenced_signal(active), false), cause))
-            });
-        match (phase, lost) {
-            (Phase::Synchronised, Some((rule, input, cause))) => {
-                self.step(log, rule, [input, Input::None, Input::None], cause);
-            }
-            (Phase::WaitingForStart | Phase::Synchronising, Some((_, input, cause))) => {
-                self.end_ready(input, cause, log, wants);
-            }
-            (Phase::WaitingForStart | Phase::Synchronising, None) => {
+        let keeps = !self.lose_synchronism(view, log, wants);
+        match phase {
+            Phase::WaitingForStart | Phase::Synchronising if keeps => {
                 if let Some((axis, cause)) = self.tripped() {
                     let trip = axis_signal(axis, axis_from_nck::gantry_trip_limit_exceeded, true);
                     self.end_ready(trip, cause, log, wants);
                 }
             }
-            (Phase::NotSynchronised, None) => self.make_ready(view, log),
-            _ => {}
+            Phase::NotSynchronised if keeps => self.make_ready(view, log),
+            Phase::WaitingForStart
+            | Phase::Synchronising
+            | Phase::NotSynchronised
+            | Phase::ReferencingLeadingAxis
+            | Phase::ReferencingSynchronousAxis
+            | Phase::Synchronised
+            | Phase::Open => {}
         }
         if followed_up && follower.is_none() {
             // Differences that are not absolute count from the present positions.
@@ -232,7 +218,7 @@ impl Grouping {
             self.returning = true;
             self.coupling.clear_bases();
         }
-        self.extended.ready |= unreferenced.is_none();
+        self.extended.ready |= self.coupling.members().all(|axis| axes[axis].is_referenced());
         // If an enable is missing on another axis, follow-up ends in hold.
         let back = self.coupling.members().all(|axis| axes[axis].enabling.is_on());
         if back && std::mem::take(&mut self.returning) {
@@ -242,6 +228,34 @@ impl Grouping {
                 self.coupling.keep_bases(axes);
             }
         }
+    }
+
+    /// Follow-up or the loss of a reference takes synchronism and readiness. Returns whether one of them is there.
+    ///
+    /// It is called again after monitoring: a reference that an encoder fault takes there takes synchronism in the same cycle.
+    pub(in crate::sinumerik) fn lose_synchronism(&mut self, view: &View<'_>, log: &mut Log, wants: &mut Wants) -> bool {
+        let axes = view.axes;
+        let follower = self.coupling.members().find(|&axis| axes[axis].enabling.follow_up);
+        let unreferenced = self.coupling.members().find(|&axis| !axes[axis].is_referenced());
+        let (rule, input, cause) = if let Some(axis) = follower {
+            let signal = axis_signal(axis, axis_from_nck::follow_up_active, true);
+            (Rule::SynchronismLostFollowUp, signal, axes[axis].causes.enabling)
+        } else if let Some(axis) = unreferenced {
+            let (causes, active) = (axes[axis].causes, axes[axis].measuring_system.unwrap_or(0));
+            let cause = causes.reference[usize::from(active)].max(causes.measuring_system);
+            (Rule::SynchronismLostReference, axis_signal(axis, referenced_signal(active), false), cause)
+        } else {
+            return false;
+        };
+        match self.phase {
+            Phase::Synchronised => self.step(log, rule, [input, Input::None, Input::None], cause),
+            Phase::WaitingForStart | Phase::Synchronising => self.end_ready(input, cause, log, wants),
+            Phase::NotSynchronised
+            | Phase::ReferencingLeadingAxis
+            | Phase::ReferencingSynchronousAxis
+            | Phase::Open => {}
+        }
+        true
     }
 
     /// The grouping is no longer ready; this also ends a synchronising motion.

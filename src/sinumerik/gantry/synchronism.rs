@@ -66,11 +66,12 @@ impl State {
         }
     }
 
-    /// Differences, their alarms, and the messages of section 3.
+    /// A reference that was lost in this cycle, differences, their alarms, and the messages of section 3.
     pub(in crate::sinumerik) fn monitor_grouping(&mut self, index: usize, parameters: &Parameters) {
         let defined = self.definition_cause;
         self.ask(index, parameters, |grouping, view, log, wants| {
             grouping.count_shown();
+            grouping.lose_synchronism(view, log, wants);
             grouping.monitor(view, defined, log, wants);
             wants.extend(grouping.message(view));
         });

@@ -131,7 +131,7 @@ impl State {
         }
     }
 
-    /// The reference of a measuring system is lost. Synchronism is lost in the next cycle.
+    /// The reference of a measuring system is lost. Synchronism is lost in the same cycle.
     fn lose_reference(&mut self, number: AxisNumber, encoder: usize, cause: EventId) {
         let axis = &mut self.axes[number];
         if std::mem::take(&mut axis.referenced[encoder]) {

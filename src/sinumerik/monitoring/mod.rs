@@ -37,15 +37,15 @@ impl Nck {
     pub(super) fn monitor(&mut self) {
         let awake = self.awake();
         let (parameters, state) = (&*self.parameters, &mut *self.state);
+        for number in awake.iter() {
+            state.monitor_axis(number, &parameters.axes[number], parameters);
+        }
         for index in 0..state.groupings.len() {
             let members: AxisSet = state.groupings[index].coupling.members().collect();
             if awake.and(members).is_empty() {
                 continue;
             }
             state.monitor_grouping(index, parameters);
-        }
-        for number in awake.iter() {
-            state.monitor_axis(number, &parameters.axes[number], parameters);
         }
         for fault in &parameters.groupings.faults {
             let alarm = RaisedAlarm { number: fault.alarm, place: fault.place, parameters: fault.parameters };
