@@ -117,9 +117,6 @@ fn act() -> impl Strategy<Value = Act> {
 /// The number of kinds of faults.
 const FAULTS: u8 = 13;
 
-/// The last kind of fault.
-const DRIFT: u8 = 12;
-
 const MACHINES: [&str; 6] =
     ["g1_example", "two_synchronous_axes", "eight_groupings", "rotary_gantry", "minus_direction", "three_channels"];
 
@@ -168,6 +165,15 @@ struct Grouping {
     trip_limits: Vec<Target>,
 }
 
+/// The movements that the faults of a slide may make without power. Friction and an encoder slip move nothing.
+#[derive(Clone, Copy, Default)]
+struct Acting {
+    /// The pushes that take effect in the next cycle, in increments.
+    pushed: i64,
+    /// The velocity of its drift, in increments per second.
+    drift: f64,
+}
+
 /// A machine, its state in the previous cycle, and the locations of its signals.
 struct Bench {
     machine: Machine,
@@ -183,9 +189,8 @@ struct Bench {
     before: Vec<Before>,
     /// Power was switched on in this cycle, so earlier states are ignored.
     fresh: bool,
-    pushed: bool,
-    /// Slides have drifted since they were last tidied.
-    drifts: bool,
+    /// Per axis number: what the faults of its slide may do.
+    faults: Vec<Acting>,
     steps: u64,
     hash: u64,
     /// The record since the bench was opened, to judge the causes in it.
@@ -197,6 +202,7 @@ struct Before {
     setpoint: i64,
     step: i64,
     velocity: f64,
+    slide: i64,
     systems: (bool, bool),
 }
 
@@ -242,8 +248,7 @@ impl Bench {
             mode_bits,
             before: vec![Before::default(); AxisNumber::MAX as usize + 1],
             fresh: true,
-            pushed: false,
-            drifts: false,
+            faults: vec![Acting::default(); AxisNumber::MAX as usize + 1],
             steps: 0,
             hash: 0xcbf2_9ce4_8422_2325,
             twin: with_twin.then(|| machine.fork().unwrap()),
@@ -264,11 +269,15 @@ impl Bench {
     }
 
     fn queue(&mut self, command: Command) {
-        // A value that does not fit is rejected and has no effect.
+        self.accepts(command);
+    }
+
+    /// Queues a command. Returns whether it was accepted: a value that does not fit is rejected and has no effect.
+    fn accepts(&mut self, command: Command) -> bool {
         if let Some(twin) = &mut self.twin {
             let _ = twin.queue(command.clone());
         }
-        let _ = self.machine.queue(command);
+        self.machine.queue(command).is_ok()
     }
 
     fn datum(&mut self, target: &str, value: f64) {
@@ -467,10 +476,15 @@ impl Bench {
             Act::Cancel => self.queue(Command::Cancel),
             Act::PlcStop(stop) => self.queue(if stop { Command::PlcStop } else { Command::PlcRun }),
             Act::Fault(axis, kind, size) => {
-                self.pushed |= kind == 1;
-                self.drifts |= kind == DRIFT;
                 let fault = self.fault(axis, kind, size);
-                self.queue(Command::Fault(fault));
+                if self.accepts(Command::Fault(fault)) {
+                    let acting = &mut self.faults[usize::from(fault.axis.number())];
+                    match fault.kind {
+                        FaultKind::Push { by } => acting.pushed += by.increments().abs(),
+                        FaultKind::Drift { by } => acting.drift = by,
+                        _ => {}
+                    }
+                }
             }
             Act::ClearFault(axis, kind) => {
                 let fault = self.fault(axis, kind, 0);
@@ -529,7 +543,7 @@ impl Bench {
         for axis in self.axes.clone() {
             self.release_override(axis);
         }
-        self.drifts = false;
+        self.faults.iter_mut().for_each(|acting| acting.drift = 0.0);
         self.queue(Command::PlcRun);
         self.enable_all();
         self.acknowledge()?;
@@ -560,7 +574,8 @@ impl Bench {
         self.check_synchronism()
     }
 
-    /// Checks that no axis has both directions, and that no speed increases without the enables of all axes of a unit.
+    /// Checks that no axis has both directions, that no setpoint accelerates without the enables of all axes of a unit, and that no slide moves
+    /// without power, except as its faults may move it.
     fn check_axes(&mut self) -> Result<(), TestCaseError> {
         let memory = self.machine.memory();
         let enabled = |axis: AxisNumber| {
@@ -578,6 +593,7 @@ impl Bench {
                 setpoint,
                 step: setpoint - before.setpoint,
                 velocity: values.velocity,
+                slide: values.slide.increments(),
                 systems: (
                     signals.position_measuring_system_1_activated(),
                     signals.position_measuring_system_2_activated(),
@@ -606,20 +622,30 @@ impl Bench {
                     )
                 })?;
             }
-            let unpowered = !signals.position_controller_active();
-            if !self.fresh && !self.pushed && !self.drifts && unpowered {
-                ensure(now.velocity.abs() <= before.velocity.abs() + 1e-6, self, || {
+            let Acting { pushed, drift } = std::mem::take(&mut self.faults[usize::from(axis.number())]);
+            self.faults[usize::from(axis.number())].drift = drift;
+            if !self.fresh && !signals.position_controller_active() {
+                // Increments per second in mm/min or rev/min.
+                let per_turn = if axial(&self.machine, 30300, axis) == 0.0 { 1.0 } else { 360.0 };
+                let user = Position::PER_USER_UNIT * per_turn / 60.0;
+                let allowed = before.velocity.abs().max(drift.abs() / user);
+                ensure(now.velocity.abs() <= allowed + 1e-6, self, || {
                     format!(
-                        "axis {} accelerates without power: {} after {}",
+                        "axis {} accelerates without power: {} after {}, drift {drift}",
                         axis.number(),
                         now.velocity,
                         before.velocity
                     )
                 })?;
+                let moved = (now.slide - before.slide).abs();
+                let way = allowed * user * self.machine.cycle_time().seconds() + pushed as f64 + ROUNDING as f64;
+                ensure(moved as f64 <= way, self, || {
+                    format!("slide {} moves by {moved} without power, {way} allowed", axis.number())
+                })?;
             }
             self.before[usize::from(axis.number())] = now;
         }
-        (self.fresh, self.pushed) = (false, false);
+        self.fresh = false;
         Ok(())
     }
 
