@@ -53,7 +53,7 @@ fn parse_edge(edge: &str) -> Result<(&str, Time), Problem> {
     parsed.filter(|(what, _)| !what.is_empty()).ok_or_else(|| {
         Problem::new(
             format!("expected SIGNAL@TIME or alarm(NUMBER)@TIME, found `{edge}`"),
-            "write `X.gantry_grouping_is_synchronized@8.068`, `DB31.DBX101.5@9s` or `alarm(10654)@7.6`",
+            "write `X.gantry_grouping_is_synchronized@8.068`, `DB31.DBX101.5@9s`, `alarm(10654)@7.6`, `power_on@2` or `fault drive_fault[XF]@3`",
         )
     })
 }

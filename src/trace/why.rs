@@ -23,14 +23,16 @@ pub struct Story {
     causes: Vec<Cause>,
 }
 
-/// A change of a signal or an alarm.
+/// A change of a signal or an alarm, or a happening.
 #[derive(Clone, Debug, PartialEq)]
 struct Edge {
     time: Time,
-    /// The symbol, or the address if there is no symbol; `alarm(10654)` for an alarm.
+    /// The symbol, or the address if there is no symbol; `alarm(10654)` for an alarm; `fault drive_fault`, `MD37110` for a happening.
     name: String,
-    /// The address, or the place of an alarm.
+    /// The address, or the place of an alarm or a happening.
     address: String,
+    /// The kind of a happening: `power_on`, `fault_set`.
+    happened: Option<String>,
     /// The new value, such as `1` or `raised`.
     new: String,
     /// `0 -> 1`, `raised`.
@@ -68,11 +70,23 @@ impl Edge {
     fn of(line: &Line) -> Option<Self> {
         let time = line.time;
         match &line.kind {
-            LineKind::Note(_) | LineKind::Happening(_) | LineKind::Value(..) => None,
+            LineKind::Note(_) | LineKind::Value(..) => None,
+            LineKind::Happening(happening) => Some(Self {
+                time,
+                name: happening.what.split(" = ").next().unwrap_or_default().to_owned(),
+                address: happening.place.clone(),
+                happened: Some(happening.kind.to_owned()),
+                new: happening.change.to_owned(),
+                change: happening.change.to_owned(),
+                by: by_in_words(happening.by).to_owned(),
+                because: happening.because.clone(),
+                event: happening.event,
+            }),
             LineKind::Signal(signal) => Some(Self {
                 time,
                 name: signal.symbol.clone().unwrap_or_else(|| signal.address.clone()),
                 address: signal.address.clone(),
+                happened: None,
                 new: signal.new.to_string(),
                 change: format!("{} -> {}", signal.old, signal.new),
                 by: by_in_words(signal.by).to_owned(),
@@ -85,6 +99,7 @@ impl Edge {
                     time,
                     name: format!("alarm({})", alarm.name),
                     address: alarm.place.clone(),
+                    happened: None,
                     new: state.to_owned(),
                     change: state.to_owned(),
                     by: "nck".to_owned(),
@@ -93,6 +108,21 @@ impl Edge {
                 })
             }
         }
+    }
+}
+
+impl Edge {
+    /// Whether it is a change of this name: a symbol or an address, `alarm(10654)`, or for a happening its name with or without its place
+    /// (`fault drive_fault`, `MD37110[XF]`, `power`) or its kind (`power_on`).
+    fn is_of(&self, what: &str) -> bool {
+        match &self.happened {
+            None => self.name == what || (self.address == what && !self.name.starts_with("alarm(")),
+            Some(kind) => self.name == what || kind == what || self.name_with_place() == what,
+        }
+    }
+
+    fn name_with_place(&self) -> String {
+        if self.happened.is_some() { format!("{}[{}]", self.name, self.address) } else { self.name.clone() }
     }
 }
 
@@ -123,8 +153,12 @@ impl Story {
         let text = |key: &str| line.get(key).and_then(Value::as_str).map(str::to_owned);
         let number = |key: &str| line.get(key).and_then(Value::as_u64).and_then(|n| u32::try_from(n).ok()).unwrap_or(0);
         let (because, event) = (text("because"), number("event"));
-        if line.get("happened").is_some() {
-            // Its event has a line of its own.
+        if let Some(kind) = text("happened") {
+            let object = ["fault", "machine_data", "handwheel"].into_iter().find_map(|key| line.get(key));
+            let (name, change) = happening_of_kind(&kind, &plain(object));
+            let (address, by) = (text("where").unwrap_or_default(), text("by").unwrap_or_default());
+            let (new, change) = (change.to_owned(), change.to_owned());
+            self.edges.push(Edge { time, name, address, happened: Some(kind), new, change, by, because, event });
             return;
         }
         if let Some(address) = text("signal") {
@@ -138,7 +172,7 @@ impl Story {
             let change = format!("{old} -> {new}");
             let name = text("symbol").unwrap_or_else(|| address.clone());
             let by = text("by").unwrap_or_default();
-            self.edges.push(Edge { time, name, address, new, change, by, because, event });
+            self.edges.push(Edge { time, name, address, happened: None, new, change, by, because, event });
         } else if let Some(alarm) = line.get("alarm") {
             let state = text("state").unwrap_or_default();
             let (name, address) = (format!("alarm({})", plain(Some(alarm))), text("where").unwrap_or_default());
@@ -146,6 +180,7 @@ impl Story {
                 time,
                 name,
                 address,
+                happened: None,
                 new: state.clone(),
                 change: state,
                 by: "nck".into(),
@@ -166,18 +201,23 @@ impl Story {
         }
     }
 
-    /// The chain of causes of the last edge of a signal (symbol or address) or an alarm (`alarm(10654)`) at or before a time.
+    /// The chain of causes of the last edge of a signal (symbol or address), an alarm (`alarm(10654)`) or a happening (`power_on`,
+    /// `fault drive_fault[XF]`, `MD37110[XF]`) at or before a time.
     ///
     /// # Errors
     /// There is no such edge, or the trace does not contain this name.
     pub fn why(&self, what: &str, time: Time) -> Result<String, Problem> {
-        let is_meant = |edge: &&Edge| edge.name == what || (edge.address == what && !edge.name.starts_with("alarm("));
-        let mut all = self.edges.iter().enumerate().filter(|(_, edge)| is_meant(edge)).peekable();
+        let mut all = self.edges.iter().enumerate().filter(|(_, edge)| edge.is_of(what)).peekable();
         let Some((_, first)) = all.peek() else {
-            let names = self.edges.iter().flat_map(|edge| [edge.name.as_str(), edge.address.as_str()]);
-            let fallback = "it did not change, or the trace does not watch it; write a symbol or an address";
+            let signals = self.edges.iter().filter(|edge| edge.happened.is_none());
+            let happened: Vec<_> =
+                self.edges.iter().filter(|edge| edge.happened.is_some()).map(Edge::name_with_place).collect();
+            let names = signals.flat_map(|edge| [edge.name.as_str(), edge.address.as_str()]);
+            let names = names.chain(happened.iter().map(String::as_str));
+            let fallback =
+                "it did not change, or the trace does not watch it; write a symbol, an address or a happening";
             return Err(Problem::new(
-                format!("expected a signal that changes in the trace, found `{what}`"),
+                format!("expected a signal or a happening of the trace, found `{what}`"),
                 did_you_mean(what, names, fallback),
             ));
         };
@@ -221,7 +261,7 @@ enum Follow<'a> {
 impl<'a> Chain<'a> {
     fn new(story: &'a Story) -> Self {
         let mut by_value: BTreeMap<_, Vec<usize>> = BTreeMap::new();
-        for (index, edge) in story.edges.iter().enumerate() {
+        for (index, edge) in story.edges.iter().enumerate().filter(|(_, edge)| edge.happened.is_none()) {
             by_value.entry((edge.address.as_str(), edge.new.as_str())).or_default().push(index);
             if edge.name != edge.address {
                 by_value.entry((edge.name.as_str(), edge.new.as_str())).or_default().push(index);
@@ -312,6 +352,30 @@ impl<'a> Chain<'a> {
             let why = if changes { "from the start" } else { "without an edge in this trace" };
             self.timeless_row(depth, &format!("{name} ({address})  {new}  {why}"));
         }
+    }
+}
+
+/// The name of a happening of this kind with this object, and its change, as in the rows of a trace.
+fn happening_of_kind(kind: &str, object: &str) -> (String, &'static str) {
+    let datum = || {
+        // `37110[2,XF]` is MD37110[2] of XF, which is its place.
+        let (number, inside) = object.split_once('[').unwrap_or((object, ""));
+        let index = inside.split([',', ']']).next().filter(|index| index.parse::<u8>().is_ok());
+        format!("MD{number}{}", index.map(|index| format!("[{index}]")).unwrap_or_default())
+    };
+    match kind {
+        "power_on" => ("power".to_owned(), "on"),
+        "set_machine_data_active" => ("set MD active".to_owned(), "pressed"),
+        "cancel_key" => ("cancel key".to_owned(), "pressed"),
+        "plc_stopped" => ("PLC".to_owned(), "stopped"),
+        "plc_started" => ("PLC".to_owned(), "started"),
+        "plc_cold_restart" => ("PLC".to_owned(), "cold restart"),
+        "machine_datum_stored" => (datum(), "stored"),
+        "machine_datum_active" => (datum(), "active"),
+        "fault_set" => (format!("fault {object}"), "set"),
+        "fault_cleared" => (format!("fault {object}"), "cleared"),
+        "handwheel_turned" => (format!("handwheel {object}"), "turned"),
+        other => (other.to_owned(), "happened"),
     }
 }
 

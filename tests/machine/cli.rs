@@ -132,6 +132,7 @@ fn why_follows_an_edge_back_to_the_written_signal() {
     let output = opennck(&["why", "t.jsonl", "alarm(10654)@7.6"], &directory);
     assert!(out(&output).contains("alarm(10654) (X)  raised  by nck\n    7.558    because REF-11"), "{}", out(&output));
     for (trace, edge, cause) in [
+        ("t.jsonl", "MD37110[X]@9", "expected a signal or a happening of the trace, found `MD37110[X]`"),
         ("t.jsonl", "X.gantry_axis", "expected SIGNAL@TIME or alarm(NUMBER)@TIME"),
         ("t.jsonl", "X.gantry_axis@soon", "expected SIGNAL@TIME or alarm(NUMBER)@TIME"),
         ("t.jsonl", "X.gantri_axis@1", "did you mean `X.gantry_axis`?"),
@@ -143,6 +144,39 @@ fn why_follows_an_edge_back_to_the_written_signal() {
         assert_eq!(output.status.code(), Some(2));
         assert!(err(&output).contains(cause), "{cause} in {}", err(&output));
     }
+}
+
+#[test]
+fn why_starts_at_power_on_machine_data_and_faults_too() {
+    let directory = directory("why_happening");
+    let scenario = "title = \"t\"\nmachine = \"g1_example\"\nplc = \"enable_all\"\n\
+        [[step]]\nmachine_data = { \"37110[XF]\" = 0.3 }\n[[step]]\npulse = [\"DB21.DBX7.7\"]\n\
+        [[step]]\nfault = { axis = \"XF\", kind = \"drive_fault\" }\n[[step]]\npower_on = true\n[[step]]\nrun = \"10ms\"\n";
+    fs::write(directory.join("s.toml"), scenario).unwrap();
+    assert_eq!(opennck(&["run", "s.toml", "--trace", "t.jsonl"], &directory).status.code(), Some(0));
+    for trace in ["s.toml", "t.jsonl"] {
+        for (edge, words) in [
+            ("MD37110@1", "MD37110 (XF)  active  by nck\n"),
+            ("MD37110[XF]@1", "after RESET: RESET, CHAN1.channel_reset = 1  [CHAN1]\n"),
+            ("machine_datum_active@1", "CHAN1.channel_reset (DB21.DBX7.7)  0 -> 1  by outside\n"),
+            ("fault drive_fault[XF]@1", "fault drive_fault (XF)  set  by outside\n"),
+            ("power@1", "power (nck)  on  by outside\n"),
+            ("power_on@1", "because power on: power was switched on  [nck]\n"),
+        ] {
+            let output = opennck(&["why", trace, edge], &directory);
+            assert!(out(&output).contains(words), "{edge}: {words} in {}{}", out(&output), err(&output));
+        }
+    }
+}
+
+#[test]
+fn test_checks_the_causes_if_it_is_asked_to() {
+    let directory = directory("check_causes");
+    let scenario = "title = \"t\"\nmachine = \"g1_example\"\nplc = \"enable_all\"\n[[step]]\nrun = \"50ms\"\n";
+    fs::write(directory.join("s.toml"), scenario).unwrap();
+    let output = opennck(&["test", "s.toml", "--accept", "--check-causes"], &directory);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert!(out(&output).contains("1 scenario: 1 accepted"), "{}", out(&output));
 }
 
 #[test]
