@@ -60,7 +60,7 @@ impl fmt::Display for CauseFinding {
             CauseFault::AnotherCycle(time) => write!(f, "the cause is an event at {time} s")?,
             CauseFault::Untrue(signal, named, found) => write!(f, "the cause names {signal} = {named}, found {found}")?,
             CauseFault::OtherDatum(datum, named, active) => {
-                write!(f, "the cause names {datum} = {named}, active is {active}")?
+                write!(f, "the cause names {datum} = {named}, active is {active}")?;
             }
             CauseFault::Unknown(bits) => write!(f, "the cause names {bits}, which is no signal")?,
             CauseFault::NotPending(alarm) => write!(f, "the cause names alarm {alarm}, which is not pending")?,

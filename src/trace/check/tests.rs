@@ -4,7 +4,7 @@ use super::*;
 use crate::image::Names;
 use crate::trace::Recorder;
 use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, EventId, Place, RaisedAlarm, Rule, RuleNumber};
+use crate::variables::{AlarmNumber, DatumValue, EventId, Parameter, Place, RaisedAlarm, Rule, RuleNumber};
 
 struct Control(Names);
 
@@ -79,7 +79,7 @@ fn a_cause_with_correct_values_is_correct() {
     assert_eq!(Run::new().findings(13, bit(61, 5, true), 0), []);
     assert_eq!(Run::new().findings(13, bit(61, 5, false), 0), []);
     assert_eq!(Run::new().findings(13, bit(64, 7, true), 0), []);
-    // Data and lengths are not compared; a parent event is sufficient.
+    // Data that have not become active in the trace and lengths are not compared; a parent event is sufficient.
     assert_eq!(Run::new().findings(13, Input::Datum(11300, None, 1.0), 0), []);
     assert_eq!(Run::new().findings(13, Input::None, 7), []);
 }
@@ -131,6 +131,40 @@ fn other_signals_and_writes_from_outside_are_not_checked() {
     run.write(14, "DB31.DBX93.5", true, By::Nck, 0);
     run.write(14, "DB31.DBX64.7", false, By::Outside, 0);
     assert_eq!(run.findings(13, bit(4, 7, true), 0), []);
+}
+
+#[test]
+fn an_alarm_that_is_not_pending_is_found() {
+    let run = |number| {
+        let mut run = Run::new();
+        let alarm = RaisedAlarm { number: AlarmNumber(10654), place: Place::Nck, parameters: [Parameter::None; 4] };
+        run.recorder.push(Row { cycle: 13, change: Change::Alarm { alarm, raised: true, cause: EventId(1) } });
+        run.findings(13, Input::Alarm(number), 0)
+    };
+    assert_eq!(run(10654), []);
+    // Twice: for the signal and for the alarm, which has the same cause.
+    assert_eq!(run(10655), [CauseFault::NotPending("10655".to_owned()), CauseFault::NotPending("10655".to_owned())]);
+}
+
+#[test]
+fn an_alarm_without_a_cause_is_found() {
+    let mut run = Run::new();
+    let alarm = RaisedAlarm { number: AlarmNumber(10654), place: Place::Nck, parameters: [Parameter::None; 4] };
+    run.recorder.push(Row { cycle: 14, change: Change::Alarm { alarm, raised: false, cause: EventId::NONE } });
+    assert_eq!(run.findings(13, bit(4, 7, true), 0), [CauseFault::Missing]);
+}
+
+#[test]
+fn another_value_of_a_machine_datum_than_the_active_one_is_found() {
+    let run = |value| {
+        let mut run = Run::new();
+        let datum = DatumValue { number: 36060, place: Place::Axis(AxisNumber::FIRST), index: None, value: Some(5.0) };
+        let change = Change::Happened { what: Happening::DatumActive(datum), by: By::Nck, cause: EventId::NONE };
+        run.recorder.push(Row { cycle: 13, change });
+        run.findings(13, Input::Datum(36060, Some(AxisNumber::FIRST), value), 0)
+    };
+    assert_eq!(run(5.0), []);
+    assert_eq!(run(4.0), [CauseFault::OtherDatum("MD36060".to_owned(), 4.0, 5.0)]);
 }
 
 #[test]
