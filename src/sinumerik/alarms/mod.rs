@@ -2,19 +2,16 @@
 //!
 //! Numbers, reactions and cancel classes follow the Diagnostics Manual. An alarm is raised in the stage "monitoring and alarms". Its bits
 //! are published in the same cycle; its reactions act from the next cycle on. To add an alarm, add a row to [`alarms!`] and a call of
-//! [`Pending::raise`].
+//! [`Pending::raise`](pending::Pending::raise).
 
 mod ended;
 pub(super) mod not_raised;
+pub(super) mod pending;
 mod raised;
 
 use std::fmt;
 
-use arrayvec::ArrayVec;
-use serde::{Deserialize, Serialize};
-
-use crate::units::AxisSet;
-use crate::variables::{AlarmNumber, Alarms, EventId, Parameter, Place, RaisedAlarm};
+use crate::variables::AlarmNumber;
 
 /// The reactions of an alarm, as flags, with the names of the Diagnostics Manual.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -366,191 +363,9 @@ impl Alarm {
     }
 }
 
-/// A pending alarm and the event behind it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-struct Entry {
-    alarm: RaisedAlarm,
-    cause: EventId,
-    /// Its cause raised it in this cycle. An alarm that clears by itself is removed in the first cycle in which nothing raises it.
-    fresh: bool,
-}
-
-/// The pending alarms. The list is bounded, as on a control; further alarms are dropped.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Pending {
-    entries: ArrayVec<Entry, { Alarms::CAPACITY }>,
-    /// The alarms that ended in this cycle, each with the event that ended it.
-    #[serde(skip)]
-    ended: ArrayVec<(RaisedAlarm, EventId), { Alarms::CAPACITY }>,
-    changed: bool,
-    /// Counts the changes of the list.
-    version: u32,
-}
-
-impl Pending {
-    /// A cycle begins.
-    pub(super) fn begin(&mut self) {
-        self.ended.clear();
-    }
-
-    /// Raises an alarm, or keeps it raised. If it is new, `cause` is an event of this cycle.
-    pub(super) fn raise(&mut self, number: AlarmNumber, place: Place, parameters: [Parameter; 4], cause: EventId) {
-        let alarm = RaisedAlarm { number, place, parameters };
-        if let Some(entry) = self.entries.iter_mut().find(|entry| entry.alarm == alarm) {
-            entry.fresh = true;
-            return;
-        }
-        let index = self.entries.partition_point(|entry| (entry.alarm.number, entry.alarm.place) < (number, place));
-        let added = self.entries.try_insert(index, Entry { alarm, cause, fresh: true }).is_ok();
-        self.note_changed(added);
-    }
-
-    /// Removes the alarms that this action clears, at places for which `concerns` is true, after the event of the action.
-    pub(super) fn cancel(&mut self, by: Cancel, event: EventId, concerns: impl Fn(Place) -> bool) {
-        self.remove(event, |entry| is_cancelled(&entry.alarm, by, &concerns));
-    }
-
-    /// Whether this action would clear an alarm.
-    #[must_use]
-    pub(super) fn cancels(&self, by: Cancel, concerns: impl Fn(Place) -> bool) -> bool {
-        self.entries.iter().any(|entry| is_cancelled(&entry.alarm, by, &concerns))
-    }
-
-    /// Removes an alarm that clears by itself: its condition has ended, as this event says.
-    pub(super) fn end(&mut self, alarm: &RaisedAlarm, event: EventId) {
-        self.remove(event, |entry| entry.alarm == *alarm);
-    }
-
-    fn remove(&mut self, event: EventId, is_meant: impl Fn(&Entry) -> bool) {
-        let (before, ended) = (self.entries.len(), &mut self.ended);
-        self.entries.retain(|entry| {
-            let removed = is_meant(entry);
-            if removed && ended.is_full() {
-                ended.pop_at(0);
-            }
-            if removed {
-                ended.push((entry.alarm, event));
-            }
-            !removed
-        });
-        self.note_changed(self.entries.len() != before);
-    }
-
-    /// The alarms that clear by themselves and that nothing has raised in this cycle, with the events behind them.
-    pub(super) fn expired(&self) -> ArrayVec<(RaisedAlarm, EventId), { Alarms::CAPACITY }> {
-        let clears = |number| Alarm::find(number).is_some_and(|alarm| alarm.cancel == Cancel::ByItself);
-        let expired = self.entries.iter().filter(|entry| !entry.fresh && clears(entry.alarm.number));
-        expired.map(|entry| (entry.alarm, entry.cause)).collect()
-    }
-
-    /// Ends a cycle: an alarm that clears by itself must be raised again in the next one.
-    pub(super) fn settle(&mut self) {
-        for entry in &mut self.entries {
-            entry.fresh = false;
-        }
-    }
-
-    /// The event that ended an alarm in this cycle.
-    #[must_use]
-    pub(super) fn end_of(&self, number: AlarmNumber, place: Place) -> EventId {
-        self.last_end(|alarm| (alarm.number, alarm.place) == (number, place))
-    }
-
-    /// The event that ended the last of the alarms that are meant and ended in this cycle.
-    #[must_use]
-    pub(super) fn last_end(&self, meant: impl Fn(&RaisedAlarm) -> bool) -> EventId {
-        let last = self.ended.iter().rev().find(|(alarm, _)| meant(alarm));
-        last.map_or(EventId::NONE, |(_, event)| *event)
-    }
-
-    fn note_changed(&mut self, changed: bool) {
-        self.changed |= changed;
-        self.version = self.version.wrapping_add(u32::from(changed));
-    }
-
-    /// A number that differs after each change of the list.
-    #[must_use]
-    pub(super) const fn version(&self) -> u32 {
-        self.version
-    }
-
-    /// Whether this alarm is pending at this place.
-    #[must_use]
-    pub(super) fn is_pending(&self, number: AlarmNumber, place: Place) -> bool {
-        self.entries.iter().any(|entry| (entry.alarm.number, entry.alarm.place) == (number, place))
-    }
-
-    /// The event behind an alarm at this place.
-    #[must_use]
-    pub(super) fn cause(&self, number: AlarmNumber, place: Place) -> EventId {
-        let of_it = |entry: &&Entry| (entry.alarm.number, entry.alarm.place) == (number, place);
-        self.entries.iter().find(of_it).map_or(EventId::NONE, |entry| entry.cause)
-    }
-
-    /// The axes with a pending alarm.
-    #[must_use]
-    pub(super) fn axes(&self) -> AxisSet {
-        let place = |entry: &Entry| match entry.alarm.place {
-            Place::Axis(axis) => Some(axis),
-            Place::Nck | Place::ModeGroup(_) | Place::Channel(_) => None,
-        };
-        self.entries.iter().filter_map(place).collect()
-    }
-
-    /// Whether the list changed since the last call.
-    pub(super) fn take_changed(&mut self) -> bool {
-        std::mem::take(&mut self.changed)
-    }
-
-    /// All pending alarms with the events behind them, in order of number and place.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (&RaisedAlarm, EventId)> {
-        self.entries.iter().map(|entry| (&entry.alarm, entry.cause))
-    }
-
-    /// The event behind the first pending alarm with this reaction that concerns this place (or all places).
-    #[must_use]
-    #[inline]
-    pub(super) fn with_reaction(&self, reaction: Reaction, place: Option<Place>) -> Option<EventId> {
-        self.first(|entry, alarm| place.is_none_or(|place| entry == place) && alarm.reaction.has(reaction))
-    }
-
-    /// The event behind the first pending alarm whose place and row match.
-    #[must_use]
-    #[inline]
-    pub(super) fn first(&self, meant: impl Fn(Place, &Alarm) -> bool) -> Option<EventId> {
-        self.first_alarm(meant).map(|(_, cause)| cause)
-    }
-
-    /// The number of the first pending alarm that is meant, and the event behind it.
-    #[must_use]
-    #[inline]
-    pub(super) fn first_alarm(&self, meant: impl Fn(Place, &Alarm) -> bool) -> Option<(AlarmNumber, EventId)> {
-        if self.entries.is_empty() {
-            return None;
-        }
-        let is_meant =
-            |entry: &&Entry| Alarm::find(entry.alarm.number).is_some_and(|alarm| meant(entry.alarm.place, alarm));
-        self.entries.iter().find(is_meant).map(|entry| (entry.alarm.number, entry.cause))
-    }
-}
-
-/// Whether an action clears an alarm.
-fn is_cancelled(alarm: &RaisedAlarm, by: Cancel, concerns: impl Fn(Place) -> bool) -> bool {
-    let class = Alarm::find(alarm.number).map_or(Cancel::PowerOn, |alarm| alarm.cancel);
-    class != Cancel::ByItself && class <= by && concerns(alarm.place)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn has(pending: &Pending, number: AlarmNumber) -> bool {
-        pending.iter().any(|(alarm, _)| alarm.number == number)
-    }
-
-    fn raise(pending: &mut Pending, number: AlarmNumber) {
-        pending.raise(number, Place::Nck, [Parameter::None; 4], EventId::NONE);
-    }
 
     #[test]
     fn the_catalogue_ascends_so_that_a_number_is_found() {
@@ -566,38 +381,5 @@ mod tests {
         assert!(not_raised::NOT_RAISED.iter().all(|alarm| Alarm::find(alarm.number).is_none()));
         assert_eq!(Alarm::named("gantry-mixed-axis-types"), Some(GANTRY_MIXED_AXIS_TYPES));
         assert_eq!(Alarm::name(GANTRY_MIXED_AXIS_TYPES), "gantry-mixed-axis-types");
-    }
-
-    #[test]
-    fn a_stronger_reset_also_clears_the_alarms_of_a_weaker_one_and_no_others() {
-        let mut pending = Pending::default();
-        for number in [ENABLE_RESET, GANTRY_TRIP_LIMIT, GANTRY_CONFIGURATION, GANTRY_WAITING] {
-            raise(&mut pending, number);
-        }
-        pending.cancel(Cancel::CancelKey, EventId(7), |_| true);
-        assert!(!has(&pending, ENABLE_RESET) && has(&pending, GANTRY_TRIP_LIMIT));
-        pending.cancel(Cancel::ModeGroupReset, EventId(8), |place| place != Place::Nck);
-        assert!(has(&pending, GANTRY_TRIP_LIMIT), "its place is excluded");
-        pending.cancel(Cancel::ModeGroupReset, EventId(9), |_| true);
-        assert!(!has(&pending, GANTRY_TRIP_LIMIT));
-        assert!(has(&pending, GANTRY_CONFIGURATION) && has(&pending, GANTRY_WAITING));
-    }
-
-    #[test]
-    fn an_alarm_that_clears_by_itself_goes_in_the_first_cycle_without_its_cause() {
-        let mut pending = Pending::default();
-        raise(&mut pending, GANTRY_WARNING_LIMIT);
-        pending.settle();
-        raise(&mut pending, GANTRY_WARNING_LIMIT);
-        assert!(pending.expired().is_empty());
-        pending.settle();
-        raise(&mut pending, GANTRY_TRIP_LIMIT);
-        pending.settle();
-        let [(alarm, _)] = pending.expired()[..] else { panic!("only the one that clears by itself") };
-        pending.end(&alarm, EventId(9));
-        assert!(!has(&pending, GANTRY_WARNING_LIMIT) && has(&pending, GANTRY_TRIP_LIMIT));
-        assert_eq!(pending.end_of(GANTRY_WARNING_LIMIT, Place::Nck), EventId(9));
-        pending.begin();
-        assert_eq!(pending.end_of(GANTRY_WARNING_LIMIT, Place::Nck), EventId::NONE);
     }
 }

@@ -9,7 +9,8 @@
 //! channels, and no PLC axis can own one of them (a grouping across channels is 10651 at power on).
 
 use crate::control::Log;
-use crate::sinumerik::alarms::{self, Pending};
+use crate::sinumerik::alarms;
+use crate::sinumerik::alarms::pending::Pending;
 use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::gantry::view::{View, Want, Wants};

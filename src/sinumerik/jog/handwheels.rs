@@ -23,7 +23,6 @@ use crate::sinumerik::alarms;
 use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::axis::traversing::keys;
 use crate::sinumerik::inputs::{axis_signal, nck_signal};
-use crate::sinumerik::jog::keys::key_direction;
 use crate::sinumerik::jog::state::{By, Movement};
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
@@ -212,8 +211,7 @@ impl State {
     }
 
     /// 20050 and 20051: a key is pressed while a handwheel moves the axis, or the opposite.
-    pub(in crate::sinumerik) fn watch_keys_and_handwheels(&mut self, number: AxisNumber, signals: &AxisToNck) {
-        let key = key_direction(signals);
+    pub(in crate::sinumerik) fn watch_keys_and_handwheels(&mut self, number: AxisNumber, key: i8, signals: &AxisToNck) {
         let axis = &mut self.axes[number];
         let jogging = &mut axis.jogging;
         let meets = jogging.key_meets_handwheel(key);

@@ -80,7 +80,7 @@ impl State {
         let way = jogging.function.way(axis_parameters);
         jogging.take_keys(key, signals.traversing_key_disable(), way, parameters.key_modes);
         self.take_handwheels(number, parameters, signals);
-        self.watch_keys_and_handwheels(number, signals);
+        self.watch_keys_and_handwheels(number, key, signals);
         let axis = &self.axes[number];
         if let Some(stop) = stop {
             // The unit brakes as commanded (O-04).
