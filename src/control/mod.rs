@@ -16,6 +16,7 @@
 //! 5. [`Control::publish`]: writes its half of the interface and the variables;
 //! 6. [`Control::cause`] and the related methods, for each bit that changed, while the record is written.
 
+mod conditions;
 mod data;
 mod finding;
 mod log;
@@ -23,6 +24,7 @@ mod opening;
 mod transitions;
 mod value;
 
+pub use conditions::{Condition, Fact, Question};
 pub use data::{Data, Datum, Owner};
 pub use finding::{Class, Finding, summary};
 pub use log::Log;
@@ -33,7 +35,7 @@ pub use value::{Kind, Value};
 use std::any::Any;
 use std::fmt::Debug;
 
-use crate::image::{Interface, Location, Names, OverrideCoding};
+use crate::image::{Interface, Location, Names, OverrideCoding, Signal};
 use crate::motion::Feedback;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position, Time};
@@ -206,6 +208,12 @@ pub trait Control: Send + Sync + Debug {
     /// The event that cleared an alarm.
     fn cleared_cause(&self, number: AlarmNumber, place: Place) -> EventId;
 
+    /// What must hold so that a bit of the control's part has a value, tested with the state after the last cycle, in which `plc` was
+    /// read. The default is `None`, for a control that does not say.
+    fn conditions(&self, _question: &Question<'_>, _plc: PlcSide<'_>) -> Option<Condition> {
+        None
+    }
+
     /// The latest events.
     fn events(&self) -> &Events;
 
@@ -278,6 +286,11 @@ pub trait Texts: Sync {
 
     /// Its interface.
     fn interface(&self) -> &'static Interface;
+
+    /// Whether a signal has an effect: the control writes it, or reads it if another side writes it. The default is all signals.
+    fn is_modelled(&self, _signal: &Signal) -> bool {
+        true
+    }
 
     /// All its alarms, ascending by number.
     fn alarms(&self) -> Vec<AlarmRow>;

@@ -13,11 +13,13 @@
 //! ```
 //!
 //! `step.rs` defines the order of a step, `open.rs` reads machines, `command.rs` lists the commands from outside, `queue.rs` queues them
-//! and executes them at the edge of the next step, `delay.rs` delays the halves of the interface, `changes.rs` finds the changes for the record, `saved.rs` saves, restores and forks.
+//! and executes them at the edge of the next step, `delay.rs` delays the halves of the interface, `changes.rs` finds the changes for the
+//! record, `conditions.rs` says what a signal waits for, `saved.rs` saves, restores and forks.
 
 mod before;
 mod changes;
 mod command;
+mod conditions;
 mod definition;
 mod delay;
 mod describe;
@@ -32,6 +34,7 @@ mod written;
 pub use crate::control::Value as DatumValue;
 pub use crate::plant::{Fault, FaultKind, Switch};
 pub use command::Command;
+pub use conditions::{Subject, Tested};
 pub use open::OpenOptions;
 pub use saved::Snapshot;
 

@@ -24,6 +24,7 @@ mod steps;
 mod transcript;
 mod values;
 mod watching;
+mod why_not;
 
 pub use duration::Duration;
 pub use failure::{Failure, Missed};

@@ -192,7 +192,13 @@ impl Scenario {
 impl Prepared {
     /// Runs the steps in order until one fails.
     #[must_use]
-    pub fn run(mut self) -> Finished {
+    pub fn run(self) -> Finished {
+        self.run_until(None)
+    }
+
+    /// The same, but ends after the last cycle up to this time, if a time is given and the scenario lasts so long.
+    #[must_use]
+    pub fn run_until(mut self, end: Option<Time>) -> Finished {
         let begun = self.session.machine.begin_program();
         let mut unusable = begun.err().map(|problem| match &self.process {
             Some(place) => problem.at(place),
@@ -203,6 +209,10 @@ impl Prepared {
                 break Some(problem.into());
             }
             let Session { machine, book, trace, .. } = &mut self.session;
+            let next = book.time(machine) + machine.cycle_time();
+            if end.is_some_and(|end| next > end) {
+                break None;
+            }
             let note = &mut |machine: &Machine, text: &str| trace.note(machine.cycle() + 1, text);
             match self.plan.go_on(book, machine, note) {
                 Err(failure) => break Some(failure),

@@ -3,7 +3,8 @@
 use std::any::Any;
 
 use crate::control::{
-    Activated, Changes, Control, ControlCommand, ControlSide, CycleTimes, Data, Datum, Owner, PlcSide, Taken, Texts,
+    Activated, Changes, Condition, Control, ControlCommand, ControlSide, CycleTimes, Data, Datum, Owner, PlcSide,
+    Question, Taken, Texts,
 };
 use crate::image::{FromNck, Hmi, Names, OverrideCoding, ToNck, View};
 use crate::motion::Feedback;
@@ -138,6 +139,10 @@ impl Control for Nck {
 
     fn cleared_cause(&self, number: AlarmNumber, place: Place) -> EventId {
         Self::cleared_cause(self, number, place)
+    }
+
+    fn conditions(&self, question: &Question<'_>, plc: PlcSide<'_>) -> Option<Condition> {
+        Self::conditions(self, question, to_nck(plc))
     }
 
     fn events(&self) -> &Events {

@@ -1,5 +1,6 @@
-//! The inputs of causes: signals of this control that were tested in a decision.
+//! The inputs of causes and of conditions: signals of this control that are tested in a decision.
 
+use crate::control::Condition;
 use crate::image::Signal;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 use crate::variables::{Input, Place, SignalBit};
@@ -32,6 +33,12 @@ pub(super) const fn mode_group_signal(group: ModeGroupNumber, signal: Signal, va
 #[must_use]
 pub(super) const fn nck_signal(signal: Signal, value: bool) -> Input {
     Input::Bit(bit_of(Place::Nck, signal), value)
+}
+
+/// A signal of one bit as a condition.
+#[must_use]
+pub(super) const fn required(place: Place, signal: Signal, wanted: bool) -> Condition {
+    Condition::Signal(bit_of(place, signal), wanted)
 }
 
 /// The lowest bit of a signal.

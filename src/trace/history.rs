@@ -1,10 +1,12 @@
 //! The trace of a running machine: rows of the recorder, events, notes and watched values.
 
 use super::calendar::Calendar;
+use super::printable::mask_in_byte;
+use super::record::by_in_words;
 use super::value::millionths;
 use super::watch::WatchedItem;
-use super::{Recorder, Row, Watch};
-use crate::image::Memory;
+use super::{Change, Recorder, Row, Watch};
+use crate::image::{Location, Memory};
 use crate::units::{AxisNumber, Time};
 use crate::variables::{AxisValue, Event, EventId, Variables};
 
@@ -144,6 +146,20 @@ impl Trace {
     /// The event with this number in this trace.
     pub(super) fn event_numbered(&self, number: u32) -> Option<&Event> {
         self.events.get((number as usize).checked_sub(1)?)
+    }
+
+    /// The last change of a location, with its time and its writer in words; `None` if it never changed.
+    #[must_use]
+    pub fn last_change(&self, location: Location) -> Option<(Time, &'static str)> {
+        self.rows.iter().rev().find_map(|row| {
+            let Change::Byte { part, offset, old, new, by, .. } = &row.change else { return None };
+            let mask = if *part == location.part { mask_in_byte(location, *offset) } else { 0 };
+            let changed = (old ^ new) & mask;
+            (changed != 0).then(|| {
+                let bit = changed.trailing_zeros() as usize;
+                (self.time(row.cycle), by_in_words(by[bit]))
+            })
+        })
     }
 
     /// The number of rows that the recorder lost because it was not drained.

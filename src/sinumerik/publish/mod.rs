@@ -9,7 +9,9 @@
 mod alarms;
 mod axis;
 mod channel;
+mod conditions;
 mod control;
+pub(super) mod known;
 mod rows;
 
 use zerocopy::IntoBytes;

@@ -35,7 +35,7 @@ pub(super) trait Rows {
 }
 
 /// The bits from the first signal to the last one.
-const fn mask(first: Signal, last: Signal) -> u8 {
+pub(super) const fn mask(first: Signal, last: Signal) -> u8 {
     let width = last.bit + last.kind.width() - first.bit;
     (0xFF >> (8 - width)) << first.bit
 }

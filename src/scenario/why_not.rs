@@ -1,0 +1,169 @@
+//! Why a signal does not have another value now: the tree of what the control tests, back to the signals of the PLC and who wrote them.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use super::session::Session;
+use crate::image::{Location, Writer};
+use crate::machine::{Subject, Tested};
+use crate::source::Problem;
+
+impl Session {
+    /// What must hold so that a bit of the control becomes the opposite of its value now, as a tree. Shows only what does not hold;
+    /// `complete` shows what holds, too.
+    ///
+    /// # Errors
+    /// The signal does not exist, is not a bit, or the control says nothing about it.
+    pub fn why_not(&self, signal: &str, complete: bool) -> Result<String, Problem> {
+        let machine = self.machine();
+        let names = machine.names();
+        let location = names.resolve(machine.memory(), signal)?;
+        let shown = self.shown(location);
+        if location.width != 1 {
+            let cure = "ask for one bit: `X.position_controller_active@0.3`, `DB31.DBX61.5@0.3`";
+            return Err(Problem::new(format!("expected a signal of one bit, found {shown}"), cure));
+        }
+        let value = machine.memory().read(location) != 0;
+        let head = format!("{:>9}  {shown} is {}", self.time().to_string(), u8::from(value));
+        if names.writer(location) != Some(Writer::Nck) {
+            return Ok(format!("{head}: the control does not write it; {}\n", self.writer(location)));
+        }
+        let Some(tested) = machine.conditions(location, !value) else {
+            let cure =
+                "`opennck why` shows the cause of its last edge; `opennck signals` shows the signals that are modelled";
+            return Err(Problem::new(format!("expected a signal with known conditions, found {shown}"), cure));
+        };
+        let asked = BTreeSet::from([(location, !value)]);
+        let mut tree = Tree { session: self, complete, recursive: complete || !value, text: head, asked };
+        let word = if value { "; it becomes 0 with" } else { ", because" };
+        tree.below(&tested, 0, word);
+        Ok(tree.text)
+    }
+
+    /// `X.controller_enable (DB31.DBX2.1)`.
+    fn shown(&self, location: Location) -> String {
+        let names = self.machine().names();
+        let address = names.address(location).to_string();
+        names.symbol(location).map_or_else(|| address.clone(), |symbol| format!("{symbol} ({address})"))
+    }
+
+    /// Who wrote a signal last.
+    fn writer(&self, location: Location) -> String {
+        match self.trace().last_change(location) {
+            Some((time, by)) => format!("changed last at {time} s by {by}"),
+            None => "never changed".to_owned(),
+        }
+    }
+}
+
+/// The ways of a disjunction, with those of the disjunctions inside it.
+fn ways(any: &Tested) -> Vec<&Tested> {
+    let each = |part| if any_of(part) { ways(part) } else { vec![part] };
+    any.parts.iter().flat_map(each).collect()
+}
+
+fn any_of(tested: &Tested) -> bool {
+    tested.what == Subject::Any
+}
+
+/// A tree under construction.
+struct Tree<'a> {
+    session: &'a Session,
+    complete: bool,
+    /// Whether signals of the control are explained in turn.
+    recursive: bool,
+    text: String,
+    /// The signals already explained, with the value that they are to have.
+    asked: BTreeSet<(Location, bool)>,
+}
+
+impl Tree<'_> {
+    fn line(&mut self, depth: usize, holds: bool, text: &str) {
+        let mark = if holds { "\u{2713}" } else { "\u{2717}" };
+        let _ = writeln!(self.text, "{:>9}  {}{mark} {text}", "", "  ".repeat(depth));
+    }
+
+    /// A condition, and what it consists of.
+    fn node(&mut self, tested: &Tested, depth: usize) {
+        if tested.holds && !self.complete {
+            return;
+        }
+        match &tested.what {
+            Subject::All => self.all(tested, depth),
+            Subject::Any => {
+                let ways = ways(tested);
+                if let [only] = *ways {
+                    return self.node(only, depth);
+                }
+                self.line(depth, tested.holds, "one of");
+                for way in ways {
+                    let open = way.parts.iter().filter(|part| self.complete || !part.holds).count();
+                    if way.what == Subject::All && open > 1 {
+                        self.line(depth + 1, way.holds, "all of");
+                        self.node(way, depth + 2);
+                    } else {
+                        self.node(way, depth + 1);
+                    }
+                }
+            }
+            Subject::Fact { what, found, wanted } => {
+                self.line(depth, tested.holds, &format!("{what}: {found}, wanted {wanted}"));
+                self.first(tested, depth + 1);
+            }
+            Subject::Signal(location, wanted) => self.signal(*location, *wanted, tested.holds, depth),
+        }
+    }
+
+    /// The parts of a conjunction stand on the level of the conjunction.
+    fn all(&mut self, tested: &Tested, depth: usize) {
+        for part in &tested.parts {
+            self.node(part, depth);
+        }
+    }
+
+    /// What must hold before a fact changes.
+    fn first(&mut self, fact: &Tested, depth: usize) {
+        for part in &fact.parts {
+            if part.holds && !fact.holds {
+                self.line(depth, true, "everything that is tested for the next step holds; it follows");
+            }
+            self.node(part, depth);
+        }
+    }
+
+    /// What a signal waits for, behind its own line, which ends with a word. A fact that only repeats the signal is a remark in this line.
+    fn below(&mut self, tested: &Tested, depth: usize, word: &str) {
+        match &tested.what {
+            Subject::Fact { found, .. } if !tested.parts.is_empty() => {
+                let _ = writeln!(self.text, " ({found}){word}");
+                self.first(tested, depth + 1);
+            }
+            Subject::Fact { .. } | Subject::All | Subject::Any | Subject::Signal(..) => {
+                let _ = writeln!(self.text, "{word}");
+                self.node(tested, depth + 1);
+            }
+        }
+    }
+
+    fn signal(&mut self, location: Location, wanted: bool, holds: bool, depth: usize) {
+        let session = self.session;
+        let machine = session.machine();
+        let (shown, found) = (session.shown(location), u8::from(holds == wanted));
+        let expected = if holds { String::new() } else { format!(", wanted {}", u8::from(wanted)) };
+        let mut text = format!("{shown} = {found}{expected}");
+        let below = machine.conditions(location, wanted).filter(|_| !holds);
+        match below {
+            None => {
+                let _ = write!(text, ": {}", session.writer(location));
+                self.line(depth, holds, &text);
+            }
+            Some(_) if !self.recursive => self.line(depth, holds, &text),
+            Some(_) if !self.asked.insert((location, wanted)) => self.line(depth, holds, &format!("{text}, see above")),
+            Some(below) => {
+                self.line(depth, holds, &text);
+                self.text.truncate(self.text.trim_end().len());
+                self.below(&below, depth, "");
+            }
+        }
+    }
+}

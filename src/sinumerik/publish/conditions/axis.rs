@@ -1,0 +1,344 @@
+//! Conditions of enabling, measuring systems, exact stop and standstill.
+
+use crate::control::{Condition, Fact};
+use crate::image::{axis_from_nck, axis_to_nck, nck_from_nck};
+use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::axis::state::{ControllerState, STEP};
+use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length};
+use crate::sinumerik::state::Unit;
+use crate::units::{AxisNumber, Position};
+use crate::variables::{Place, six_decimals};
+
+/// The signals.
+pub(super) const ROWS: &[Row<AxisNumber>] = &[
+    Row::new(axis_from_nck::encoder_limit_frequency_exceeded_1, |look, axis| look.frequency(axis, 0)),
+    Row::new(axis_from_nck::encoder_limit_frequency_exceeded_2, |look, axis| look.frequency(axis, 1)),
+    Row::new(axis_from_nck::position_reached_exact_stop_coarse, |look, axis| look.exact_stop(axis, true)),
+    Row::new(axis_from_nck::position_reached_exact_stop_fine, |look, axis| look.exact_stop(axis, false)),
+    Row::new(axis_from_nck::axis_specific_alarm, |look, axis| look.shown_alarm(axis).opposite()),
+    Row::new(axis_from_nck::axis_ready, |look, owner| look.axis_ready(owner)),
+    Row::with(
+        axis_from_nck::follow_up_active,
+        |look, axis| look.follow_up(axis, true),
+        |look, axis| look.follow_up(axis, false),
+    ),
+    Row::new(axis_from_nck::axis_stationary, |look, owner| look.stationary(owner)),
+    Row::with(
+        axis_from_nck::position_controller_active,
+        |look, axis| look.controllers(axis, 2),
+        |look, axis| look.switched_off(axis, 2),
+    ),
+    Row::with(
+        axis_from_nck::speed_controller_active,
+        |look, axis| look.controllers(axis, 1),
+        |look, axis| look.switched_off(axis, 1),
+    ),
+    Row::with(
+        axis_from_nck::current_controller_active,
+        |look, axis| look.controllers(axis, 0),
+        |look, axis| look.switched_off(axis, 0),
+    ),
+    Row::new(axis_from_nck::ramp_function_generator_disable_active, |look, owner| look.fast_stop(owner)),
+    Row::new(axis_from_nck::drive_ready, |look, owner| look.drive_ready(owner)),
+    Row::with(
+        axis_from_nck::pulses_enabled,
+        |look, owner| look.pulses_enabled(owner),
+        |look, owner| look.pulses_disabled(owner),
+    ),
+    Row::with(
+        axis_from_nck::position_measuring_system_1_activated,
+        |look, axis| look.measuring_system(axis, 0),
+        |look, axis| look.measuring_system_off(axis, 0),
+    ),
+    Row::with(
+        axis_from_nck::position_measuring_system_2_activated,
+        |look, axis| look.measuring_system(axis, 1),
+        |look, axis| look.measuring_system_off(axis, 1),
+    ),
+];
+
+impl Look<'_> {
+    fn frequency(self, axis: AxisNumber, encoder: usize) -> Condition {
+        let exceeded = self.state.axes[axis].monitor.encoders[encoder].frequency_exceeded;
+        let found = if exceeded { "above" } else { "not above" };
+        let what = format!("frequency of encoder {} of {}", encoder + 1, self.axis_name(axis));
+        Fact::new(what, found, "above MD36300", exceeded).into()
+    }
+
+    fn exact_stop(self, number: AxisNumber, coarse: bool) -> Condition {
+        let axis = &self.state.axes[number];
+        let set = axis.active_set(&self.parameters.axes[number]);
+        let (datum, window) =
+            if coarse { ("MD36000", set.exact_stop_coarse) } else { ("MD36010", set.exact_stop_fine) };
+        let pending = self.state.axes[number].travel.is_pending();
+        let at_rest = fact(format!("no movement of {} is pending", self.axis_name(number)), !pending);
+        Condition::All(vec![
+            self.axis(number, axis_from_nck::position_controller_active, true),
+            at_rest.into(),
+            self.setpoint_rests(number),
+            self.deviation(number, window, datum),
+        ])
+    }
+
+    pub(super) fn setpoint_rests(self, axis: AxisNumber) -> Condition {
+        fact(format!("the setpoint of {} rests", self.axis_name(axis)), self.state.axes[axis].setpoint.is_at_rest())
+            .into()
+    }
+
+    pub(super) fn deviation(self, axis: AxisNumber, window: Position, datum: &str) -> Condition {
+        let deviation = self.state.axes[axis].deviation().abs();
+        let what = format!("deviation of {} from its setpoint", self.axis_name(axis));
+        let wanted = format!("at most {} ({datum})", length(window));
+        Fact::new(what, length(deviation), wanted, deviation <= window).into()
+    }
+
+    /// O-29: no new setpoints, and the velocity below MD36060.
+    pub(super) fn stationary(self, number: AxisNumber) -> Condition {
+        let outputs = self.state.axes[number].outputs_setpoints();
+        let quiet = fact(format!("no new setpoints are output to the drive of {}", self.axis_name(number)), !outputs);
+        Condition::All(vec![quiet.into(), self.slow(number)])
+    }
+
+    fn slow(self, number: AxisNumber) -> Condition {
+        let (axis, parameters) = (&self.state.axes[number], &self.parameters.axes[number]);
+        let per_user_unit = 60.0 / Position::PER_USER_UNIT;
+        let what = format!("velocity of {}", self.axis_name(number));
+        let wanted = format!("below {} (MD36060)", six_decimals(parameters.standstill_velocity * per_user_unit));
+        let holds = axis.velocity.abs() < parameters.standstill_velocity;
+        Fact::new(what, six_decimals(axis.velocity.abs() * per_user_unit), wanted, holds).into()
+    }
+
+    fn shown_alarm(self, axis: AxisNumber) -> Condition {
+        self.no_alarm(format!("alarm of {} with interface signals", self.axis_name(axis)), |place, alarm| {
+            place == Place::Axis(axis) && alarm.reaction.has(Reaction::INTERFACE_SIGNALS)
+        })
+    }
+
+    fn axis_ready(self, axis: AxisNumber) -> Condition {
+        Condition::All(vec![
+            self.axis(axis, axis_from_nck::drive_ready, true),
+            self.not_parked(axis),
+            self.shown_alarm(axis),
+        ])
+    }
+
+    /// One of the measuring systems is active.
+    pub(super) fn not_parked(self, axis: AxisNumber) -> Condition {
+        Condition::Any(vec![
+            self.axis(axis, axis_from_nck::position_measuring_system_1_activated, true),
+            self.axis(axis, axis_from_nck::position_measuring_system_2_activated, true),
+        ])
+    }
+
+    fn fast_stop(self, axis: AxisNumber) -> Condition {
+        let unit = self.unit(axis);
+        let stopping = unit.members().map(|axis| self.axis(axis, axis_to_nck::ramp_function_generator_fast_stop, true));
+        Condition::Any(stopping.collect())
+    }
+
+    fn drive_ready(self, axis: AxisNumber) -> Condition {
+        let ready = self.state.axes[axis].drive_ready;
+        let found = if ready { "ready" } else { "not ready" };
+        Fact::new(format!("the drive of {} reports", self.axis_name(axis)), found, "ready", ready).into()
+    }
+
+    fn pulses_fact(self, axis: AxisNumber, wanted: bool) -> Fact {
+        let on = self.state.axes[axis].enabling.pulses_enabled();
+        let word = |on| if on { "enabled" } else { "disabled" };
+        Fact::new(format!("pulses of {}", self.axis_name(axis)), word(on), word(wanted), on == wanted)
+    }
+
+    fn pulse_conditions(self, axis: AxisNumber) -> Condition {
+        Condition::All(vec![
+            self.axis(axis, axis_to_nck::pulse_enable, true),
+            self.axis(axis, axis_from_nck::drive_ready, true),
+            fact("the start-up of the control has ended", self.state.run_up.is_nc_ready())
+                .after(|| self.nck(nck_from_nck::drives_ready, true)),
+        ])
+    }
+
+    fn pulses_enabled(self, axis: AxisNumber) -> Condition {
+        self.pulses_fact(axis, true).after(|| self.pulse_conditions(axis))
+    }
+
+    fn pulses_disabled(self, axis: AxisNumber) -> Condition {
+        self.pulses_fact(axis, false).after(|| self.pulse_conditions(axis).opposite())
+    }
+
+    /// The axis is in position control and not about to leave it.
+    pub(super) fn in_control(self, number: AxisNumber) -> Condition {
+        let axis = &self.state.axes[number];
+        if matches!(axis.enabling.control, ControllerState::Braking(_)) {
+            let what = format!("position control of {}", self.axis_name(number));
+            return Fact::new(what, "brakes before it is switched off", "on", false)
+                .after(|| self.enables(&self.unit(number)));
+        }
+        self.axis(number, axis_from_nck::position_controller_active, true)
+    }
+
+    /// Controllers of an axis: current 0, speed 1, position 2.
+    fn controllers(self, number: AxisNumber, which: usize) -> Condition {
+        let axis = &self.state.axes[number];
+        let name = ["current controller", "speed controller", "position control"][which];
+        let on = axis.enabling.controllers()[which];
+        let found = match axis.enabling.control {
+            ControllerState::Off => "off".to_owned(),
+            ControllerState::SwitchingOn(cycles) => {
+                format!("switching on, cycle {} of {}", cycles + 1, 3 * STEP)
+            }
+            ControllerState::On => "on".to_owned(),
+            ControllerState::Braking(_) => "brakes before it is switched off".to_owned(),
+        };
+        Fact::new(format!("{name} of {}", self.axis_name(number)), found, "on", on)
+            .after(|| self.enables(&self.unit(number)))
+    }
+
+    /// What switches position control of a unit on: the enables of each of its axes, and nothing that forbids it (SIG-01).
+    pub(super) fn enables(self, unit: &Unit) -> Condition {
+        let mut all = Vec::new();
+        for axis in unit.members() {
+            all.push(self.axis(axis, axis_to_nck::controller_enable, true));
+            all.push(self.not_parked(axis));
+            all.push(self.axis(axis, axis_from_nck::pulses_enabled, true));
+        }
+        all.push(self.nck(nck_from_nck::emergency_stop_active, false));
+        all.extend(unit.members().map(|axis| self.no_follow_up_alarm(axis)));
+        Condition::All(all)
+    }
+
+    fn no_follow_up_alarm(self, axis: AxisNumber) -> Condition {
+        self.no_alarm(format!("alarm of {} with the reaction follow-up", self.axis_name(axis)), |place, alarm| {
+            place == Place::Axis(axis) && alarm.reaction.has(Reaction::FOLLOW_UP)
+        })
+    }
+
+    /// Controllers go off when an enable is missing; a moving axis brakes first.
+    fn switched_off(self, number: AxisNumber, which: usize) -> Condition {
+        let axis = &self.state.axes[number];
+        let braking = matches!(axis.enabling.control, ControllerState::Braking(_));
+        let found = if braking { "brake before they are switched off" } else { "on" };
+        let on = axis.enabling.controllers()[which];
+        let name = self.axis_name(number);
+        Fact::new(format!("controllers of {name}"), if on { found } else { "off" }, "off", !on).after(|| {
+            if braking {
+                let unit = self.unit(number);
+                let standing = unit.members().map(|axis| self.stands(axis));
+                return Condition::All(standing.collect());
+            }
+            self.enables(&self.unit(number)).opposite()
+        })
+    }
+
+    /// The setpoint rests and the axis is slower than MD36060.
+    pub(super) fn stands(self, axis: AxisNumber) -> Condition {
+        Condition::All(vec![self.setpoint_rests(axis), self.slow(axis)])
+    }
+
+    fn follow_up(self, number: AxisNumber, wanted: bool) -> Condition {
+        let axis = &self.state.axes[number];
+        let on = axis.enabling.follow_up;
+        let word = |on| if on { "on" } else { "off" };
+        let state = Fact::new(format!("follow-up of {}", self.axis_name(number)), word(on), word(wanted), on == wanted);
+        let unit = self.unit(number);
+        let state = state.after(|| {
+            let mode = unit.members().map(|axis| self.axis(axis, axis_to_nck::follow_up_mode, true));
+            let enable = unit.members().map(|axis| self.axis(axis, axis_to_nck::controller_enable, true));
+            let asked = Condition::All(vec![
+                Condition::Any(mode.collect()),
+                Condition::All(enable.collect::<Vec<_>>()).opposite(),
+            ]);
+            let alarms = unit.members().map(|axis| self.no_follow_up_alarm(axis).opposite());
+            let emergency = self.nck(nck_from_nck::emergency_stop_active, true);
+            let causes = [asked, emergency].into_iter().chain(alarms);
+            if wanted {
+                Condition::All(vec![
+                    Condition::Any(causes.collect()),
+                    self.axis(number, axis_from_nck::position_controller_active, false),
+                ])
+            } else {
+                // It lasts until position control is active or holds without it.
+                let gone = Condition::Any(causes.collect()).opposite();
+                let switching = matches!(axis.enabling.control, ControllerState::SwitchingOn(_));
+                let not_switching =
+                    fact(format!("{} is in position control or holds", self.axis_name(number)), !switching);
+                Condition::All(vec![gone, not_switching.into()])
+            }
+        });
+        let active = self.not_parked(number);
+        if wanted { Condition::All(vec![active, state]) } else { Condition::Any(vec![active.opposite(), state]) }
+    }
+
+    fn selected_fact(self, number: AxisNumber, encoder: u8, wanted: bool) -> Fact {
+        let active = self.state.axes[number].measuring_system;
+        let found = active.map_or_else(|| "none: the axis is parked".to_owned(), |active| (active + 1).to_string());
+        let other = if wanted { String::new() } else { "not ".to_owned() };
+        let wanted_text = format!("{other}{}", encoder + 1);
+        Fact::new(
+            format!("active measuring system of {}", self.axis_name(number)),
+            found,
+            wanted_text,
+            (active == Some(encoder)) == wanted,
+        )
+    }
+
+    fn measuring_system(self, number: AxisNumber, encoder: u8) -> Condition {
+        self.selected_fact(number, encoder, true).after(|| {
+            let count = self.parameters.axes[number].encoders;
+            let exist = Fact::new(
+                format!("measuring systems of {} (MD30200)", self.axis_name(number)),
+                count.to_string(),
+                format!("at least {}", encoder + 1),
+                count > encoder,
+            );
+            let mut all = vec![exist.into()];
+            if encoder == 0 {
+                all.push(self.axis(number, axis_to_nck::position_measuring_system_1, true));
+            } else {
+                all.push(self.axis(number, axis_to_nck::position_measuring_system_1, false));
+                all.push(self.axis(number, axis_to_nck::position_measuring_system_2, true));
+            }
+            // Parking applies to all axes of a unit.
+            let unit = self.unit(number);
+            all.extend(unit.members().filter(|&axis| axis != number).map(|axis| self.selects_one(axis)));
+            let switches = self.state.axes[number].measuring_system.is_some();
+            if switches && count > 1 {
+                all.push(self.no_alarm(
+                    format!("alarm of {} that prevents switching over", self.axis_name(number)),
+                    |place, alarm| {
+                        place == Place::Axis(number) && alarm.number == crate::sinumerik::alarms::SWITCH_OVER_IMPOSSIBLE
+                    },
+                ));
+            }
+            Condition::All(all)
+        })
+    }
+
+    /// The PLC selects a measuring system of the axis.
+    fn selects_one(self, axis: AxisNumber) -> Condition {
+        let first = self.axis(axis, axis_to_nck::position_measuring_system_1, true);
+        match self.parameters.axes[axis].encoders {
+            0 => fact(format!("{} has a measuring system (MD30200)", self.axis_name(axis)), false).into(),
+            1 if self.state.axes[axis].measuring_system.is_none() => first,
+            _ => Condition::Any(vec![first, self.axis(axis, axis_to_nck::position_measuring_system_2, true)]),
+        }
+    }
+
+    fn measuring_system_off(self, number: AxisNumber, encoder: u8) -> Condition {
+        self.selected_fact(number, encoder, false).after(|| {
+            let unit = self.unit(number);
+            let mut any: Vec<_> = unit.members().map(|axis| self.selects_one(axis).opposite()).collect();
+            if self.parameters.axes[number].encoders > 1 {
+                let other = if encoder == 0 {
+                    vec![
+                        self.axis(number, axis_to_nck::position_measuring_system_1, false),
+                        self.axis(number, axis_to_nck::position_measuring_system_2, true),
+                    ]
+                } else {
+                    vec![self.axis(number, axis_to_nck::position_measuring_system_1, true)]
+                };
+                any.push(Condition::All(other));
+            }
+            Condition::Any(any)
+        })
+    }
+}

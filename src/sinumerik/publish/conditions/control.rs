@@ -1,0 +1,244 @@
+//! Conditions of the signals of the NCK, the mode groups and the channels: start-up, ready, modes, states.
+
+use crate::control::{Condition, Fact};
+use crate::image::{axis_from_nck, channel_from_nck, mode_group_from_nck, mode_group_to_nck, nck_from_nck, nck_to_nck};
+use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::operation::state::{MachineFunction, Mode};
+use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber};
+
+/// DB10.
+pub(super) const NCK: &[Row<()>] = &[
+    Row::new(nck_from_nck::nc_cpu_ready, |look, ()| look.started_up("computes", look.state.run_up.is_cpu_ready())),
+    Row::with(
+        nck_from_nck::emergency_stop_active,
+        |look, ()| look.emergency_stop(),
+        |look, ()| look.no_emergency_stop(),
+    ),
+    Row::new(nck_from_nck::drives_in_cyclic_operation, |look, ()| {
+        look.started_up("exchanges data with its drives", look.state.run_up.are_drives_cyclic())
+    }),
+    Row::new(nck_from_nck::drives_ready, |look, ()| look.drives_ready()),
+    Row::new(nck_from_nck::nc_ready, |look, ()| look.nc_ready()),
+    Row::new(nck_from_nck::nc_alarm_active, |look, ()| {
+        look.no_alarm("alarm with interface signals".to_owned(), |_, alarm| {
+            alarm.reaction.has(Reaction::INTERFACE_SIGNALS)
+        })
+        .opposite()
+    }),
+];
+
+/// DB11.
+pub(super) const MODE_GROUP: &[Row<ModeGroupNumber>] = &[
+    Row::new(mode_group_from_nck::active_mode_automatic, |look, group| look.mode(group, Mode::Automatic)),
+    Row::new(mode_group_from_nck::active_mode_mdi, |look, group| look.mode(group, Mode::Mda)),
+    Row::new(mode_group_from_nck::active_mode_jog, |look, group| look.mode(group, Mode::Jog)),
+    Row::new(mode_group_from_nck::mode_group_ready, |look, owner| look.mode_group_ready(owner)),
+    Row::new(mode_group_from_nck::all_channels_in_reset_state, |look, owner| look.all_channels_reset(owner)),
+    Row::new(mode_group_from_nck::active_machine_function_teach_in, |look, group| {
+        look.function(group, MachineFunction::TeachIn)
+    }),
+    Row::new(mode_group_from_nck::active_machine_function_repos, |look, group| {
+        look.function(group, MachineFunction::Repos)
+    }),
+    Row::new(mode_group_from_nck::active_machine_function_ref, |look, group| {
+        look.function(group, MachineFunction::Reference)
+    }),
+];
+
+/// DB21.
+pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
+    Row::with(
+        channel_from_nck::referencing_active,
+        |look, owner| look.channel_referencing(owner),
+        |look, owner| look.channel_referencing_ended(owner),
+    ),
+    Row::new(channel_from_nck::channel_state_active, |look, channel| look.at_rest(channel).opposite()),
+    Row::new(channel_from_nck::channel_state_reset, |look, owner| look.at_rest(owner)),
+    Row::new(channel_from_nck::all_axes_requiring_reference_point_are_referenced, |look, owner| {
+        look.all_referenced(owner)
+    }),
+    Row::new(channel_from_nck::all_axes_stationary, |look, owner| look.all_stand(owner)),
+    Row::new(channel_from_nck::channel_ready, |look, owner| look.channel_ready(owner)),
+    Row::new(channel_from_nck::channel_specific_nck_alarm_active, |look, channel| {
+        look.no_channel_alarm(channel, "interface signals", Reaction::INTERFACE_SIGNALS).opposite()
+    }),
+    Row::new(channel_from_nck::nck_alarm_with_machining_stop_active, |look, channel| {
+        look.no_channel_alarm(channel, "the reaction stop", Reaction::STOP).opposite()
+    }),
+];
+
+impl Look<'_> {
+    /// A step of the start-up, which takes a fixed number of cycles.
+    fn started_up(self, step: &str, holds: bool) -> Condition {
+        let cycles = self.state.run_up.cycles;
+        let found = if holds { "yes".to_owned() } else { format!("no, in cycle {cycles} of its start-up") };
+        Fact::new(format!("the control {step}"), found, "yes", holds).into()
+    }
+
+    /// The start-up has ended; its last step waits once for all drives.
+    fn run_up(self) -> Condition {
+        fact("the start-up of the control has ended", self.state.run_up.is_nc_ready())
+            .after(|| self.nck(nck_from_nck::drives_ready, true))
+    }
+
+    fn drives_ready(self) -> Condition {
+        let missing = |axis: AxisNumber| !self.state.axes[axis].drive_ready;
+        let found: Vec<_> =
+            self.parameters.existing.iter().filter(|&axis| missing(axis)).map(|axis| self.axis_name(axis)).collect();
+        let ready = self.state.run_up.drives_ready;
+        let found = if ready || found.is_empty() { "none".to_owned() } else { found.join(", ") };
+        let drives = Fact::new("drives that are not ready", found, "none", ready);
+        let all = self.parameters.existing.iter().map(|axis| self.axis(axis, axis_from_nck::drive_ready, true));
+        let drives = drives.after(|| Condition::All(all.collect()));
+        Condition::All(vec![self.nck(nck_from_nck::drives_in_cyclic_operation, true), drives])
+    }
+
+    fn nc_ready(self) -> Condition {
+        let alarm = self.no_alarm("alarm with the reaction NC not ready".to_owned(), |_, alarm| {
+            alarm.reaction.has(Reaction::NC_NOT_READY)
+        });
+        Condition::All(vec![self.run_up(), alarm])
+    }
+
+    fn emergency_fact(self, wanted: bool) -> Fact {
+        let word = |active| if active { "active" } else { "not active" };
+        let active = self.state.emergency_stop.is_active();
+        Fact::new("emergency stop", word(active), word(wanted), active == wanted)
+    }
+
+    fn emergency_stop(self) -> Condition {
+        self.emergency_fact(true).after(|| self.nck(nck_to_nck::emergency_stop, true))
+    }
+
+    fn no_emergency_stop(self) -> Condition {
+        self.emergency_fact(false).after(|| {
+            let groups = self.parameters.existing_mode_groups();
+            let resets = groups.map(|group| self.mode_group(group, mode_group_to_nck::mode_group_reset, true));
+            let request = self.nck(nck_to_nck::emergency_stop, false);
+            let acknowledged = self.nck(nck_to_nck::acknowledge_emergency_stop, true);
+            Condition::All([request, acknowledged].into_iter().chain(resets).collect())
+        })
+    }
+
+    fn mode(self, group: ModeGroupNumber, wanted: Mode) -> Condition {
+        let name = |mode| match mode {
+            Mode::Automatic => "AUTO",
+            Mode::Mda => "MDA",
+            Mode::Jog => "JOG",
+        };
+        let mode = self.state.mode_groups[group].mode;
+        Fact::new(format!("mode of mode group {group}"), name(mode), name(wanted), mode == wanted).after(|| {
+            let asks = |signal, value| self.mode_group(group, signal, value);
+            let mut all = vec![asks(mode_group_to_nck::mode_change_inhibit, false)];
+            // JOG has priority over MDA, MDA over AUTO.
+            match wanted {
+                Mode::Jog => all.push(asks(mode_group_to_nck::mode_jog, true)),
+                Mode::Mda => {
+                    all.push(asks(mode_group_to_nck::mode_mdi, true));
+                    all.push(asks(mode_group_to_nck::mode_jog, false));
+                }
+                Mode::Automatic => {
+                    all.push(asks(mode_group_to_nck::mode_automatic, true));
+                    all.push(asks(mode_group_to_nck::mode_mdi, false));
+                    all.push(asks(mode_group_to_nck::mode_jog, false));
+                }
+            }
+            Condition::All(all)
+        })
+    }
+
+    fn function(self, group: ModeGroupNumber, wanted: MachineFunction) -> Condition {
+        let asks = |signal, value| self.mode_group(group, signal, value);
+        Condition::All(match wanted {
+            MachineFunction::TeachIn => vec![
+                asks(mode_group_from_nck::active_mode_mdi, true),
+                asks(mode_group_to_nck::machine_function_teach_in, true),
+            ],
+            // REF has priority over REPOS.
+            MachineFunction::Repos => vec![
+                asks(mode_group_from_nck::active_mode_jog, true),
+                asks(mode_group_to_nck::machine_function_repos, true),
+                asks(mode_group_to_nck::machine_function_ref, false),
+            ],
+            MachineFunction::Reference => vec![
+                asks(mode_group_from_nck::active_mode_jog, true),
+                asks(mode_group_to_nck::machine_function_ref, true),
+            ],
+            MachineFunction::None => Vec::new(),
+        })
+    }
+
+    fn mode_group_ready(self, group: ModeGroupNumber) -> Condition {
+        Condition::All(vec![self.run_up(), self.no_mode_group_alarm(group)])
+    }
+
+    /// No alarm resets "mode group ready".
+    pub(super) fn no_mode_group_alarm(self, group: ModeGroupNumber) -> Condition {
+        self.no_alarm(format!("alarm that resets ready of mode group {group}"), |place, alarm| {
+            let only_channel =
+                self.parameters.only_channel_not_ready && alarm.reaction.has(Reaction::CHANNEL_NOT_READY);
+            alarm.reaction.has(Reaction::MODE_GROUP_NOT_READY)
+                && !only_channel
+                && self.parameters.concerns_mode_group(place, group)
+        })
+    }
+
+    fn all_channels_reset(self, group: ModeGroupNumber) -> Condition {
+        let channels = self.parameters.existing_channels().filter(|(_, of)| *of == group);
+        Condition::All(
+            channels.map(|(channel, _)| self.channel(channel, channel_from_nck::channel_state_reset, true)).collect(),
+        )
+    }
+
+    /// The axes of a channel that are not in a set.
+    fn without(self, axes: AxisSet, set: AxisSet) -> String {
+        let left: Vec<_> = axes.iter().filter(|&axis| !set.contains(axis)).map(|axis| self.axis_name(axis)).collect();
+        if left.is_empty() { "none".to_owned() } else { left.join(", ") }
+    }
+
+    fn at_rest(self, channel: ChannelNumber) -> Condition {
+        let axes = self.parameters.channels[channel].axes;
+        let moving = self.state.summary.in_motion.and(axes);
+        let found = if moving.is_empty() {
+            "none".to_owned()
+        } else {
+            moving.iter().map(|axis| self.axis_name(axis)).collect::<Vec<_>>().join(", ")
+        };
+        let what = format!("axes of {} that move, are to move or are referenced", self.channel_name(channel));
+        Fact::new(what, found, "none", moving.is_empty()).into()
+    }
+
+    fn all_referenced(self, channel: ChannelNumber) -> Condition {
+        let needed = self.parameters.channels[channel].reference_needed;
+        let what = format!("axes of {} without the reference point that they need", self.channel_name(channel));
+        let referenced = self.state.summary.referenced;
+        let holds = referenced.has_all_of(needed);
+        Fact::new(what, self.without(needed, referenced), "none", holds).after(|| {
+            let missing = needed.iter().filter(|&axis| !referenced.contains(axis));
+            Condition::All(missing.map(|axis| self.reference_signal(axis)).collect())
+        })
+    }
+
+    fn all_stand(self, channel: ChannelNumber) -> Condition {
+        let axes = self.parameters.channels[channel].axes;
+        let standing = self.state.summary.standing;
+        let what = format!("axes of {} that are not stationary", self.channel_name(channel));
+        let holds = standing.has_all_of(axes);
+        Fact::new(what, self.without(axes, standing), "none", holds).after(|| {
+            let moving = axes.iter().filter(|&axis| !standing.contains(axis));
+            Condition::All(moving.map(|axis| self.stationary(axis)).collect())
+        })
+    }
+
+    fn no_channel_alarm(self, channel: ChannelNumber, words: &str, reaction: Reaction) -> Condition {
+        self.no_alarm(format!("alarm of {} with {words}", self.channel_name(channel)), |place, alarm| {
+            alarm.reaction.has(reaction) && self.parameters.concerns_channel(place, channel)
+        })
+    }
+
+    fn channel_ready(self, channel: ChannelNumber) -> Condition {
+        let alarm = self.no_channel_alarm(channel, "the reaction channel not ready", Reaction::CHANNEL_NOT_READY);
+        Condition::All(vec![self.run_up(), alarm])
+    }
+}

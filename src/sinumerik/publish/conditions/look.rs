@@ -1,0 +1,147 @@
+//! What conditions are computed from: the state after a cycle, what the PLC wrote in it, and names; and parts of many conditions.
+
+use crate::control::{Condition, Fact, Question};
+use crate::image::{Names, Signal, ToNck};
+use crate::sinumerik::alarms::Alarm;
+use crate::sinumerik::gantry::state::{Grouping, Phase};
+use crate::sinumerik::inputs::required;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::state::{State, Unit};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position};
+use crate::variables::{Place, axis_name, place_name, six_decimals};
+
+/// What conditions are computed from.
+#[derive(Clone, Copy)]
+pub(super) struct Look<'a> {
+    pub(super) state: &'a State,
+    pub(super) parameters: &'a Parameters,
+    pub(super) to_nck: &'a ToNck,
+    pub(super) names: &'a Names,
+}
+
+/// The conditions for 1, and those for 0 if they are not the opposite.
+pub(super) struct Row<Owner: 'static> {
+    pub(super) signal: Signal,
+    pub(super) set: fn(Look<'_>, Owner) -> Condition,
+    pub(super) reset: Option<fn(Look<'_>, Owner) -> Condition>,
+}
+
+impl<Owner> Row<Owner> {
+    /// A signal that is 0 exactly if these conditions for 1 do not hold.
+    pub(super) const fn new(signal: Signal, set: fn(Look<'_>, Owner) -> Condition) -> Self {
+        Self { signal, set, reset: None }
+    }
+
+    /// A signal that is reset by other conditions than those that set it.
+    pub(super) const fn with(
+        signal: Signal,
+        set: fn(Look<'_>, Owner) -> Condition,
+        reset: fn(Look<'_>, Owner) -> Condition,
+    ) -> Self {
+        Self { signal, set, reset: Some(reset) }
+    }
+}
+
+impl<'a> Look<'a> {
+    pub(super) fn find<Owner: Copy>(
+        self,
+        rows: &[Row<Owner>],
+        owner: Owner,
+        question: &Question<'_>,
+    ) -> Option<Condition> {
+        let is_meant = |row: &&Row<Owner>| (row.signal.byte, row.signal.bit) == (question.byte, question.bit);
+        let row = rows.iter().find(is_meant)?;
+        Some(match (question.wanted, row.reset) {
+            (true, _) => (row.set)(self, owner),
+            (false, Some(reset)) => reset(self, owner),
+            (false, None) => (row.set)(self, owner).opposite(),
+        })
+    }
+
+    /// A block that the control does not write keeps all its bits at 0.
+    pub(super) fn not_shown(self, place: Place, wanted: bool) -> Option<Condition> {
+        let name = place_name(place, self.names);
+        let (exists, is_silent) = match place {
+            Place::Nck => (true, false),
+            Place::ModeGroup(group) => (self.parameters.existing_mode_groups().any(|other| other == group), false),
+            Place::Channel(channel) => (self.parameters.existing_channels().any(|(other, _)| other == channel), false),
+            Place::Axis(axis) => (self.parameters.axes[axis].exists, self.parameters.axes[axis].silent),
+        };
+        let shown = if !exists {
+            Fact::new(format!("{name} exists"), "no", "yes", false)
+        } else if is_silent {
+            Fact::new(format!("signals of the simulated axis {name} (MD30350)"), "off", "on", false)
+        } else {
+            return None;
+        };
+        Some(if wanted { shown.into() } else { Condition::from(shown).opposite() })
+    }
+
+    pub(super) fn axis(self, axis: AxisNumber, signal: Signal, wanted: bool) -> Condition {
+        required(Place::Axis(axis), signal, wanted)
+    }
+
+    pub(super) fn channel(self, channel: ChannelNumber, signal: Signal, wanted: bool) -> Condition {
+        required(Place::Channel(channel), signal, wanted)
+    }
+
+    pub(super) fn mode_group(self, group: ModeGroupNumber, signal: Signal, wanted: bool) -> Condition {
+        required(Place::ModeGroup(group), signal, wanted)
+    }
+
+    pub(super) fn nck(self, signal: Signal, wanted: bool) -> Condition {
+        required(Place::Nck, signal, wanted)
+    }
+
+    pub(super) fn axis_name(self, axis: AxisNumber) -> String {
+        axis_name(axis, self.names)
+    }
+
+    pub(super) fn channel_name(self, channel: ChannelNumber) -> String {
+        place_name(Place::Channel(channel), self.names)
+    }
+
+    /// The unit of an axis.
+    pub(super) fn unit(self, axis: AxisNumber) -> Unit {
+        let mut units = self.state.units.iter();
+        units.find(|unit| unit.set.contains(axis)).copied().unwrap_or_else(|| Unit::single(axis, self.parameters))
+    }
+
+    /// The grouping of a gantry axis.
+    pub(super) fn grouping(self, axis: AxisNumber) -> Option<&'a Grouping> {
+        self.state.groupings.iter().find(|grouping| grouping.coupling.members().any(|member| member == axis))
+    }
+
+    /// The closed grouping of a gantry axis.
+    pub(super) fn closed_grouping(self, axis: AxisNumber) -> Option<&'a Grouping> {
+        self.grouping(axis).filter(|grouping| grouping.phase != Phase::Open)
+    }
+
+    /// No alarm of this kind is pending.
+    pub(super) fn no_alarm(self, what: String, meant: impl Fn(Place, &Alarm) -> bool) -> Condition {
+        let is_meant = |place: Place, number| Alarm::find(number).is_some_and(|alarm| meant(place, alarm));
+        let found = self.state.alarms.iter().find(|(raised, _)| is_meant(raised.place, raised.number));
+        let found = found.map(|(raised, _)| {
+            let cancel = Alarm::find(raised.number).map_or(String::new(), |alarm| alarm.cancel.to_string());
+            let place = place_name(raised.place, self.names);
+            format!("{} [{place}], cleared by {cancel}", Alarm::name(raised.number))
+        });
+        let holds = found.is_none();
+        Fact::new(what, found.unwrap_or_else(|| "none".to_owned()), "none", holds).into()
+    }
+}
+
+/// A length in user units.
+pub(super) fn length(position: Position) -> String {
+    six_decimals(position.user())
+}
+
+/// "Yes" or "no".
+pub(super) fn yes(holds: bool) -> &'static str {
+    if holds { "yes" } else { "no" }
+}
+
+/// A fact that is true or false.
+pub(super) fn fact(what: impl Into<String>, holds: bool) -> Fact {
+    Fact::new(what, yes(holds), "yes", holds)
+}

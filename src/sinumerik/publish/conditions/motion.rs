@@ -1,0 +1,234 @@
+//! Conditions of travel request and travel command, and what stops and holds every movement.
+
+use crate::control::{Condition, Fact};
+use crate::image::{axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck, mode_group_to_nck, nck_from_nck};
+use crate::motion::Motion;
+use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::axis::limits::Ahead;
+use crate::sinumerik::axis::travel::{command_signal, request_signal};
+use crate::sinumerik::gantry::state::Phase;
+use crate::sinumerik::jog::keys::{key_direction, key_signal};
+use crate::sinumerik::jog::state::{By, Movement};
+use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::sinumerik::state::Unit;
+use crate::units::{AxisNumber, ChannelNumber};
+
+/// The signals.
+pub(super) const ROWS: &[Row<AxisNumber>] = &[
+    Row::with(
+        axis_from_nck::traverse_request_minus,
+        |look, axis| look.traverse(axis, -1, false, true),
+        |look, axis| look.traverse(axis, -1, false, false),
+    ),
+    Row::with(
+        axis_from_nck::traverse_request_plus,
+        |look, axis| look.traverse(axis, 1, false, true),
+        |look, axis| look.traverse(axis, 1, false, false),
+    ),
+    Row::with(
+        axis_from_nck::traverse_command_minus,
+        |look, axis| look.traverse(axis, -1, true, true),
+        |look, axis| look.traverse(axis, -1, true, false),
+    ),
+    Row::with(
+        axis_from_nck::traverse_command_plus,
+        |look, axis| look.traverse(axis, 1, true, true),
+        |look, axis| look.traverse(axis, 1, true, false),
+    ),
+];
+
+/// A direction in words.
+const fn sign(direction: i8) -> &'static str {
+    match direction {
+        1 => "plus",
+        -1 => "minus",
+        _ => "none",
+    }
+}
+
+impl Look<'_> {
+    fn traverse(self, number: AxisNumber, direction: i8, command: bool, wanted: bool) -> Condition {
+        let travel = self.state.axes[number].travel;
+        let (word, shown) =
+            if command { ("command", travel.command(self.parameters)) } else { ("request", travel.request()) };
+        let what = format!("traverse {word} of {}", self.axis_name(number));
+        let expected = if wanted { sign(direction).to_owned() } else { format!("not {}", sign(direction)) };
+        Fact::new(what, sign(shown), expected, (shown == direction) == wanted).after(|| {
+            let moves = self.movement(number, direction, command);
+            if wanted { moves } else { moves.opposite() }
+        })
+    }
+
+    /// What must hold so that an axis is to move in a direction (request), or moves (command). With MD17900 bit 0 = 1 a command also needs
+    /// that nothing holds the movement (O-27).
+    fn movement(self, number: AxisNumber, direction: i8, command: bool) -> Condition {
+        let unit = self.unit(number);
+        let axis = &self.state.axes[number];
+        let mut all = Vec::new();
+        if command && self.parameters.command_only_in_motion {
+            all.push(self.not_held(&unit));
+            all.extend(unit.members().map(|axis| self.in_control(axis)));
+        }
+        let grouping = self.closed_grouping(number);
+        if axis.approach.is_running() {
+            let goes = axis.approach.direction(axis, self.parameters.axes[number].reference.cam_is_active);
+            let what = format!("reference point approach of {}", self.axis_name(number));
+            let found = format!("{}, direction {}", axis.approach.phase().text(), sign(goes));
+            all.push(Fact::new(what, found, format!("direction {}", sign(direction)), goes == direction).into());
+            all.push(self.not_stopped(unit.channel));
+            all.push(self.mode_group(unit.mode_group, mode_group_from_nck::active_machine_function_ref, true));
+            all.extend(unit.members().map(|axis| self.in_control(axis)));
+        } else if grouping.is_some_and(|grouping| grouping.phase == Phase::Synchronising) {
+            let goes = match axis.motion {
+                Motion::GoTo { target, .. } => (target - axis.setpoint.position).increments().signum(),
+                Motion::Brake { .. } | Motion::Run { .. } | Motion::Track | Motion::Hold => 0,
+            };
+            let goes = i8::try_from(goes).unwrap_or(0);
+            let what = format!("synchronising motion of {}", self.axis_name(number));
+            let wanted = format!("direction {}", sign(direction));
+            all.push(Fact::new(what, format!("direction {}", sign(goes)), wanted, goes == direction).into());
+        } else if let Some(leader) =
+            grouping.map(|grouping| grouping.coupling.leader()).filter(|&leader| leader != number)
+        {
+            // SIG-09: the travel of the leading axis is also displayed here.
+            let signal = if command { command_signal(direction) } else { request_signal(direction) };
+            return self.axis(leader, signal, true);
+        } else if self.state.is_jogging(&unit) {
+            all.push(self.jog(&unit, direction, command));
+        } else {
+            all.push(self.referencing_by_key(&unit, direction));
+        }
+        Condition::All(all)
+    }
+
+    /// Movement in JOG by a key, in the order in which `jog/keys.rs` tests.
+    fn jog(self, unit: &Unit, direction: i8, command: bool) -> Condition {
+        let number = unit.leader();
+        let (axis, jogging) = (&self.state.axes[number], &self.state.axes[number].jogging);
+        let modes = self.parameters.key_modes;
+        let name = self.axis_name(number);
+        let mut all = vec![self.not_stopped(unit.channel)];
+        let needs_key = match jogging.movement {
+            Movement::None => {
+                // O-26: only a rising edge starts a movement.
+                let pressed = key_direction(&self.to_nck.axes[number]) == direction;
+                all.push(fact("the key rises: it was 0 before", !pressed).into());
+                true
+            }
+            Movement::Continuous(_) => modes.continuous_held,
+            Movement::Pending(_, By::Key(_)) | Movement::Path(_, By::Key(_)) => modes.increment_held,
+            Movement::Pending(_, By::Handwheel) | Movement::Path(_, By::Handwheel) => false,
+        };
+        if needs_key {
+            all.push(self.key(number, direction));
+        }
+        if jogging.movement != Movement::None {
+            let moves = jogging.movement.direction(axis.setpoint.position);
+            let what = format!("movement of {name} in JOG");
+            all.push(Fact::new(what, sign(moves), sign(direction), moves == direction).into());
+        }
+        let switch = if direction > 0 {
+            axis_to_nck::hardware_limit_switch_plus
+        } else {
+            axis_to_nck::hardware_limit_switch_minus
+        };
+        all.extend(unit.members().map(|axis| self.axis(axis, switch, false)));
+        if command {
+            all.push(self.axis(number, axis_from_nck::ramp_function_generator_disable_active, false));
+            let ahead = self.state.software_limit_ahead(number, direction, self.parameters, self.to_nck);
+            // The limit is tested when the axis may move.
+            let reached = ahead == Ahead::Reached && axis.enabling.is_on() && !axis.is_held();
+            all.push(fact(format!("{name} is before its software limit"), !reached).into());
+        }
+        Condition::All(all)
+    }
+
+    /// The key of a direction, alone and not disabled.
+    pub(super) fn key(self, axis: AxisNumber, direction: i8) -> Condition {
+        Condition::All(vec![
+            self.axis(axis, key_signal(direction), true),
+            self.axis(axis, key_signal(-direction), false),
+            self.axis(axis, axis_to_nck::traversing_key_disable, false),
+        ])
+    }
+
+    /// With REF a key requests an approach, in any other machine function or mode nothing.
+    fn referencing_by_key(self, unit: &Unit, direction: i8) -> Condition {
+        let group = unit.mode_group;
+        if !self.state.mode_groups[group].is_referencing() {
+            return Condition::All(vec![
+                self.mode_group(group, mode_group_from_nck::active_mode_jog, true),
+                self.mode_group(group, mode_group_from_nck::active_machine_function_repos, false),
+            ]);
+        }
+        let number = unit.leader();
+        let reference = &self.parameters.axes[number].reference;
+        let name = self.axis_name(number);
+        let mut all = vec![self.approach_requested(unit), self.start(unit)];
+        if reference.cam_is_active {
+            // An approach that begins on the cam first leaves it.
+            let forward = if reference.cam_direction > 0.0 { 1 } else { -1 };
+            let on_cam = self.to_nck.axes[number].deceleration_reference_point_approach();
+            let first = if on_cam { -forward } else { forward };
+            let what = format!("first direction of an approach of {name} (MD34010, 12.7)");
+            all.push(Fact::new(what, sign(first), sign(direction), first == direction).into());
+        } else {
+            all.push(self.key(number, direction));
+        }
+        Condition::All(all)
+    }
+
+    /// No reason stops every movement of a channel.
+    pub(super) fn not_stopped(self, channel: ChannelNumber) -> Condition {
+        let group = self.parameters.mode_group(channel);
+        let stops = self.no_alarm(format!("alarm that stops {}", self.channel_name(channel)), |place, alarm| {
+            alarm.reaction.has(Reaction::STOP) && self.parameters.concerns_channel(place, channel)
+                || alarm.reaction.has(Reaction::NC_NOT_READY)
+        });
+        Condition::All(vec![
+            self.nck(nck_from_nck::emergency_stop_active, false),
+            self.channel(channel, channel_to_nck::channel_reset, false),
+            self.mode_group(group, mode_group_to_nck::mode_group_reset, false),
+            stops,
+            self.no_mode_group_alarm(group),
+        ])
+    }
+
+    /// Neither feed stop nor an override of 0 holds the movement of a unit.
+    pub(super) fn not_held(self, unit: &Unit) -> Condition {
+        let mut all = vec![self.channel(unit.channel, channel_to_nck::feed_disable, false)];
+        all.extend(unit.members().map(|axis| self.axis(axis, axis_to_nck::feed_stop, false)));
+        all.push(self.override_acts(unit.leader()));
+        Condition::All(all)
+    }
+
+    /// An override of 0 holds only while it is active.
+    fn override_acts(self, axis: AxisNumber) -> Condition {
+        let factor = self.state.axes[axis].feed_factor;
+        let what = format!("effective override of {}", self.axis_name(axis));
+        let percent = format!("{} %", (factor * 1e6).round() / 1e4);
+        Fact::new(what, percent, "above 0 %", factor > 0.0).into()
+    }
+
+    /// Nothing forbids a movement of a unit, and each of its axes is in position control.
+    pub(super) fn can_move(self, unit: &Unit) -> Condition {
+        let mut all = vec![self.may_move(unit)];
+        all.extend(unit.members().map(|axis| self.in_control(axis)));
+        Condition::All(all)
+    }
+
+    /// Nothing forbids a movement of a unit.
+    pub(super) fn may_move(self, unit: &Unit) -> Condition {
+        let leader = unit.leader();
+        let disabled = self.state.axes[leader].signals.disabled_at.is_some();
+        Condition::All(vec![
+            self.not_stopped(unit.channel),
+            fact(format!("axis disable of {} has ended", self.axis_name(leader)), !disabled).after(|| {
+                let rest = unit.members().map(|axis| self.setpoint_rests(axis));
+                let off = self.axis(leader, axis_to_nck::axis_spindle_disable, false);
+                Condition::All(std::iter::once(off).chain(rest).collect())
+            }),
+            self.axis(leader, axis_from_nck::ramp_function_generator_disable_active, false),
+        ])
+    }
+}

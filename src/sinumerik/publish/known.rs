@@ -1,0 +1,86 @@
+//! Which signals have a row: the control writes these and no others.
+
+use std::sync::OnceLock;
+
+use super::rows::{Rows, Why, mask};
+use crate::image::{Block, Signal};
+use crate::sinumerik::machine_data::MachineData;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::axis::AxisPresence;
+use crate::sinumerik::state::State;
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis};
+
+/// The bits of a byte of a block that rows give.
+type Bits = (Block, u16, u8);
+
+/// Collects the bits of the rows of a block.
+struct Collected<'a> {
+    block: Block,
+    bits: &'a mut Vec<Bits>,
+}
+
+impl Rows for Collected<'_> {
+    fn group(&mut self, first: Signal, last: Signal, _: u8, _: impl FnOnce() -> Why) {
+        self.bits.push((self.block, first.byte, mask(first, last)));
+    }
+}
+
+/// Whether a row of publication gives this signal, also in the bytes of the HMI that the control mirrors.
+pub(in crate::sinumerik) fn has_row(signal: &Signal) -> bool {
+    static BITS: OnceLock<Vec<Bits>> = OnceLock::new();
+    let all = BITS.get_or_init(collect);
+    all.iter().any(|&(block, byte, mask)| (block, byte) == (signal.block, signal.byte) && mask >> signal.bit & 1 == 1)
+}
+
+/// The rows of a machine with a gantry grouping: each kind of block occurs in it.
+fn collect() -> Vec<Bits> {
+    let mut data = MachineData::default();
+    let mut presence = PerAxis::<AxisPresence>::default();
+    // The fourth axis follows: the first three are geometry axes.
+    let pair = [(0, 1), (3, 11)].map(|(index, code)| (AxisNumber::all().nth(index).unwrap_or(AxisNumber::FIRST), code));
+    for (axis, code) in pair {
+        data.axes[axis].gantry_axis_type = code;
+        presence[axis].exists = true;
+    }
+    let parameters = Parameters::new(&data, &presence);
+    let state = State::new(&parameters);
+    let mut bits = Vec::new();
+    let mut of = |block, show: &dyn Fn(&mut Collected<'_>)| show(&mut Collected { block, bits: &mut bits });
+    of(Block::Nck, &|rows| state.show_nck(&parameters, rows));
+    of(Block::ModeGroup, &|rows| {
+        state.show_mode_group(ModeGroupNumber::FIRST, &parameters, rows);
+        state.show_selection(ModeGroupNumber::FIRST, rows);
+    });
+    of(Block::Channel, &|rows| state.show_channel(ChannelNumber::FIRST, &parameters, rows));
+    for (axis, _) in pair {
+        of(Block::Axis, &|rows| {
+            let own = &parameters.axes[axis];
+            state.show_axis(axis, own, &parameters, rows);
+            state.show_movement(axis, own, &parameters, rows);
+            state.show_gantry_axis(axis, rows);
+        });
+    }
+    bits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::{axis_from_nck, channel_from_nck, mode_group_from_nck, nck_from_nck};
+
+    #[test]
+    fn rows_are_found_bit_by_bit() {
+        let written = [
+            axis_from_nck::gantry_trip_limit_exceeded,
+            axis_from_nck::gantry_leading_axis,
+            axis_from_nck::axis_stationary,
+            axis_from_nck::active_machine_function_increment_100,
+            channel_from_nck::referencing_active,
+            mode_group_from_nck::mode_group_ready,
+            nck_from_nck::nc_ready,
+        ];
+        assert_eq!(written.iter().find(|signal| !has_row(signal)), None);
+        let named_only = [axis_from_nck::measurement_active, channel_from_nck::program_test_active];
+        assert_eq!(named_only.iter().find(|signal| has_row(signal)), None);
+    }
+}
