@@ -21,6 +21,7 @@ mod gantry;
 mod inputs;
 mod jog;
 pub mod machine_data;
+mod modelled;
 mod monitoring;
 mod nck;
 mod opening;

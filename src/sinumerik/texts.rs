@@ -1,9 +1,10 @@
 //! The texts of this control: alarms, rules, names of machine data and charts of its state machines.
 
 use crate::control::{AlarmRow, Chart, ClearInfo, Texts};
-use crate::image::{Interface, SINUMERIK};
+use crate::image::{Interface, SINUMERIK, Signal};
 use crate::sinumerik::alarms::{Alarm, CATALOGUE, Cancel, not_raised};
 use crate::sinumerik::gantry;
+use crate::sinumerik::modelled::is_modelled;
 use crate::sinumerik::referencing;
 use crate::sinumerik::rules::Rule;
 use crate::variables::{AlarmNumber, Rule as RuleText, RuleNumber};
@@ -22,6 +23,10 @@ impl Texts for Words {
 
     fn interface(&self) -> &'static Interface {
         &SINUMERIK
+    }
+
+    fn is_modelled(&self, signal: &Signal) -> bool {
+        is_modelled(signal)
     }
 
     fn alarms(&self) -> Vec<AlarmRow> {

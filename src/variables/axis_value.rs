@@ -58,6 +58,22 @@ impl AxisValue {
         }
     }
 
+    /// What it is, with its unit.
+    #[must_use]
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::Position => "Displayed actual value, in mm or degrees.",
+            Self::Setpoint => "Setpoint, in mm or degrees.",
+            Self::Velocity => "Actual velocity, in mm/min or rev/min.",
+            Self::FollowingError => "Setpoint minus actual value, in mm or degrees.",
+            Self::Slide => "True position of the simulated slide, in mm or degrees.",
+            Self::SynchronismDifference => "Actual value minus ideal position of a synchronous axis, in mm or degrees.",
+            Self::Encoder1 => "Actual value of encoder 1, in mm or degrees, active or not.",
+            Self::Encoder2 => "Actual value of encoder 2, in mm or degrees, active or not.",
+            Self::DistanceToGo => "Remaining distance of a movement with a target, in mm or degrees, with sign.",
+        }
+    }
+
     /// The value with this name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
