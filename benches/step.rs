@@ -172,10 +172,18 @@ fn open_machine(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| Machine::open(&directory).expect("the archive is a good one"));
 }
 
+/// The part of the worked example that references and synchronises.
+fn referencing_and_synchronising() -> Scenario {
+    let text = include_str!("../golden/worked_example/gantry_references_and_synchronises.toml");
+    let mut scenario = Scenario::parse(text, Path::new("example.toml")).expect("it is a good one");
+    "g1_example".clone_into(&mut scenario.machine.text);
+    scenario
+}
+
 /// The trace of the worked example as text.
 #[divan::bench]
 fn trace_to_text(bencher: Bencher<'_, '_>) {
-    let scenario = opennck::cli::example::scenario().expect("the program holds a good one");
+    let scenario = referencing_and_synchronising();
     let profile = scenario.profiles.first().copied().unwrap_or_default();
     let finished = scenario.prepare(profile, &Programs::ready()).expect("the program holds a good one").run();
     bencher.bench_local(|| finished.text().len());
@@ -186,7 +194,7 @@ fn trace_to_text(bencher: Bencher<'_, '_>) {
 fn worked_example(bencher: Bencher<'_, '_>) {
     let programs = Programs::ready();
     bencher.bench_local(|| {
-        let scenario = opennck::cli::example::scenario().expect("the built-in scenario is valid");
+        let scenario = referencing_and_synchronising();
         let profile = scenario.profiles.first().copied().unwrap_or_default();
         let prepared = scenario.prepare(profile, &programs).expect("the built-in scenario is valid");
         prepared.run().text().len()
