@@ -118,15 +118,15 @@
 //! | to add | change | result |
 //! |---|---|---|
 //! | a signal | a row in `db10.rs`, `db11.rs`, `db21.rs` or `db31.rs` of `image/sinumerik/`, in address order | accessor, constant, docs, symbol, trace column; the build rejects overlaps |
-//! | the value of a signal of the control, and its cause | the stage that decides it; its state and the event behind it, for an axis in `AxisSignals` or `Causes` of `sinumerik/axis/state.rs`; a row in `sinumerik/publish/`; a row in `sinumerik/rules.rs` if no rule fits | golden traces that show it; they show the cause if the scenario has `causes = true` |
-//! | the reaction to a signal of the PLC | the stage that reads it, by its constant through `sinumerik/inputs.rs` | the cause of an edge names it |
+//! | the value of a signal of the control, and its cause | the stage that decides it; its state and the event behind it, for an axis in `AxisSignals` or `Causes` of `sinumerik/axis/state.rs`; a row in `sinumerik/publish/`, and what must hold for it in `publish/conditions/`; a row in `sinumerik/rules.rs` if no rule fits | golden traces that show it; they show the cause if the scenario has `causes = true` |
+//! | the reaction to a signal of the PLC | the stage that reads it, by its constant through `sinumerik/inputs.rs`; its row in `sinumerik/modelled.rs` | the cause of an edge names it |
 //! | an interface of another control | a static [`image::Interface`] with its tables, as in `tests/machine/own_interface.rs` | symbols, addresses, presets, mapped image; the build rejects gaps and bytes of another writer |
 //! | another control | a module with its [`control::Control`], [`control::Configuration`] and [`control::Texts`]; a row in `CONTROLS` of `controls/mod.rs`; its folder in `KNOWS_CONTROLS` of `tests/layers.rs`. `tests/machine/second_control/platform.rs` is a tiny one | its machines run in scenarios, traces, S7 |
 //! | a machine datum | a row in `general.rs`, `channel.rs`, `axis.rs` or `setting.rs` of `sinumerik/machine_data/`; a field in the file of its topic in `sinumerik/parameters/`, if the model needs it | its number and name are read, checked and written; the build rejects a number twice |
 //! | an alarm | a row in `sinumerik/alarms/mod.rs`, and its row removed from `alarms/not_raised.rs`; a `raise` at the place of its condition; an arm of `cleared_cause` in `sinumerik/publish/alarms.rs`, if another event than the movement of its axis clears it; the table in `sinumerik/monitoring/mod.rs`, if it is a monitoring function | `alarm(N)` in scenarios, its text in traces; the build rejects rows out of order |
 //! | a monitoring function | a file in `sinumerik/monitoring/`, a row in the table of its `mod.rs`, a call in `monitor_axis` | its alarms |
 //! | a key or verb of scenarios | `scenario/file.rs` or `scenario/steps.rs` | `docs/scenarios.md`, whose examples are tested |
-//! | a rule | a row in `sinumerik/rules.rs`, a `note` at the place of the decision | the cause of an edge |
+//! | a rule | a row in `sinumerik/rules.rs` and in `docs/rules.md`, a `note` at the place of the decision | the cause of an edge |
 //! | a state of an axis | a field of `Axis` in `sinumerik/axis/state.rs`, compared in `has_decisions_of` or `has_movement_of` there; an arm of `decisions_follow_movement`, if a decision depends on the position | axes at rest wake in time |
 //! | a state that all axes depend on | a field of `Shared` in `sinumerik/resting.rs`; without it no axis wakes when the state changes | as above |
 //! | a step of referencing or of the gantry | a row in `TRANSITIONS` of `sinumerik/referencing/state.rs` or `gantry/state.rs` | golden traces that change |

@@ -1,51 +1,69 @@
-//! `opennck` without arguments: runs the worked example of the manual (G1 2.7) from data embedded in the program.
+//! `opennck` without arguments: runs chapter 2.7 of the gantry manual (G1) from data embedded in the program, and prints one screen of it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use super::files::Files;
 use super::output::Output;
 use super::run::result;
 use crate::plc::Programs;
-use crate::scenario::Scenario;
+use crate::scenario::{Finished, Scenario};
 use crate::source::Problem;
+use crate::trace::Watch;
 
 /// The scenario, as it is in the repository.
-const SCENARIO: &str = include_str!("../../golden/worked_example/gantry_references_and_synchronises.toml");
+const SCENARIO: &str = include_str!("../../golden/worked_example/chapter_2_7.toml");
 
 /// The built-in machine.
 const MACHINE: &str = "g1_example";
 
+/// The signals on the screen. The scenario watches more of them, for the timing diagram.
+const SCREEN: &[&str] = &[
+    "X.start_gantry_synchronization",
+    "X.referenced_synchronized_1",
+    "XF.referenced_synchronized_1",
+    "X.gantry_synchronization_ready_to_start",
+    "X.gantry_grouping_is_synchronized",
+    "XF.gantry_warning_limit_exceeded",
+];
+
+/// Rows with these texts are not on the screen: what ends is less important than what begins.
+const OMITTED: &[&str] = &["1 -> 0", "set MD active", "alarm 10655"];
+
+/// The longest row on the screen.
+const WIDTH: usize = 140;
+
 const NEXT: &str = "
 What to try next:
-  opennck signals gantry                  the signals of gantry axes, with addresses
-  opennck signals --format csv            the whole catalogue
-  opennck run SCENARIO                    your own scenario; start from those in golden/worked_example
-  opennck run SCENARIO --svg F.svg        a timing diagram; --vcd F.vcd for GTKWave, --trace F.jsonl for programs
-  opennck why SCENARIO X.gantry_axis@1    why a signal has its value, back to the first outside write
-  opennck diff A.jsonl B.jsonl            the first difference between two traces
-  opennck test                            all scenarios below golden, compared with their golden traces
-  opennck machine-data check DIRECTORY    checks your own machine data
-  opennck --help                          all commands
+  opennck --svg F.svg                     the whole example as a timing diagram, with all its signals
+  opennck why-not SCENARIO SIGNAL@TIME    what a signal waits for; opennck why: the causes of its last edge
+  opennck rule REF-02                     what a rule says, where it stands, what shows it
+  opennck signals 'reference cam'         signals by name, address or everyday words
+  opennck --help                          all commands: run, test, serve, machine-data check, ...
 ";
 
-/// The example as a scenario that needs no file.
-///
-/// # Errors
-/// The embedded data cannot be used. The tests exclude this.
-pub fn scenario() -> Result<Scenario, Problem> {
-    let mut scenario = Scenario::parse(SCENARIO, Path::new("gantry_references_and_synchronises.toml"))?;
+/// The example as a scenario that needs no file. Its text is part of the program and tested, so that it can be used.
+fn scenario() -> Result<Scenario, Problem> {
+    let mut scenario = Scenario::parse(SCENARIO, Path::new("chapter_2_7.toml"))?;
     MACHINE.clone_into(&mut scenario.machine.text);
     Ok(scenario)
 }
 
-pub(super) fn run(programs: &Programs, output: &mut Output) -> u8 {
-    let prepared = scenario().and_then(|scenario| {
+pub(super) fn run(svg: Option<PathBuf>, programs: &Programs, output: &mut Output) -> u8 {
+    let written = || -> Result<_, Problem> {
+        let picture = svg.map(|path| Files::of([]).open("--svg", &path)).transpose()?;
+        let scenario = scenario()?;
         let profile = scenario.profiles.first().copied().unwrap_or_default();
-        scenario.prepare(profile, programs)
-    });
-    match prepared {
-        Ok(prepared) => {
-            let finished = prepared.run();
-            output.print(&finished.text());
+        let finished = scenario.prepare(profile, programs)?.run();
+        let screen = screen(&finished)?;
+        if let Some(mut picture) = picture {
+            picture.write(&finished.svg())?;
+            picture.finish()?;
+        }
+        Ok((screen, finished))
+    };
+    match written() {
+        Ok((screen, finished)) => {
+            output.print(&screen);
             let code = result(&finished, output);
             output.print(NEXT);
             code
@@ -54,5 +72,22 @@ pub(super) fn run(programs: &Programs, output: &mut Output) -> u8 {
             output.error(problem);
             2
         }
+    }
+}
+
+/// One screen of the trace: notes, alarms, data, and what begins.
+fn screen(finished: &Finished) -> Result<String, Problem> {
+    let session = finished.session();
+    let machine = session.machine();
+    let watch = Watch::parse(SCREEN, machine.names(), machine.memory()).map_err(|(_, problem)| problem)?;
+    let rows = session.trace().text(machine, &watch, true);
+    let shown = rows.lines().filter(|row| !OMITTED.iter().any(|text| row.contains(text)));
+    Ok(shown.map(|row| cut(row) + "\n").collect())
+}
+
+fn cut(row: &str) -> String {
+    match row.char_indices().nth(WIDTH - 1) {
+        Some((end, _)) if row.chars().count() > WIDTH => format!("{}\u{2026}", &row[..end]),
+        Some(_) | None => row.to_owned(),
     }
 }

@@ -14,7 +14,7 @@ mod alarms;
 mod completions;
 mod diff;
 mod durations;
-pub mod example;
+mod example;
 mod files;
 mod flowchart;
 #[cfg(feature = "s7")]
@@ -24,6 +24,7 @@ mod list;
 mod log;
 mod machine_data;
 mod output;
+mod rule;
 mod run;
 #[cfg(feature = "s7")]
 mod s7;
@@ -32,6 +33,7 @@ mod serve;
 mod signals;
 mod test;
 mod why;
+mod why_not;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -50,10 +52,13 @@ const EXIT_CODES: &str = "Exit codes: 0 success; 1 an expectation failed, a limi
 
 /// An open simulator of the NC/PLC interface of SINUMERIK-style controls.
 ///
-/// Without a command it runs the worked example of the gantry manual and prints its signal sequence.
+/// Without a command it runs the worked example of the gantry manual (G1 2.7: commissioning a gantry) and prints one screen of it.
 #[derive(Debug, Parser)]
-#[command(name = "opennck", version, after_help = EXIT_CODES)]
+#[command(name = "opennck", version, after_help = EXIT_CODES, args_conflicts_with_subcommands = true)]
 struct Arguments {
+    /// Writes the whole worked example as a timing diagram, with all its signals.
+    #[arg(long, value_name = "F.svg")]
+    svg: Option<PathBuf>,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -84,13 +89,21 @@ enum Command {
         #[command(subcommand)]
         command: s7::Command,
     },
-    /// Lists the signal catalogue: address, symbol, writer, name.
+    /// Lists the signal catalogue: address, symbol, writer, whether it is modelled, name; also the values of axes.
     ///
-    /// Addresses and symbols are those of the first axis (AX1), channel (CHAN1) and mode group. A machine uses its own names. On 840D sl,
-    /// axis n has DB 30+n and channel n has DB 20+n. The second mode group starts 20 bytes after the first.
+    /// Addresses and symbols are those of the first axis (AX1), channel (CHAN1) and mode group; with --machine they are those of a machine.
+    /// On 840D sl, axis n has DB 30+n and channel n has DB 20+n. The second mode group starts 20 bytes after the first.
+    ///
+    /// Modelled: `yes`: the control writes it, or reads it. `written never`: a signal of the NCK that this model does not write; it stays 0.
+    /// `memory only`: a signal of the PLC or the HMI that this model does not read; it can be written and read.
+    ///
+    /// Values (`X.position`) have no address; they are in the table, not in `csv` and `json`.
     Signals {
-        /// Shows only signals with this text in their address, symbol or name.
+        /// Shows only signals with this text in their row. Everyday words are found, too: `reference cam`, `Reglerfreigabe`.
         filter: Option<String>,
+        /// A machine whose axes, channels and names are listed: a directory, an archive, or the name of a built-in machine.
+        #[arg(long, value_name = "MACHINE")]
+        machine: Option<PathBuf>,
         /// Profile of the addresses: 840d_sl or 828d.
         #[arg(long, default_value = controls::default_profile())]
         profile: String,
@@ -101,6 +114,18 @@ enum Command {
     /// Lists the alarm catalogue: number, whether the model raises it, how it is cancelled, its reactions, its text.
     Alarms {
         /// Shows only alarms with this text in their row.
+        filter: Option<String>,
+        /// Output format.
+        #[arg(long, value_enum, default_value = "table")]
+        format: Format,
+    },
+    /// Explains a rule: what it says, its source in the manuals, decisions that touch it, and scenarios that show it.
+    ///
+    /// Causes in traces begin with the ID of a rule (`REF-02`), a decision (`E-14`, `O-27`, `C-03`) or an alarm (`25040`). Without an ID,
+    /// all rules and decisions are listed.
+    Rule {
+        /// An ID, or a text: rows that contain it are listed.
+        #[arg(value_name = "ID")]
         filter: Option<String>,
         /// Output format.
         #[arg(long, value_enum, default_value = "table")]
@@ -127,6 +152,21 @@ enum Command {
         /// the last one at or before this time is explained.
         #[arg(value_name = "ADDRESS@TIME")]
         edge: String,
+    },
+    /// Explains what the control waits for before a signal changes: a tree of the conditions that do not hold.
+    ///
+    /// The signal can be 0 (what keeps it at 0?) or 1 (what would reset it?). Each line shows what the control tests, what it finds and what
+    /// it wants. A signal that the control writes itself is explained in turn; the others show who wrote them last. Only signals of the
+    /// control have conditions: enabling, referencing, gantry, movements, modes, ready and channel states.
+    WhyNot {
+        /// A scenario (*.toml) to run up to the time.
+        scenario: PathBuf,
+        /// A symbol or an address of one bit, and a time in seconds; without a time, the end of the scenario.
+        #[arg(value_name = "ADDRESS[@TIME]")]
+        signal: String,
+        /// Also shows the conditions that hold.
+        #[arg(long)]
+        all: bool,
     },
     /// Prints the reference point approach and the gantry grouping as a Mermaid flowchart; each transition shows its rule.
     ///
@@ -202,19 +242,23 @@ fn run_command(programs: &Programs) -> ExitCode {
     let mut output = Output::default();
     let programs = &with_processes(programs.clone());
     let code = match arguments.command {
-        None => example::run(programs, &mut output),
+        None => example::run(arguments.svg, programs, &mut output),
         Some(Command::Run { scenarios, options }) => run::run(&scenarios, &options, programs, &mut output),
         Some(Command::Test(arguments)) => test::test(&arguments, programs, &mut output),
         #[cfg(feature = "s7")]
         Some(Command::Serve(arguments)) => serve::serve(&arguments, programs, &mut output),
         #[cfg(feature = "s7")]
         Some(Command::S7 { command }) => s7::run(&command, &mut output),
-        Some(Command::Signals { filter, profile, format }) => {
-            signals::signals(filter.as_deref(), &profile, format, &mut output)
+        Some(Command::Signals { filter, machine, profile, format }) => {
+            signals::signals(filter.as_deref(), machine.as_deref(), &profile, format, &mut output)
         }
         Some(Command::Alarms { filter, format }) => alarms::alarms(filter.as_deref(), format, &mut output),
+        Some(Command::Rule { filter, format }) => rule::rule(filter.as_deref(), format, &mut output),
         Some(Command::Diff { expected, found }) => diff::diff(&expected, &found, &mut output),
         Some(Command::Why { trace, edge }) => why::why(&trace, &edge, programs, &mut output),
+        Some(Command::WhyNot { scenario, signal, all }) => {
+            why_not::why_not(&scenario, &signal, all, programs, &mut output)
+        }
         Some(Command::Flowchart { chart }) => flowchart::flowchart(chart.as_deref(), &mut output),
         Some(Command::Completions { shell }) => completions::completions(shell, &mut Arguments::command(), &mut output),
         Some(Command::MachineData { command: MachineData::Check { machine, all, deny } }) => {

@@ -37,7 +37,7 @@ const GOOD: &str = "title = \"A flag\"\nmachine = \"g1_example\"\nwatch = [\"M0.
 fn without_arguments_the_worked_example_runs_and_suggests_next_steps() {
     let output = opennck(&[], &directory("example"));
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
-    assert!(out(&output).contains("X.traversing_key_plus"));
+    assert!(out(&output).contains("X.start_gantry_synchronization"));
     assert!(out(&output).contains("passed, after") && out(&output).contains("What to try next"));
 }
 
@@ -246,7 +246,7 @@ fn signals_are_listed_as_table_json_and_csv() {
     let output = opennck(&["signals", "db35.dbx29.4"], &directory);
     assert!(out(&output).contains("AX1.start_gantry_synchronization"), "the signal of axis 5: {}", out(&output));
     let output = opennck(&["signals", "--format", "csv"], &directory);
-    assert!(out(&output).starts_with("address,symbol,writer,name\n"));
+    assert!(out(&output).starts_with("address,symbol,writer,name,modelled\n"));
     let csv = out(&output).lines().count();
     let output = opennck(&["signals", "--format", "json"], &directory);
     let json: serde_json::Value = serde_json::from_str(&out(&output)).unwrap();
@@ -255,7 +255,7 @@ fn signals_are_listed_as_table_json_and_csv() {
     assert!(out(&output).contains("DB3800.DBX5005.4"), "{}", out(&output));
     assert_eq!(opennck(&["signals", "--profile", "802d"], &directory).status.code(), Some(2));
     let output = opennck(&["signals", "no such signal", "--format", "csv"], &directory);
-    assert_eq!(out(&output), "address,symbol,writer,name\n");
+    assert_eq!(out(&output), "address,symbol,writer,name,modelled\n");
 }
 
 #[test]
@@ -431,4 +431,116 @@ fn bash_sources_its_completions_and_completes_a_command() {
     };
     assert!(output.status.success(), "{}", err(&output));
     assert_eq!(out(&output).lines().last(), Some("flowchart"), "{}", out(&output));
+}
+
+/// The conditions of the tree are in the order in which the control tests them; each branch ends with a signal of another writer.
+#[test]
+fn why_not_names_what_the_control_waits_for() {
+    let directory = directory("why_not");
+    let enable = "\"X.position_measuring_system_1\" = 1, \"X.pulse_enable\" = 1, \"XF.position_measuring_system_1\" = 1, \
+        \"XF.controller_enable\" = 1";
+    let text = format!(
+        "title = \"X has no controller enable\"\nmachine = \"g1_example\"\n[[step]]\nset = {{ {enable} }}\n[[step]]\nrun = \"300ms\"\n"
+    );
+    fs::write(directory.join("s.toml"), text).unwrap();
+    let ask = |arguments: &[&str]| {
+        let output = opennck(&[&["why-not", "s.toml"], arguments].concat(), &directory);
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        out(&output)
+    };
+    let expected = "    0.300  X.position_controller_active (DB31.DBX61.5) is 0 (off), because
+             ✗ X.controller_enable (DB31.DBX2.1) = 0, wanted 1: never changed
+             ✗ XF.pulses_enabled (DB33.DBX93.7) = 0, wanted 1 (disabled)
+               ✗ XF.pulse_enable (DB33.DBX21.7) = 0, wanted 1: never changed
+";
+    assert_eq!(ask(&["X.position_controller_active"]), expected);
+    assert_eq!(ask(&["DB31.DBX61.5@300ms"]), expected);
+    let complete = ask(&["X.position_controller_active@0.3", "--all"]);
+    let words = "✓ XF.controller_enable (DB33.DBX2.1) = 1: changed last at 0.002 s by outside";
+    assert!(complete.contains(words) && complete.contains("✗ X.controller_enable"), "{complete}");
+    let one = ask(&["X.drive_ready"]);
+    assert!(one.contains("X.drive_ready (DB31.DBX93.5) is 1; it becomes 0 with"), "{one}");
+    let written = ask(&["X.pulse_enable"]);
+    assert!(written.contains("is 1: the control does not write it; changed last at 0.002 s by outside"), "{written}");
+    for (signal, words) in [
+        ("X.position_controller_active@0.5", "expected a time up to 0.300 s"),
+        ("X.measurement_active", "expected a signal with known conditions"),
+        ("DB31.DBB61", "expected a signal of one bit"),
+        ("X.controller_enabel", "did you mean `X.controller_enable`?"),
+    ] {
+        let output = opennck(&["why-not", "s.toml", signal], &directory);
+        assert_eq!((output.status.code(), out(&output).as_str()), (Some(2), ""), "{signal}");
+        assert!(err(&output).contains(words), "{signal}: {}", err(&output));
+    }
+}
+
+#[test]
+fn rule_explains_rules_decisions_and_alarms() {
+    let directory = directory("rule");
+    let ask = |id: &str| out(&opennck(&["rule", id], &directory));
+    let rule = ask("REF-02");
+    assert!(rule.starts_with("REF-02  Section 1: ") && rule.contains("source: G1 2.3.1"), "{rule}");
+    assert!(rule.contains("\nscenarios:\n") && rule.contains("golden/referencing/minus_direction.toml"), "{rule}");
+    let touched = ask("mon-08");
+    assert!(touched.contains("\n  E-14  ") && touched.contains("module: sinumerik/gantry/"), "{touched}");
+    for (id, words) in [
+        ("E-14", "It touches MON-08."),
+        ("C-03", "fast stop 20.1"),
+        ("O-14", "does not model"),
+        ("25040", "Alarm: axis %1 standstill monitoring"),
+        ("power on", "Power was switched on"),
+    ] {
+        assert!(ask(id).contains(words), "{id}: {}", ask(id));
+    }
+    let list = out(&opennck(&["rule", "parking", "--format", "csv"], &directory));
+    assert!(list.starts_with("id,scenarios,source,rule\n") && list.contains("SIG-08,"), "{list}");
+    let json: serde_json::Value =
+        serde_json::from_str(&out(&opennck(&["rule", "REF-02", "--format", "json"], &directory))).unwrap();
+    assert_eq!(json["id"], "REF-02");
+    let unknown = opennck(&["rule", "REF-99"], &directory);
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(err(&unknown).contains("did you mean `REF-"), "{}", err(&unknown));
+}
+
+#[test]
+fn signals_say_what_is_modelled_and_know_everyday_words_and_machines() {
+    let directory = directory("signals_modelled");
+    let ask = |arguments: &[&str]| out(&opennck(&[&["signals"], arguments].concat(), &directory));
+    let csv = ask(&["--format", "csv"]);
+    assert!(csv.starts_with("address,symbol,writer,name,modelled\n"), "{csv}");
+    let count = |word: &str| csv.lines().filter(|line| line.ends_with(&format!(",{word}"))).count();
+    assert_eq!(count("yes") + count("written never") + count("memory only") + 1, csv.lines().count());
+    for (signal, modelled) in [
+        ("DB31.DBX101.5,", "yes"),
+        ("DB31.DBX62.3,", "written never"),
+        ("DB31.DBX2.1,", "yes"),
+        ("DB11.DBX0.5,", "memory only"),
+        ("DB11.DBX5.2,", "yes"),
+    ] {
+        let row = csv.lines().find(|line| line.starts_with(signal)).unwrap();
+        assert!(row.ends_with(modelled), "{row}");
+    }
+    for (words, symbol) in [
+        ("reference cam", "AX1.deceleration_reference_point_approach"),
+        ("Reglerfreigabe", "AX1.controller_enable"),
+        ("Schleppabstand", "AX1.following_error"),
+        ("gantry start", "AX1.start_gantry_synchronization"),
+        ("position", "AX1.position "),
+    ] {
+        assert!(ask(&[words]).contains(symbol), "{words}: {}", ask(&[words]));
+    }
+    let of_machine = ask(&["--machine", "g1_example", "start_gantry"]);
+    assert!(of_machine.contains("DB33.DBX29.4  XF.start_gantry") && !of_machine.contains("AX1."), "{of_machine}");
+}
+
+/// One screen: at most 45 rows.
+#[test]
+fn the_example_fits_on_a_screen_and_offers_the_rest() {
+    let directory = directory("example_screen");
+    let output = opennck(&["--svg", "f.svg"], &directory);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let text = out(&output);
+    assert!(text.lines().count() <= 45, "{} rows\n{text}", text.lines().count());
+    assert!(text.lines().all(|line| line.chars().count() <= 140), "{text}");
+    assert!(fs::read_to_string(directory.join("f.svg")).unwrap().contains("deceleration_reference_point_approach"));
 }

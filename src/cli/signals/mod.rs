@@ -1,0 +1,170 @@
+//! `opennck signals`: the signal catalogue, of any machine or of one, and what of it is modelled.
+
+mod aliases;
+
+use std::path::Path;
+
+use super::list::{Format, List};
+use super::output::Output;
+use crate::control::Texts;
+use crate::controls;
+use crate::image::{Memory, Names, Profile, Signal, Writer};
+use crate::machine::{Machine, OpenOptions};
+use crate::scenario::profile_named;
+use crate::source::Problem;
+use crate::units::{AxisNumber, ChannelNumber};
+use crate::variables::AxisValue;
+use aliases::means;
+
+/// The columns for programs. New ones are added at the end.
+const HEADS: &[&str] = &["address", "symbol", "writer", "name", "modelled"];
+
+/// The columns for people: the longest one is the last.
+const TABLE: &[&str] = &["address", "symbol", "writer", "modelled", "name"];
+
+/// A signal or a value.
+struct Row {
+    /// Its name in the catalogue.
+    name: &'static str,
+    /// The cells in the order of [`HEADS`].
+    cells: [String; 5],
+}
+
+/// The names and the memory that give addresses and symbols, and what the control models.
+struct Catalogue {
+    names: Names,
+    memory: Memory,
+    texts: &'static dyn Texts,
+    /// The names are those of a machine: all its axes and channels are listed.
+    of_a_machine: bool,
+}
+
+pub(super) fn signals(
+    filter: Option<&str>,
+    machine: Option<&Path>,
+    profile: &str,
+    format: Format,
+    output: &mut Output,
+) -> u8 {
+    match catalogue(machine, profile) {
+        Ok(catalogue) => catalogue.print(filter, format, output),
+        Err(problem) => {
+            output.error(problem);
+            2
+        }
+    }
+}
+
+/// The catalogue of a machine, or that of the first axis, channel and mode group under placeholder names.
+fn catalogue(machine: Option<&Path>, profile: &str) -> Result<Catalogue, Problem> {
+    let profile = profile_named(profile)?;
+    if let Some(path) = machine {
+        let machine = Machine::open_with(path, OpenOptions { profile, ..OpenOptions::default() })?;
+        let (names, memory) = (machine.names().clone(), machine.memory().clone());
+        return Ok(Catalogue { names, memory, texts: machine.control().texts(), of_a_machine: true });
+    }
+    let mut names = Names { profile, ..Names::default() };
+    names.axes[AxisNumber::FIRST] = Some("AX1".to_owned());
+    names.channels[ChannelNumber::FIRST] = Some("CHAN1".to_owned());
+    let memory = Memory::of(profile.interface());
+    let is_of_profile = |texts: &&'static dyn Texts| std::ptr::eq(texts.interface(), profile.interface());
+    let texts = controls::texts().find(is_of_profile).expect("a profile belongs to a control");
+    Ok(Catalogue { names, memory, texts, of_a_machine: false })
+}
+
+impl Catalogue {
+    fn print(&self, filter: Option<&str>, format: Format, output: &mut Output) -> u8 {
+        let mut rows = self.signals();
+        if format == Format::Table {
+            rows.extend(self.values());
+        }
+        if let Some(filter) = filter {
+            rows = self.filtered(rows, filter);
+            if rows.is_empty() {
+                output.warning(format!("no signal contains `{filter}`; omit the filter to list all signals"));
+            }
+        }
+        let rows = rows.into_iter().map(|row| {
+            let [address, symbol, writer, name, modelled] = row.cells;
+            match format {
+                Format::Table => vec![address, symbol, writer, modelled, name],
+                Format::Json | Format::Csv => vec![address, symbol, writer, name, modelled],
+            }
+        });
+        let heads = if format == Format::Table { TABLE } else { HEADS };
+        List { heads, rows: rows.collect() }.print(format, output)
+    }
+
+    /// The rows that contain a text or are meant by an everyday word; without such a row, those with all words of the text.
+    fn filtered(&self, rows: Vec<Row>, filter: &str) -> Vec<Row> {
+        let filter = if self.of_a_machine { filter.to_owned() } else { of_the_first(filter, self.names.profile) };
+        let wanted = filter.to_lowercase();
+        let contains = |row: &Row, text: &str| row.cells.iter().any(|cell| cell.to_lowercase().contains(text));
+        let is_meant = |row: &Row| contains(row, &wanted) || means(&wanted, row.name);
+        if rows.iter().any(is_meant) {
+            return rows.into_iter().filter(is_meant).collect();
+        }
+        rows.into_iter().filter(|row| wanted.split_whitespace().all(|word| contains(row, word))).collect()
+    }
+
+    fn signals(&self) -> Vec<Row> {
+        if !self.of_a_machine {
+            return self.names.interface().signals().filter_map(|signal| self.row(signal, 1)).collect();
+        }
+        let of_owner = |(_, block, number)| {
+            let of_block = self.names.interface().signals().filter(move |signal| signal.block == block);
+            of_block.filter_map(move |signal| self.row(signal, number))
+        };
+        self.names.owners().flat_map(of_owner).collect()
+    }
+
+    /// Returns nothing for a signal that the profile does not show.
+    fn row(&self, signal: &'static Signal, number: u8) -> Option<Row> {
+        let location = self.names.interface().location(signal, number)?;
+        let address = self.names.address(location);
+        self.memory.locate(&address, self.names.profile).ok()?;
+        let writer = match signal.writer {
+            Writer::Plc => "plc",
+            Writer::Nck => "nck",
+            Writer::Hmi => "hmi",
+        };
+        let modelled = match signal.writer {
+            _ if self.texts.is_modelled(signal) => "yes",
+            Writer::Nck => "written never",
+            Writer::Plc | Writer::Hmi => "memory only",
+        };
+        let symbol = self.names.symbol(location)?;
+        let cells = [address.to_string(), symbol, writer.to_owned(), signal.doc.to_owned(), modelled.to_owned()];
+        Some(Row { name: signal.name, cells })
+    }
+
+    /// The values of each axis, which have names and no addresses.
+    fn values(&self) -> Vec<Row> {
+        let axes = self.names.axes.iter().filter_map(|(_, name)| name.as_deref());
+        let of_axis = |axis: &str| {
+            AxisValue::ALL.map(|value| Row {
+                name: value.name(),
+                cells: [
+                    "value".to_owned(),
+                    format!("{axis}.{value}"),
+                    "nck".to_owned(),
+                    value.meaning().to_owned(),
+                    "yes".to_owned(),
+                ],
+            })
+        };
+        axes.flat_map(of_axis).collect()
+    }
+}
+
+/// Converts an address to the block of the first axis or channel, which the list shows: DB35.DBX29.4 is found as
+/// DB31.DBX29.4.
+fn of_the_first(filter: &str, profile: Profile) -> String {
+    let Some(rest) = filter.get(..2).filter(|letters| letters.eq_ignore_ascii_case("DB")).map(|_| &filter[2..]) else {
+        return filter.to_owned();
+    };
+    let digits = rest.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(rest.len());
+    let number: Option<u16> = rest[..digits].parse().ok();
+    let behind_the_first = number.and_then(|db| Some(db - (u16::from(profile.block_of(db)?.1) - 1)));
+    behind_the_first.map_or_else(|| filter.to_owned(), |first| format!("DB{first}{}", &rest[digits..]))
+}

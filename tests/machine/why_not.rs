@@ -1,0 +1,137 @@
+//! The conditions of signals: in every golden scenario they agree with the signals, and what they name is what the control waits for.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use opennck::golden::{cases, scenario_files};
+use opennck::image::{Location, Writer};
+use opennck::machine::{Machine, Subject, Tested};
+use opennck::plc::Programs;
+use opennck::scenario::{Operator, State};
+
+/// Every so many cycles all signals are checked, in addition to the cycles with an edge.
+const SAMPLE: u64 = 250;
+
+/// The number of cycles in which a signal follows when everything that is named for its next step holds: the enabling sequence takes
+/// 3 steps of 2 cycles, and another step may precede it.
+const PATIENCE: u64 = 16;
+
+/// The bits of a machine that the control writes and for which it gives conditions.
+fn bits(machine: &Machine) -> Vec<Location> {
+    let (names, interface) = (machine.names(), machine.names().interface());
+    let owners: Vec<_> = names.owners().map(|(_, block, number)| (block, number)).collect();
+    let signals = interface.signals().filter(|signal| signal.writer == Writer::Nck && signal.kind.width() == 1);
+    let all = signals.flat_map(|signal| {
+        let own = owners.iter().filter(|(block, _)| *block == signal.block);
+        own.filter_map(|(_, number)| interface.location(signal, *number)).collect::<Vec<_>>()
+    });
+    all.filter(|&location| machine.conditions(location, true).is_some()).collect()
+}
+
+/// A fact that does not hold although everything that is named for its next step holds.
+fn stuck(tested: &Tested) -> bool {
+    match &tested.what {
+        Subject::Fact { .. } => {
+            !tested.holds && !tested.parts.is_empty() && tested.parts.iter().all(|part| part.holds)
+                || tested.parts.iter().any(stuck)
+        }
+        Subject::All | Subject::Any => tested.parts.iter().any(stuck),
+        Subject::Signal(..) => false,
+    }
+}
+
+struct Check {
+    scenario: String,
+    bits: Vec<Location>,
+    /// What is stuck, since which cycle.
+    stuck: BTreeMap<(Location, bool), u64>,
+    wrong: Findings,
+}
+
+/// Findings by symbol, the value that is wanted, and their kind: one of each is enough.
+type Findings = BTreeMap<(String, bool, &'static str), String>;
+
+impl Check {
+    fn find(&mut self, machine: &Machine, bit: Location, wanted: bool, what: &'static str, tested: &Tested) {
+        let symbol = machine.names().symbol(bit).unwrap_or_default();
+        let name = symbol.rsplit('.').next().unwrap_or_default().to_owned();
+        let (scenario, time) = (&self.scenario, machine.time());
+        let text = format!("{scenario} at {time}: {symbol} to {wanted}: {what}: {tested:?}");
+        self.wrong.entry((name, wanted, what)).or_insert(text);
+    }
+
+    fn look(&mut self, machine: &Machine) {
+        for bit in self.bits.clone() {
+            let value = machine.memory().read(bit) != 0;
+            for wanted in [false, true] {
+                let tested = machine.conditions(bit, wanted).expect("it has conditions");
+                let key = (bit, wanted);
+                if tested.holds != (value == wanted) {
+                    self.find(machine, bit, wanted, "the conditions contradict the signal", &tested);
+                }
+                if value == wanted || !stuck(&tested) {
+                    self.stuck.remove(&key);
+                    continue;
+                }
+                let since = *self.stuck.entry(key).or_insert(machine.cycle());
+                if machine.cycle() - since > PATIENCE {
+                    self.find(machine, bit, wanted, "nothing holds the signal back, and it does not follow", &tested);
+                }
+            }
+        }
+    }
+}
+
+fn follow(mut machine: Machine, mut operator: Operator, scenario: String) -> Findings {
+    let mut check = Check { scenario, bits: bits(&machine), stuck: BTreeMap::new(), wrong: Findings::new() };
+    loop {
+        operator.act(&mut machine);
+        if *operator.state() != State::Acting {
+            return check.wrong;
+        }
+        machine.step();
+        operator.look(&machine);
+        let phase = machine.cycle() % SAMPLE;
+        // What is stuck in a sample must not be stuck some cycles later. An edge is a sample, too.
+        if phase == 0 || phase == PATIENCE + 1 || !machine.recorder().rows().is_empty() {
+            check.look(&machine);
+        }
+        machine.drain();
+    }
+}
+
+#[test]
+fn conditions_have_the_value_of_their_signal_and_name_what_it_waits_for() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let programs = Programs::ready();
+    let mut wrong = Findings::new();
+    for file in scenario_files(&[root.join("golden")]).unwrap() {
+        for case in cases(&file).unwrap() {
+            let prepared = case.scenario.prepare(case.profile, &programs).unwrap();
+            let name = file.strip_prefix(root).unwrap_or(&file).display().to_string();
+            let (machine, operator, _) = prepared.into_operator();
+            wrong.extend(follow(machine, operator, name));
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "{} findings\n{}",
+        wrong.len(),
+        wrong.values().map(String::as_str).collect::<Vec<_>>().join("\n")
+    );
+}
+
+/// The tree in the page for commissioning engineers is that of the program.
+#[test]
+fn the_tree_in_the_page_is_that_of_the_program() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = std::fs::read_to_string(root.join("docs/commissioning_engineer.md")).unwrap();
+    let (_, block) = page.split_once("```text\n").unwrap();
+    let (block, _) = block.split_once("```").unwrap();
+    let file = root.join("golden/worked_example/gantry_references_and_synchronises.toml");
+    let scenario = opennck::scenario::Scenario::read(&file).unwrap();
+    let prepared = scenario.prepare(scenario.profiles[0], &Programs::ready()).unwrap();
+    let finished = prepared.run_until(Some(opennck::units::Time::from_millis(4)));
+    let tree = finished.session().why_not("X.position_controller_active", false).unwrap();
+    assert!(tree.starts_with(block), "{tree}");
+}
