@@ -9,8 +9,9 @@ use super::durations::duration;
 use super::files::Files;
 use super::output::Output;
 use crate::plc::{PlcProcess, Programs};
-use crate::scenario::{Failure, Finished, Prepared, Scenario, Variant};
+use crate::scenario::{Failure, Finished, Prepared, Scenario};
 use crate::source::{Place, Problem, Replacement};
+use crate::trace::Window;
 use crate::units::Time;
 
 /// What runs, and the files to which the trace is written as well.
@@ -41,6 +42,12 @@ pub(super) struct Options {
     /// Writes the trace as a timing diagram of the watched signals; one scenario only.
     #[arg(long, value_name = "F.svg")]
     svg: Option<PathBuf>,
+    /// With --svg or --vcd: shows only what happens from this time on, in seconds or with a unit.
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    from: Option<Time>,
+    /// With --svg or --vcd: shows only what happens up to this time.
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    to: Option<Time>,
 }
 
 /// Formats a finished run as the text of a file.
@@ -53,6 +60,22 @@ struct Waiting {
 }
 
 impl Options {
+    /// The part of the trace that waveform and diagram show.
+    fn window(&self) -> Result<Window, Problem> {
+        let Self { from, to, .. } = *self;
+        if (from.is_some() || to.is_some()) && self.svg.is_none() && self.vcd.is_none() {
+            let what = "expected --svg or --vcd together with --from and --to, found neither";
+            return Err(Problem::new(what, "--from and --to select a part of the picture; other outputs are complete"));
+        }
+        match (from, to) {
+            (Some(from), Some(to)) if from >= to => {
+                let what = format!("expected a time --from before the time --to, found {from} s and {to} s");
+                Err(Problem::new(what, "exchange the two"))
+            }
+            _ => Ok(Window { from, to }),
+        }
+    }
+
     /// The PLC program in another process; it runs in the folder of the user.
     fn process(&self) -> Option<PlcProcess> {
         self.plc_process.clone().map(|command| PlcProcess {
@@ -104,8 +127,9 @@ pub(super) fn run(scenarios: &[PathBuf], options: &Options, programs: &Programs,
     if !usable {
         return 2;
     }
-    let mut waiting = match options.open(ready.len(), inputs) {
-        Ok(waiting) => waiting,
+    let opened = options.window().and_then(|window| Ok((window, options.open(ready.len(), inputs)?)));
+    let (window, mut waiting) = match opened {
+        Ok(opened) => opened,
         Err(problem) => {
             output.error(problem);
             return 2;
@@ -120,11 +144,16 @@ pub(super) fn run(scenarios: &[PathBuf], options: &Options, programs: &Programs,
             output.warning(warning);
         }
         let prepared = if options.margins { prepared.measure_margins() } else { prepared };
-        let finished = prepared.run();
+        let mut finished = prepared.run();
+        finished.window = window;
         output.print(&finished.text());
         code = code.max(result(&finished, output));
         if options.margins {
             finished.margins().iter().for_each(|margin| output.line(margin));
+        }
+        if let Some(from) = window.from.filter(|from| *from > finished.session().time()) {
+            let end = finished.session().time();
+            output.warning(format!("the trace ends at {end} s, before --from {from} s: the picture shows no change"));
         }
         for Waiting { mut file, text } in waiting.drain(..) {
             if let Err(problem) = file.write(&text(&finished)).and_then(|()| file.finish()) {
@@ -152,12 +181,11 @@ fn prepare(
         }
     }
     inputs.extend(cases.iter().flat_map(Scenario::inputs));
-    let is_wanted = |variant: &Variant, wanted| variant.to_string().contains(wanted) || variant.name.contains(wanted);
     let mut ready = Vec::new();
     let mut known = Vec::new();
     for scenario in &cases {
         if let (Some(wanted), Some(variant)) = (wanted, &scenario.variant)
-            && !is_wanted(variant, wanted)
+            && !variant.fits(wanted)
         {
             known.push(variant.to_string());
             continue;
@@ -194,4 +222,9 @@ pub(super) fn result(finished: &Finished, output: &mut Output) -> u8 {
             }
         }
     }
+}
+
+/// Parses a time in seconds or with a unit.
+fn time(text: &str) -> Result<Time, String> {
+    Time::parse_or_seconds(text).ok_or_else(|| format!("expected a time such as 7.5, 7.5s or 500ms, found {text}"))
 }

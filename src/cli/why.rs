@@ -45,11 +45,7 @@ fn run(scenario: &Path, programs: &Programs) -> Result<Story, Problem> {
 
 /// Parses `X.controller_enable@7.466`; the time is in seconds or has a unit.
 pub(super) fn parse_edge(edge: &str) -> Result<(&str, Time), Problem> {
-    let parsed = edge.rsplit_once('@').and_then(|(what, time)| {
-        let seconds =
-            || time.parse::<f64>().ok().filter(|seconds| (0.0..9e9).contains(seconds)).map(Time::from_seconds);
-        Some((what, Time::parse(time).or_else(seconds)?))
-    });
+    let parsed = edge.rsplit_once('@').and_then(|(what, time)| Some((what, Time::parse_or_seconds(time)?)));
     parsed.filter(|(what, _)| !what.is_empty()).ok_or_else(|| {
         Problem::new(
             format!("expected SIGNAL@TIME or alarm(NUMBER)@TIME, found `{edge}`"),

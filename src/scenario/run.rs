@@ -19,7 +19,7 @@ use crate::machine::{Machine, OpenOptions};
 use crate::monitor::{Claim, Rule};
 use crate::plc::Programs;
 use crate::source::{Place, Problem};
-use crate::trace::{Head, Watch};
+use crate::trace::{Head, Watch, Window};
 use crate::units::Time;
 use crate::variables::Describe;
 
@@ -38,6 +38,8 @@ pub struct Finished {
     session: Session,
     head: Head,
     causes: bool,
+    /// The part of the trace that waveform and diagram show.
+    pub window: Window,
     /// Why it ended early, if it did.
     pub failure: Option<Failure>,
 }
@@ -234,7 +236,7 @@ impl Prepared {
         let Session { machine, book, .. } = &mut self.session;
         let failure = book.finish(failure, machine);
         let failure = failure.map(|failure| failure.of_case(self.head.case.as_deref()));
-        Finished { session: self.session, head: self.head, causes: self.causes, failure }
+        Finished { session: self.session, head: self.head, causes: self.causes, window: Window::default(), failure }
     }
 
     /// The failure of a PLC process that has ended or is silent. The PLC is then in STOP, and no step of the scenario is a test of it.
@@ -317,13 +319,13 @@ impl Finished {
     /// The trace as a waveform (VCD), for GTKWave and similar viewers.
     #[must_use]
     pub fn vcd(&self) -> String {
-        self.session.vcd()
+        self.session.vcd_in(self.window)
     }
 
     /// The trace as a timing diagram.
     #[must_use]
     pub fn svg(&self) -> String {
-        self.session.svg(&self.head)
+        self.session.svg_in(self.window, &self.head)
     }
 
     /// What its rules have to say although they are not broken: rules that never began, and watches that are open.

@@ -19,7 +19,7 @@ use crate::machine::{Command, Machine};
 use crate::monitor::{Claim, Consequence, Rule};
 use crate::plc::PlcProgram;
 use crate::source::{Place, Problem};
-use crate::trace::{Head, Trace, Watch};
+use crate::trace::{Head, Trace, Watch, Window};
 use crate::units::Time;
 
 /// A machine with its growing trace.
@@ -104,13 +104,21 @@ impl Session {
     /// The trace as a waveform (VCD), for GTKWave and similar viewers.
     #[must_use]
     pub fn vcd(&self) -> String {
-        self.trace.vcd(&self.machine, &self.watch)
+        self.vcd_in(Window::default())
+    }
+
+    pub(super) fn vcd_in(&self, window: Window) -> String {
+        self.trace.vcd(&self.machine, &self.watch, window)
     }
 
     /// The trace as a timing diagram.
     #[must_use]
     pub fn svg(&self, head: &Head) -> String {
-        self.trace.svg(&self.machine, &self.watch, head)
+        self.svg_in(Window::default(), head)
+    }
+
+    pub(super) fn svg_in(&self, window: Window, head: &Head) -> String {
+        self.trace.svg(&self.machine, &self.watch, window, head)
     }
 
     /// Time since the start of the session.

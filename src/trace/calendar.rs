@@ -50,6 +50,12 @@ impl Calendar {
         cycle + (time - first).nanos().unsigned_abs() / length.nanos().max(1).unsigned_abs()
     }
 
+    /// The first cycle that ends at a time or after it.
+    pub(super) fn cycle_from(&self, time: Time) -> u64 {
+        let cycle = self.cycle(time);
+        if self.time(cycle) < time { cycle + 1 } else { cycle }
+    }
+
     /// The length of the first cycles.
     pub(super) fn first_length(&self) -> Time {
         self.spans[0].length
@@ -80,6 +86,8 @@ mod tests {
         for (cycle, millis) in noted.into_iter().chain([(0, 0), (6, 186)]) {
             assert_eq!(calendar.time(cycle), Time::from_millis(millis));
             assert_eq!(calendar.cycle(Time::from_millis(millis)), cycle);
+            assert_eq!(calendar.cycle_from(Time::from_millis(millis)), cycle);
+            assert_eq!(calendar.cycle_from(Time::from_millis(millis + 1)), cycle + 1);
         }
         assert_eq!(calendar.tick(), 2_000_000);
     }

@@ -64,6 +64,7 @@ mod vcd;
 mod watch;
 mod waves;
 mod why;
+mod window;
 
 pub use check::{CauseFault, CauseFinding};
 pub use compare::{Comparison, Reading};
@@ -76,6 +77,7 @@ pub use record::{By, Change, Recorder, Row};
 pub use text::{Head, difference, difference_in_sequence};
 pub use watch::Watch;
 pub use why::Story;
+pub use window::Window;
 
 use crate::variables::Describe;
 
@@ -98,21 +100,22 @@ impl Trace {
     /// Each owner of signals (`nck`, `mode_group_1`, a channel, an axis) is a scope; signals without an owner are in `memory`. Bits are
     /// wires, numbers are vectors, REALs and watched values are reals. An alarm is a wire, `alarm_10654`, in the scope of its axis or
     /// channel; `note` in scope `scenario` is a string. The time unit is the largest decimal unit of which the cycles are multiples. Time 0
-    /// shows the memory before the first cycle. `watch` selects the contents: every selected signal that changed, signals that it names
-    /// individually even if they did not change, and its values.
+    /// shows the memory before the first cycle. `watch` selects the contents: its signals and values, even those that never change. Of a pattern
+    /// for a whole owner or block (`X.*`), and without a selection, only the signals that changed have rows.
     #[must_use]
-    pub fn vcd(&self, describe: &dyn Describe, watch: &Watch) -> String {
-        vcd::text(&self.waves(describe, watch))
+    pub fn vcd(&self, describe: &dyn Describe, watch: &Watch, window: Window) -> String {
+        vcd::text(&self.waves(describe, watch).within(window))
     }
 
-    /// The trace as a timing diagram (SVG 1.1 with a light and a dark style) of the signals and values that `watch` selects.
+    /// The trace as a timing diagram (SVG 1.1 with a light and a dark style) of the signals and values that `watch` selects, with the same
+    /// rows as a waveform.
     ///
     /// Bits are waves, values are curves with their extremes, alarms are bars with their number, notes are numbered flags with a legend
     /// below. Long intervals without a visible change are shortened at a visible break, which shows their length. A tooltip at each edge
     /// shows its time, its writer and its cause.
     #[must_use]
-    pub fn svg(&self, describe: &dyn Describe, watch: &Watch, head: &Head) -> String {
-        svg::document(&self.waves(describe, watch), head)
+    pub fn svg(&self, describe: &dyn Describe, watch: &Watch, window: Window, head: &Head) -> String {
+        svg::document(&self.waves(describe, watch).within(window), head)
     }
 }
 

@@ -182,8 +182,8 @@ fn what_happens_besides_changes_of_signals_is_a_row() {
     assert!(matches!(read(&json).compare(&read(&other)), Comparison::Different(_)));
     let head =
         Head { title: "T".into(), machine: "m".into(), profile: None, case: None, cycle_time: Time::from_millis(2) };
-    assert!(trace.svg(&control, &watch, &head).contains("XF: fault push = 0.3 set"));
-    assert!(trace.vcd(&control, &watch).contains("XF:_fault_push_=_0.3_set"));
+    assert!(trace.svg(&control, &watch, Window::default(), &head).contains("XF: fault push = 0.3 set"));
+    assert!(trace.vcd(&control, &watch, Window::default()).contains("XF:_fault_push_=_0.3_set"));
 }
 
 #[test]
@@ -328,7 +328,7 @@ fn a_waveform_has_scopes_start_values_and_a_unit_that_fits_the_cycle() {
     let control = Control::new();
     let watch = Watch::parse(&["X.*", "MB7", "X.position", "XF.feed_override"], &control.0, &Memory::new()).unwrap();
     let trace = recorded(&control);
-    let text = trace.vcd(&control, &watch);
+    let text = trace.vcd(&control, &watch, Window::default());
     assert!(!text.contains("$date") && !text.contains("$version"), "{text}");
     assert!(text.contains("$timescale 1 ms $end"), "{text}");
     let changes = text.split_once("$enddefinitions $end\n").unwrap().1;
@@ -361,8 +361,49 @@ sthe_PLC_program_overwrote_what_was_set:_X.traversing_key_plus_(DB31.DBX4.7);_fo
         [(Time::from_micros(1500), "100 us"), (Time::from_millis(10), "10 ms"), (Time::from_nanos(7), "1 ns")]
     {
         let trace = Trace::begin(&Memory::new(), cycle, 0, Time::ZERO);
-        assert!(trace.vcd(&control, &watch).contains(&format!("$timescale {unit} $end")), "{unit}");
+        assert!(trace.vcd(&control, &watch, Window::default()).contains(&format!("$timescale {unit} $end")), "{unit}");
     }
+}
+
+/// MB7 becomes 9 and alarm 10654 is raised at 2 ms; the override becomes 13 and the other alarm is cleared at 4 ms.
+#[test]
+fn a_window_begins_with_the_values_before_it_and_keeps_watched_rows() {
+    let control = Control::new();
+    let watch = Watch::parse(&["X.feed_override", "MB7"], &control.0, &Memory::new()).unwrap();
+    let shown = |from, to| {
+        let window = Window { from: Some(Time::from_millis(from)), to: Some(Time::from_millis(to)) };
+        let text = recorded(&control).vcd(&control, &watch, window);
+        text.split_once("$enddefinitions $end\n").unwrap().1.to_owned()
+    };
+    let first = "#0\n$dumpvars\nb00000000 !\nr120 \"\n0#\n1$\nb00000000 %\ns- &\n$end\n#2\n1#\nb00001001 %\nsREF &\n";
+    assert_eq!(shown(0, 3), first);
+    let overwritten =
+        "sthe_PLC_program_overwrote_what_was_set:_X.traversing_key_plus_(DB31.DBX4.7);_force_wins_over_it &\n";
+    let start = "#4\n$dumpvars\nb00000000 !\nr120 \"\n1#\n1$\nb00001001 %\ns- &\n$end\n";
+    let changes = "b00001101 !\nr120.0004 \"\n0$\n";
+    assert_eq!(shown(3, 9), format!("{start}{changes}{overwritten}"));
+    // After the end only what is watched or pending is left.
+    assert_eq!(shown(8, 9), "#8\n$dumpvars\nb00001101 !\nr120.0004 \"\n1#\nb00001001 $\n$end\n");
+    let from = Some(Time::from_millis(4));
+    let (title, machine, cycle_time) = ("t".to_owned(), "m".to_owned(), Time::from_millis(2));
+    let head = Head { title, machine, profile: None, case: None, cycle_time };
+    let svg = recorded(&control).svg(&control, &watch, Window { from, to: None }, &head);
+    assert!(svg.contains(">0.004</text>") && !svg.contains(">0.002</text>"), "{svg}");
+}
+
+#[test]
+fn watched_signals_are_shown_even_if_they_never_change() {
+    let control = Control::new();
+    let rows = |entries: &[&str]| {
+        let watch = Watch::parse(entries, &control.0, &Memory::new()).unwrap();
+        let text = recorded(&control).vcd(&control, &watch, Window::default());
+        (text.matches(" traversing_key_plus ").count(), text.matches(" traversing_key_minus ").count())
+    };
+    // Only the key in the plus direction changes. The pattern for the whole axis shows what changes.
+    assert_eq!(rows(&["X.traversing_key_*"]), (1, 1));
+    assert_eq!(rows(&["DB31.DBX4.*"]), (1, 1));
+    assert_eq!(rows(&["X.traversing_key_minus"]), (0, 1));
+    assert_eq!(rows(&["X.*"]), (1, 0));
 }
 
 #[test]
@@ -376,7 +417,7 @@ fn a_diagram_shows_names_extremes_alarms_and_notes() {
         case: None,
         cycle_time: Time::from_millis(2),
     };
-    let svg = recorded(&control).svg(&control, &watch, &head);
+    let svg = recorded(&control).svg(&control, &watch, Window::default(), &head);
     for words in [
         "<title>a &lt; b</title>",
         ">X.traversing_key_plus</text>",
@@ -392,7 +433,10 @@ fn a_diagram_shows_names_extremes_alarms_and_notes() {
     }
     assert!(!svg.contains("NaN") && svg.ends_with("</svg>\n"));
     let empty = Trace::begin(&Memory::new(), Time::from_millis(2), 0, Time::ZERO);
-    assert!(empty.svg(&control, &Watch::default(), &head).ends_with("</svg>\n"), "an empty trace can be drawn");
+    assert!(
+        empty.svg(&control, &Watch::default(), Window::default(), &head).ends_with("</svg>\n"),
+        "an empty trace can be drawn"
+    );
 }
 
 #[test]

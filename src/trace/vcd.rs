@@ -40,7 +40,8 @@ fn write(waves: &Waves, bytes: &mut Vec<u8>) -> io::Result<()> {
         Some(code)
     };
     writer.enddefinitions()?;
-    writer.timestamp(0)?;
+    let ticks = |cycle: u64| waves.time(cycle).nanos().unsigned_abs() / unit_nanos;
+    writer.timestamp(ticks(waves.first))?;
     writer.begin(SimulationCommand::Dumpvars)?;
     for (wave, code) in waves.rows.iter().zip(&codes) {
         change(&mut writer, *code, wave.kind, wave.start)?;
@@ -56,10 +57,9 @@ fn write(waves: &Waves, bytes: &mut Vec<u8>) -> io::Result<()> {
     // Notes follow all other changes of their time.
     changes.extend(waves.notes.iter().enumerate().map(|(index, (cycle, _))| (*cycle, usize::MAX, index)));
     changes.sort_unstable();
-    let ticks = |cycle: u64| waves.time(cycle).nanos().unsigned_abs() / unit_nanos;
     for of_cycle in changes.chunk_by(|one, next| one.0 == next.0) {
         let cycle = of_cycle[0].0;
-        if cycle > 0 {
+        if cycle > waves.first {
             writer.timestamp(ticks(cycle))?;
         }
         let mut noted = Vec::new();
@@ -73,8 +73,8 @@ fn write(waves: &Waves, bytes: &mut Vec<u8>) -> io::Result<()> {
             writer.change_string(code, &one_word(&noted.join(" / ")))?;
         }
     }
-    if changes.last().is_none_or(|(last, ..)| *last < waves.cycles) && waves.cycles > 0 {
-        writer.timestamp(ticks(waves.cycles))?;
+    if changes.last().is_none_or(|(last, ..)| *last < waves.last) && waves.last > waves.first {
+        writer.timestamp(ticks(waves.last))?;
     }
     writer.flush()
 }

@@ -1,7 +1,7 @@
 //! The selection of a trace: patterns over symbols and addresses, and the names of values.
 
-use super::printable::Printable;
-use crate::image::{Location, Memory, Names, Part, Signal};
+use super::printable::{Printable, printable};
+use crate::image::{Block, Location, Memory, Names, Part, Signal};
 use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::AxisNumber;
 use crate::variables::AxisValue;
@@ -75,6 +75,23 @@ impl Watch {
         self.chosen.as_ref().map_or(&[], |chosen| &chosen.locations)
     }
 
+    /// The signals of the catalogue that are shown even if they never change: those that match a pattern, unless it selects a whole owner or
+    /// block, of which only the changes are of interest.
+    pub(super) fn unchanged(&self, names: &Names) -> Vec<Printable> {
+        let patterns = self.chosen.iter().flat_map(|chosen| &chosen.patterns);
+        let narrow: Vec<&String> = patterns.filter(|pattern| !is_broad(pattern)).collect();
+        if narrow.is_empty() {
+            return Vec::new();
+        }
+        let interface = names.interface();
+        let of_owner = |(_, block, number): (&str, Block, u8)| {
+            let signals = interface.signals().filter(move |signal| signal.block == block);
+            signals.filter_map(move |signal| Some(printable(names, interface.location(signal, number)?)))
+        };
+        let all = names.owners().flat_map(of_owner);
+        all.filter(|printable| narrow.iter().any(|pattern| fits(pattern, printable))).collect()
+    }
+
     pub(super) fn shows_signal(&self, signal: &Printable) -> bool {
         self.chosen.as_ref().is_none_or(|chosen| chosen.shows(signal))
     }
@@ -145,12 +162,18 @@ impl Chosen {
     }
 
     fn shows(&self, printable: &Printable) -> bool {
-        self.locations.contains(&printable.location)
-            || self.patterns.iter().any(|pattern| {
-                matches(pattern, &printable.address)
-                    || printable.symbol.as_ref().is_some_and(|symbol| matches(pattern, symbol))
-            })
+        self.locations.contains(&printable.location) || self.patterns.iter().any(|pattern| fits(pattern, printable))
     }
+}
+
+/// Whether an item matches a pattern, by its address or its symbol.
+fn fits(pattern: &str, printable: &Printable) -> bool {
+    matches(pattern, &printable.address) || printable.symbol.as_ref().is_some_and(|symbol| matches(pattern, symbol))
+}
+
+/// Whether a pattern selects everything of an owner or a block: `*`, `X.*`, `DB31.*`.
+fn is_broad(pattern: &str) -> bool {
+    pattern == "*" || pattern.split_once('.').is_some_and(|(_, rest)| rest == "*")
 }
 
 /// The problem of an unknown name, with the nearest value of an axis as the remedy if one is near.
@@ -215,6 +238,21 @@ mod tests {
             ("X.a", "X.ab", false),
         ] {
             assert_eq!(matches(pattern, text), fits, "{pattern} {text}");
+        }
+    }
+
+    #[test]
+    fn a_pattern_of_a_whole_owner_or_block_is_broad() {
+        for (pattern, broad) in [
+            ("*", true),
+            ("X.*", true),
+            ("*.*", true),
+            ("DB31.*", true),
+            ("DB31.DBX101.*", false),
+            ("X.traverse_command_*", false),
+            ("*.gantry_axis", false),
+        ] {
+            assert_eq!(is_broad(pattern), broad, "{pattern}");
         }
     }
 

@@ -8,7 +8,7 @@ use super::calendar::Calendar;
 use super::happened::HappeningLine;
 use super::history::ValueRow;
 use super::lines::LineKind;
-use super::printable::{order, printable, shown};
+use super::printable::{Printable, order, printable, shown};
 use super::{By, Shown, Trace, Watch};
 use crate::image::Location;
 use crate::units::Time;
@@ -18,8 +18,9 @@ use crate::variables::{AxisValue, Describe, Place, place_name};
 #[derive(Clone, Debug)]
 pub(super) struct Waves {
     pub(super) calendar: Calendar,
-    /// The number of cycles.
-    pub(super) cycles: u64,
+    /// The first and the last cycle that are shown, since the start of the trace.
+    pub(super) first: u64,
+    pub(super) last: u64,
     pub(super) rows: Vec<Wave>,
     /// The notes and happenings, with their cycles.
     pub(super) notes: Vec<(u64, String)>,
@@ -35,6 +36,8 @@ pub(super) struct Wave {
     /// The address; for an alarm, its text; for a value, its unit.
     pub(super) beside: String,
     pub(super) kind: WaveKind,
+    /// Whether it is shown although it never changes.
+    pub(super) is_watched: bool,
     pub(super) start: Level,
     pub(super) changes: Vec<Step>,
 }
@@ -107,9 +110,16 @@ impl Rows {
             name: name.to_owned(),
             beside: if symbol.is_some() { address.to_owned() } else { String::new() },
             kind,
+            is_watched: false,
             start: Level::Signal(start),
             changes: Vec::new(),
         })
+    }
+
+    /// The row of a signal that is shown although it never changes.
+    fn watched(&mut self, printable: &Printable, start: Shown) {
+        let Printable { symbol, address, location, .. } = printable;
+        self.signal(symbol.as_deref(), address, *location, start).is_watched = true;
     }
 }
 
@@ -121,7 +131,10 @@ impl Trace {
         let mut rows = Rows { owners, rows: BTreeMap::new() };
         for &location in watch.locations() {
             let printable = printable(names, location);
-            rows.signal(printable.symbol.as_deref(), &printable.address, location, shown(&self.start, location));
+            rows.watched(&printable, shown(&self.start, location));
+        }
+        for printable in watch.unchanged(names) {
+            rows.watched(&printable, shown(&self.start, printable.location));
         }
         let mut notes = Vec::new();
         for line in self.lines(describe, watch) {
@@ -146,6 +159,7 @@ impl Trace {
                         name: format!("alarm {}", alarm.name),
                         beside: alarm.text,
                         kind: WaveKind::Alarm,
+                        is_watched: false,
                         start: Level::Signal(Shown::Bit(!alarm.raised)),
                         changes: Vec::new(),
                     });
@@ -178,6 +192,7 @@ impl Trace {
                 name: watched.value.name().to_owned(),
                 beside: unit.to_owned(),
                 kind: WaveKind::Value,
+                is_watched: true,
                 start: Level::Value(first.new),
                 changes: changes.map(step).collect(),
             };
@@ -185,7 +200,8 @@ impl Trace {
         }
         Waves {
             calendar: self.calendar.clone(),
-            cycles: self.last_cycle.saturating_sub(self.first_cycle),
+            first: 0,
+            last: self.last_cycle.saturating_sub(self.first_cycle),
             rows: rows.rows.into_values().collect(),
             notes,
         }

@@ -45,6 +45,13 @@ impl Time {
         Self::parse_saturating(text).filter(|time| time.0 < 9_200_000_000_000_000_000)
     }
 
+    /// Parses like [`Time::parse`]; a number without a unit is seconds.
+    #[must_use]
+    pub fn parse_or_seconds(text: &str) -> Option<Self> {
+        let seconds = || text.parse().ok().filter(|seconds| (0.0..9e9).contains(seconds)).map(Self::from_seconds);
+        Self::parse(text).or_else(seconds)
+    }
+
     /// Parses like [`Time::parse`], but a time beyond 292 years becomes the maximum.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "float to integer casts saturate, as documented")]
@@ -142,6 +149,9 @@ mod tests {
         for text in ["10", "ms", "", "-1s", "1e3s", "1.2.3s", "5cycles", "9999999999h", "inf s"] {
             assert_eq!(Time::parse(text), None, "{text}");
         }
+        assert_eq!(Time::parse_or_seconds("7.5"), Some(Time::from_millis(7_500)));
+        assert_eq!(Time::parse_or_seconds("20ms"), Some(Time::from_millis(20)));
+        assert_eq!((Time::parse_or_seconds("-1"), Time::parse_or_seconds("nan")), (None, None));
         assert_eq!(Time::parse_saturating("9999999999h"), Some(Time::from_nanos(i64::MAX)));
     }
 

@@ -43,7 +43,7 @@ struct Stretch {
 impl Scale {
     pub(super) fn new(waves: &Waves, left: Tenths, right: Tenths) -> Self {
         let nanos = |cycle: u64| waves.time(cycle).nanos().unsigned_abs();
-        let last = nanos(waves.cycles.max(1));
+        let (first, last) = (nanos(waves.first), nanos(waves.last.max(waves.first + 1)));
         let long = waves.calendar.first_length().times(LONG).nanos().unsigned_abs();
         let mut busy: Vec<u64> = waves
             .rows
@@ -51,7 +51,7 @@ impl Scale {
             .flat_map(|wave| wave.changes.iter().map(|step| step.cycle))
             .chain(waves.notes.iter().map(|(cycle, _)| *cycle))
             .map(|cycle| nanos(cycle).min(last))
-            .chain([0, last])
+            .chain([first, last])
             .collect();
         busy.sort_unstable();
         busy.dedup();
@@ -60,7 +60,7 @@ impl Scale {
         quiet.sort_by_key(|(from, to)| (u64::MAX - (to - from), *from));
         let width = right - left;
         let mut broken: Vec<(u64, u64)> = Vec::new();
-        let mut rest = i64::try_from(last).unwrap_or(i64::MAX);
+        let mut rest = i64::try_from(last - first).unwrap_or(i64::MAX);
         for &(from, to) in quiet.iter().take(BREAKS) {
             let length = i64::try_from(to - from).unwrap_or(i64::MAX);
             let even = width - BREAK * i64::try_from(broken.len()).unwrap_or(0);
@@ -80,7 +80,7 @@ impl Scale {
         broken.sort_unstable();
         let even = width - BREAK * i64::try_from(broken.len()).unwrap_or(0);
         let mut stretches = Vec::new();
-        let (mut at, mut x, mut passed) = (0, left, 0_i64);
+        let (mut at, mut x, mut passed) = (first, left, 0_i64);
         let breaks = i64::try_from(broken.len()).unwrap_or(0);
         for (index, (from, to)) in broken.into_iter().chain([(last, last)]).enumerate() {
             if from > at {
