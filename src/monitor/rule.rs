@@ -1,5 +1,6 @@
 //! A rule: what must hold, its name and its place.
 
+use super::span::Span;
 use crate::expression::Expression;
 use crate::source::Place;
 
@@ -21,10 +22,10 @@ pub struct Consequence {
     pub when: Expression,
     /// The consequence.
     pub then: Expression,
-    /// The number of cycles after which the consequence must be true at the latest.
-    pub within: u64,
-    /// The number of cycles before which the consequence must not be true.
-    pub not_before: u64,
+    /// The consequence must be true at the latest in the cycle that completes this.
+    pub within: Span,
+    /// The consequence must not be true before this is over.
+    pub not_before: Span,
     /// A condition that is true before the first cycle counts as an edge.
     pub from_start: bool,
     /// A run without any edge breaks the rule.

@@ -53,6 +53,8 @@ fn expression(source: &str) -> Expression {
 /// M0.0 is followed by M0.1.
 fn consequence(within: u64, not_before: u64) -> Consequence {
     let (when, then) = (expression("M0.0"), expression("M0.1"));
+    let span = |cycles| if cycles == 0 { Span::NONE } else { Span::cycles(cycles) };
+    let (within, not_before) = (span(within), span(not_before));
     Consequence { when, then, within, not_before, from_start: false, must_begin: false }
 }
 
@@ -60,31 +62,40 @@ fn follows(consequence: Consequence) -> Claim {
     Claim::Follows(Box::new(consequence))
 }
 
-/// Shows a monitor one byte of flags per cycle, the first before the first cycle; an `x` is power on before that cycle.
+/// Shows a monitor one byte of flags per cycle of 2 ms, the first before the first cycle; an `x` is power on before that cycle, after which
+/// cycles have 4 ms.
 fn watch(claim: Claim, bytes: &str) -> (Monitor, Vec<(Reason, u64, u64)>) {
     let mut monitor = Monitor::default();
     monitor.measure();
     monitor.add(Rule { name: Some("r".to_owned()), place: None, claim, go_on: true });
     let (mut memory, variables) = (Memory::new(), Variables::default());
     let mut breaches = Vec::new();
-    let mut cycle = 0;
-    let report = &mut |breach: Breach| breaches.push((breach.reason, breach.began, breach.failed));
+    let (mut cycle, mut time, mut length) = (0, Time::ZERO, Time::from_millis(2));
+    let report = &mut |breach: Breach| breaches.push((breach.reason, breach.began.cycle, breach.failed.cycle));
     for (index, byte) in bytes.chars().enumerate() {
         let Some(byte) = byte.to_digit(10) else {
             monitor.power_on();
+            length = Time::from_millis(4);
             continue;
         };
         memory.flags.set_byte(0, u8::try_from(byte).unwrap());
-        let now = Moment { memory: &memory, variables: &variables, time: Time::ZERO, named_values: &[] };
+        if index > 0 {
+            (cycle, time) = (cycle + 1, time + length);
+        }
+        let now = Moment { memory: &memory, variables: &variables, time, named_values: &[] };
         if index == 0 {
             monitor.begin(0, &View::at(now), cycle, report);
         } else {
-            cycle += 1;
             monitor.observe(&View::at(now), cycle, report);
         }
     }
-    monitor.end(cycle, report);
+    monitor.end(report);
     (monitor, breaches)
+}
+
+/// The instant after a cycle before power on.
+fn at(cycle: u64) -> Instant {
+    Instant { cycle, time: Time::from_millis(2).times(cycle) }
 }
 
 fn breaches(claim: Claim, bytes: &str) -> Vec<(Reason, u64, u64)> {
@@ -111,7 +122,7 @@ fn the_last_cycle_of_within_counts_and_the_next_one_is_too_late() {
     assert_eq!(breaches(follows(consequence(3, 0)), "0011113"), [(Reason::Late, 2, 5)]);
     let (monitor, _) = watch(follows(consequence(3, 0)), "00113");
     let summary = monitor.summaries().next().unwrap();
-    assert_eq!((summary.begun, summary.met, summary.margin.unwrap()), (1, 1, Margin { amount: 1.0, cycle: 2 }));
+    assert_eq!((summary.begun, summary.met, summary.margin.unwrap()), (1, 1, Margin { amount: 1.0, at: at(2) }));
 }
 
 #[test]
@@ -146,7 +157,7 @@ fn power_on_closes_open_watches_and_the_end_leaves_them_open() {
     let summary = monitor.summaries().next().unwrap();
     assert_eq!((found.len(), summary.begun, summary.closed, summary.open), (0, 1, 1, None));
     let (monitor, found) = watch(follows(consequence(9, 0)), "0101");
-    assert_eq!((found.len(), monitor.summaries().next().unwrap().open), (0, Some((2, 1))));
+    assert_eq!((found.len(), monitor.summaries().next().unwrap().open), (0, Some((2, at(1)))));
 }
 
 #[test]
@@ -160,9 +171,25 @@ fn a_rule_that_must_begin_is_broken_without_an_edge() {
 #[test]
 fn the_margin_of_a_condition_is_the_distance_of_its_comparison() {
     let margin = |claim, bytes| watch(claim, bytes).0.summaries().next().unwrap().margin;
-    let expected = |amount, cycle| Some(Margin { amount, cycle });
+    let expected = |amount, cycle| Some(Margin { amount, at: at(cycle) });
     assert_eq!(margin(Claim::Always(expression("MB0 < 9")), "03714"), expected(2.0, 2));
     assert_eq!(margin(Claim::Never(expression("MB0 >= 8 || MB0 > 9")), "0371"), expected(1.0, 2));
     assert_eq!(margin(Claim::Always(expression("!(MB0 > 9)")), "0352"), expected(4.0, 2));
     assert_eq!(margin(Claim::Never(expression("M0.0")), "02"), None);
+}
+
+#[test]
+fn a_time_is_the_time_of_the_machine_when_power_on_makes_its_cycles_longer() {
+    let times = |within, not_before| Consequence {
+        within: Span::time(Time::from_millis(within)),
+        not_before: Span::time(Time::from_millis(not_before)),
+        ..consequence(0, 0)
+    };
+    // 8 ms are four cycles of 2 ms before power on and two of 4 ms after it.
+    assert_eq!(breaches(follows(times(8, 1)), "0011111"), [(Reason::Late, 2, 6)]);
+    assert_eq!(breaches(follows(times(8, 1)), "0x01111"), [(Reason::Late, 2, 4)]);
+    assert_eq!(breaches(follows(times(20, 8)), "0x013"), [(Reason::Early, 2, 3)]);
+    let (monitor, found) = watch(follows(times(20, 8)), "0x01113");
+    // The consequence comes 12 ms after the edge: one cycle after 8 ms, two before 20 ms.
+    assert_eq!((found.len(), monitor.summaries().next().unwrap().margin.unwrap().amount as u64), (0, 1));
 }

@@ -3,7 +3,9 @@
 use std::collections::VecDeque;
 
 use super::rule::{Claim, Consequence, Rule};
+use super::span::{Instant, Span};
 use crate::expression::{Expression, View};
+use crate::units::Time;
 
 /// The rules of a run and their progress.
 #[derive(Clone, Debug, Default)]
@@ -12,6 +14,8 @@ pub struct Monitor {
     states: Vec<State>,
     /// Whether the distances of conditions to their limits are measured.
     measures: bool,
+    /// The last cycle that was shown.
+    last: Instant,
 }
 
 /// The progress of a rule.
@@ -20,7 +24,7 @@ struct State {
     /// Whether `when` was true, or a condition was broken, after the last cycle.
     was: bool,
     /// The cycles in which the open watches began, the oldest first.
-    open: VecDeque<u64>,
+    open: VecDeque<Instant>,
     /// The number of watches that began, and of those that ended as they must.
     begun: u64,
     met: u64,
@@ -36,7 +40,7 @@ pub struct Margin {
     /// Cycles of a consequence, or the distance of a compared value in its own unit.
     pub amount: f64,
     /// The cycle in which the watch began, or in which the value was nearest.
-    pub cycle: u64,
+    pub at: Instant,
 }
 
 /// A rule that was broken.
@@ -45,9 +49,9 @@ pub struct Breach {
     /// The index of the rule.
     pub rule: usize,
     /// The cycle in which the watch or the violation began.
-    pub began: u64,
+    pub began: Instant,
     /// The cycle in which the rule failed.
-    pub failed: u64,
+    pub failed: Instant,
     /// Why.
     pub reason: Reason,
 }
@@ -77,7 +81,7 @@ pub struct Summary<'a> {
     /// The number of watches that power on closed.
     pub closed: u64,
     /// The number of watches that are open, and the cycle in which the oldest began.
-    pub open: Option<(usize, u64)>,
+    pub open: Option<(usize, Instant)>,
     /// The number of breaches.
     pub breaches: u64,
     /// The smallest margin, if it was measured.
@@ -104,12 +108,13 @@ impl Monitor {
 
     /// Starts the rules from `first` on with the state before the next cycle, after cycle `cycle`. Reports each breach.
     pub fn begin(&mut self, first: usize, view: &View<'_>, cycle: u64, report: &mut dyn FnMut(Breach)) {
+        let now = self.show(cycle, view).0;
         for (index, (rule, state)) in self.rules.iter().zip(&mut self.states).enumerate().skip(first) {
             if let Claim::Follows(consequence) = &rule.claim {
                 state.was = consequence.when.holds(view);
                 if state.was && consequence.from_start {
-                    state.open(cycle);
-                    state.follow(index, consequence, view, cycle, report);
+                    state.open(now);
+                    state.follow(index, consequence, view, (now, Time::ZERO), report);
                 }
             }
         }
@@ -117,28 +122,29 @@ impl Monitor {
 
     /// Takes up the state after a cycle. Reports each breach, in the order of the rules.
     pub fn observe(&mut self, view: &View<'_>, cycle: u64, report: &mut dyn FnMut(Breach)) {
+        let (now, length) = self.show(cycle, view);
         for (index, (rule, state)) in self.rules.iter().zip(&mut self.states).enumerate() {
             match &rule.claim {
                 Claim::Always(condition) => {
-                    state.condition(index, condition.holds(view), cycle, report);
+                    state.condition(index, condition.holds(view), now, report);
                     if self.measures {
-                        state.measure(condition.distance(view), cycle);
+                        state.measure(condition.distance(view), now);
                     }
                 }
                 Claim::Never(condition) => {
-                    state.condition(index, !condition.holds(view), cycle, report);
+                    state.condition(index, !condition.holds(view), now, report);
                     if self.measures {
-                        state.measure(condition.distance(view).map(|distance| -distance), cycle);
+                        state.measure(condition.distance(view).map(|distance| -distance), now);
                     }
                 }
                 Claim::Follows(consequence) => {
                     let is = consequence.when.holds(view);
                     if is && !state.was {
-                        state.open(cycle);
+                        state.open(now);
                     }
                     state.was = is;
                     if !state.open.is_empty() {
-                        state.follow(index, consequence, view, cycle, report);
+                        state.follow(index, consequence, view, (now, length), report);
                     }
                 }
             }
@@ -153,17 +159,26 @@ impl Monitor {
         }
     }
 
-    /// The end of a run, in this cycle: reports the rules that had to begin and did not.
-    pub fn end(&mut self, cycle: u64, report: &mut dyn FnMut(Breach)) {
+    /// The end of a run, after the last cycle that was shown: reports the rules that had to begin and did not.
+    pub fn end(&mut self, report: &mut dyn FnMut(Breach)) {
+        let now = self.last;
         for (index, (rule, state)) in self.rules.iter().zip(&mut self.states).enumerate() {
             if let Claim::Follows(consequence) = &rule.claim
                 && consequence.must_begin
                 && state.begun == 0
             {
                 state.breaches += 1;
-                report(Breach { rule: index, began: cycle, failed: cycle, reason: Reason::NeverBegan });
+                report(Breach { rule: index, began: now, failed: now, reason: Reason::NeverBegan });
             }
         }
+    }
+
+    /// Takes up the number of a cycle and its time; returns its length, too.
+    fn show(&mut self, cycle: u64, view: &View<'_>) -> (Instant, Time) {
+        let now = Instant { cycle, time: view.now.time };
+        let length = now.time - self.last.time;
+        self.last = now;
+        (now, length)
     }
 
     /// The progress of every rule.
@@ -181,8 +196,8 @@ impl Monitor {
 }
 
 impl State {
-    fn open(&mut self, cycle: u64) {
-        self.open.push_back(cycle);
+    fn open(&mut self, now: Instant) {
+        self.open.push_back(now);
         self.begun += 1;
     }
 
@@ -192,52 +207,52 @@ impl State {
     }
 
     /// A condition that must hold; a violation of several cycles is one breach.
-    fn condition(&mut self, rule: usize, holds: bool, cycle: u64, report: &mut dyn FnMut(Breach)) {
+    fn condition(&mut self, rule: usize, holds: bool, now: Instant, report: &mut dyn FnMut(Breach)) {
         if !holds && !self.was {
-            self.breach(Breach { rule, began: cycle, failed: cycle, reason: Reason::Condition }, report);
+            self.breach(Breach { rule, began: now, failed: now, reason: Reason::Condition }, report);
         }
         self.was = !holds;
     }
 
-    /// Closes the watches that the consequence ends, and those that are too late.
+    /// Closes the watches that the consequence ends, and those that are too late, in a cycle of this length.
     fn follow(
         &mut self,
         rule: usize,
         consequence: &Consequence,
         view: &View<'_>,
-        cycle: u64,
+        (now, length): (Instant, Time),
         report: &mut dyn FnMut(Breach),
     ) {
         let Consequence { then, within, not_before, .. } = consequence;
         if then.holds(view) {
             // Every open watch has seen no consequence so far, so this is the first one for all of them.
             while let Some(began) = self.open.pop_front() {
-                let passed = cycle - began;
-                if passed < *not_before {
-                    self.breach(Breach { rule, began, failed: cycle, reason: Reason::Early }, report);
-                } else {
-                    self.met += 1;
-                    let early = if *not_before > 0 { passed - not_before } else { u64::MAX };
-                    let margin = (within - passed).min(early);
-                    self.measure(Some(margin as f64), began);
+                if !not_before.is_over(began, now) {
+                    self.breach(Breach { rule, began, failed: now, reason: Reason::Early }, report);
+                    continue;
                 }
+                self.met += 1;
+                let late = within.cycles_left(began, now, length);
+                let early = || not_before.cycles_beyond(began, now, length);
+                let margin = if *not_before == Span::NONE { late } else { late.min(early()) };
+                self.measure(Some(margin as f64), began);
             }
             return;
         }
         while let Some(began) = self.open.front().copied()
-            && cycle - began >= *within
+            && within.is_over(began, now)
         {
             self.open.pop_front();
-            self.breach(Breach { rule, began, failed: cycle, reason: Reason::Late }, report);
+            self.breach(Breach { rule, began, failed: now, reason: Reason::Late }, report);
         }
     }
 
-    fn measure(&mut self, amount: Option<f64>, cycle: u64) {
+    fn measure(&mut self, amount: Option<f64>, at: Instant) {
         let Some(amount) = amount.filter(|amount| amount.is_finite()) else {
             return;
         };
         if self.margin.is_none_or(|margin| amount < margin.amount) {
-            self.margin = Some(Margin { amount, cycle });
+            self.margin = Some(Margin { amount, at });
         }
     }
 }

@@ -5,7 +5,7 @@ use super::fields::Named;
 use super::rules::{Written, WrittenClaim};
 use super::steps::Reader;
 use crate::expression::Expression;
-use crate::monitor::{Claim, Consequence, Rule};
+use crate::monitor::{Claim, Consequence, Rule, Span};
 use crate::source::Problem;
 use crate::units::Time;
 
@@ -17,17 +17,18 @@ impl Written {
             WrittenClaim::Always(text) => Claim::Always(expression(text)?),
             WrittenClaim::Never(text) => Claim::Never(expression(text)?),
             WrittenClaim::Follows { when, then, within, not_before, from_start, must_begin } => {
+                // Only their present lengths can be compared where one is a time and the other a number of cycles.
                 let cycles = |duration: &Option<Duration>| duration.map_or(0, |duration| duration.cycles(cycle));
-                let (within, not_before) = (cycles(within), cycles(not_before));
-                if not_before > within {
+                if cycles(not_before) > cycles(within) {
                     let what = "expected `not_before` at most as long as `within`, found it longer";
                     return Err(self.place.problem(what, "no consequence could be in time; exchange the two"));
                 }
+                let span = |duration: &Option<Duration>| duration.map_or(Span::NONE, Duration::span);
                 Claim::Follows(Box::new(Consequence {
                     when: expression(when)?,
                     then: expression(then)?,
-                    within,
-                    not_before,
+                    within: span(within),
+                    not_before: span(not_before),
                     from_start: *from_start,
                     must_begin: *must_begin,
                 }))

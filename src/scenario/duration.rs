@@ -1,6 +1,7 @@
 //! Durations in scenarios: `100ms`, `1.5s`, `2min`, `10cycles`. They end with the first cycle that completes them, at least one. A time
 //! is compared with the time of the machine, because power on can change the length of its cycles (MD10050, MD10070).
 
+use crate::monitor::Span;
 use crate::source::Problem;
 use crate::units::Time;
 
@@ -39,6 +40,14 @@ impl Duration {
         match self {
             Self::Time(time) => time.in_cycles(cycle),
             Self::Cycles(cycles) => cycles.max(1),
+        }
+    }
+
+    /// The duration as a limit of a rule.
+    pub(super) fn span(self) -> Span {
+        match self {
+            Self::Time(time) => Span::time(time),
+            Self::Cycles(cycles) => Span::cycles(cycles.max(1)),
         }
     }
 

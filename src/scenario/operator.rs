@@ -162,7 +162,7 @@ impl Operator {
                 Ok(Next::Over) => {
                     self.state = self.book.finish(None, machine).map_or(State::Done, State::Failed);
                 }
-                Err(failure) => self.state = State::Failed(failure),
+                Err(failure) => self.fail(failure, machine),
             }
         }
         notes
@@ -173,8 +173,13 @@ impl Operator {
         if self.state == State::Acting {
             self.book.note_changes(machine);
             if let Err(failure) = self.plan.end_cycle(&mut self.book, machine) {
-                self.state = State::Failed(failure);
+                self.fail(failure, machine);
             }
+    /// Ends the scenario with a failure, which also names the rules that were broken before.
+    fn fail(&mut self, failure: Failure, machine: &Machine) {
+        self.state = self.book.finish(Some(failure), machine).map_or(State::Done, State::Failed);
+    }
+
         }
     }
 

@@ -331,7 +331,7 @@ impl Finished {
     /// What its rules have to say although they are not broken: rules that never began, and watches that are open.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
-        self.session.book.remarks(self.session.machine())
+        self.session.book.remarks()
     }
 
     /// The smallest margin of each rule, one line each.

@@ -16,7 +16,7 @@ use super::values::Setting;
 use crate::expression::{Expression, Followed};
 use crate::image::Location;
 use crate::machine::{Command, Machine};
-use crate::monitor::{Claim, Consequence, Rule};
+use crate::monitor::{Claim, Consequence, Rule, Span};
 use crate::plc::PlcProgram;
 use crate::source::{Place, Problem};
 use crate::trace::{Head, Trace, Watch, Window};
@@ -329,8 +329,8 @@ impl Session {
         let consequence = Consequence {
             when: self.expression(when)?,
             then: self.expression(then)?,
-            within: self.cycles(within)?,
-            not_before: 0,
+            within: Duration::parse(within)?.span(),
+            not_before: Span::NONE,
             from_start: false,
             must_begin: false,
         };
@@ -423,10 +423,6 @@ impl Session {
         self.book.note_changes(&self.machine);
         self.machine.drain();
         self.trace.end_cycle(self.machine.cycle(), self.machine.time(), self.machine.variables());
-    }
-
-    fn cycles(&self, time: &str) -> Result<u64, Problem> {
-        Ok(Duration::parse(time)?.cycles(self.machine.cycle_time()))
     }
 
     /// An expression; its `since` and `count` begin now unless their conditions are followed already.

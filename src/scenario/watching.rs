@@ -4,7 +4,8 @@ use super::failure::{Failure, Missed};
 use super::passing::Book;
 use crate::expression::{Expression, Followed, View};
 use crate::machine::Machine;
-use crate::monitor::{Breach, Claim, Monitor, Reason, Rule};
+use crate::monitor::{Breach, Claim, Monitor, Reason, Rule, Span, Summary};
+use crate::units::Time;
 
 impl Book {
     /// Watches over these rules from now on, together with those before.
@@ -25,7 +26,8 @@ impl Book {
         self.followed = followed;
     }
 
-    /// Shows the state after the last cycle to the monitor. Returns the first breach that ends the run, and notes the others.
+    /// Shows the state after the last cycle to the monitor. Returns the first breach that ends the run, with the others of this cycle that
+    /// end it, too; notes those after which the run goes on.
     pub(super) fn judge(
         &mut self,
         machine: &Machine,
@@ -37,21 +39,24 @@ impl Book {
             look(&mut monitor, view, &mut |breach| breaches.push(breach));
         });
         self.monitor = monitor;
+        let mut ending: Option<Missed> = None;
         for breach in breaches {
             let rule = &self.monitor.rules()[breach.rule];
             let (note, missed) = self.broken_rule(rule, breach, machine);
-            if !rule.go_on {
-                return Err(missed.into());
+            match &mut ending {
+                _ if rule.go_on => {
+                    self.notes.push(note);
+                    self.noted.push(missed);
+                }
+                Some(first) => first.operands.push(format!("also: {}", missed.what)),
+                None => ending = Some(missed),
             }
-            self.notes.push(note);
-            self.noted.push(missed);
         }
-        Ok(())
+        ending.map_or(Ok(()), |missed| Err(missed.into()))
     }
 
     /// The text of a breach for the trace, and as a failure.
     fn broken_rule(&self, rule: &Rule, breach: Breach, machine: &Machine) -> (String, Missed) {
-        let time = |cycle: u64| machine.cycle_time().times(cycle);
         let name = rule.name.as_deref().unwrap_or_default();
         let (what, expressions) = match (&rule.claim, &rule.name) {
             (Claim::Always(condition), None) => {
@@ -69,16 +74,16 @@ impl Book {
             (Claim::Follows(consequence), _) => {
                 let (when, then) = (consequence.when.source(), consequence.then.source());
                 let what = match breach.reason {
-                    Reason::Late | Reason::Condition if consequence.within == 0 => {
+                    Reason::Late | Reason::Condition if consequence.within == Span::NONE => {
                         format!("`{then}` is not true in the cycle in which `{when}` became true")
                     }
                     Reason::Late | Reason::Condition => {
-                        let within = time(consequence.within);
-                        format!("`{then}` did not become true within {within} s after `{when}`")
+                        let within = length(consequence.within);
+                        format!("`{then}` did not become true within {within} after `{when}`")
                     }
                     Reason::Early => {
-                        let not_before = time(consequence.not_before);
-                        format!("`{then}` is true earlier than {not_before} s after `{when}`")
+                        let not_before = length(consequence.not_before);
+                        format!("`{then}` is true earlier than {not_before} after `{when}`")
                     }
                     Reason::NeverBegan => format!("it never began: `{when}` did not become true"),
                 };
@@ -89,10 +94,10 @@ impl Book {
         let (began, failed) = (breach.began, breach.failed);
         let is_watch = matches!((&rule.claim, breach.reason), (Claim::Follows(_), Reason::Late | Reason::Early));
         if is_watch {
-            lines.push(format!("began in cycle {began}, at {} s", time(began)));
-            lines.push(format!("failed in cycle {failed}, at {} s", time(failed)));
+            lines.push(format!("began in cycle {}, at {} s", began.cycle, began.time));
+            lines.push(format!("failed in cycle {}, at {} s", failed.cycle, failed.time));
         }
-        let note = if is_watch { format!("{what}; it began at {} s", time(began)) } else { what.clone() };
+        let note = if is_watch { format!("{what}; it began at {} s", began.time) } else { what.clone() };
         self.with_view(self.last(machine), machine, |view| {
             for expression in expressions {
                 for operand in Expression::operands(expression, view, machine) {
@@ -113,10 +118,11 @@ impl Book {
 
     /// The result of the session: `failure` if it failed, else the breaches that were noted, and the rules that had to begin.
     pub(super) fn finish(&mut self, failure: Option<Failure>, machine: &Machine) -> Option<Failure> {
-        let cycle = machine.cycle() - self.start.0;
-        let ended = match &failure {
-            None => self.judge(machine, |monitor, _, report| monitor.end(cycle, report)).err(),
-            Some(_) => None,
+        // A rule that was broken before the first cycle ends also a run without a cycle.
+        let ended = match (&failure, self.broken.take()) {
+            (None, Some(broken)) => Some(broken),
+            (None, None) => self.judge(machine, |monitor, _, report| monitor.end(report)).err(),
+            (Some(_), _) => None,
         };
         let noted = std::mem::take(&mut self.noted);
         match failure.or(ended) {
@@ -132,8 +138,7 @@ impl Book {
     }
 
     /// Rules that never began, and watches that are open.
-    pub(super) fn remarks(&self, machine: &Machine) -> Vec<String> {
-        let time = |cycle: u64| machine.cycle_time().times(cycle);
+    pub(super) fn remarks(&self) -> Vec<String> {
         let mut remarks = Vec::new();
         for summary in self.monitor.summaries() {
             let (Some(name), Claim::Follows(consequence)) = (&summary.rule.name, &summary.rule.claim) else {
@@ -144,14 +149,14 @@ impl Book {
                 remarks.push(format!("rule `{name}` never began: `{when}` did not become true"));
             }
             if let Some((count, oldest)) = summary.open {
-                let oldest = time(oldest);
+                let oldest = oldest.time;
                 remarks.push(match count {
                     1 => format!("rule `{name}` is open at the end: it began at {oldest} s"),
                     count => format!("rule `{name}` is open at the end: it began {count} times, first at {oldest} s"),
                 });
             }
             if summary.closed > 0 {
-                remarks.push(format!("rule `{name}`: power on closed it {} times", summary.closed));
+                remarks.push(format!("rule `{name}`: power on closed it {}", times(summary.closed)));
             }
         }
         remarks
@@ -159,8 +164,7 @@ impl Book {
 
     /// The smallest margin of each rule.
     pub(super) fn margins(&self, machine: &Machine) -> Vec<String> {
-        let time = |cycle: u64| machine.cycle_time().times(cycle);
-        let of_rule = |summary: crate::monitor::Summary<'_>| {
+        let of_rule = |summary: Summary<'_>| {
             let rule = summary.rule;
             let (name, is_watch) = match (&rule.name, &rule.claim) {
                 (Some(name), Claim::Follows(_)) => (name.clone(), true),
@@ -172,18 +176,32 @@ impl Book {
             let margin = match (summary.margin, is_watch) {
                 (Some(margin), true) => {
                     let cycles = margin.amount as u64;
-                    let (length, began) = (time(cycles), time(margin.cycle));
+                    let (length, began) = (machine.cycle_time().times(cycles), margin.at.time);
                     let (met, begun) = (summary.met, summary.begun);
-                    format!("{cycles} cycles ({length} s), began at {began} s; {met} of {begun} in time")
+                    let noun = if cycles == 1 { "cycle" } else { "cycles" };
+                    format!("{cycles} {noun} ({length} s), began at {began} s; {met} of {begun} in time")
                 }
-                (Some(margin), false) => format!("{} at {} s", margin.amount, time(margin.cycle)),
-                (None, true) => format!("none: it began {} times", summary.begun),
+                (Some(margin), false) => format!("{} at {} s", margin.amount, margin.at.time),
+                (None, true) => format!("none: it began {}", times(summary.begun)),
                 (None, false) => "none: it compares no numbers".to_owned(),
             };
             format!("margin of `{name}`: {margin}")
         };
         self.monitor.summaries().map(of_rule).collect()
     }
+}
+
+/// A limit of a rule, with its unit.
+fn length(span: Span) -> String {
+    match span {
+        Span { cycles: 0 | 1, time } if time > Time::ZERO => format!("{time} s"),
+        Span { cycles: 1, .. } => "1 cycle".to_owned(),
+        Span { cycles, .. } => format!("{cycles} cycles"),
+    }
+}
+
+fn times(count: u64) -> String {
+    if count == 1 { "once".to_owned() } else { format!("{count} times") }
 }
 
 /// All noted breaches as one failure.
