@@ -48,7 +48,7 @@ use term::{Term, truth};
 /// An expression whose names have been looked up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
-    source: String,
+    source: Box<str>,
     root: Term,
 }
 
@@ -58,7 +58,7 @@ impl Expression {
     /// # Errors
     /// The text is not an expression, or a name in it is unknown; the problem names the nearest known name.
     pub fn parse(source: &str, scope: &dyn Scope) -> Result<Self, Problem> {
-        Ok(Self { source: source.trim().to_owned(), root: parse::parse(source.trim(), scope)? })
+        Ok(Self { source: source.trim().into(), root: parse::parse(source.trim(), scope)? })
     }
 
     /// The text of the expression.

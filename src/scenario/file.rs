@@ -9,6 +9,7 @@ use std::sync::Arc;
 use super::duration::Duration;
 use super::fields::{Named, duration, in_the_case, named, not_available, texts};
 use super::matrix::{FIXED, HEAD, Variant, heads};
+use super::written::WrittenSteps;
 use super::rules;
 use crate::control::{StoredDatum, Value as DatumValue};
 use crate::controls;
@@ -55,7 +56,7 @@ pub struct Scenario {
     pub machine_data: Vec<StoredDatum>,
     /// The combination of the matrix, if the file has one.
     pub variant: Option<Variant>,
-    pub(super) steps: Arc<[Table]>,
+    pub(super) steps: WrittenSteps,
 }
 
 /// An entry of `watch`.
@@ -118,24 +119,25 @@ impl Scenario {
     /// The text is not a scenario; the problem names file and line.
     pub fn parse_cases(text: &str, path: &Path) -> Result<Vec<Self>, Problem> {
         let file = path.display().to_string();
-        let mut table = Table::parse(text, &file)?;
-        let written = table.take("step");
+        let (table, steps) = WrittenSteps::read(text, &file)?;
         let whole = Place::file(&file);
         let mut cases = Vec::new();
         let heads = heads(table, path)?;
         for (variant, head) in heads {
             let case = variant.as_ref().map(ToString::to_string);
-            let scenario = Self::from_head(head, path, &whole, variant);
+            let scenario = Self::from_head(head, path, &whole, variant, steps.clone());
             cases.push(scenario.map_err(|problem| in_the_case(problem, case.as_deref()))?);
-        }
-        let steps: Arc<[Table]> = Arc::from(steps(written, &whole)?);
-        for case in &mut cases {
-            case.steps = Arc::clone(&steps);
         }
         Ok(cases)
     }
 
-    fn from_head(mut table: Table, path: &Path, whole: &Place, variant: Option<Variant>) -> Result<Self, Problem> {
+    fn from_head(
+        mut table: Table,
+        path: &Path,
+        whole: &Place,
+        variant: Option<Variant>,
+        steps: WrittenSteps,
+    ) -> Result<Self, Problem> {
         let required = |node: Option<Node>, key: &str, example: &str| {
             node.ok_or_else(|| {
                 whole.problem(format!("expected the key `{key}`, found none"), format!("write {key} = {example}"))
@@ -176,7 +178,7 @@ impl Scenario {
             plant: table.take("plant").map(|node| node.into_table("a table of plant data")).transpose()?,
             machine_data: table.take("machine_data").map_or(Ok(Vec::new()), machine_data)?,
             variant,
-            steps: Arc::from([]),
+            steps,
         };
         refuse_later_keys(&mut table)?;
         table.finish()?;
@@ -191,10 +193,8 @@ impl Scenario {
 }
 
 /// The steps of a file that another one includes. If it is a scenario, its head has no effect; its keys are checked.
-pub(super) fn steps_of(file: &Path) -> Result<Vec<Table>, Problem> {
-    let name = file.display().to_string();
-    let mut table = Table::parse(&read_text(file)?, &name)?;
-    let steps = steps(table.take("step"), &Place::file(&name))?;
+pub(super) fn steps_of(file: &Path) -> Result<WrittenSteps, Problem> {
+    let (mut table, steps) = WrittenSteps::read(&read_text(file)?, &file.display().to_string())?;
     for key in FIXED.into_iter().chain(HEAD) {
         table.take(key);
     }
@@ -320,17 +320,6 @@ fn compare(node: Node) -> Result<Compare, Problem> {
         }
         _ => Err(node.expected("a way to compare traces", cure)),
     }
-}
-
-fn steps(node: Option<Node>, whole: &Place) -> Result<Vec<Table>, Problem> {
-    let none = || whole.problem("expected at least one `[[step]]`, found none", "add [[step]] with a verb");
-    let node = node.ok_or_else(none)?;
-    if !matches!(node.value, Value::Array(_)) {
-        return Err(node.expected("a list of steps", "write [[step]] with two brackets"));
-    }
-    let steps: Vec<_> =
-        node.into_list().into_iter().map(|step| step.into_table("a step with one verb")).collect::<Result<_, _>>()?;
-    if steps.is_empty() { Err(none()) } else { Ok(steps) }
 }
 
 /// Rejects keys that the format reserves and this version does not support.

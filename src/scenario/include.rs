@@ -6,10 +6,11 @@
 use std::path::{Path, PathBuf};
 
 use super::file::steps_of;
-use super::steps::{Action, Reader, Step, Steps, whole};
+use super::steps::{Action, Included, Reader, Step, Steps, whole};
+use super::written::WrittenSteps;
 use crate::source::{Node, Problem, Table, read_text};
 
-/// The largest number of times that steps can be repeated.
+/// The largest number of times that steps can be repeated, with the repetitions of the files that include them.
 const TIMES: u64 = 1_000_000;
 
 impl Reader<'_> {
@@ -18,7 +19,7 @@ impl Reader<'_> {
         &mut self,
         node: &Node,
         table: &mut Table,
-        note: Option<String>,
+        note: Option<Box<str>>,
         list: &mut Steps,
     ) -> Result<(), Problem> {
         let place = table.place.clone();
@@ -47,13 +48,20 @@ impl Reader<'_> {
             list.steps.push(Step { place: place.clone(), note, action: Action::Nothing });
         }
         let from = list.steps.len();
+        let outer = self.times;
+        self.times = outer.saturating_mul(times);
+        if self.times > TIMES {
+            let what = format!("expected steps that run at most {TIMES} times, found {} times", self.times);
+            return Err(place.problem(what, "the times of files that include each other multiply; write smaller ones"));
+        }
         self.files.push(file);
         self.steps(&steps, list)?;
         self.files.pop();
+        self.times = outer;
         if times > 1 {
             list.steps.push(Step { place: place.clone(), note: None, action: Action::Repeat { from, times } });
         }
-        list.included.push((from..list.steps.len(), place));
+        list.included.push(Included { place, range: from..list.steps.len(), times });
         Ok(())
     }
 
@@ -79,17 +87,20 @@ impl Reader<'_> {
 /// The files whose steps a file includes, without looking into them; nothing if the file cannot be read as a scenario.
 ///
 /// # Errors
-/// The file cannot be read, or is not TOML.
+/// The file cannot be read, or is not TOML with steps.
 pub fn included_by(file: &Path) -> Result<Vec<PathBuf>, Problem> {
     let text = read_text(file)?;
     if !text.contains("include") {
         return Ok(Vec::new());
     }
-    let mut table = Table::parse(&text, &file.display().to_string())?;
-    let steps = table.take("step").map_or_else(Vec::new, Node::into_list);
-    let names = steps.into_iter().filter_map(|step| step.into_table("a step").ok()?.take("include"));
     let directory = file.parent().unwrap_or_else(|| Path::new(""));
-    Ok(names.filter_map(|name| name.text("a file").map(|name| directory.join(name)).ok()).collect())
+    let mut files = Vec::new();
+    let (_, steps) = WrittenSteps::read(&text, &file.display().to_string())?;
+    steps.each(|mut step| {
+        files.extend(step.take("include").and_then(|name| name.text("a file").map(|name| directory.join(name)).ok()));
+        Ok(())
+    })?;
+    Ok(files)
 }
 
 /// Whether a file names a machine, as every scenario does.

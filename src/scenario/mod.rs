@@ -25,6 +25,7 @@ mod transcript;
 mod values;
 mod watching;
 mod why_not;
+mod written;
 
 pub use duration::Duration;
 pub use failure::{Failure, Missed};

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::passing::{Book, Next, Progress};
-use super::steps::{Action, Step, Steps};
+use super::steps::{Action, Included, Step, Steps};
 use crate::machine::Machine;
 
 /// The steps and the progress through them.
@@ -92,15 +92,12 @@ impl Plan {
             return failure;
         };
         let mut lines = Vec::new();
-        for (range, place) in self.steps.included.iter().filter(|(range, _)| range.contains(&self.index)) {
-            let times = match self.steps.steps[range.clone()].last().map(|step| &step.action) {
-                Some(Action::Repeat { from, times }) if *from == range.start => {
-                    let end = range.end - 1;
-                    let done = self.repeated.iter().find(|(index, _)| *index == end).map_or(0, |(_, done)| *done);
-                    format!(", time {} of {times}", done + 1)
-                }
-                _ => String::new(),
-            };
+        for Included { place, range, times } in
+            self.steps.included.iter().filter(|included| included.range.contains(&self.index))
+        {
+            let repetition = range.end - 1;
+            let done = self.repeated.iter().find(|(index, _)| *index == repetition).map_or(0, |(_, done)| *done);
+            let times = if *times > 1 { format!(", time {} of {times}", done + 1) } else { String::new() };
             lines.push(format!("included at {place}{times}"));
         }
         missed.operands.splice(0..0, lines);
@@ -175,12 +172,12 @@ impl Operator {
             if let Err(failure) = self.plan.end_cycle(&mut self.book, machine) {
                 self.fail(failure, machine);
             }
+        }
+    }
+
     /// Ends the scenario with a failure, which also names the rules that were broken before.
     fn fail(&mut self, failure: Failure, machine: &Machine) {
         self.state = self.book.finish(Some(failure), machine).map_or(State::Done, State::Failed);
-    }
-
-        }
     }
 
     /// The progress so far.

@@ -249,8 +249,8 @@ impl Book {
     pub(super) fn stopped(&self, stopped: Stopped, action: &Action, progress: &Progress, machine: &Machine) -> Failure {
         let run = |since: Time| format!("after {} s of a run", machine.time() - since);
         let (doing, expression) = match action {
-            Action::Wait(expression, _) => (waited(progress.time(machine), expression), Some(expression)),
-            Action::Hold(expression, _) => (format!("while `{}` held", expression.source()), Some(expression)),
+            Action::Wait(expression, _) => (waited(progress.time(machine), expression), Some(&**expression)),
+            Action::Hold(expression, _) => (format!("while `{}` held", expression.source()), Some(&**expression)),
             Action::Pulse(..) => (run(progress.reset.unwrap_or(progress.start)), None),
             Action::Run(_)
             | Action::Queue(_)

@@ -224,7 +224,7 @@ impl Session {
     pub fn wait(&mut self, expression: &str, within: &str) -> Result<(), Failure> {
         let expression = self.expression(expression)?;
         let within = Duration::parse(within)?;
-        self.act(&Action::Wait(expression, Some(within)))
+        self.act(&Action::Wait(Box::new(expression), Some(within)))
     }
 
     /// Lets time pass. The expression must be true now and in every cycle.
@@ -234,7 +234,7 @@ impl Session {
     pub fn hold(&mut self, expression: &str, during: &str) -> Result<(), Failure> {
         let expression = self.expression(expression)?;
         let during = Duration::parse(during)?;
-        self.act(&Action::Hold(expression, during))
+        self.act(&Action::Hold(Box::new(expression), during))
     }
 
     /// The expression must be true now.

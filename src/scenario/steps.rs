@@ -7,17 +7,18 @@ use super::duration::Duration;
 use super::faults::fault;
 use super::fields::{duration, not_available, texts};
 use super::naming::{Known, check_captured_name, missing_owner, place_named, written_by_others};
+use super::written::WrittenSteps;
 use crate::expression::{Expression, Followed};
 use crate::image::{Location, raw_value};
 use crate::machine::{Command, DatumValue, Machine};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
 use crate::units::{ChannelNumber, Time};
 
-/// A step that is ready to run.
+/// A step that is ready to run. A generated scenario can have 100,000 of them.
 #[derive(Debug)]
 pub(super) struct Step {
     pub(super) place: Place,
-    pub(super) note: Option<String>,
+    pub(super) note: Option<Box<str>>,
     pub(super) action: Action,
 }
 
@@ -25,11 +26,22 @@ pub(super) struct Step {
 #[derive(Debug, Default)]
 pub(super) struct Steps {
     pub(super) steps: Vec<Step>,
-    /// The ranges of included steps and the place of their `include`, the inner ones before the outer ones.
-    pub(super) included: Vec<(Range<usize>, Place)>,
+    /// The included steps, the inner ones before the outer ones.
+    pub(super) included: Vec<Included>,
 }
 
-/// The action of a step.
+/// The steps of one `include`.
+#[derive(Debug)]
+pub(super) struct Included {
+    /// The place of the `include`.
+    pub(super) place: Place,
+    /// Their indices; the last one is the repetition if they run more than once.
+    pub(super) range: Range<usize>,
+    /// How often they run.
+    pub(super) times: u64,
+}
+
+/// The action of a step. What is large is boxed, because a step takes the memory of its largest variant.
 #[derive(Debug)]
 pub(super) enum Action {
     /// Queues commands for the next cycle.
@@ -37,13 +49,13 @@ pub(super) enum Action {
     /// Turns a handwheel from the next cycle on.
     Handwheel(Turn),
     /// Sets bits, lets time pass, resets the bits.
-    Pulse(Vec<Location>, Duration),
+    Pulse(Box<[Location]>, Duration),
     /// Lets time pass.
     Run(Duration),
     /// Lets time pass until the expression is true, at most this long.
-    Wait(Expression, Option<Duration>),
+    Wait(Box<Expression>, Option<Duration>),
     /// Lets time pass; the expression must be true in each cycle.
-    Hold(Expression, Duration),
+    Hold(Box<Expression>, Duration),
     /// All expressions must be true now.
     Expect(Vec<(Place, Expression)>),
     /// Stores values.
@@ -103,6 +115,9 @@ const VERBS: [&str; 20] = [
 /// Verbs that the format reserves for later versions.
 const LATER_VERBS: [&str; 1] = ["program"];
 
+/// The largest number of steps, with those of included files; files that include each other twice have many in a few lines.
+const STEPS: usize = 1_000_000;
+
 /// The length of a pulse if `for` is absent.
 const PULSE: Duration = Duration::Time(Time::from_millis(100));
 
@@ -117,13 +132,16 @@ pub(super) struct Reader<'a> {
     reconfigured: [bool; 2],
     /// The files that include each other down to the present one; paths in a step are relative to the last one.
     pub(super) files: Vec<PathBuf>,
+    /// How often the present steps run.
+    pub(super) times: u64,
 }
 
 impl<'a> Reader<'a> {
     /// A reader of the steps in this file.
     pub(super) fn new(machine: &'a Machine, file: &Path) -> Self {
         let files = vec![file.to_owned()];
-        Self { machine, captured: Vec::new(), followed: Followed::default(), reconfigured: [false; 2], files }
+        let (captured, followed) = (Vec::new(), Followed::default());
+        Self { machine, captured, followed, reconfigured: [false; 2], files, times: 1 }
     }
 
     /// An expression with all names known so far.
@@ -134,7 +152,7 @@ impl<'a> Reader<'a> {
         Ok(expression)
     }
 
-    fn step(&mut self, mut table: Table, place: Place, note: Option<String>) -> Result<Step, Problem> {
+    fn step(&mut self, mut table: Table, place: Place, note: Option<Box<str>>) -> Result<Step, Problem> {
         let mut verbs = Vec::new();
         for verb in VERBS {
             if let Some(node) = table.take(verb) {
@@ -186,17 +204,20 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads all steps, and those of the files that they include, into one list.
-    pub(super) fn steps(&mut self, tables: &[Table], list: &mut Steps) -> Result<(), Problem> {
-        for table in tables {
-            let mut table = table.clone();
+    pub(super) fn steps(&mut self, written: &WrittenSteps, list: &mut Steps) -> Result<(), Problem> {
+        written.each(|mut table| {
             let place = table.place.clone();
-            let note = table.take("note").map(|node| node.text("a note").map(str::to_owned)).transpose()?;
+            if list.steps.len() >= STEPS {
+                let what = format!("expected at most {STEPS} steps, with those of included files, found more");
+                return Err(place.problem(what, "repeat steps with `times`, which stores them once"));
+            }
+            let note = table.take("note").map(|node| node.text("a note").map(Box::from)).transpose()?;
             match table.take("include") {
                 Some(node) => self.include(&node, &mut table, note, list)?,
                 None => list.steps.push(self.step(table, place, note)?),
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
     /// Checks a command against the machine, so that it is rejected before anything runs.
@@ -239,20 +260,20 @@ impl<'a> Reader<'a> {
                     }
                     locations.push(location);
                 }
-                Action::Pulse(locations, time.unwrap_or(PULSE))
+                Action::Pulse(locations.into(), time.unwrap_or(PULSE))
             }
             "run" => Action::Run(duration(&node, "the time to run")?),
             "wait" => {
                 let within =
                     table.take("within").map(|node| duration(&node, "the longest time to wait")).transpose()?;
-                Action::Wait(self.one_expression(&node)?, within)
+                Action::Wait(Box::new(self.one_expression(&node)?), within)
             }
             "hold" => {
                 let during = table.take("during").ok_or_else(|| {
                     place.problem("expected `during` together with `hold`, found none", "write during = \"2s\"")
                 })?;
                 let during = duration(&during, "the time to hold")?;
-                Action::Hold(self.one_expression(&node)?, during)
+                Action::Hold(Box::new(self.one_expression(&node)?), during)
             }
             "expect" => {
                 let texts = texts(Some(node), "an expression or a list of them")?;
@@ -459,4 +480,14 @@ pub(super) fn whole<T: TryFrom<i64> + PartialOrd>(
         _ => None,
     };
     number.ok_or_else(|| node.expected(what, "write a whole number"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_takes_less_than_a_hundred_bytes() {
+        assert!(size_of::<Step>() <= 88, "{}", size_of::<Step>());
+    }
 }

@@ -50,8 +50,16 @@ impl Table {
     /// # Errors
     /// The first place that is not valid TOML 1.0.
     pub fn parse(text: &str, file: &str) -> Result<Self, Problem> {
-        let start = Place::file(file);
-        let lines = Lines::new(text);
+        Self::parse_part(text, &Place::file(file).at_line(1))
+    }
+
+    /// Reads a part of a file as a TOML document; `place` is that of its first line.
+    ///
+    /// # Errors
+    /// As [`Table::parse`].
+    pub fn parse_part(text: &str, place: &Place) -> Result<Self, Problem> {
+        let start = place;
+        let lines = Lines::new(text, place.line);
         let document = DeTable::parse(text).map_err(|error| {
             let line = error.span().map_or(0, |span| lines.line(span.start));
             let cure = match error.message() {
@@ -65,7 +73,7 @@ impl Table {
             };
             start.at_line(line).problem(format!("invalid TOML: {}", error.message().replace('\n', "; ")), cure)
         })?;
-        table(document.get_ref(), &start.at_line(1), &lines, &start)
+        table(document.get_ref(), start, &lines, start)
     }
 
     /// An empty table.
@@ -283,16 +291,18 @@ impl Node {
     }
 }
 
-/// The offsets of all line ends, to find the line of a byte offset.
-struct Lines(Vec<usize>);
+/// The number of the first line, and the offsets of all line ends, to find the line of a byte offset.
+struct Lines(u32, Vec<usize>);
 
 impl Lines {
-    fn new(text: &str) -> Self {
-        Self(text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(offset, _)| offset).collect())
+    fn new(text: &str, first: u32) -> Self {
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(offset, _)| offset).collect();
+        Self(first, ends)
     }
 
     fn line(&self, offset: usize) -> u32 {
-        u32::try_from(self.0.partition_point(|&newline| newline < offset) + 1).unwrap_or(u32::MAX)
+        let before = self.1.partition_point(|&newline| newline < offset);
+        u32::try_from(before).map_or(u32::MAX, |before| self.0.saturating_add(before))
     }
 }
 
