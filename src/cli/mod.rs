@@ -152,6 +152,9 @@ enum Command {
         /// the last one at or before this time is explained.
         #[arg(value_name = "ADDRESS@TIME")]
         edge: String,
+        /// Of a scenario with a matrix: the case whose values contain this text, as `plc = a`.
+        #[arg(long, value_name = "TEXT")]
+        case: Option<String>,
     },
     /// Explains what the control waits for before a signal changes: a tree of the conditions that do not hold.
     ///
@@ -255,7 +258,7 @@ fn run_command(programs: &Programs) -> ExitCode {
         Some(Command::Alarms { filter, format }) => alarms::alarms(filter.as_deref(), format, &mut output),
         Some(Command::Rule { filter, format }) => rule::rule(filter.as_deref(), format, &mut output),
         Some(Command::Diff { expected, found }) => diff::diff(&expected, &found, &mut output),
-        Some(Command::Why { trace, edge }) => why::why(&trace, &edge, programs, &mut output),
+        Some(Command::Why { trace, edge, case }) => why::why(&trace, &edge, case.as_deref(), programs, &mut output),
         Some(Command::WhyNot { scenario, signal, all }) => {
             why_not::why_not(&scenario, &signal, all, programs, &mut output)
         }

@@ -9,8 +9,8 @@ use crate::source::{Place, Problem, read_text};
 use crate::trace::Story;
 use crate::units::Time;
 
-pub(super) fn why(trace: &Path, edge: &str, programs: &Programs, output: &mut Output) -> u8 {
-    match explanation(trace, edge, programs) {
+pub(super) fn why(trace: &Path, edge: &str, case: Option<&str>, programs: &Programs, output: &mut Output) -> u8 {
+    match explanation(trace, edge, case, programs) {
         Ok(text) => {
             output.print(&text);
             0
@@ -22,10 +22,17 @@ pub(super) fn why(trace: &Path, edge: &str, programs: &Programs, output: &mut Ou
     }
 }
 
-fn explanation(trace: &Path, edge: &str, programs: &Programs) -> Result<String, Problem> {
+fn explanation(trace: &Path, edge: &str, case: Option<&str>, programs: &Programs) -> Result<String, Problem> {
     let (what, time) = parse_edge(edge)?;
     let is_scenario = trace.extension().is_some_and(|extension| extension == "toml");
-    let story = if is_scenario { run(trace, programs)? } else { read(trace)? };
+    let story = match (is_scenario, case) {
+        (true, case) => run(trace, case, programs)?,
+        (false, None) => read(trace)?,
+        (false, Some(case)) => {
+            let what = format!("expected a scenario together with --case, found a trace and the case `{case}`");
+            return Err(Problem::new(what, "a trace is of one case already; omit --case"));
+        }
+    };
     story.why(what, time).map_err(|problem| problem.at(&Place::file(&trace.display().to_string())))
 }
 
@@ -35,8 +42,8 @@ fn read(trace: &Path) -> Result<Story, Problem> {
     Story::read(&read_text(trace)?).map_err(|(line, problem)| problem.at(&at(line)))
 }
 
-fn run(scenario: &Path, programs: &Programs) -> Result<Story, Problem> {
-    let scenario = Scenario::read(scenario)?;
+fn run(scenario: &Path, case: Option<&str>, programs: &Programs) -> Result<Story, Problem> {
+    let scenario = Scenario::read_case(scenario, case)?;
     let profile = scenario.profiles.first().copied().unwrap_or_default();
     let finished = scenario.prepare(profile, programs)?.run();
     let session = finished.session();

@@ -21,6 +21,8 @@ pub struct Opening<'a> {
     pub machine: Option<&'a Path>,
     /// The scenario that runs on it.
     pub scenario: Option<&'a Path>,
+    /// The text that selects a case of its matrix.
+    pub case: Option<&'a str>,
     /// The name of its PLC program.
     pub plc: Option<&'a str>,
     /// The file of its PLC image.
@@ -104,7 +106,7 @@ impl Opening<'_> {
         programs: &Programs,
         warn: &mut dyn FnMut(&str),
     ) -> Result<Opened, Problem> {
-        let mut scenario = Scenario::read(file)?;
+        let mut scenario = Scenario::read_case(file, self.case)?;
         let mut path = scenario.directory().join(&scenario.machine.text);
         if let Some(machine) = self.machine {
             if !is_same(machine, &path) {

@@ -4,13 +4,12 @@
 //! anything runs.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use super::duration::Duration;
 use super::fields::{Named, duration, in_the_case, named, not_available, texts};
 use super::matrix::{FIXED, HEAD, Variant, heads};
-use super::written::WrittenSteps;
 use super::rules;
+use super::written::WrittenSteps;
 use crate::control::{StoredDatum, Value as DatumValue};
 use crate::controls;
 use crate::image::Profile;
@@ -90,6 +89,38 @@ impl Scenario {
     /// The file cannot be read or is not a scenario, or it has a matrix; the problem names file and line.
     pub fn read(path: &Path) -> Result<Self, Problem> {
         only_one(Self::read_cases(path)?, path)
+    }
+
+    /// Reads one case of a scenario file: the only one, or the only one of its matrix whose values contain `wanted`, as `plc = a`.
+    ///
+    /// # Errors
+    /// As [`Scenario::read`], or the text selects none or several cases; the problem names them.
+    pub fn read_case(path: &Path, wanted: Option<&str>) -> Result<Self, Problem> {
+        let cases = Self::read_cases(path)?;
+        let Some(wanted) = wanted else {
+            return only_one(cases, path);
+        };
+        let place = Place::file(&path.display().to_string());
+        let (mut chosen, others): (Vec<_>, Vec<_>) = cases.into_iter().partition(|case| case.fits(wanted));
+        let exact = chosen.iter().position(|case| case.variant.as_ref().is_some_and(|variant| variant.is(wanted)));
+        if let Some(index) = exact {
+            return Ok(chosen.swap_remove(index));
+        }
+        match (chosen.pop(), chosen.len()) {
+            (Some(case), 0) => Ok(case),
+            (Some(case), further) => {
+                chosen.push(case);
+                let what =
+                    format!("expected a text that selects one case, found `{wanted}`, which selects {}", further + 1);
+                Err(place.problem(what, in_words(&chosen)))
+            }
+            (None, _) => Err(place.problem(format!("expected a case with `{wanted}`, found none"), in_words(&others))),
+        }
+    }
+
+    /// Whether the values of its case contain this text.
+    fn fits(&self, wanted: &str) -> bool {
+        self.variant.as_ref().is_some_and(|variant| variant.fits(wanted))
     }
 
     /// Reads a scenario file: one scenario for each combination of its matrix, or one without a matrix.
@@ -225,13 +256,19 @@ fn watched(node: Node) -> Result<Vec<Watched>, Problem> {
     node.into_list().into_iter().map(one).collect()
 }
 
+/// The first cases, for a message.
+fn in_words(cases: &[Scenario]) -> String {
+    let known: Vec<_> = cases.iter().filter_map(|case| Some(case.variant.as_ref()?.to_string())).take(10).collect();
+    if known.is_empty() { "the scenario has no matrix".to_owned() } else { format!("cases are {}", known.join("; ")) }
+}
+
 /// The only case of a file, for a caller that takes one.
 fn only_one(mut cases: Vec<Scenario>, path: &Path) -> Result<Scenario, Problem> {
     match (cases.pop(), cases.len()) {
         (Some(case), 0) => Ok(case),
         (_, others) => Err(Place::file(&path.display().to_string()).problem(
             format!("expected a scenario with one case, found a matrix of {}", others + 1),
-            "`opennck run` and `opennck test` run all cases of a matrix; `--case TEXT` chooses one",
+            "choose a case by its values, with `--case TEXT`; `opennck run` and `opennck test` run all",
         )),
     }
 }

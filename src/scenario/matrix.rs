@@ -43,6 +43,17 @@ impl std::fmt::Display for Variant {
 }
 
 impl Variant {
+    /// Whether its values, as `plc = a`, or its name contain a text.
+    #[must_use]
+    pub fn fits(&self, text: &str) -> bool {
+        self.to_string().contains(text) || self.name.contains(text)
+    }
+
+    /// Whether a text is all its values, or its name.
+    pub(super) fn is(&self, text: &str) -> bool {
+        self.to_string() == text || self.name == text
+    }
+
     /// The golden file of this case: `name.snap` becomes `name@34080_XF_=-0.941.snap`.
     #[must_use]
     pub fn beside(&self, snap: &Path) -> PathBuf {

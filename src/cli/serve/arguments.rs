@@ -65,6 +65,9 @@ pub(crate) struct Arguments {
     /// passed, unless --exit is given. A recording contains the actions of the scenario as well.
     #[arg(long, value_name = "F.toml")]
     pub(super) scenario: Option<PathBuf>,
+    /// With --scenario: the case of its matrix whose values contain this text, as `plc = a`.
+    #[arg(long, value_name = "TEXT", requires = "scenario")]
+    pub(super) case: Option<String>,
     /// With --scenario: ends when the scenario is over, with exit code 0 if it passed and 1 if it failed.
     #[arg(long, requires = "scenario")]
     pub(super) exit: bool,
@@ -139,6 +142,7 @@ impl Arguments {
         let opening = Opening {
             machine: self.machine.as_deref(),
             scenario: self.scenario.as_deref(),
+            case: self.case.as_deref(),
             plc: self.plc.as_deref(),
             plc_image: plc_image.as_deref(),
             profile: self.profile.as_deref(),

@@ -138,7 +138,7 @@ fn power_on_closes_open_watches() {
     let rule = "[[rule]]\nname = \"a\"\nwhen = \"M0.0\"\nthen = \"M0.1\"\nwithin = \"20ms\"\n";
     let steps =
         "[[step]]\nset = { \"M0.0\" = 1 }\n[[step]]\nrun = \"10ms\"\n[[step]]\npower_on = true\n[[step]]\nrun = \"1s\"";
-    assert_eq!(held(&format!("{rule}{steps}")).remarks(), ["rule `a`: power on closed it 1 times"]);
+    assert_eq!(held(&format!("{rule}{steps}")).remarks(), ["rule `a`: power on closed it once"]);
 }
 
 #[test]
@@ -299,4 +299,111 @@ fn a_session_has_every_verb() {
     session.set("M1.0", 1).unwrap();
     let text = session.run("1s").unwrap_err().to_string();
     assert!(text.contains("rule `answer` is broken"), "{text}");
+}
+
+#[test]
+fn times_of_a_rule_are_those_of_the_machine_after_power_on_changed_its_cycles() {
+    let rule = "[[rule]]\nname = \"a\"\nwhen = \"M0.0\"\nthen = \"M0.1\"\nwithin = \"150ms\"\n";
+    let begin = "[[step]]\nmachine_data = { \"10070\" = 30 }\n[[step]]\npower_on = true\n[[step]]\nrun = \"1cycle\"\n[[step]]\nset = { \"M0.0\" = 1 }\n";
+    // Cycles of 60 ms: 150 ms are over after three of them, not after 75.
+    let text = missed(&format!("{rule}{begin}[[step]]\nrun = \"1s\""));
+    assert!(text.contains("within 0.150 s after `M0.0` (at 0.300 s)"), "{text}");
+    assert!(text.contains("began in cycle 2, at 0.120 s\n  failed in cycle 5, at 0.300 s\n"), "{text}");
+    let answer = "[[step]]\nrun = \"1cycle\"\n[[step]]\nset = { \"M0.1\" = 1 }\n[[step]]\nrun = \"1cycle\"";
+    assert_eq!(
+        held(&format!("{rule}{begin}{answer}")).margins(),
+        ["margin of `a`: 2 cycles (0.120 s), began at 0.120 s; 1 of 1 in time"]
+    );
+}
+
+#[test]
+fn a_limit_in_cycles_is_named_in_cycles() {
+    let rule =
+        "[[rule]]\nname = \"a\"\nwhen = \"M0.0\"\nthen = \"M0.1\"\nwithin = \"3cycles\"\nnot_before = \"1cycle\"\n";
+    let set = "[[step]]\nset = { \"M0.0\" = 1 }\n";
+    let text = missed(&format!("{rule}{set}[[step]]\nrun = \"1s\""));
+    assert!(text.contains("within 3 cycles after `M0.0` (at 0.008 s)"), "{text}");
+    let text = missed(&format!("{rule}[[step]]\nset = {{ \"M0.0\" = 1, \"M0.1\" = 1 }}\n[[step]]\nrun = \"1s\""));
+    assert!(text.contains("`M0.1` is true earlier than 1 cycle after `M0.0` (at 0.002 s)"), "{text}");
+}
+
+#[test]
+fn a_rule_that_is_broken_before_the_first_cycle_fails_also_a_run_without_a_cycle() {
+    let rule = "[[rule]]\nname = \"a\"\nwhen = \"M0.0 == 0\"\nthen = \"M0.1\"\nfrom_start = true\n";
+    let text = missed(&format!("{rule}[[step]]\nexpect = \"1\""));
+    assert!(
+        text.contains("rule `a` is broken: `M0.1` is not true in the cycle in which `M0.0 == 0` became true"),
+        "{text}"
+    );
+}
+
+#[test]
+fn rules_that_break_in_the_same_cycle_are_all_named() {
+    let rules = "never = [\"M0.0\", \"M0.1\"]\n[[rule]]\nname = \"c\"\nalways = \"MB0 < 3\"\ngo_on = true\n";
+    let text = missed(&format!("{rules}[[step]]\nset = {{ \"MB0\" = 3 }}\n[[step]]\nrun = \"1s\""));
+    for line in [
+        "`never` is violated: `M0.0` is true (at 0.002 s)",
+        "\n  also: `never` is violated: `M0.1` is true\n",
+        "\n  before: rule `c` is broken: `MB0 < 3` is false (at 0.002 s)\n",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+}
+
+#[test]
+fn a_file_that_only_includes_another_one_does_not_count_its_repetitions() {
+    let scenario = "machine = \"g1_example\"\n[[step]]\ninclude = \"outer.toml\"\n";
+    let outer = "[[step]]\ninclude = \"inner.toml\"\ntimes = 5\n";
+    let inner = "[[step]]\nrun = \"1cycle\"\n[[step]]\nexpect = \"time < 0.005\"\n";
+    let directory = directory("nested", &[("s.toml", scenario), ("outer.toml", outer), ("inner.toml", inner)]);
+    let failure = read(&directory.join("s.toml")).unwrap().failure.unwrap().to_string();
+    let places: Vec<_> = failure.lines().filter(|line| line.contains("included at")).collect();
+    assert!(places[0].ends_with("outer.toml:1, time 3 of 5") && places[1].ends_with("s.toml:2"), "{failure}");
+    std::fs::remove_dir_all(directory).unwrap();
+}
+
+#[test]
+fn repetitions_of_nested_files_multiply_and_have_a_limit() {
+    let scenario = "machine = \"g1_example\"\n[[step]]\ninclude = \"outer.toml\"\ntimes = 1000000\n";
+    let outer = "[[step]]\ninclude = \"inner.toml\"\ntimes = 2\n";
+    let inner = "[[step]]\nexpect = \"1\"\n";
+    let directory = directory("multiplied", &[("s.toml", scenario), ("outer.toml", outer), ("inner.toml", inner)]);
+    let problem = read(&directory.join("s.toml")).err().unwrap();
+    assert!(problem.what.contains("at most 1000000 times, found 2000000"), "{problem}");
+    assert!(problem.to_string().contains("outer.toml:1: "), "{problem}");
+    std::fs::remove_dir_all(directory).unwrap();
+}
+
+#[test]
+fn a_case_is_chosen_by_its_values() {
+    let text = format!("machine = \"g1_example\"\n[matrix]\nplc = [\"a\", \"ab\"]\n{STEP}");
+    let directory =
+        directory("cases", &[("s.toml", &text), ("one.toml", &format!("machine = \"g1_example\"\n{STEP}"))]);
+    let plc = |wanted| Scenario::read_case(&directory.join("s.toml"), wanted).map(|case| case.plc.unwrap().text);
+    assert_eq!([plc(Some("plc = a")), plc(Some("ab"))], [Ok("a".to_owned()), Ok("ab".to_owned())]);
+    let problem = plc(Some("plc")).unwrap_err();
+    assert!(problem.what.contains("selects 2") && problem.cure.contains("plc = a"), "{problem}");
+    let problem = plc(Some("x")).unwrap_err();
+    assert!(
+        problem.what.contains("with `x`, found none") && problem.cure == "cases are plc = a; plc = ab",
+        "{problem}"
+    );
+    assert!(plc(None).unwrap_err().cure.contains("--case"));
+    assert!(Scenario::read_case(&directory.join("one.toml"), None).is_ok());
+    let problem = Scenario::read_case(&directory.join("one.toml"), Some("x")).unwrap_err();
+    assert_eq!(problem.cure, "the scenario has no matrix");
+    std::fs::remove_dir_all(directory).unwrap();
+}
+
+/// The part of a picture is selected after the run.
+#[test]
+fn waveform_and_diagram_show_a_part_of_the_trace() {
+    let set = |value: u8| format!("[[step]]\nset = {{ \"MB0\" = {value} }}\n[[step]]\nrun = \"10ms\"\n");
+    let mut finished = held(&format!("watch = [\"MB0\"]\n{}{}{}", set(1), set(2), set(3)));
+    // The value becomes 1 at 2 ms, 2 at 12 ms, 3 at 22 ms.
+    finished.window = crate::trace::Window { from: Some(crate::units::Time::from_millis(12)), to: None };
+    let text = finished.vcd();
+    let changes = text.split_once("#12\n").unwrap().1;
+    assert!(changes.starts_with("$dumpvars\nb00000001 !\n$end\nb00000010 !\n#22\nb00000011 !\n"), "{text}");
+    assert!(finished.svg().contains("becomes 2") && !finished.svg().contains("becomes 1"));
 }
