@@ -204,13 +204,20 @@ fn worked_example(bencher: Bencher<'_, '_>) {
 /// A scenario with one step that lets time pass on the machine of `step`, with ten conditions that must hold in every cycle.
 #[divan::bench]
 fn scenario_with_ten_conditions(bencher: Bencher<'_, '_>) {
-    run_scenario(bencher, &TEN_CONDITIONS);
+    run_scenario(bencher, &format!("never = {TEN_CONDITIONS:?}"));
 }
 
 /// For comparison: the same scenario without conditions.
 #[divan::bench]
 fn scenario_without_conditions(bencher: Bencher<'_, '_>) {
-    run_scenario(bencher, &[]);
+    run_scenario(bencher, "");
+}
+
+/// The same scenario with ten rules: each of the conditions must be followed by something within a time.
+#[divan::bench]
+fn scenario_with_ten_rules(bencher: Bencher<'_, '_>) {
+    let rule = |when: &&str| format!("[[rule]]\nwhen = {when:?}\nthen = \"time > 0\"\nwithin = \"100ms\"\n");
+    run_scenario(bencher, &TEN_CONDITIONS.iter().map(rule).collect::<String>());
 }
 
 /// Signals, values, alarms and time, and edges of them. AX1, AX2 and AX3 have the names X1, Y1 and Z1.
@@ -227,10 +234,9 @@ const TEN_CONDITIONS: [&str; 10] = [
     "rose(Z1.position > 1)",
 ];
 
-fn run_scenario(bencher: Bencher<'_, '_>, never: &[&str]) {
+fn run_scenario(bencher: Bencher<'_, '_>, rules: &str) {
     let machine = directory_of_31_axes("thirty_one_axes", 1);
-    let text =
-        format!("machine = {machine:?}\nplc = \"jogging\"\nnever = {never:?}\n[[step]]\nrun = \"{STEPS}cycles\"\n");
+    let text = format!("machine = {machine:?}\nplc = \"jogging\"\n{rules}\n[[step]]\nrun = \"{STEPS}cycles\"\n");
     let scenario = Scenario::parse(&text, Path::new("bench.toml")).expect("the scenario is valid");
     let programs = Programs::ready().with("jogging", |_| Ok(jogging_program().boxed()));
     let prepare = || scenario.prepare(Profile::default(), &programs).expect("the scenario is valid");
