@@ -84,7 +84,7 @@ fn watch(claim: Claim, bytes: &str) -> (Monitor, Vec<(Reason, u64, u64)>) {
         }
         let now = Moment { memory: &memory, variables: &variables, time, named_values: &[] };
         if index == 0 {
-            monitor.begin(0, &View::at(now), cycle, report);
+            monitor.begin(0, &View::at(now), (cycle, length), report);
         } else {
             monitor.observe(&View::at(now), cycle, report);
         }
@@ -192,4 +192,11 @@ fn a_time_is_the_time_of_the_machine_when_power_on_makes_its_cycles_longer() {
     let (monitor, found) = watch(follows(times(20, 8)), "0x01113");
     // The consequence comes 12 ms after the edge: one cycle after 8 ms, two before 20 ms.
     assert_eq!((found.len(), monitor.summaries().next().unwrap().margin.unwrap().amount as u64), (0, 1));
+}
+
+#[test]
+fn the_margin_of_a_consequence_before_the_first_cycle_is_counted_in_cycles() {
+    let within = Span::time(Time::from_millis(8));
+    let (monitor, _) = watch(follows(Consequence { within, from_start: true, ..consequence(0, 0) }), "30");
+    assert_eq!(monitor.summaries().next().unwrap().margin.unwrap(), Margin { amount: 4.0, at: at(0) });
 }

@@ -106,15 +106,21 @@ impl Monitor {
         self.measures = true;
     }
 
-    /// Starts the rules from `first` on with the state before the next cycle, after cycle `cycle`. Reports each breach.
-    pub fn begin(&mut self, first: usize, view: &View<'_>, cycle: u64, report: &mut dyn FnMut(Breach)) {
+    /// Starts the rules from `first` on with the state before the next cycle, which has this length, after cycle `cycle`. Reports each breach.
+    pub fn begin(
+        &mut self,
+        first: usize,
+        view: &View<'_>,
+        (cycle, length): (u64, Time),
+        report: &mut dyn FnMut(Breach),
+    ) {
         let now = self.show(cycle, view).0;
         for (index, (rule, state)) in self.rules.iter().zip(&mut self.states).enumerate().skip(first) {
             if let Claim::Follows(consequence) = &rule.claim {
                 state.was = consequence.when.holds(view);
                 if state.was && consequence.from_start {
                     state.open(now);
-                    state.follow(index, consequence, view, (now, Time::ZERO), report);
+                    state.follow(index, consequence, view, (now, length), report);
                 }
             }
         }

@@ -13,8 +13,8 @@ impl Book {
         self.follow(followed, machine);
         let first = self.monitor.rules().len();
         rules.into_iter().for_each(|rule| self.monitor.add(rule));
-        let cycle = machine.cycle() - self.start.0;
-        if let Err(failure) = self.judge(machine, |monitor, view, report| monitor.begin(first, view, cycle, report)) {
+        let now = (machine.cycle() - self.start.0, machine.cycle_time());
+        if let Err(failure) = self.judge(machine, |monitor, view, report| monitor.begin(first, view, now, report)) {
             self.broken.get_or_insert(failure);
         }
     }

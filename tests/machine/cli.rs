@@ -109,6 +109,35 @@ fn diff_reports_the_first_difference_in_words() {
 }
 
 #[test]
+fn a_case_of_a_matrix_and_a_part_of_a_picture_are_chosen() {
+    let directory = directory("chosen");
+    let matrix =
+        "title = \"m\"\nmachine = \"g1_example\"\nwatch = [\"MB0\"]\n[matrix]\n\"plant.X.start\" = [120.0, 130.0]\n";
+    let set = |value: u8| format!("[[step]]\nset = {{ MB0 = {value} }}\n[[step]]\nrun = \"10ms\"\n");
+    fs::write(directory.join("m.toml"), format!("{matrix}{}{}", set(1), set(2))).unwrap();
+    let why = |options: &[&str]| opennck(&[&["why", "m.toml", "MB0@1"], options].concat(), &directory);
+    let output = why(&["--case", "130.0"]);
+    assert_eq!((output.status.code(), out(&output).contains("MB0")), (Some(0), true), "{}", err(&output));
+    assert!(err(&why(&[])).contains("--case TEXT"), "{}", err(&why(&[])));
+    assert!(err(&why(&["--case", "140"])).contains("cases are plant.X.start = 120.0; plant.X.start = 130.0"));
+    let run = |options: &[&str]| opennck(&[&["run", "m.toml", "--case", "130.0"], options].concat(), &directory);
+    let output = run(&["--vcd", "t.vcd", "--from", "12ms", "--to", "1"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let waveform = fs::read_to_string(directory.join("t.vcd")).unwrap();
+    assert!(waveform.contains("#12\n$dumpvars\nb00000001 !\n$end\nb00000010 !\n"), "{waveform}");
+    for (options, cause) in [
+        (&["--from", "1s"][..], "expected --svg or --vcd together with --from and --to"),
+        (&["--svg", "t.svg", "--from", "2s", "--to", "1s"], "expected a time --from before the time --to"),
+        (&["--svg", "t.svg", "--from", "soon"], "expected a time such as 7.5"),
+    ] {
+        let output = run(options);
+        assert!(output.status.code() == Some(2) && err(&output).contains(cause), "{}", err(&output));
+    }
+    let late = run(&["--svg", "t.svg", "--from", "9s"]);
+    assert!(err(&late).contains("the trace ends at 0.020 s, before --from 9.000 s"), "{}", err(&late));
+}
+
+#[test]
 fn why_follows_an_edge_back_to_the_written_signal() {
     let directory = directory("why");
     let scenario = include_str!("../../golden/worked_example/gantry_references_and_synchronises.toml");
