@@ -20,7 +20,7 @@ mod span;
 mod watches;
 
 pub use rule::{Claim, Consequence, Rule};
-pub use span::{Instant, Span};
+pub use span::{Point, Span};
 pub use watches::{Breach, Margin, Monitor, Reason, Summary};
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use crate::units::Time;
 
 /// A point of a run: the number of cycles so far, and the time that they took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Instant {
+pub struct Point {
     /// Cycles since the start.
     pub cycle: u64,
     /// Time since the start.
@@ -37,19 +37,19 @@ impl Span {
     }
 
     /// Whether it is over at `now`, if it began at `began`.
-    pub(super) fn is_over(self, began: Instant, now: Instant) -> bool {
+    pub(super) fn is_over(self, began: Point, now: Point) -> bool {
         now.cycle - began.cycle >= self.cycles && now.time - began.time >= self.time
     }
 
     /// The number of further cycles of this length until it is over; 0 if it is over.
-    pub(super) fn cycles_left(self, began: Instant, now: Instant, cycle: Time) -> u64 {
+    pub(super) fn cycles_left(self, began: Point, now: Point, cycle: Time) -> u64 {
         let cycles = self.cycles.saturating_sub(now.cycle - began.cycle);
         let time = (self.time - (now.time - began.time)).nanos();
         cycles.max(whole(time, cycle, true))
     }
 
     /// The number of cycles of this length that passed since it was over.
-    pub(super) fn cycles_beyond(self, began: Instant, now: Instant, cycle: Time) -> u64 {
+    pub(super) fn cycles_beyond(self, began: Point, now: Point, cycle: Time) -> u64 {
         let cycles = (now.cycle - began.cycle).saturating_sub(self.cycles);
         let time = (now.time - began.time - self.time).nanos();
         cycles.min(whole(time, cycle, false))
@@ -66,8 +66,8 @@ fn whole(nanos: i64, cycle: Time, up: bool) -> u64 {
 mod tests {
     use super::*;
 
-    fn after(cycle: u64, millis: i64) -> Instant {
-        Instant { cycle, time: Time::from_millis(millis) }
+    fn after(cycle: u64, millis: i64) -> Point {
+        Point { cycle, time: Time::from_millis(millis) }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::rule::{Claim, Consequence, Rule};
-use super::span::{Instant, Span};
+use super::span::{Point, Span};
 use crate::expression::{Expression, View};
 use crate::units::Time;
 
@@ -15,7 +15,7 @@ pub struct Monitor {
     /// Whether the distances of conditions to their limits are measured.
     measures: bool,
     /// The last cycle that was shown.
-    last: Instant,
+    last: Point,
 }
 
 /// The progress of a rule.
@@ -24,7 +24,7 @@ struct State {
     /// Whether `when` was true, or a condition was broken, after the last cycle.
     was: bool,
     /// The cycles in which the open watches began, the oldest first.
-    open: VecDeque<Instant>,
+    open: VecDeque<Point>,
     /// The number of watches that began, and of those that ended as they must.
     begun: u64,
     met: u64,
@@ -40,7 +40,7 @@ pub struct Margin {
     /// Cycles of a consequence, or the distance of a compared value in its own unit.
     pub amount: f64,
     /// The cycle in which the watch began, or in which the value was nearest.
-    pub at: Instant,
+    pub at: Point,
 }
 
 /// A rule that was broken.
@@ -49,9 +49,9 @@ pub struct Breach {
     /// The index of the rule.
     pub rule: usize,
     /// The cycle in which the watch or the violation began.
-    pub began: Instant,
+    pub began: Point,
     /// The cycle in which the rule failed.
-    pub failed: Instant,
+    pub failed: Point,
     /// Why.
     pub reason: Reason,
 }
@@ -81,7 +81,7 @@ pub struct Summary<'a> {
     /// The number of watches that power on closed.
     pub closed: u64,
     /// The number of watches that are open, and the cycle in which the oldest began.
-    pub open: Option<(usize, Instant)>,
+    pub open: Option<(usize, Point)>,
     /// The number of breaches.
     pub breaches: u64,
     /// The smallest margin, if it was measured.
@@ -180,8 +180,8 @@ impl Monitor {
     }
 
     /// Takes up the number of a cycle and its time; returns its length, too.
-    fn show(&mut self, cycle: u64, view: &View<'_>) -> (Instant, Time) {
-        let now = Instant { cycle, time: view.now.time };
+    fn show(&mut self, cycle: u64, view: &View<'_>) -> (Point, Time) {
+        let now = Point { cycle, time: view.now.time };
         let length = now.time - self.last.time;
         self.last = now;
         (now, length)
@@ -202,7 +202,7 @@ impl Monitor {
 }
 
 impl State {
-    fn open(&mut self, now: Instant) {
+    fn open(&mut self, now: Point) {
         self.open.push_back(now);
         self.begun += 1;
     }
@@ -213,7 +213,7 @@ impl State {
     }
 
     /// A condition that must hold; a violation of several cycles is one breach.
-    fn condition(&mut self, rule: usize, holds: bool, now: Instant, report: &mut dyn FnMut(Breach)) {
+    fn condition(&mut self, rule: usize, holds: bool, now: Point, report: &mut dyn FnMut(Breach)) {
         if !holds && !self.was {
             self.breach(Breach { rule, began: now, failed: now, reason: Reason::Condition }, report);
         }
@@ -226,7 +226,7 @@ impl State {
         rule: usize,
         consequence: &Consequence,
         view: &View<'_>,
-        (now, length): (Instant, Time),
+        (now, length): (Point, Time),
         report: &mut dyn FnMut(Breach),
     ) {
         let Consequence { then, within, not_before, .. } = consequence;
@@ -253,7 +253,7 @@ impl State {
         }
     }
 
-    fn measure(&mut self, amount: Option<f64>, at: Instant) {
+    fn measure(&mut self, amount: Option<f64>, at: Point) {
         let Some(amount) = amount.filter(|amount| amount.is_finite()) else {
             return;
         };

@@ -175,10 +175,11 @@ impl Book {
             };
             let margin = match (summary.margin, is_watch) {
                 (Some(margin), true) => {
-                    let cycles = margin.amount as u64;
-                    let (length, began) = (machine.cycle_time().times(cycles), margin.at.time);
+                    let cycles = margin.amount;
+                    let (length, began) = (cycles * machine.cycle_time().seconds(), margin.at.time);
+                    let length = Time::from_seconds(length);
                     let (met, begun) = (summary.met, summary.begun);
-                    let noun = if cycles == 1 { "cycle" } else { "cycles" };
+                    let noun = if (cycles - 1.0).abs() < 0.5 { "cycle" } else { "cycles" };
                     format!("{cycles} {noun} ({length} s), began at {began} s; {met} of {begun} in time")
                 }
                 (Some(margin), false) => format!("{} at {} s", margin.amount, margin.at.time),

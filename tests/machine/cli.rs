@@ -113,11 +113,15 @@ fn a_case_of_a_matrix_and_a_part_of_a_picture_are_chosen() {
     let directory = directory("chosen");
     let matrix =
         "title = \"m\"\nmachine = \"g1_example\"\nwatch = [\"MB0\"]\n[matrix]\n\"plant.X.start\" = [120.0, 130.0]\n";
-    let set = |value: u8| format!("[[step]]\nset = {{ MB0 = {value} }}\n[[step]]\nrun = \"10ms\"\n");
+    let set = |value: u8| {
+        let key = "\"X.traversing_key_plus\" = 1";
+        format!("[[step]]\nset = {{ MB0 = {value}, {key} }}\n[[step]]\nrun = \"10ms\"\n")
+    };
     fs::write(directory.join("m.toml"), format!("{matrix}{}{}", set(1), set(2))).unwrap();
-    let why = |options: &[&str]| opennck(&[&["why", "m.toml", "MB0@1"], options].concat(), &directory);
+    let why =
+        |options: &[&str]| opennck(&[&["why", "m.toml", "X.traversing_key_plus@1"], options].concat(), &directory);
     let output = why(&["--case", "130.0"]);
-    assert_eq!((output.status.code(), out(&output).contains("MB0")), (Some(0), true), "{}", err(&output));
+    assert_eq!((output.status.code(), out(&output).contains("by outside")), (Some(0), true), "{}", err(&output));
     assert!(err(&why(&[])).contains("--case TEXT"), "{}", err(&why(&[])));
     assert!(err(&why(&["--case", "140"])).contains("cases are plant.X.start = 120.0; plant.X.start = 130.0"));
     let run = |options: &[&str]| opennck(&[&["run", "m.toml", "--case", "130.0"], options].concat(), &directory);
