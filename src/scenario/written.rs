@@ -103,7 +103,11 @@ mod tests {
     fn read(text: &str) -> (Vec<u32>, bool) {
         let (_, steps) = WrittenSteps::read(text, "s.toml").unwrap();
         let mut lines = Vec::new();
-        steps.each(|step| Ok(lines.push(step.place.line))).unwrap();
+        let note = |step: Table| {
+            lines.push(step.place.line);
+            Ok(())
+        };
+        steps.each(note).unwrap();
         (lines, matches!(steps, WrittenSteps::Text(..)))
     }
 
