@@ -70,6 +70,7 @@ pub(super) fn once(
     for warning in taken.iter().flat_map(|control| &control.warnings).collect::<BTreeSet<_>>() {
         output.warning(warning);
     }
+    taken.iter().flat_map(|control| &control.remarks).for_each(|remark| output.line(remark));
     // With --fail-fast, cases may not have run.
     let left = ran.iter().filter(|ran| ran.is_none()).count();
     let done: Vec<(&Work, Ran)> = work.iter().zip(ran).filter_map(|(work, ran)| Some((work, ran?))).collect();
@@ -131,11 +132,14 @@ fn all(work: &[Work], arguments: &Arguments, programs: &Programs) -> (Vec<Option
     let mut sum: Vec<Exercised> = Vec::new();
     let mut outcomes: Vec<Option<Ran>> = work.iter().map(|_| None).collect();
     for (index, ran, taken) in done {
-        if let Some(more) = taken {
+        if let Some(mut more) = taken {
+            let name = &work[index].name;
+            more.remarks.iter_mut().for_each(|remark| *remark = format!("{name}: {remark}"));
             match sum.iter_mut().find(|known| known.texts.name() == more.texts.name()) {
                 Some(known) => {
                     known.taken.add(more.taken);
                     known.warnings.extend(more.warnings);
+                    known.remarks.extend(more.remarks);
                 }
                 None => sum.push(more),
             }
