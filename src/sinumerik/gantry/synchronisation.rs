@@ -237,7 +237,12 @@ impl Grouping {
         let axes = view.axes;
         let follower = self.coupling.members().find(|&axis| axes[axis].enabling.follow_up);
         let unreferenced = self.coupling.members().find(|&axis| !axes[axis].is_referenced());
-        let (rule, input, cause) = if let Some(axis) = follower {
+        let parked = follower.filter(|&axis| axes[axis].measuring_system.is_none());
+        let (rule, input, cause) = if let Some(axis) = parked {
+            // A parked axis has no actual value to follow, and 61.3 is 0.
+            let signal = axis_signal(axis, axis_from_nck::position_measuring_system_1_activated, false);
+            (Rule::SynchronismLostFollowUp, signal, axes[axis].causes.measuring_system)
+        } else if let Some(axis) = follower {
             let signal = axis_signal(axis, axis_from_nck::follow_up_active, true);
             (Rule::SynchronismLostFollowUp, signal, axes[axis].causes.enabling)
         } else if let Some(axis) = unreferenced {

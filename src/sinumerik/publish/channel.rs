@@ -92,7 +92,8 @@ impl State {
         if let Some(grouping) = section_3 {
             return tested(Rule::ChannelActive, Input::None, Input::None, grouping.cause);
         }
-        let follow_up = axis_signal(number, axis_from_nck::follow_up_active, axis.enabling.follow_up);
+        let follows_up = axis.enabling.follow_up && axis.measuring_system.is_some();
+        let follow_up = axis_signal(number, axis_from_nck::follow_up_active, follows_up);
         tested(Rule::ChannelActive, follow_up, Input::None, axis.causes.movement())
     }
 
