@@ -1,5 +1,7 @@
 //! A PLC program in another process that `run` and `test` start: in lock-step with the same trace as a closure, and with an end in each case.
 //! If python3 is missing, the tests say so on standard error and check the rest.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::disallowed_methods, reason = "these tests wait for other processes")]
 #![cfg(feature = "cli")]
 
 use std::fs;

@@ -150,11 +150,11 @@ fn synchronises_over_a_bridge(stiffness: f64, apart: f64) -> Result<bool, Failur
     session.pulse("X.traversing_key_plus")?;
     // Without an alarm, section 3 is reached; then the start ends in synchronism or in an alarm.
     session.wait("DB31.DBX101.4 || DB31.DBX101.5 || alarms() > 0", "30s")?;
-    if session.value("DB31.DBX101.4")? == 1.0 {
+    if session.value("DB31.DBX101.4")? > 0.5 {
         session.set("X.start_gantry_synchronization", true)?;
         session.wait("DB31.DBX101.5 || alarms() > alarm(10655) + alarm(10654)", "10s")?;
     }
-    let synchronised = session.value("DB31.DBX101.5")? == 1.0;
+    let synchronised = session.value("DB31.DBX101.5")? > 0.5;
     if synchronised {
         session.run("1s")?;
         session.expect("X.axis_stationary && XF.axis_stationary")?;

@@ -1,5 +1,6 @@
 //! The rules in the program and in `docs/rules.md` are those that scenarios, causes and the sources name; and the signals that the control
 //! reads are those of its sources.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![cfg(feature = "cli")]
 
 use std::collections::{BTreeMap, BTreeSet};

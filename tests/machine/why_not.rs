@@ -73,7 +73,7 @@ impl Check {
                     self.stuck.remove(&key);
                     continue;
                 }
-                let since = *self.stuck.entry(key).or_insert(machine.cycle());
+                let since = *self.stuck.entry(key).or_insert_with(|| machine.cycle());
                 if machine.cycle() - since > PATIENCE {
                     self.find(machine, bit, wanted, "nothing holds the signal back, and it does not follow", &tested);
                 }

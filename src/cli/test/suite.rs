@@ -182,7 +182,7 @@ fn report(done: &[(&Work, Ran)], left: usize, format: Format, output: &mut Outpu
             Outcome::Accepted => output.line(format!("accepted  {}", work.name)),
             Outcome::Failed(_) | Outcome::Unusable(_) => output.error(outcome),
             Outcome::Untrue(_) | Outcome::Differs(_) | Outcome::Missing(_) => {
-                output.error(format!("{}: {outcome}", work.name))
+                output.error(format!("{}: {outcome}", work.name));
             }
         }
         if format == Format::Github && !outcome.is_good() {
