@@ -74,7 +74,7 @@ fn a_failed_expectation_and_an_unusable_file_have_different_outcomes() {
     assert!(matches!(outcome, Outcome::Failed(text) if text.contains("M0.1 = 0")), "{outcome}");
     assert_eq!(outcome.exit_code(), 1);
     assert!(!directory.join("flags.snap").exists());
-    fs::write(directory.join("flags.toml"), "title = 1").unwrap();
+    fs::write(directory.join("flags.toml"), "title = 1\n[[step]]\nrun = \"1s\"\n").unwrap();
     assert!(report(&directory, &Programs::ready(), Update::No).contains("flags.toml:1"));
 }
 

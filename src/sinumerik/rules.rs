@@ -183,7 +183,7 @@ rules! {
     HandwheelMeetsKey "20051" "a handwheel is turned while a traversing key moves the axis";
     KeyMovementEnded "20051" "no traversing key moves the axis";
     NoLongerJogging "JOG" "the axis is not jogged in this mode, machine function or grouping";
-    MessageSuppressed "MD37150" "the message of the grouping is suppressed";
+    MessageSuppressed "REF-08" "the message of the grouping is suppressed";
     SwitchOverReported "21613" "the switch-over is reported for one cycle";
     CancelKey "ALARM" "alarm-cancel key";
     AlarmCancelled "ALARM" "alarm cancelled";

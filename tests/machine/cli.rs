@@ -483,6 +483,8 @@ fn why_not_names_what_the_control_waits_for() {
     };
     let expected = "    0.300  X.position_controller_active (DB31.DBX61.5) is 0 (off), because
              ✗ X.controller_enable (DB31.DBX2.1) = 0, wanted 1: never changed
+             ✗ X.pulses_enabled (DB31.DBX93.7) = 0, wanted 1 (disabled)
+               ✗ X.controller_enable (DB31.DBX2.1) = 0, wanted 1: never changed
              ✗ XF.pulses_enabled (DB33.DBX93.7) = 0, wanted 1 (disabled)
                ✗ XF.pulse_enable (DB33.DBX21.7) = 0, wanted 1: never changed
 ";

@@ -148,8 +148,15 @@ impl Look<'_> {
         Fact::new(format!("pulses of {}", self.axis_name(axis)), word(on), word(wanted), on == wanted)
     }
 
+    /// 93.5, 21.7 and 2.1; without 2.1 the pulses stay until position control is off (O-25).
     fn pulse_conditions(self, axis: AxisNumber) -> Condition {
+        let mut enable = self.axis(axis, axis_to_nck::controller_enable, true);
+        if self.state.axes[axis].enabling.control != ControllerState::Off {
+            let control = Fact::new(format!("position control of {}", self.axis_name(axis)), "on", "on", true);
+            enable = Condition::Any(vec![enable, control.into()]);
+        }
         Condition::All(vec![
+            enable,
             self.axis(axis, axis_to_nck::pulse_enable, true),
             self.axis(axis, axis_from_nck::drive_ready, true),
             fact("the start-up of the control has ended", self.state.run_up.is_nc_ready())
