@@ -61,7 +61,7 @@ impl Nck {
             }
             resting.awake = resting.awake.with(unit.set);
             resting.awake_units |= 1 << index;
-            if unit.grouping.is_some() || !resting.deciding.and(unit.set).is_empty() {
+            if !resting.deciding.and(unit.set).is_empty() {
                 resting.deciding = resting.deciding.with(unit.set);
                 resting.deciding_units |= 1 << index;
             }
@@ -114,11 +114,16 @@ impl Nck {
         }
         for (now, before) in state.groupings.iter().zip(&mut resting.groupings) {
             let axes: AxisSet = now.coupling.members().collect();
-            if !resting.awake.and(axes).is_empty() && now != before {
+            if resting.awake.with(awake).and(axes).is_empty() {
+                continue;
+            }
+            if !now.has_decisions_of(before) {
                 resting.units_stale |= now.phase != before.phase;
                 before.clone_from(now);
                 // It may have been opened or closed, and then other stages decide about its axes.
                 deciding = deciding.with(axes);
+            } else if now.decisions_follow_movement(&state.axes) {
+                deciding = deciding.with(axes.and(awake));
             }
         }
         (resting.awake, resting.deciding) = (awake.with(deciding), deciding);

@@ -7,7 +7,8 @@
 //! An axis that only moves is awake, but needs no decisions: the stages that read signals and command a movement are skipped, and
 //! the commanded movement continues. These stages are a function of signals, of earlier decisions, and of three facts about a
 //! movement: whether the setpoint rests, on which side its target is, and, if [`Axis::decisions_follow_movement`] is true, the
-//! whole movement. Axes of a closed grouping get decisions in every cycle in which they are awake.
+//! whole movement. The same applies to a grouping: it gets decisions in every cycle only while its axes are referenced, synchronise
+//! or are independent ([`Grouping::decisions_follow_movement`]).
 //!
 //! A change of anything that all axes depend on (modes, channels, handwheels, start-up, emergency stop, machine data, an alarm
 //! that is raised or cleared) wakes all axes. A pending alarm keeps its own axis awake, because the axis may have to raise it

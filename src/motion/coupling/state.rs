@@ -57,6 +57,10 @@ impl Coupled {
         let stage = Stage { first: false, second: false };
         Self { follower, base: Position::ZERO, difference: Position::ZERO, stage, kept: None }
     }
+
+    fn differs_only_in_difference(&self, other: &Self) -> bool {
+        (self.follower, self.base, self.stage, self.kept) == (other.follower, other.base, other.stage, other.kept)
+    }
 }
 
 /// The connection of the members.
@@ -148,6 +152,15 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         let common = self.factor(self.leads_now) * movement;
         let led = self.members().zip(self.factors()).filter(|_| self.is_closed());
         led.filter(|&(axis, _)| axis != self.leads_now).map(move |(axis, factor)| (axis, factor * common))
+    }
+
+    /// Whether the states are equal except for the differences at the last comparison, which exceed the same limits.
+    #[must_use]
+    pub fn differs_only_in_differences(&self, other: &Self) -> bool {
+        (self.leader, self.leads_now, self.policy, self.connection, self.halt)
+            == (other.leader, other.leads_now, other.policy, other.connection, other.halt)
+            && self.followers.len() == other.followers.len()
+            && self.followers.iter().zip(&other.followers).all(|(one, other)| one.differs_only_in_difference(other))
     }
 
     fn factors(&self) -> impl Iterator<Item = Sign> + '_ {

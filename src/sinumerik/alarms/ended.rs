@@ -30,7 +30,7 @@ impl State {
 
     /// After monitoring: ends the alarms that clear by themselves and were not raised in this cycle.
     pub(in crate::sinumerik) fn end_expired(&mut self, parameters: &Parameters) {
-        for (alarm, cause) in self.alarms.expired() {
+        while let Some((alarm, cause)) = self.alarms.expired() {
             let event = match alarm.place {
                 Place::Axis(axis) => self.why_expired(&alarm, axis, cause, parameters),
                 Place::Nck | Place::ModeGroup(_) | Place::Channel(_) => EventId::NONE,

@@ -82,11 +82,11 @@ impl Pending {
         self.note_changed(self.entries.len() != before);
     }
 
-    /// The alarms that clear by themselves and that nothing has raised in this cycle, with the events behind them.
-    pub(in crate::sinumerik) fn expired(&self) -> ArrayVec<(RaisedAlarm, EventId), { Alarms::CAPACITY }> {
+    /// The first alarm that clears by itself and that nothing has raised in this cycle, with the event behind it.
+    pub(in crate::sinumerik) fn expired(&self) -> Option<(RaisedAlarm, EventId)> {
         let clears = |number| Alarm::find(number).is_some_and(|alarm| alarm.cancel == Cancel::ByItself);
-        let expired = self.entries.iter().filter(|entry| !entry.fresh && clears(entry.alarm.number));
-        expired.map(|entry| (entry.alarm, entry.cause)).collect()
+        let expired = self.entries.iter().find(|entry| !entry.fresh && clears(entry.alarm.number));
+        expired.map(|entry| (entry.alarm, entry.cause))
     }
 
     /// Ends a cycle: an alarm that clears by itself must be raised again in the next one.

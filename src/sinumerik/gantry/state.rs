@@ -4,10 +4,11 @@ use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
 use crate::control::{Log, Transition, next, row};
+use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::{Definition, GantryCoupling, SYNCHRONOUS_AXES};
 use crate::sinumerik::rules::Rule;
-use crate::units::{AxisNumber, AxisSet, Position};
+use crate::units::{AxisNumber, AxisSet, PerAxis, Position};
 use crate::variables::{EventId, Input, Place};
 
 /// The phase of a grouping.
@@ -215,6 +216,49 @@ impl Grouping {
     #[must_use]
     pub(in crate::sinumerik) fn is_referencing(&self) -> bool {
         self.referencing().is_some()
+    }
+
+    /// Whether the decisions about both groupings are equal; their differences may differ within the limits.
+    pub(in crate::sinumerik) fn has_decisions_of(&self, other: &Self) -> bool {
+        // Without `..`, so that a new field is named here.
+        let Self {
+            number: _,
+            coupling,
+            phase,
+            turn,
+            key,
+            from_referencing,
+            message,
+            waited_for,
+            shown_cycles,
+            start_was,
+            followed_up,
+            returning,
+            lost_in_operation,
+            kept_open,
+            extended,
+            limit_causes,
+            cause,
+        } = self;
+        coupling.differs_only_in_differences(&other.coupling)
+            && (phase, turn, key, limit_causes) == (&other.phase, &other.turn, &other.key, &other.limit_causes)
+            && (from_referencing, message, waited_for, shown_cycles)
+                == (&other.from_referencing, &other.message, &other.waited_for, &other.shown_cycles)
+            && (start_was, followed_up, returning) == (&other.start_was, &other.followed_up, &other.returning)
+            && (lost_in_operation, kept_open, extended) == (&other.lost_in_operation, &other.kept_open, &other.extended)
+            && cause == &other.cause
+    }
+
+    /// Whether its decisions depend on the positions of its axes: an approach, a synchronising motion, an open grouping, and one that is
+    /// ready again when its differences are small enough.
+    pub(in crate::sinumerik) fn decisions_follow_movement(&self, axes: &PerAxis<Axis>) -> bool {
+        match self.phase {
+            Phase::ReferencingLeadingAxis | Phase::ReferencingSynchronousAxis | Phase::Synchronising | Phase::Open => {
+                true
+            }
+            Phase::NotSynchronised => self.coupling.members().all(|axis| axes[axis].is_referenced()),
+            Phase::WaitingForStart | Phase::Synchronised => !self.coupling.is_closed(),
+        }
     }
 
     /// The monitoring results of each synchronous axis.
