@@ -93,7 +93,9 @@ fn cycles(archive: &Archive, findings: &mut Vec<Finding>) {
 fn names(archive: &Archive, findings: &mut Vec<Finding>) {
     for axis in MachineData::axis_numbers() {
         let name = archive.data.axis_name(axis);
-        let logical = MachineData::axis_numbers().find(|other| *other != axis && name == format!("AX{other}"));
+        let logical = name
+            .strip_prefix("AX")
+            .and_then(|number| MachineData::axis_numbers().find(|other| *other != axis && number == other.to_string()));
         if let Some(other) = logical {
             let what = format!("expected a name other than `{name}`, which means axis {other}, for axis {axis}");
             let cure = "choose a name that is not AXn, or AXn with its own number";

@@ -160,8 +160,8 @@ pub(super) fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresenc
     let maximum_acceleration = acceleration(md.max_ax_accel[0]).max(1.0);
     let jog_acceleration = if md.jog_max_accel > 0.0 { acceleration(md.jog_max_accel) } else { maximum_acceleration };
     // G1 2.7.1 defines a grouping with machine axis 3 and does not mention MD20050, whose default declares it as a geometry axis.
-    let only_by_default = presence.geometry_by_default && data.has_default_geometry(number);
-    let is_declared_geometry_axis = data.is_geometry_axis(number) && !only_by_default;
+    let only_by_default = || presence.geometry_by_default && data.has_default_geometry(number);
+    let is_declared_geometry_axis = data.is_geometry_axis(number) && !only_by_default();
     let jerk = jerk(md, acceleration(1.0), [maximum_acceleration, jog_acceleration], cycle);
     AxisParameters {
         exists: presence.exists,
