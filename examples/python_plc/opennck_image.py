@@ -236,7 +236,8 @@ class Image:
         self.places = Places(self._look_up)
         self._lock_step = self.word(LOCK_STEP) != 0
         self._process, self._own = self.word(PROCESS), os.getpid()
-        self._had_nc = self._nc_runs()
+        # `opennck` starts a process for one NC; any other process may wait for the next NC.
+        self._had_nc = self._nc_runs() or "OPENNCK_STARTED" in os.environ
         self._newest = 0
         self._starts = self._answered = None
         if not self.is_served():

@@ -20,6 +20,9 @@ use crate::plc::{PlcFault, PlcIo, PlcProcess, PlcProgram, Programs};
 use crate::source::{Problem, decode};
 use crate::units::Time;
 
+/// Tells a process that it was started for one NC: it ends with this NC, even if the NC ended before it opened the file.
+const STARTED: &str = "OPENNCK_STARTED";
+
 /// How long the process may take to end by itself.
 const LAST: Duration = Duration::from_secs(2);
 /// Polling interval while a process starts or ends.
@@ -94,7 +97,7 @@ impl ProcessProgram {
         let image = self.files.image.to_string_lossy();
         let mut words = self.words.iter().map(|word| word.replace(IMAGE, &image));
         let mut command = Command::new(words.next().unwrap_or_default());
-        command.args(words).stdin(Stdio::null());
+        command.args(words).stdin(Stdio::null()).env(STARTED, "1");
         if !self.process.directory.as_os_str().is_empty() {
             command.current_dir(&self.process.directory);
         }
