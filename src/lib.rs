@@ -59,6 +59,7 @@
 //! | [`image`] | the interface: bytes by writer, signals, symbols, addresses, presets, for any control; the tables of the SINUMERIK | `source`, `units` |
 //! | [`variables`] | the output of the control in addition to signals: values, alarms, events with causes | `image`, `units` |
 //! | [`motion`] | the axis: setpoints, position control, drive, encoder, and the engine that couples axes | `units` |
+//! | [`nc_program`] | NC programs as a language: text, words, expressions, blocks, with a dialect; knows the names of axes, and no axis | nothing |
 //! | [`control`] | the boundary of a control: the trait that the machine steps, its commands, data, texts and charts | `image`, `motion`, `source`, `units`, `variables` |
 //! | [`sinumerik`] | the control of the gantry manual, with its machine data and alarms | `control`, `image`, `motion`, `source`, `units`, `variables` |
 //! | [`controls`] | the list of controls: the only module that names them | `control`, `image`, `sinumerik`, `source` |
@@ -134,6 +135,9 @@
 //! | a reaction of a coupling | a value of a type in `motion/coupling/policy.rs`, and its effect | properties in `motion/coupling/tests.rs` |
 //! | another gantry control | a `Policy` and its `Follower`s; rules and alarms for the events of `compare` | a module like `sinumerik/gantry/` |
 //! | a fault | a variant of [`FaultKind`](machine::FaultKind) in `plant/faults.rs`, its effect in `plant/moving.rs`, its name in `variables/happening.rs`, its row in `scenario/faults.rs` | `fault = {…}` in scenarios, recordings and messages; the build rejects a missing one |
+//! | a word of NC programs | a G function: a row in `nc_program/functions.rs`; an address or a command: `nc_program/syntax.rs`, `words.rs`, and what it does in `addresses.rs` or `commands.rs`; a word that is only refused: a row in `nc_program/dialect.rs` | the table in `docs/nc_programs.md`, the tests of the module |
+//! | an alarm of block preparation | a row in `nc_program/alarm.rs`, a smallest program in `nc_program/tests/alarms.rs` | a run and `opennck nc check` raise it |
+//! | another dialect of NC programs | a static `nc_program::Dialect`; a field there for what differs | the seam between controls |
 //! | a PLC program | a file in `plc/programs/` and a line in `plc/registry.rs`, or your own closure | `plc = "name"` in scenarios |
 //! | a machine | a folder below `machine_data/` | `machine = "path"` in scenarios |
 //! | a scenario | a `.toml` file below `golden/<area>/`; then review and accept its trace | the `.snap` file beside it |
@@ -153,6 +157,7 @@ pub mod live;
 pub mod machine;
 pub mod monitor;
 pub mod motion;
+pub mod nc_program;
 pub mod plant;
 pub mod plc;
 #[cfg(feature = "s7")]

@@ -14,6 +14,7 @@ const MODULES: &[(&str, &[&str])] = &[
     ("image", &["source", "units"]),
     ("variables", &["image", "units"]),
     ("motion", &["units"]),
+    ("nc_program", &[]),
     ("control", &["image", "motion", "source", "units", "variables"]),
     ("sinumerik", &["control", "image", "motion", "source", "units", "variables"]),
     ("controls", &["control", "image", "sinumerik", "source"]),

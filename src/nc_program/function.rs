@@ -1,0 +1,210 @@
+//! Functions of expressions (nc_programs.md 1.2). Angles are in degrees.
+
+use serde::{Deserialize, Serialize};
+
+use super::alarm::{Fault, Span};
+use super::operator::real;
+use super::trigonometry as angle;
+use super::value::{Type, Value, integer, round};
+
+/// A function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Function {
+    /// Sine.
+    Sin,
+    /// Cosine.
+    Cos,
+    /// Tangent.
+    Tan,
+    /// Inverse sine.
+    Asin,
+    /// Inverse cosine.
+    Acos,
+    /// Angle of a vector (y, x).
+    Atan2,
+    /// Square root.
+    Sqrt,
+    /// Absolute value.
+    Abs,
+    /// Square.
+    Pot,
+    /// Cuts to a whole number.
+    Trunc,
+    /// Rounds, one half upwards.
+    Round,
+    /// Rounds away from zero.
+    RoundUp,
+    /// Natural logarithm.
+    Ln,
+    /// Exponential function.
+    Exp,
+    /// The smaller one.
+    MinVal,
+    /// The larger one.
+    MaxVal,
+    /// A value limited to a range (minimum, maximum, value).
+    Bound,
+    /// The number in a text.
+    Number,
+    /// Whether a text is a number.
+    IsNumber,
+    /// The length of a text.
+    StrLen,
+    /// A text in capitals.
+    ToUpper,
+    /// A text in small letters.
+    ToLower,
+    /// The place of a character in a text, from zero; −1 without it.
+    Index,
+    /// A part of a text (text, first character from zero, number of characters).
+    SubStr,
+}
+
+/// Names, with the least and the largest number of parameters.
+const FUNCTIONS: &[(&str, Function, usize, usize)] = &[
+    ("SIN", Function::Sin, 1, 1),
+    ("COS", Function::Cos, 1, 1),
+    ("TAN", Function::Tan, 1, 1),
+    ("ASIN", Function::Asin, 1, 1),
+    ("ACOS", Function::Acos, 1, 1),
+    ("ATAN2", Function::Atan2, 2, 2),
+    ("SQRT", Function::Sqrt, 1, 1),
+    ("ABS", Function::Abs, 1, 1),
+    ("POT", Function::Pot, 1, 1),
+    ("TRUNC", Function::Trunc, 1, 1),
+    ("ROUND", Function::Round, 1, 1),
+    ("ROUNDUP", Function::RoundUp, 1, 1),
+    ("LN", Function::Ln, 1, 1),
+    ("EXP", Function::Exp, 1, 1),
+    ("MINVAL", Function::MinVal, 2, 2),
+    ("MAXVAL", Function::MaxVal, 2, 2),
+    ("BOUND", Function::Bound, 3, 3),
+    ("NUMBER", Function::Number, 1, 1),
+    ("ISNUMBER", Function::IsNumber, 1, 1),
+    ("STRLEN", Function::StrLen, 1, 1),
+    ("TOUPPER", Function::ToUpper, 1, 1),
+    ("TOLOWER", Function::ToLower, 1, 1),
+    ("INDEX", Function::Index, 2, 2),
+    ("SUBSTR", Function::SubStr, 2, 3),
+];
+
+impl Function {
+    /// The function of this name.
+    pub(super) fn find(name: &str) -> Option<Self> {
+        FUNCTIONS.iter().find(|row| row.0 == name).map(|row| row.1)
+    }
+
+    /// The least and the largest number of parameters.
+    pub(super) fn parameters(self) -> (usize, usize) {
+        FUNCTIONS.iter().find(|row| row.1 == self).map_or((0, 0), |row| (row.2, row.3))
+    }
+}
+
+/// Applies a function. The number of parameters was tested when the block was read.
+pub(super) fn apply(function: Function, values: &[Value], at: Span) -> Result<Value, Fault> {
+    let unfit = |value: &Value| Fault::new(12150, at, format!("the function does not take {}", value.of_type().name()));
+    let missing = || Fault::new(14020, at, "a parameter is missing");
+    let number = |index: usize| {
+        let value = values.get(index).ok_or_else(missing)?;
+        value.number().ok_or_else(|| unfit(value))
+    };
+    let text = |index: usize| match values.get(index) {
+        Some(Value::Text(text)) => Ok(text.as_str()),
+        Some(other) => Err(unfit(other)),
+        None => Err(missing()),
+    };
+    let domain = |what: &str| Fault::new(14020, at, what.to_owned());
+    match function {
+        Function::Sin => real(angle::sin(number(0)?), at),
+        Function::Cos => real(angle::cos(number(0)?), at),
+        Function::Tan => {
+            let found = angle::tan(number(0)?);
+            real(found.ok_or_else(|| Fault::new(14051, at, "the tangent is infinite"))?, at)
+        }
+        Function::Asin => real(angle::asin(number(0)?).ok_or_else(|| domain("a sine is in the range -1 to 1"))?, at),
+        Function::Acos => real(angle::acos(number(0)?).ok_or_else(|| domain("a cosine is in the range -1 to 1"))?, at),
+        Function::Atan2 => real(angle::atan2(number(0)?, number(1)?), at),
+        Function::Sqrt => match number(0)? {
+            negative if negative < 0.0 => Err(domain("the square root of a negative number")),
+            other => real(other.sqrt(), at),
+        },
+        Function::Abs => match values.first() {
+            Some(Value::Real(value)) => Ok(Value::Real(value.abs())),
+            Some(Value::Int(value)) => {
+                let positive = value.checked_abs().ok_or_else(|| Fault::new(14051, at, "outside the range of INT"))?;
+                Ok(Value::Int(positive))
+            }
+            _ => real(number(0)?.abs(), at),
+        },
+        Function::Pot => real(number(0)? * number(0)?, at),
+        Function::Trunc => whole(number(0)?.trunc(), at),
+        Function::Round => whole(round(number(0)?), at),
+        Function::RoundUp => {
+            let found = number(0)?;
+            whole(if found < 0.0 { found.floor() } else { found.ceil() }, at)
+        }
+        Function::Ln => match number(0)? {
+            positive if positive > 0.0 => real(angle::ln(positive), at),
+            _ => Err(domain("the logarithm of a number that is not positive")),
+        },
+        Function::Exp => real(angle::exp(number(0)?), at),
+        Function::MinVal => selected(values, number(0)? <= number(1)?, at),
+        Function::MaxVal => selected(values, number(0)? >= number(1)?, at),
+        Function::Bound => {
+            let (least, most, value) = (number(0)?, number(1)?, number(2)?);
+            if least > most {
+                return Err(domain("the minimum is larger than the maximum"));
+            }
+            real(value.clamp(least, most), at)
+        }
+        Function::Number => real(parsed(text(0)?).ok_or_else(|| domain("the text is not a number"))?, at),
+        Function::IsNumber => Ok(Value::Bool(parsed(text(0)?).is_some())),
+        Function::StrLen => whole_of(text(0)?.chars().count(), at),
+        Function::ToUpper => Ok(Value::Text(text(0)?.to_uppercase())),
+        Function::ToLower => Ok(Value::Text(text(0)?.to_lowercase())),
+        Function::Index => {
+            let wanted = match values.get(1) {
+                Some(Value::Char(code)) => char::from(*code),
+                Some(Value::Text(text)) if text.chars().count() == 1 => text.chars().next().unwrap_or_default(),
+                Some(other) => return Err(unfit(other)),
+                None => return Err(missing()),
+            };
+            match text(0)?.chars().position(|letter| letter == wanted) {
+                Some(place) => whole_of(place, at),
+                None => Ok(Value::Int(-1)),
+            }
+        }
+        Function::SubStr => {
+            let place = |index: usize| -> Result<usize, Fault> {
+                let found = integer(number(index)?, at)?;
+                usize::try_from(found).map_err(|_| domain("a place in a text is not negative"))
+            };
+            let letters = text(0)?.chars().skip(place(1)?);
+            let length = if values.len() > 2 { place(2)? } else { usize::MAX };
+            Ok(Value::Text(letters.take(length).collect()))
+        }
+    }
+}
+
+/// A number as text has the form of the language or the one with `E`.
+fn parsed(text: &str) -> Option<f64> {
+    let text = text.trim().to_ascii_uppercase().replace("EX", "E");
+    let is_decimal = text.bytes().all(|byte| byte.is_ascii_digit() || b"+-.E".contains(&byte));
+    text.parse().ok().filter(|_| is_decimal).filter(|number: &f64| number.is_finite())
+}
+
+fn selected(values: &[Value], is_first: bool, at: Span) -> Result<Value, Fault> {
+    let is_whole = values.iter().all(|value| value.whole().is_some());
+    let value = if is_first { &values[0] } else { &values[1] };
+    value.clone().convert(if is_whole { Type::Int } else { Type::Real }, at)
+}
+
+/// A whole result is INT.
+fn whole(number: f64, at: Span) -> Result<Value, Fault> {
+    let out = |_| Fault::new(14051, at, "the result is outside the range of INT");
+    integer(number, at).map(Value::Int).map_err(out)
+}
+
+fn whole_of(count: usize, at: Span) -> Result<Value, Fault> {
+    i32::try_from(count).map(Value::Int).map_err(|_| Fault::new(14051, at, "the result is outside the range of INT"))
+}

@@ -1,0 +1,149 @@
+//! What the expressions of a running program read and write: variables of its levels, R parameters, system variables.
+
+use super::alarm::{Fault, Span};
+use super::condition::{r_index, read_system, refused};
+use super::environment::{Environment, SystemVariable};
+use super::evaluate::{Scope, Term, evaluate, evaluate_all, system_indices};
+use super::expression::Expression;
+use super::names::AxisNames;
+use super::state::Level;
+use super::value::{Type, Value};
+use super::variables::{Content, Reference, Variable, element, index};
+
+/// The scope of the innermost level.
+pub(super) struct Running<'a> {
+    pub(super) levels: &'a [Level],
+    pub(super) environment: &'a dyn Environment,
+    pub(super) axes: &'a AxisNames,
+}
+
+/// A place that can be written, with its indices.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Place {
+    RParameter(u32),
+    Element { level: usize, variable: usize, element: usize, kind: Type },
+    System { name: String, indices: Vec<Value> },
+}
+
+impl Scope for Running<'_> {
+    fn axes(&self) -> &AxisNames {
+        self.axes
+    }
+
+    fn r_parameter(&mut self, index: &Term, at: Span) -> Result<Term, Fault> {
+        let index = r_index(&index.value, self.environment.r_parameters(), at)?;
+        Ok(Term::known(Value::Real(self.environment.r_parameter(index))))
+    }
+
+    fn variable(&mut self, name: &str, indices: &[Term], at: Span) -> Result<Term, Fault> {
+        let place = self.element_of(name, indices, at)?;
+        self.read(&place, at).map(Term::known)
+    }
+
+    fn system(&mut self, name: &str, indices: &[Term], at: Span) -> Result<Term, Fault> {
+        let indices: Vec<_> = indices.iter().map(|term| term.value.clone()).collect();
+        read_system(self.environment, name, &indices, at).map(Term::known)
+    }
+}
+
+impl Running<'_> {
+    /// The variable of this name in the innermost level, with its level and its place there.
+    pub(super) fn find(&self, name: &str, at: Span) -> Result<(usize, usize, &Variable), Fault> {
+        let found = self.levels.last().and_then(|level| {
+            let variable = level.variable(name)?;
+            Some((self.levels.len() - 1, variable, &level.variables[variable]))
+        });
+        found.ok_or_else(|| Fault::new(12550, at, "neither a variable nor an axis has this name").about(name))
+    }
+
+    fn element_of(&self, name: &str, indices: &[Term], at: Span) -> Result<Place, Fault> {
+        let (level, variable, found) = self.find(name, at)?;
+        let indices: Vec<i32> = indices.iter().map(|term| index(&term.value, at)).collect::<Result<_, _>>()?;
+        let element = element(&found.dimensions, &indices, at)?;
+        let kind = found.kind;
+        Ok(match &found.content {
+            Content::Values(_) => Place::Element { level, variable, element, kind },
+            Content::Reference(Reference::RParameter(index)) => Place::RParameter(*index),
+            Content::Reference(Reference::Variable { level, variable, element: one }) => {
+                let (level, variable) = (*level, *variable);
+                // The type of the variable behind the parameter counts.
+                let behind = self.levels.get(level).and_then(|level| level.variables.get(variable));
+                let kind = behind.map_or(kind, |behind| behind.kind);
+                Place::Element { level, variable, element: one.unwrap_or(element), kind }
+            }
+        })
+    }
+
+    /// The place that an expression names, with its indices evaluated.
+    pub(super) fn place(&mut self, expression: &Expression) -> Result<Place, Fault> {
+        match expression {
+            Expression::RParameter { index, at } => {
+                let index = evaluate(index, self)?;
+                r_index(&index.value, self.environment.r_parameters(), *at).map(Place::RParameter)
+            }
+            Expression::Variable { name, indices, at } => {
+                let indices = evaluate_all(indices, self)?;
+                self.element_of(name, &indices, *at)
+            }
+            Expression::System { name, indices, .. } => {
+                let indices = system_indices(indices, self)?.into_iter().map(|term| term.value).collect();
+                Ok(Place::System { name: name.clone(), indices })
+            }
+            Expression::Constant(_)
+            | Expression::Prefixed { .. }
+            | Expression::Binary { .. }
+            | Expression::Function { .. } => Err(Fault::new(12080, Span::default(), "a variable is missing")),
+        }
+    }
+
+    /// The value of a place.
+    pub(super) fn read(&self, place: &Place, at: Span) -> Result<Value, Fault> {
+        match place {
+            Place::RParameter(index) => Ok(Value::Real(self.environment.r_parameter(*index))),
+            Place::Element { level, variable, element, .. } => {
+                let found = self.levels.get(*level).and_then(|level| level.variables.get(*variable));
+                let value = found.and_then(|variable| match &variable.content {
+                    Content::Values(values) => values.get(*element).cloned(),
+                    Content::Reference(_) => None,
+                });
+                value.ok_or_else(|| Fault::new(12400, at, "the element does not exist"))
+            }
+            Place::System { name, indices } => read_system(self.environment, name, indices, at),
+        }
+    }
+}
+
+/// Writes a place. The value gets the type of the place.
+pub(super) fn write(
+    place: &Place,
+    value: Value,
+    levels: &mut [Level],
+    environment: &mut dyn Environment,
+    at: Span,
+) -> Result<(), Fault> {
+    match place {
+        Place::RParameter(index) => {
+            let Value::Real(number) = value.convert(Type::Real, at)? else { return Ok(()) };
+            environment.set_r_parameter(*index, number);
+        }
+        Place::Element { level, variable, element, kind } => {
+            let value = value.convert(*kind, at)?;
+            let found = levels.get_mut(*level).and_then(|level| level.variables.get_mut(*variable));
+            if let Some(Content::Values(values)) = found.map(|variable| &mut variable.content)
+                && let Some(place) = values.get_mut(*element)
+            {
+                *place = value;
+            }
+        }
+        Place::System { name, indices } => {
+            if name == "$R" {
+                let [index] = indices.as_slice() else { return Err(Fault::new(12400, at, "$R has one index")) };
+                let index = r_index(index, environment.r_parameters(), at)?;
+                return write(&Place::RParameter(index), value, levels, environment, at);
+            }
+            let variable = SystemVariable { name, indices };
+            environment.set_system(&variable, &value).map_err(|refusal| refused(refusal, name, at))?;
+        }
+    }
+    Ok(())
+}
