@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Exit codes: 0 success; 1 an expectation failed, a limit was reached, a trace differs, a golden file is missing, findings in machine data
-//! change the behaviour, two traces differ (`diff`); 2 unusable input, or an output that cannot be written.
+//! change the behaviour, an NC program has an alarm (`nc check`), two traces differ (`diff`); 2 unusable input, or an output that cannot be written.
 
 mod alarms;
 mod completions;
@@ -23,6 +23,7 @@ mod list;
 #[cfg(feature = "s7")]
 mod log;
 mod machine_data;
+mod nc;
 mod output;
 mod rule;
 mod run;
@@ -48,7 +49,7 @@ use output::Output;
 
 /// The exit codes, as printed below the help.
 const EXIT_CODES: &str = "Exit codes: 0 success; 1 an expectation failed, a limit was reached, a trace differs, a golden \
-    file is missing, findings in machine data change the behaviour; 2 unusable input, or an output that cannot be written.";
+    file is missing, findings in machine data change the behaviour, an NC program has an alarm; 2 unusable input, or an output that cannot be written.";
 
 /// An open simulator of the NC/PLC interface of SINUMERIK-style controls.
 ///
@@ -186,6 +187,11 @@ enum Command {
         /// The shell.
         shell: clap_complete::Shell,
     },
+    /// Works with NC programs.
+    Nc {
+        #[command(subcommand)]
+        command: nc::Command,
+    },
     /// Works with machine data.
     MachineData {
         #[command(subcommand)]
@@ -264,6 +270,7 @@ fn run_command(programs: &Programs) -> ExitCode {
         }
         Some(Command::Flowchart { chart }) => flowchart::flowchart(chart.as_deref(), &mut output),
         Some(Command::Completions { shell }) => completions::completions(shell, &mut Arguments::command(), &mut output),
+        Some(Command::Nc { command }) => nc::run(&command, &mut output),
         Some(Command::MachineData { command: MachineData::Check { machine, all, deny } }) => {
             machine_data::check(&machine, all, &deny, &mut output)
         }

@@ -6,6 +6,7 @@ use super::expression::Expression;
 use super::names::{AxisIndex, AxisKind};
 use super::prepared::{Action, AuxiliaryFunction, AuxiliaryKind, AxisWord, Centre, Dimension, End};
 use super::syntax::{Address, AddressWord, Modifier};
+use super::value::Value;
 
 /// An auxiliary function: its address, the largest extension, how many a block can have.
 struct Row {
@@ -213,6 +214,9 @@ impl Composer<'_> {
         let row = &AUXILIARY[AUXILIARY.iter().position(|row| row.kind == kind).unwrap_or(0)];
         let extension = self.extension(word, row.extension)?;
         let is_quick = quick(word.modifier, word.at)?;
+        if kind == AuxiliaryKind::T && matches!(self.term(&word.value)?.value, Value::Text(_)) {
+            return Err(Fault::refused(word.at, "the name of a tool (tool management)"));
+        }
         let is_real = matches!(kind, AuxiliaryKind::S | AuxiliaryKind::H | AuxiliaryKind::SumOffset);
         let value = if is_real {
             self.number(&word.value, word.at)?

@@ -122,7 +122,11 @@ impl Interpreter {
             return self.reference(parameter, argument.ok_or_else(missing)?, at, work, environment);
         }
         let Some(expression) = argument.or(parameter.default.as_ref()) else {
-            return Err(Fault::new(14010, at, format!("{name} was omitted")));
+            // 0, FALSE, or an empty text; only an axis has no such value.
+            if parameter.kind == Type::Axis {
+                return Err(Fault::new(14010, at, format!("{name} was omitted")));
+            }
+            return Variable::new(name, parameter.kind, vec![1; parameter.dimensions], at);
         };
         if parameter.dimensions > 0 {
             return self.copied_array(parameter, expression, at, work, environment);

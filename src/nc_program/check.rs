@@ -129,7 +129,8 @@ impl Checker<'_> {
         let block = match result {
             Ok(block) => block,
             Err(fault) => {
-                self.known.is_incomplete |= ["DEF", "PROC"].contains(&word(text, head.rest).to_uppercase().as_str());
+                self.known.is_incomplete |=
+                    ["DEF", "DEFINE", "PROC"].contains(&word(text, head.rest).to_uppercase().as_str());
                 self.last = Last::Unknown;
                 self.raise(fault, &head, line, text);
                 return;
@@ -461,7 +462,7 @@ impl Checker<'_> {
                 None if parameter.is_reference => {
                     return Err(Fault::new(12300, at, "a VAR parameter is missing").about(name));
                 }
-                None if parameter.default.is_none() => {
+                None if parameter.default.is_none() && parameter.kind == Type::Axis => {
                     return Err(Fault::new(14010, at, format!("{name} was omitted")));
                 }
                 None => {}

@@ -7,8 +7,10 @@ use super::condition::{Condition, MainRunValue};
 use super::evaluate::{evaluate, frozen, system_indices};
 use super::expression::Expression;
 use super::names::AxisIndex;
+use super::operator::Operator;
 use super::prepared::{Action, AuxiliaryKind, CouplingKind, MainRunAction, SynchronisedAction};
 use super::syntax::{Address, AddressWord, Command, Synchronised, SynchronisedWord};
+use super::value::Value;
 
 type Arguments<'a> = &'a [Option<Expression>];
 
@@ -29,7 +31,13 @@ impl Composer<'_> {
                 self.separated(at)?;
                 match arguments {
                     [] => Action::Message(None),
-                    [Some(text)] => Action::Message(Some(self.text(text, at)?.unwrap_or_default())),
+                    // A number becomes a text, as with `<<`.
+                    [Some(text)] => {
+                        let (left, right) = (Expression::Constant(Value::Text(String::new())), text.clone());
+                        let (left, right) = (Box::new(left), Box::new(right));
+                        let text = Expression::Binary { operator: Operator::Join, left, right, at };
+                        Action::Message(Some(self.text(&text, at)?.unwrap_or_default()))
+                    }
                     _ => return Err(count(at, "MSG has one text")),
                 }
             }

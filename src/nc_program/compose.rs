@@ -4,7 +4,7 @@ use super::alarm::{Fault, Span};
 use super::composer::{Before, Composed, Composer};
 use super::evaluate::Scope;
 use super::functions::{GFunction, g, name};
-use super::prepared::{Action, AxisWord};
+use super::prepared::{Action, AuxiliaryKind, AxisWord};
 use super::syntax::{Address, Word};
 
 /// What the words of a block do.
@@ -81,6 +81,10 @@ impl Composer<'_> {
     fn alone(&self, words: &[Word]) -> Result<(), Fault> {
         let is_axis = |word: &Word| matches!(word, Word::Address(word) if matches!(word.address, Address::Axis(_) | Address::AxisOf));
         let is = |word: &Word, address: &Address| matches!(word, Word::Address(word) if word.address == *address);
+        let is_output = |word: &Word| {
+            let outputs = [Address::S, Address::M, Address::H, Address::T, Address::D, Address::SumOffset];
+            outputs.iter().any(|address| is(word, address))
+        };
         let is_function = |word: &Word| matches!(word, Word::Function { .. } | Word::Indirect { .. });
         for (function, at) in &self.groups {
             let misfit = |fits: &dyn Fn(&Word) -> bool, number: u32| {
@@ -90,7 +94,8 @@ impl Composer<'_> {
             match (function.group, *function) {
                 (4, _) => misfit(&|_| false, 12120)?,
                 (_, g::G25 | g::G26) => misfit(&|word| is_axis(word) || is(word, &Address::S), 12120)?,
-                (_, g::G4) => misfit(&|word| is(word, &Address::F) || is(word, &Address::S), 12110)?,
+                // Programs of real controls have M functions beside G4.
+                (_, g::G4) => misfit(&|word| is(word, &Address::F) || is_output(word), 12110)?,
                 (_, g::G74) => misfit(&is_axis, 12110)?,
                 (_, g::TRANS | g::ATRANS) => {
                     misfit(&|word| is_axis(word) || is_function(word), 12110)?;
@@ -143,7 +148,8 @@ impl Composer<'_> {
 
     fn dwell(&mut self, at: Span) -> Result<(), Fault> {
         let speeds = std::mem::take(&mut self.speeds);
-        self.done.auxiliary.clear(); // that F and S are no feed and no speed
+        // That F and S are no feed and no speed.
+        self.done.auxiliary.retain(|one| !matches!(one.kind, AuxiliaryKind::F | AuxiliaryKind::S));
         let action = match (self.new_feed, speeds.as_slice()) {
             (Some(seconds), []) => Action::DwellSeconds(seconds),
             (None, [(spindle, revolutions)]) => {

@@ -146,15 +146,15 @@ impl<'a> Composer<'a> {
         }
     }
 
-    /// An axis. In a check, an unknown one is the first of the table.
+    /// An axis; [`UNKNOWN`] in a check, if it is not known.
     pub(super) fn axis(&mut self, expression: &Expression, at: Span) -> Result<AxisIndex, Fault> {
         let term = self.term(expression)?;
         match (term.value, term.certainty) {
             (Value::Axis(axis), Certainty::Value) if self.scope.axes().row(axis).is_none() => {
                 Err(Fault::new(14092, at, "the variable has no axis"))
             }
-            (Value::Axis(axis), Certainty::Value | Certainty::Type) => Ok(axis),
-            (_, Certainty::Nothing) => Ok(UNKNOWN),
+            (Value::Axis(axis), Certainty::Value) => Ok(axis),
+            (Value::Axis(_), Certainty::Type) | (_, Certainty::Nothing) => Ok(UNKNOWN),
             (other, Certainty::Value | Certainty::Type) => {
                 let reason = format!("an axis is needed, this is {}", other.of_type().name());
                 Err(Fault::new(12040, at, reason))

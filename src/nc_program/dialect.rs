@@ -80,6 +80,7 @@ const MEASURING: &str = "measuring in a program";
 const OVERLAYS: &str = "an overlaid movement";
 const SPINDLES: &str = "this spindle function";
 const NAMES: &str = "names of axes as text";
+const MACROS: &str = "program text from a macro or a string";
 const OTHERS: &str = "this function";
 
 /// In alphabetical order.
@@ -103,6 +104,11 @@ const REFUSED: &[(&str, &str)] = &[
     ("CIP", SPLINES),
     ("CLRINT", INTERRUPTS),
     ("CMIRROR", FRAMES),
+    ("COMPCAD", SPLINES),
+    ("COMPCURV", SPLINES),
+    ("COMPOF", SPLINES),
+    ("COMPON", SPLINES),
+    ("COMPSURF", SPLINES),
     ("CORROF", OVERLAYS),
     ("COUPDEF", COUPLINGS),
     ("COUPDEL", COUPLINGS),
@@ -113,6 +119,7 @@ const REFUSED: &[(&str, &str)] = &[
     ("CTABDEF", COUPLINGS),
     ("CTABEND", COUPLINGS),
     ("CTRANS", FRAMES),
+    ("DEFINE", MACROS),
     ("DELETE", FILES),
     ("DISABLE", INTERRUPTS),
     ("DRFOF", OVERLAYS),
@@ -121,6 +128,9 @@ const REFUSED: &[(&str, &str)] = &[
     ("EGDEL", COUPLINGS),
     ("ENABLE", INTERRUPTS),
     ("ENDPROC", OTHERS),
+    ("ESRR", OTHERS),
+    ("ESRS", OTHERS),
+    ("EXECSTRING", MACROS),
     ("FAD", SPEEDS),
     ("FB", SPEEDS),
     ("FD", SPEEDS),
@@ -181,6 +191,9 @@ const REFUSED: &[(&str, &str)] = &[
     ("G972", SPEEDS),
     ("G973", SPEEDS),
     ("GEOAX", TRANSFORMATIONS),
+    ("GETSELT", "tool management"),
+    ("GROUP_BEGIN", OTHERS),
+    ("GROUP_END", OTHERS),
     ("IPOBRKA", OTHERS),
     ("ISAXIS", NAMES),
     ("ISFILE", FILES),
@@ -195,10 +208,19 @@ const REFUSED: &[(&str, &str)] = &[
     ("MIRROR", FRAMES),
     ("MODAXVAL", OTHERS),
     ("MOV", OTHERS),
+    ("ORIAXES", TRANSFORMATIONS),
+    ("ORIMKS", TRANSFORMATIONS),
+    ("ORIWKS", TRANSFORMATIONS),
+    ("OVRA", SPEEDS),
+    ("PAROT", FRAMES),
+    ("PAROTOF", FRAMES),
     ("PCALL", PATHS),
+    ("POLFMASK", OTHERS),
     ("POLY", SPLINES),
     ("PRESETONS", "a preset that keeps the reference"),
     ("PROT", OTHERS),
+    ("PROTA", OTHERS),
+    ("PROTS", OTHERS),
     ("READ", FILES),
     ("ROT", FRAMES),
     ("ROTS", FRAMES),

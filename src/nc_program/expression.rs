@@ -163,7 +163,10 @@ impl<'a> Parser<'a> {
         if rank < 2 {
             return self.operand();
         }
-        let (mut left, mut is_logical) = self.ranked(rank - 1)?;
+        // `<<` without a left side makes a text of a value.
+        let is_text = self.is_symbol(0, Symbol::Join) && (self.dialect.rank)(Operator::Join) == rank;
+        let (mut left, mut is_logical) =
+            if is_text { (Expression::Constant(Value::Text(String::new())), false) } else { self.ranked(rank - 1)? };
         while let Some(operator) = self.operator().filter(|operator| (self.dialect.rank)(*operator) == rank) {
             let at = self.here();
             self.at += 1;

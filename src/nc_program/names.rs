@@ -35,14 +35,22 @@ pub enum AxisKind {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AxisNames {
     rows: Vec<AxisName>,
+    /// Indices of the rows, in the order of their names in capitals.
+    sorted: Vec<u16>,
 }
 
 impl AxisNames {
     /// The table of these names. Of two equal names the first one counts.
     #[must_use]
     pub fn new(rows: impl IntoIterator<Item = AxisName>) -> Self {
-        let limit = usize::from(u16::MAX);
-        Self { rows: rows.into_iter().take(limit).collect() }
+        // The two largest indices are no axes.
+        let rows: Vec<AxisName> = rows.into_iter().take(usize::from(u16::MAX) - 1).collect();
+        let mut sorted: Vec<u16> = (0..u16::MAX).take(rows.len()).collect();
+        sorted.sort_by(|one, other| {
+            let (one, other) = (&rows[usize::from(*one)].name, &rows[usize::from(*other)].name);
+            capitals(one).cmp(capitals(other))
+        });
+        Self { rows, sorted }
     }
 
     /// A table of names of one kind, for tests and checks.
@@ -65,11 +73,17 @@ impl AxisNames {
         Self::new(names.into_iter().map(row))
     }
 
+    /// All names, in the order of their indices.
+    pub fn iter(&self) -> impl Iterator<Item = &AxisName> {
+        self.rows.iter()
+    }
+
     /// The axis with this name.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<AxisIndex> {
-        let index = self.rows.iter().position(|row| row.name.eq_ignore_ascii_case(name))?;
-        u16::try_from(index).ok().map(AxisIndex)
+        let before = |index: &u16| capitals(&self.rows[usize::from(*index)].name).lt(capitals(name));
+        let found = *self.sorted.get(self.sorted.partition_point(before))?;
+        self.rows[usize::from(found)].name.eq_ignore_ascii_case(name).then_some(AxisIndex(found))
     }
 
     /// The row of an axis.
@@ -82,5 +96,25 @@ impl AxisNames {
     #[must_use]
     pub fn name(&self, axis: AxisIndex) -> &str {
         self.row(axis).map_or("", |row| row.name.as_str())
+    }
+}
+
+fn capitals(name: &str) -> impl Iterator<Item = u8> {
+    name.bytes().map(|byte| byte.to_ascii_uppercase())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_found_without_regard_to_case_and_the_first_of_two_counts() {
+        let names = AxisNames::of(AxisKind::Linear, &["Z", "X", "xf", "X", "A1"]);
+        let find = |name| names.find(name).map(|axis| axis.0);
+        assert_eq!(
+            (find("x"), find("XF"), find("a1"), find("Z"), find("Y")),
+            (Some(1), Some(2), Some(4), Some(0), None)
+        );
+        assert_eq!(AxisNames::default().find("X"), None);
     }
 }

@@ -208,6 +208,8 @@ fn order(left: &Value, right: &Value) -> Option<std::cmp::Ordering> {
     match (left, right) {
         (Value::Text(left), Value::Text(right)) => Some(left.cmp(right)),
         (Value::Axis(left), Value::Axis(right)) => Some(left.cmp(right)),
+        (Value::Char(left), Value::Text(right)) => Some(char::from(*left).to_string().as_str().cmp(right)),
+        (Value::Text(left), Value::Char(right)) => Some(left.as_str().cmp(char::from(*right).to_string().as_str())),
         _ => {
             let (left, right) = (left.number()?, right.number()?);
             let is_equal = (left - right).abs() <= TOLERANCE * left.abs().max(right.abs());

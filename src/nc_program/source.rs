@@ -58,7 +58,7 @@ impl Program {
     /// belongs to the program. A file without such a line is one program with the name of the file.
     #[must_use]
     pub fn read(file: &str, folder: &str, bytes: &[u8]) -> Vec<Self> {
-        let kind = if file.to_ascii_uppercase().ends_with("MPF") { ProgramKind::Main } else { ProgramKind::Sub };
+        let kind = if file.to_ascii_uppercase().ends_with("SPF") { ProgramKind::Sub } else { ProgramKind::Main };
         let text = decoded(bytes);
         let mut programs: Vec<Self> = Vec::new();
         let mut found: Option<(String, ProgramKind)> = None;

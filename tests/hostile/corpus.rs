@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::oracle::Listener;
-use crate::{client, conversation, grammar};
+use crate::{client, conversation, grammar, nc_program};
 
 /// The files of a corpus folder, by name.
 fn corpus(target: &str) -> Vec<(String, Vec<u8>)> {
@@ -42,6 +42,11 @@ fn requests_of_the_corpus_pass() {
 #[test]
 fn the_client_corpus_passes() {
     tell("client", client::judge);
+}
+
+#[test]
+fn nc_programs_of_the_corpus_pass() {
+    tell("nc_program", nc_program::judge);
 }
 
 /// The answers are decoded; the names of the conversations give the request.

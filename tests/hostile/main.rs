@@ -1,5 +1,5 @@
-//! Tests of the S7 server with input that no regular client sends: the corpus of the fuzz targets, and hostile conversations, written by
-//! hand or generated.
+//! Tests of the S7 server and of NC programs with input that no regular client sends: the corpus of the fuzz targets, and hostile
+//! conversations, written by hand or generated.
 //!
 //! A separate test binary, because it uses sources of `fuzz`, which is not in the published package.
 #![cfg(all(feature = "cli", feature = "s7"))]
@@ -18,6 +18,9 @@ mod corpus;
 #[path = "../../fuzz/src/grammar.rs"]
 #[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
 mod grammar;
+#[path = "../../fuzz/src/nc_program.rs"]
+#[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
+mod nc_program;
 #[path = "../../fuzz/src/oracle.rs"]
 #[expect(unreachable_pub, reason = "it is the fuzz targets' too")]
 mod oracle;

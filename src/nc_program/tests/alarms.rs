@@ -163,21 +163,20 @@ fn every_number_of_the_module_is_tested() {
 
 #[test]
 fn calls_have_their_alarms() {
-    let sub = "PROC SUB(INT A1X, VAR REAL BACK)\nBACK=A1X\nM17";
-    let sub = sub.replace("A1X", "VALUE");
+    let sub = "PROC SUB(INT VALUE, VAR REAL BACK, AXIS SLIDE)\nBACK=VALUE\nM17";
     for (number, text, call) in [
-        (12300, "BACK", "SUB(1)"),
-        (12320, "BACK", "SUB(1,2)"),
-        (12330, "VALUE", "SUB(\"A\",R1)"),
-        (12330, "BACK", "SUB(1,WHOLE)"),
-        (12340, "SUB(1,R1,3)", "SUB(1,R1,3)"),
+        (12300, "BACK", "SUB(1,,X)"),
+        (12320, "BACK", "SUB(1,2,X)"),
+        (12330, "VALUE", "SUB(\"A\",R1,X)"),
+        (12330, "BACK", "SUB(1,WHOLE,X)"),
+        (12340, "SUB(1,R1,X,3)", "SUB(1,R1,X,3)"),
         (14010, "", "SUB(,R1)"),
         (14510, "", "PLAIN(1)"),
-        (14013, "", "SUB(1,R1) P=-1"),
-        (12080, "", "SUB(1,R1) X5"),
+        (14013, "", "SUB(1,R1,X) P=-1"),
+        (12080, "", "SUB(1,R1,X) X5"),
     ] {
         let main = format!("DEF INT WHOLE\nN20 {call}\nM30");
-        let mut channel = Channel::new().with("PART.MPF", &main).with("SUB.SPF", &sub).with("PLAIN.SPF", "M17");
+        let mut channel = Channel::new().with("PART.MPF", &main).with("SUB.SPF", sub).with("PLAIN.SPF", "M17");
         let (_, found) = run_in(&mut channel);
         let found = found.unwrap_or_else(|| panic!("{call}"));
         assert_eq!((found.number, found.block.as_str()), (number, "N20"), "{call}: {found}");

@@ -48,7 +48,7 @@ fn values_that_only_a_run_knows_are_no_errors() {
         "G0 X=R1\nF=R2 G1 X5",
         "M=R1 T=R2 D=R3 G=R4",
         "R1=SQRT(R2)+LN(R3)",
-        "DEF AXIS SLIDE\nFA[SLIDE]=R1 POS[SLIDE]=R2",
+        "DEF AXIS SLIDE, OTHER\nFA[SLIDE]=R1 POS[SLIDE]=R2 POS[OTHER]=5",
         "L1=5",
         "GOTOF \"N\"<<R1",
         "DEF STRING[9] GOAL\nGOTOF GOAL",

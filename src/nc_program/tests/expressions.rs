@@ -118,6 +118,8 @@ fn values_join_to_texts() {
     let text = "DEF STRING[30] TEXT\nDEF BOOL YES=TRUE\nTEXT=\"R=\"<<1.50<<\" \"<<7<<\" \"<<YES<<\" \"<<X<<'H41'\n\
                 R1=TEXT==\"R=1.5 7 TRUE X65\"\nM30";
     assert_eq!(r(text, 1), [1.0]);
+    // Without a left side, `<<` makes a text; a CHAR compares with a text.
+    assert_eq!(r("DEF CHAR AB=\"Z\"\nR1=<<5.0==\"5\" R2=AB==\"Z\" R3=\"z\"==AB\nM30", 3), [1.0, 1.0, 0.0]);
 }
 
 #[test]

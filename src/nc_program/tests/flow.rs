@@ -114,8 +114,8 @@ fn subprograms_are_called_in_all_forms() {
 fn parameters_are_values_or_variables() {
     let sub = "PROC SUB(INT NUMBER, VAR REAL BACK, REAL STANDARD=7, STRING[5] TEXT=\"AB\")\nDEF REAL LOCAL=NUMBER*2\n\
                BACK=LOCAL+STANDARD NUMBER=99\nM17";
-    let main = "DEF REAL HERE\nSUB(5.5,HERE)\nR1=HERE\nSUB(1,R2,1)\nSUB(1,R[3],,\"X\")\nM30";
-    assert_eq!(with(&[("SUB.SPF", sub)], main).0, [19.0, 3.0, 9.0, 0.0]);
+    let main = "DEF REAL HERE\nSUB(5.5,HERE)\nR1=HERE\nSUB(1,R2,1)\nSUB(1,R[3],,\"X\")\nSUB(,R4)\nM30";
+    assert_eq!(with(&[("SUB.SPF", sub)], main).0, [19.0, 3.0, 9.0, 7.0], "an omitted value is 0");
 }
 
 #[test]

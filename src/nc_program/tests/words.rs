@@ -150,6 +150,7 @@ fn dwell_is_time_or_revolutions() {
     assert_eq!(action("G4 S30"), Action::DwellRevolutions { spindle: None, revolutions: 30.0 });
     assert_eq!(action("G4 S2=30"), Action::DwellRevolutions { spindle: Some(2), revolutions: 30.0 });
     assert!(first("G4 F2").auxiliary.is_empty());
+    assert_eq!(first("M3 G4 F2").auxiliary.len(), 1);
     assert_eq!(alarm("G4\nM30").number, 12110);
     assert_eq!(alarm("G4 F-1\nM30").number, 12560);
 }
@@ -193,6 +194,8 @@ fn functions_that_are_not_modelled_are_refused() {
         "COUPDEF(X,Y)",
         "MEAS=1",
         "SETMS(2)",
+        "T=\"DRILL\"",
+        "DEFINE AB AS X5",
         "RET(1)",
     ] {
         let found = alarm(&format!("{text}\nM30"));
@@ -280,6 +283,7 @@ fn couplings_are_handed_to_the_channel() {
 fn messages_alarms_marks_and_channels() {
     assert_eq!(action("MSG(\"R=\"<<5)"), Action::Message(Some("R=5".to_owned())));
     assert_eq!(action("MSG()"), Action::Message(None));
+    assert_eq!(action("MSG(1.5)"), Action::Message(Some("1.5".to_owned())));
     assert_eq!(action("SETAL(65000,\"TEXT\")"), Action::CycleAlarm { number: 65000, text: Some("TEXT".to_owned()) });
     assert_eq!(action("SETM(1,2)"), Action::SetMarks(vec![1, 2]));
     assert_eq!(action("CLEARM()"), Action::ClearMarks(vec![]));

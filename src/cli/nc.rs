@@ -1,0 +1,136 @@
+//! `opennck nc check`: every alarm that preparation of NC programs can raise, with line and column, without a machine.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Subcommand;
+
+use super::output::Output;
+use crate::machine::Machine;
+use crate::nc_program::{
+    AxisKind, AxisName, AxisNames, CheckFinding, Library, Program, SINUMERIK, check as check_program,
+};
+use crate::source::{Place, Problem, unreadable};
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Checks NC programs of the SINUMERIK: reports every alarm that block preparation can raise, with line and column.
+    ///
+    /// A control raises such an alarm when it reaches the block. The check reads the whole program, also blocks that are jumped over. It also
+    /// warns of comparisons beside AND, OR, XOR and NOT without parentheses: comparisons bind weakest. What needs a machine is not checked:
+    /// limits, circles, owners of axes, system variables.
+    ///
+    /// Subprograms (*.spf) are searched beside the file, then in --program-path. Without --machine, the usual letters of axes (X, Y1, AX1) are
+    /// axes.
+    ///
+    /// Exit codes: 0 no alarm (warnings are possible); 1 an alarm; 2 a file cannot be read.
+    Check {
+        /// Programs (*.mpf, *.spf), or ASCII archives with several programs.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// A folder in which subprograms are searched, too; can be repeated.
+        #[arg(long, value_name = "FOLDER")]
+        program_path: Vec<PathBuf>,
+        /// A machine with more names of axes: a directory, an archive, or the name of a built-in machine.
+        #[arg(long, value_name = "MACHINE")]
+        machine: Option<PathBuf>,
+    },
+}
+
+pub(super) fn run(command: &Command, output: &mut Output) -> u8 {
+    let Command::Check { files, program_path, machine } = command;
+    match check(files, program_path, machine.as_deref(), output) {
+        Ok(alarms) => u8::from(alarms > 0),
+        Err(problem) => {
+            output.error(problem);
+            2
+        }
+    }
+}
+
+/// The folders in which a control searches subprograms, after that of the caller (MD20108).
+const FOLDERS_OF_THE_CONTROL: [&str; 4] = ["/_N_SPF_DIR", "/_N_CUS_DIR", "/_N_CMA_DIR", "/_N_CST_DIR"];
+
+/// Returns the number of alarms. All files are read before the first finding is printed.
+fn check(
+    files: &[PathBuf],
+    program_path: &[PathBuf],
+    machine: Option<&Path>,
+    output: &mut Output,
+) -> Result<usize, Problem> {
+    let axes = names(machine)?;
+    let mut search_path: Vec<String> = FOLDERS_OF_THE_CONTROL.map(str::to_owned).into();
+    search_path.extend(program_path.iter().map(|folder| folder.display().to_string()));
+    let mut library = Library::new(search_path);
+    for folder in program_path {
+        add_folder(folder, &mut library)?;
+    }
+    let mut programs: Vec<(&Path, Arc<Program>)> = Vec::new();
+    for file in files {
+        if file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("nc")) {
+            let place = Place::file(&file.display().to_string());
+            return Err(place.problem("this ending belongs to another control", "name a program *.mpf or *.spf"));
+        }
+        let found = read(file)?;
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        add_folder(folder, &mut library)?;
+        programs.extend(found.into_iter().map(|program| (file.as_path(), library.add(program))));
+    }
+    let (mut alarms, mut warnings) = (0, 0);
+    for (file, program) in &programs {
+        for finding in check_program(program, &library, &axes, &SINUMERIK) {
+            let (line, column) = finding.place();
+            let place = format!("{}:{}:{column}", file.display(), program.line_of_file(line));
+            match finding {
+                CheckFinding::Alarm(alarm) => {
+                    alarms += 1;
+                    output.line(format!("{place}: {alarm}"));
+                }
+                CheckFinding::Warning { text, .. } => {
+                    warnings += 1;
+                    output.line(format!("{place}: warning: {text}"));
+                }
+            }
+        }
+    }
+    let count = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let programs = count(programs.len(), "program");
+    output.line(format!("{programs}: {}, {}", count(alarms, "alarm"), count(warnings, "warning")));
+    Ok(alarms)
+}
+
+/// The usual names of axes, and those of the machine.
+fn names(machine: Option<&Path>) -> Result<AxisNames, Problem> {
+    let mut rows: Vec<AxisName> = AxisNames::usual().iter().cloned().collect();
+    if let Some(machine) = machine {
+        let machine = Machine::open(machine)?;
+        let axes = machine.names().axes.iter().filter_map(|(_, name)| name.clone());
+        rows.extend(axes.map(|name| AxisName { name, kind: AxisKind::Any, is_beyond_modulo: false }));
+    }
+    Ok(AxisNames::new(rows))
+}
+
+/// Adds the programs of a folder. A file in it that cannot be read is not there: the check reads only what is called.
+fn add_folder(folder: &Path, library: &mut Library) -> Result<(), Problem> {
+    let entries = fs::read_dir(folder).map_err(|error| unreadable(folder, &error))?;
+    let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    files.sort();
+    for file in files {
+        let ending = file.extension().map(|ending| ending.to_ascii_lowercase());
+        let is_program = ending.is_some_and(|ending| ending == "spf" || ending == "mpf");
+        if is_program && let Ok(programs) = read(&file) {
+            for program in programs {
+                library.add(program);
+            }
+        }
+    }
+    Ok(())
+}
+
+fn read(file: &Path) -> Result<Vec<Program>, Problem> {
+    let bytes = fs::read(file).map_err(|error| unreadable(file, &error))?;
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    Ok(Program::read(&name, &folder.display().to_string(), &bytes))
+}
