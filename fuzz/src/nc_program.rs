@@ -6,8 +6,8 @@
 use std::sync::Arc;
 
 use opennck::nc_program::{
-    AxisNames, CheckFinding, Dialect, Environment, Interpreter, Library, Modal, Prepared, Program, ProgramAlarm, Refusal,
-    Request, SINUMERIK, SystemVariable, Value, check,
+    AxisNames, CheckFinding, Dialect, Environment, Interpreter, Library, Modal, Prepared, Program, ProgramAlarm,
+    Refusal, Request, SINUMERIK, SystemVariable, Value, check,
 };
 
 /// A channel that executes everything at once.

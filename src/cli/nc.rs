@@ -73,8 +73,7 @@ fn check(
             return Err(place.problem("this ending belongs to another control", "name a program *.mpf or *.spf"));
         }
         let found = read(file)?;
-        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        add_folder(folder, &mut library)?;
+        add_folder(folder_of(file), &mut library)?;
         programs.extend(found.into_iter().map(|program| (file.as_path(), library.add(program))));
     }
     let (mut alarms, mut warnings) = (0, 0);
@@ -130,7 +129,13 @@ fn add_folder(folder: &Path, library: &mut Library) -> Result<(), Problem> {
 
 fn read(file: &Path) -> Result<Vec<Program>, Problem> {
     let bytes = fs::read(file).map_err(|error| unreadable(file, &error))?;
-    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    Ok(Program::read(&name, &folder.display().to_string(), &bytes))
+    Ok(Program::read(&name, &folder_of(file).display().to_string(), &bytes))
+}
+
+fn folder_of(file: &Path) -> &Path {
+    match file.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        Some(_) | None => Path::new("."),
+    }
 }

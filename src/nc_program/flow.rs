@@ -183,7 +183,9 @@ impl Interpreter {
             if !environment.is_restarting() {
                 return Ok(next);
             }
-            self.arrive(1, work);
+            if let Some(level) = self.levels.last_mut() {
+                level.restart();
+            }
             return Ok(1);
         }
         let wanted = self.wanted(&jump.target, jump.at, work, environment)?;

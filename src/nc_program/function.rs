@@ -61,7 +61,7 @@ pub(super) enum Function {
 }
 
 /// Names, with the least and the largest number of parameters.
-const FUNCTIONS: &[(&str, Function, usize, usize)] = &[
+pub(super) const FUNCTIONS: &[(&str, Function, usize, usize)] = &[
     ("SIN", Function::Sin, 1, 1),
     ("COS", Function::Cos, 1, 1),
     ("TAN", Function::Tan, 1, 1),

@@ -11,20 +11,20 @@ use super::composer::Before;
 use super::dialect::Dialect;
 use super::environment::Environment;
 use super::evaluate::evaluate;
-use super::expression::{Expression, is_main_run};
-use super::functions::{GFunction, g};
+use super::expression::Expression;
 use super::head::Head;
 use super::names::AxisNames;
 use super::prepared::{Block, End, Origin, Prepared};
 use super::scope::{Place, Running, write};
 use super::source::Program;
 use super::state::{Interpreter, Level};
-use super::syntax::{Assignment, Called, Command, Declaration, Initial, SourceBlock, Statement, Word};
+use super::syntax::{Assignment, Command, Declaration, Initial, SourceBlock, Statement, Word};
 use super::value::{Type, Value};
 use super::variables::{Content, Variable, index};
+use super::waiting::waits;
 
 /// Calculation blocks in one call, so that an endless loop does not hold the channel.
-const CALCULATIONS: usize = 100;
+const CALCULATIONS: usize = 100; // as the documentation of `next` says
 
 /// Lines without a statement in one call.
 const LINES: usize = 10_000;
@@ -54,7 +54,7 @@ pub(super) struct Work<'a> {
 }
 
 impl Interpreter {
-    /// The next block to be executed. After [`CALCULATIONS`] blocks that only calculate, it returns the last one of them; call again.
+    /// The next block to be executed. After 100 blocks that only calculate, it returns the last one of them; call again.
     ///
     /// # Errors
     /// The alarm of a block. The interpreter stays before this block: the next call reads it again.
@@ -208,8 +208,11 @@ impl Interpreter {
         };
         if let Some(level) = self.levels.last_mut() {
             level.line = goes_to;
-            level.is_at_start = false;
-            level.has_begun |= !is_declaration;
+            // GOTOS begins the level again, with its definitions.
+            if goes_to != 1 || !level.is_at_start {
+                level.is_at_start = false;
+                level.has_begun |= !is_declaration;
+            }
         }
         Ok(Prepared::Calculated(origin))
     }
@@ -423,56 +426,6 @@ pub(super) fn taken(name: &str, is_known: bool, axes: &AxisNames, dialect: &Dial
     } else {
         None
     }
-}
-
-/// Whether a block waits until everything before it has been executed: STOPRE, G74, PRESETON, GET, NEWCONF, and variables of the main run.
-pub(super) fn waits(statement: &Statement) -> bool {
-    let main_run = |one: &Expression| matches!(one, Expression::System { name, .. } if is_main_run(name));
-    let reads = |expression: &Expression| expression.any(&main_run);
-    let of_call = |called: &Called| match called {
-        Called::Name(_) => false,
-        Called::Text(text) | Called::External(text) => reads(text),
-    };
-    match statement {
-        Statement::Define { variables, .. } => variables.iter().any(|variable| match &variable.initial {
-            Initial::None => false,
-            Initial::Values(values) => values.iter().any(reads),
-            Initial::All(value) => reads(value),
-        }),
-        Statement::If { condition, .. } | Statement::While(condition) | Statement::Until(condition) => reads(condition),
-        Statement::For { from, to, .. } => reads(from) || reads(to),
-        Statement::Case { selector, cases, .. } => reads(selector) || cases.iter().any(|(value, _)| reads(value)),
-        Statement::Call(call) => {
-            of_call(&call.program)
-                || call.passes.as_ref().is_some_and(reads)
-                || call.arguments.iter().flatten().flatten().any(reads)
-        }
-        Statement::Assign(assignments) => assignments.iter().any(|one| reads(&one.place) || reads(&one.value)),
-        Statement::RepeatPart(part) => part.passes.as_ref().is_some_and(reads),
-        Statement::Words(words) => words.iter().any(|word| match word {
-            Word::Function { function, .. } => stops(*function),
-            Word::Indirect { group, number, .. } => reads(number) || group.as_ref().is_some_and(reads),
-            Word::Address(word) => reads(&word.value) || word.extension.as_ref().is_some_and(reads),
-            Word::Command { command, arguments, .. } => command.is_stop() || arguments.iter().flatten().any(reads),
-            Word::Synchronised(_) => false,
-        }),
-        Statement::Empty
-        | Statement::External
-        | Statement::Procedure(_)
-        | Statement::Else
-        | Statement::EndIf
-        | Statement::EndWhile
-        | Statement::RepeatLoop
-        | Statement::Loop
-        | Statement::EndLoop
-        | Statement::EndFor
-        | Statement::Jump(_)
-        | Statement::Return { .. } => false,
-    }
-}
-
-fn stops(function: GFunction) -> bool {
-    function == g::G74
 }
 
 /// The first line of a program with a statement.

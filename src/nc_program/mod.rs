@@ -64,6 +64,7 @@ mod token;
 mod trigonometry;
 mod value;
 mod variables;
+mod waiting;
 mod words;
 
 #[cfg(test)]

@@ -320,7 +320,7 @@ pub(super) enum Command {
 }
 
 /// Names, and whether the command is alone in its block.
-const COMMANDS: &[(&str, Command, bool)] = &[
+pub(super) const COMMANDS: &[(&str, Command, bool)] = &[
     ("STOPRE", Command::StopPreparation, true),
     ("MSG", Command::Message, true),
     ("SETAL", Command::CycleAlarm, true),

@@ -16,7 +16,7 @@ pub(super) enum Item {
 }
 
 /// Addresses of several letters, and whether they have an axis or a number in brackets: never, always, or sometimes.
-const ADDRESSES: &[(&str, Address, Option<bool>)] = &[
+pub(super) const ADDRESSES: &[(&str, Address, Option<bool>)] = &[
     ("CR", Address::Radius, Some(false)),
     ("AR", Address::OpeningAngle, Some(false)),
     ("TURN", Address::Turns, Some(false)),

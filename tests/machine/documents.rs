@@ -92,7 +92,9 @@ impl Page {
 impl Block {
     /// The file that the block shows: its first line is a comment with the name.
     fn file(&self) -> Option<&str> {
-        self.text.lines().next()?.strip_prefix("# ").filter(|name| !name.contains(' '))
+        // A comment of an NC program begins with `;`.
+        let comment = if self.language == "nc" { "; " } else { "# " };
+        self.text.lines().next()?.strip_prefix(comment).filter(|name| !name.contains(' '))
     }
 
     fn is_scenario(&self) -> bool {
@@ -201,7 +203,7 @@ fn folder_of(page: &Page) -> PathBuf {
     }
     fs::copy(project().join("examples/python_plc/opennck_image.py"), folder.join("opennck_image.py"))
         .expect("the project has it");
-    for block in page.of("toml").chain(page.of("python")) {
+    for block in page.of("toml").chain(page.of("python")).chain(page.of("nc")) {
         if let Some(file) = block.file() {
             let file = folder.join(file);
             fs::create_dir_all(file.parent().expect("the project has it")).expect("the project has it");
@@ -547,4 +549,21 @@ fn every_decision_that_is_cited_has_a_row() {
     let cited: BTreeSet<&str> = words.filter(|word| is_id(word)).collect();
     let missing: Vec<_> = cited.iter().filter(|id| !ids.contains(**id)).collect();
     assert!(missing.is_empty() && cited.len() > 30, "without a row in docs/decisions.md: {missing:?}");
+}
+
+/// The page about NC programs shows what `nc check` prints.
+#[test]
+fn the_findings_of_nc_check_are_those_that_the_page_shows() {
+    let page = page("docs/nc_programs.md");
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("nc_check");
+    fs::create_dir_all(&folder).expect("the folder of the test is writable");
+    let mut arguments = vec!["nc", "check"];
+    for block in page.of("nc") {
+        let file = block.file().expect("its first line names the file");
+        fs::write(folder.join(file), &block.text).expect("the folder of the test is writable");
+        arguments.push(file);
+    }
+    let output = Command::new(env!("CARGO_BIN_EXE_opennck")).args(&arguments).current_dir(&folder).output().unwrap();
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), texts(&page, "text")[0]);
+    assert_eq!(output.status.code(), Some(1));
 }

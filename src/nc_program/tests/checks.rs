@@ -99,7 +99,7 @@ fn subprograms_are_checked_as_such() {
         .with("SUB.SPF", "PROC SUB(INT GIVEN, VAR REAL BACK, REAL LIST[])\nBACK=GIVEN+LIST[7] X=LIST[1]\nRET")
         .with("PART.MPF", "DEF REAL LIST[2]\nSUB(1,R1,LIST)\nG1 X5\nM30");
     assert_eq!(checked(&channel, "SUB.SPF").0, [12080], "an assignment beside a word");
-    assert_eq!(checked(&channel, "PART.MPF").0, [], "the subprogram may have programmed F");
+    assert_eq!(checked(&channel, "PART.MPF").0, Vec::<u32>::new(), "the subprogram may have programmed F");
     let channel = Channel::new().with("SUB.SPF", "G1 X5\nM17");
-    assert_eq!(checked(&channel, "SUB.SPF").0, [], "the caller may have programmed F");
+    assert_eq!(checked(&channel, "SUB.SPF").0, Vec::<u32>::new(), "the caller may have programmed F");
 }

@@ -52,7 +52,8 @@ fn jumps_search_in_their_direction() {
 
 #[test]
 fn gotos_jumps_to_the_start_if_the_plc_wants_it() {
-    let mut channel = Channel::new().with("PART.MPF", "R1=R1+1\nIF R1>2 GOTOF OUT\nGOTOS\nOUT: M30");
+    let mut channel =
+        Channel::new().with("PART.MPF", "DEF INT AB=1\nR1=R1+AB AB=5\nIF R1>2 GOTOF OUT\nIF TRUE GOTOS\nOUT: M30");
     channel.is_restarting = true;
     assert_eq!(run_in(&mut channel).1, None);
     assert_eq!(channel.r[1], 3.0);

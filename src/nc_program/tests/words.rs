@@ -364,3 +364,19 @@ fn blocks_that_must_not_run_ahead_wait() {
         assert_eq!(matches!(interpreter.step(&mut channel), Ok(Prepared::Waits(_))), waits_after, "{text}");
     }
 }
+
+#[test]
+fn the_page_names_every_word() {
+    use crate::nc_program::{function, functions, syntax, words};
+    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/nc_programs.md")).unwrap();
+    let named: Vec<&str> = page.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
+    let commands = syntax::COMMANDS.iter().map(|row| row.0);
+    let addresses = words::ADDRESSES.iter().map(|row| row.0);
+    let others = function::FUNCTIONS.iter().map(|row| row.0);
+    // Ranges of numbers, as G54 to G57, name their ends.
+    let ranges = ["G55", "G56", "G642", "G643", "G644"];
+    let g_functions = functions::FUNCTIONS.iter().map(|row| row.0).filter(|name| !ranges.contains(name));
+    let missing: Vec<_> =
+        commands.chain(addresses).chain(others).chain(g_functions).filter(|name| !named.contains(name)).collect();
+    assert!(missing.is_empty(), "docs/nc_programs.md: {missing:?}");
+}

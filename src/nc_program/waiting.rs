@@ -1,0 +1,55 @@
+//! Blocks that must not be prepared ahead of the movement.
+
+use super::expression::{Expression, is_main_run};
+use super::functions::{GFunction, g};
+use super::syntax::{Called, Initial, Statement, Word};
+
+/// Whether a block waits until everything before it has been executed: STOPRE, G74, PRESETON, GET, NEWCONF, and variables of the main run.
+pub(super) fn waits(statement: &Statement) -> bool {
+    let main_run = |one: &Expression| matches!(one, Expression::System { name, .. } if is_main_run(name));
+    let reads = |expression: &Expression| expression.any(&main_run);
+    let of_call = |called: &Called| match called {
+        Called::Name(_) => false,
+        Called::Text(text) | Called::External(text) => reads(text),
+    };
+    match statement {
+        Statement::Define { variables, .. } => variables.iter().any(|variable| match &variable.initial {
+            Initial::None => false,
+            Initial::Values(values) => values.iter().any(reads),
+            Initial::All(value) => reads(value),
+        }),
+        Statement::If { condition, .. } | Statement::While(condition) | Statement::Until(condition) => reads(condition),
+        Statement::For { from, to, .. } => reads(from) || reads(to),
+        Statement::Case { selector, cases, .. } => reads(selector) || cases.iter().any(|(value, _)| reads(value)),
+        Statement::Call(call) => {
+            of_call(&call.program)
+                || call.passes.as_ref().is_some_and(reads)
+                || call.arguments.iter().flatten().flatten().any(reads)
+        }
+        Statement::Assign(assignments) => assignments.iter().any(|one| reads(&one.place) || reads(&one.value)),
+        Statement::RepeatPart(part) => part.passes.as_ref().is_some_and(reads),
+        Statement::Words(words) => words.iter().any(|word| match word {
+            Word::Function { function, .. } => stops(*function),
+            Word::Indirect { group, number, .. } => reads(number) || group.as_ref().is_some_and(reads),
+            Word::Address(word) => reads(&word.value) || word.extension.as_ref().is_some_and(reads),
+            Word::Command { command, arguments, .. } => command.is_stop() || arguments.iter().flatten().any(reads),
+            Word::Synchronised(_) => false,
+        }),
+        Statement::Empty
+        | Statement::External
+        | Statement::Procedure(_)
+        | Statement::Else
+        | Statement::EndIf
+        | Statement::EndWhile
+        | Statement::RepeatLoop
+        | Statement::Loop
+        | Statement::EndLoop
+        | Statement::EndFor
+        | Statement::Jump(_)
+        | Statement::Return { .. } => false,
+    }
+}
+
+fn stops(function: GFunction) -> bool {
+    function == g::G74
+}
