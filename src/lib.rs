@@ -63,7 +63,7 @@
 //! | [`control`] | the boundary of a control: the trait that the machine steps, its commands, data, texts and charts | `image`, `motion`, `source`, `units`, `variables` |
 //! | [`sinumerik`] | the control of the gantry manual, with its machine data and alarms | `control`, `image`, `motion`, `source`, `units`, `variables` |
 //! | [`controls`] | the list of controls: the only module that names them | `control`, `image`, `sinumerik`, `source` |
-//! | [`plc`] | the PLC program: closures over the PLC side, function blocks, built-in programs | `image`, `source`, `units` |
+//! | [`plc`] | the PLC program: closures over the PLC side, function blocks, built-in programs, STEP 7 sources | `image`, `source`, `units` |
 //! | [`plant`] | the simulated mechanics: slides, bridges, cams, switches, faults | `motion`, `source`, `units` |
 //! | [`trace`] | the record: every change with its time and cause, as text and JSON lines | `image`, `source`, `units`, `variables` |
 //! | [`expression`] | expressions over signals, values and alarms: parsed once, evaluated in every cycle | `image`, `source`, `units`, `variables` |

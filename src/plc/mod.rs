@@ -30,6 +30,7 @@ mod io;
 mod process;
 mod programs;
 mod registry;
+pub mod step7;
 #[cfg(test)]
 mod tests;
 

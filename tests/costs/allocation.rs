@@ -5,6 +5,7 @@
 
 use opennck::machine::{Command, DatumValue, Machine};
 use opennck::plc::program;
+use opennck::plc::step7::{Cpu, CpuOptions, OwnMemory, Settings, Source, compile};
 
 fn write(machine: &mut Machine, signal: &str, value: u64) {
     let location = machine.names().resolve(machine.memory(), signal).expect("a signal");
@@ -53,6 +54,26 @@ fn step_until(machine: &mut Machine, signal: &str) {
 fn allocations_are_counted() {
     let machine = ready();
     assert!(allocation_counter::measure(|| drop(machine.save())).count_total > 0);
+}
+
+/// Calls, brackets, timers, a fault with OB121, a system function.
+#[test]
+fn no_scan_of_a_step_7_program_allocates() {
+    let text = "DATA_BLOCK DB 10\nSTRUCT\nw : ARRAY [0 .. 9] OF INT;\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK\n\
+        FUNCTION FC 1 : INT\nVAR_INPUT\na : INT;\nb : ANY;\nEND_VAR\nBEGIN\nL #a; T #RET_VAL;\nEND_FUNCTION\n\
+        ORGANIZATION_BLOCK OB 121\nBEGIN\nNOP 0;\nEND_ORGANIZATION_BLOCK\n\
+        ORGANIZATION_BLOCK OB 1\nBEGIN\nA( ; A( ; A M 0.0; ) ; ) ; L S5T#1S; SE T 1; OPN DB 99; \
+        CALL FC 1 ( a := DB10.w[1], b := DB10.w, RET_VAL := DB10.w[2] ); \
+        CALL SFC 20 ( SRCBLK := P#M 0.0 BYTE 4, RET_VAL := MW 10, DSTBLK := DB10.w );\nEND_ORGANIZATION_BLOCK\n";
+    let program =
+        compile(&[Source::statements("a.awl", text)], &Settings::default()).program.expect("it has no faults");
+    let program = std::sync::Arc::new(program);
+    let mut memory = OwnMemory::new(&program);
+    let mut cpu = Cpu::new(program, CpuOptions::default());
+    for scan in 0..3 {
+        let allocated = allocation_counter::measure(|| cpu.scan(&mut memory, scan * 10_000_000).expect("it runs"));
+        assert_eq!(allocated.count_total, 0, "scan {scan}");
+    }
 }
 
 #[test]

@@ -1,0 +1,21 @@
+//! The engine: the registers of a CPU as plain state, and the interpreter that runs the instructions of a program on them.
+
+mod access;
+mod arithmetic;
+mod calls;
+mod cpu;
+mod fault;
+mod memory;
+mod operations;
+mod organization;
+mod real;
+mod registers;
+mod run;
+mod timer;
+
+pub use cpu::{Cpu, CpuOptions, CpuState};
+pub use fault::{Fault, Stop};
+pub use memory::{Area, Areas, OpenBlock, OwnMemory};
+pub use registers::{Registers, Status};
+
+pub(in crate::plc::step7) use access::{Spot, Where};

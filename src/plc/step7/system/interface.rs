@@ -1,0 +1,294 @@
+//! The system blocks and library functions that are built in: their names, numbers and parameters.
+
+use std::sync::Arc;
+
+use crate::plc::step7::instruction::{BlockKind, BlockName};
+use crate::plc::step7::text::types::{Array, Layout, Section, Type};
+
+/// A built-in block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::plc::step7) enum System {
+    SetClock,
+    ReadClock,
+    StartInformation,
+    ReadConsistent,
+    WriteConsistent,
+    BlockMove,
+    Fill,
+    UpdateImage,
+    Retrigger,
+    DisableInterrupts,
+    EnableInterrupts,
+    DelayInterrupts,
+    AllowInterrupts,
+    Stop,
+    Wait,
+    TimeTick,
+    CountUp,
+    CountDown,
+    CountUpDown,
+    Pulse,
+    OnDelay,
+    OffDelay,
+    TimerToTime,
+    TimeToTimer,
+    Limit,
+    Maximum,
+    Minimum,
+    Scale,
+    Unscale,
+    DateOf,
+    TimeOfDayOf,
+    WeekdayOf,
+    DateAndTime,
+    IntToText,
+    DoubleToText,
+    TextToInt,
+    TextToDouble,
+}
+
+/// A row of the table: what it is, where it is called, its name, its parameters.
+pub(in crate::plc::step7) struct SystemBlock {
+    pub(in crate::plc::step7) system: System,
+    /// The number of the SFC or SFB; `None` for a function of a library, which is found by its name.
+    pub(in crate::plc::step7) block: Option<BlockName>,
+    pub(in crate::plc::step7) name: &'static str,
+    pub(in crate::plc::step7) parameters: &'static [(&'static str, Section, Kind)],
+}
+
+/// The type of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::plc::step7) enum Kind {
+    Bool,
+    Byte,
+    Word,
+    Int,
+    DInt,
+    Real,
+    Time,
+    S5Time,
+    Date,
+    TimeOfDay,
+    DateTime,
+    Text,
+    Any,
+    /// A structure of 20 bytes.
+    Information,
+    /// Internal data of an IEC timer: 10 bytes.
+    TimerState,
+}
+
+use Kind::{
+    Any, Bool, Byte, DInt, Date, DateTime, Information, Int, Real, S5Time, Text, Time, TimeOfDay, TimerState, Word,
+};
+use Section::{Input, Output, Static};
+
+const fn sfc(number: u16) -> Option<BlockName> {
+    Some(BlockName { kind: BlockKind::Sfc, number })
+}
+
+const fn sfb(number: u16) -> Option<BlockName> {
+    Some(BlockName { kind: BlockKind::Sfb, number })
+}
+
+const fn row(
+    system: System,
+    block: Option<BlockName>,
+    name: &'static str,
+    parameters: &'static [(&'static str, Section, Kind)],
+) -> SystemBlock {
+    SystemBlock { system, block, name, parameters }
+}
+
+const RETURN: (&str, Section, Kind) = ("RET_VAL", Output, Int);
+const IEC_TIMER: &[(&str, Section, Kind)] = &[
+    ("IN", Input, Bool),
+    ("PT", Input, Time),
+    ("Q", Output, Bool),
+    ("ET", Output, Time),
+    ("STATE", Static, TimerState),
+];
+const THREE: &[(&str, Section, Kind)] =
+    &[("IN1", Input, Any), ("IN2", Input, Any), ("IN3", Input, Any), ("RET_VAL", Output, Any)];
+const MOVE: &[(&str, Section, Kind)] = &[("SRCBLK", Input, Any), RETURN, ("DSTBLK", Output, Any)];
+
+/// All built-in blocks.
+pub(in crate::plc::step7) const SYSTEM: &[SystemBlock] = &[
+    row(System::SetClock, sfc(0), "SET_CLK", &[("PDT", Input, DateTime), RETURN]),
+    row(System::ReadClock, sfc(1), "READ_CLK", &[RETURN, ("CDT", Output, DateTime)]),
+    row(
+        System::StartInformation,
+        sfc(6),
+        "RD_SINFO",
+        &[RETURN, ("TOP_SI", Output, Information), ("START_UP_SI", Output, Information)],
+    ),
+    row(System::ReadConsistent, sfc(14), "DPRD_DAT", &[("LADDR", Input, Word), RETURN, ("RECORD", Output, Any)]),
+    row(System::WriteConsistent, sfc(15), "DPWR_DAT", &[("LADDR", Input, Word), ("RECORD", Input, Any), RETURN]),
+    row(System::BlockMove, sfc(20), "BLKMOV", MOVE),
+    row(System::BlockMove, sfc(81), "UBLKMOV", MOVE),
+    row(System::Fill, sfc(21), "FILL", &[("BVAL", Input, Any), RETURN, ("BLK", Output, Any)]),
+    row(System::UpdateImage, sfc(26), "UPDAT_PI", &[("PART", Input, Byte), RETURN, ("FLADDR", Output, Word)]),
+    row(System::UpdateImage, sfc(27), "UPDAT_PO", &[("PART", Input, Byte), RETURN, ("FLADDR", Output, Word)]),
+    row(System::DisableInterrupts, sfc(39), "DIS_IRT", &[("MODE", Input, Byte), ("OB_NR", Input, Int), RETURN]),
+    row(System::EnableInterrupts, sfc(40), "EN_IRT", &[("MODE", Input, Byte), ("OB_NR", Input, Int), RETURN]),
+    row(System::DelayInterrupts, sfc(41), "DIS_AIRT", &[RETURN]),
+    row(System::AllowInterrupts, sfc(42), "EN_AIRT", &[RETURN]),
+    row(System::Retrigger, sfc(43), "RE_TRIGR", &[]),
+    row(System::Stop, sfc(46), "STP", &[]),
+    row(System::Wait, sfc(47), "WAIT", &[("WT", Input, Int)]),
+    row(System::TimeTick, sfc(64), "TIME_TCK", &[("RET_VAL", Output, Time)]),
+    row(
+        System::CountUp,
+        sfb(0),
+        "CTU",
+        &[
+            ("CU", Input, Bool),
+            ("R", Input, Bool),
+            ("PV", Input, Int),
+            ("Q", Output, Bool),
+            ("CV", Output, Int),
+            ("CUO", Static, Bool),
+        ],
+    ),
+    row(
+        System::CountDown,
+        sfb(1),
+        "CTD",
+        &[
+            ("CD", Input, Bool),
+            ("LOAD", Input, Bool),
+            ("PV", Input, Int),
+            ("Q", Output, Bool),
+            ("CV", Output, Int),
+            ("CDO", Static, Bool),
+        ],
+    ),
+    row(
+        System::CountUpDown,
+        sfb(2),
+        "CTUD",
+        &[
+            ("CU", Input, Bool),
+            ("CD", Input, Bool),
+            ("R", Input, Bool),
+            ("LOAD", Input, Bool),
+            ("PV", Input, Int),
+            ("QU", Output, Bool),
+            ("QD", Output, Bool),
+            ("CV", Output, Int),
+            ("CUO", Static, Bool),
+            ("CDO", Static, Bool),
+        ],
+    ),
+    row(System::Pulse, sfb(3), "TP", IEC_TIMER),
+    row(System::OnDelay, sfb(4), "TON", IEC_TIMER),
+    row(System::OffDelay, sfb(5), "TOF", IEC_TIMER),
+    row(System::TimerToTime, None, "S5TI_TIM", &[("IN", Input, S5Time), ("RET_VAL", Output, Time)]),
+    row(System::TimeToTimer, None, "TIM_S5TI", &[("IN", Input, Time), ("RET_VAL", Output, S5Time)]),
+    row(
+        System::Limit,
+        None,
+        "LIMIT",
+        &[("MN", Input, Any), ("IN", Input, Any), ("MX", Input, Any), ("RET_VAL", Output, Any)],
+    ),
+    row(System::Maximum, None, "MAX", THREE),
+    row(System::Minimum, None, "MIN", THREE),
+    row(
+        System::Scale,
+        None,
+        "SCALE",
+        &[
+            ("IN", Input, Int),
+            ("HI_LIM", Input, Real),
+            ("LO_LIM", Input, Real),
+            ("BIPOLAR", Input, Bool),
+            ("RET_VAL", Output, Word),
+            ("OUT", Output, Real),
+        ],
+    ),
+    row(
+        System::Unscale,
+        None,
+        "UNSCALE",
+        &[
+            ("IN", Input, Real),
+            ("HI_LIM", Input, Real),
+            ("LO_LIM", Input, Real),
+            ("BIPOLAR", Input, Bool),
+            ("RET_VAL", Output, Word),
+            ("OUT", Output, Int),
+        ],
+    ),
+    row(System::DateOf, None, "DT_DATE", &[("IN", Input, DateTime), ("RET_VAL", Output, Date)]),
+    row(System::TimeOfDayOf, None, "DT_TOD", &[("IN", Input, DateTime), ("RET_VAL", Output, TimeOfDay)]),
+    row(System::WeekdayOf, None, "DT_DAY", &[("IN", Input, DateTime), ("RET_VAL", Output, Int)]),
+    row(
+        System::DateAndTime,
+        None,
+        "D_TOD_DT",
+        &[("IN1", Input, Date), ("IN2", Input, TimeOfDay), ("RET_VAL", Output, DateTime)],
+    ),
+    row(System::IntToText, None, "I_STRNG", &[("I", Input, Int), ("RET_VAL", Output, Text)]),
+    row(System::DoubleToText, None, "DI_STRNG", &[("I", Input, DInt), ("RET_VAL", Output, Text)]),
+    row(System::TextToInt, None, "STRNG_I", &[("S", Input, Text), ("RET_VAL", Output, Int)]),
+    row(System::TextToDouble, None, "STRNG_DI", &[("S", Input, Text), ("RET_VAL", Output, DInt)]),
+];
+
+impl SystemBlock {
+    /// Its parameters, and for a function block its instance.
+    pub(in crate::plc::step7) fn layout(&self) -> Layout {
+        let mut layout = Layout::default();
+        for &(name, section, kind) in self.parameters {
+            // The rows of the table are small, so they fit.
+            layout.add(name, kind.ty(), section);
+        }
+        layout
+    }
+}
+
+impl Kind {
+    fn ty(self) -> Type {
+        let bytes = |count| Type::Array(Arc::new(Array { ranges: vec![(1, count)], element: Type::Byte }));
+        match self {
+            Self::Bool => Type::Bool,
+            Self::Byte => Type::Byte,
+            Self::Word => Type::Word,
+            Self::Int => Type::Int,
+            Self::DInt => Type::DInt,
+            Self::Real => Type::Real,
+            Self::Time => Type::Time,
+            Self::S5Time => Type::S5Time,
+            Self::Date => Type::Date,
+            Self::TimeOfDay => Type::TimeOfDay,
+            Self::DateTime => Type::DateTime,
+            Self::Text => Type::Text(254),
+            Self::Any => Type::Any,
+            Self::Information => bytes(20),
+            Self::TimerState => bytes(10),
+        }
+    }
+}
+
+/// The index of a system block by its number.
+pub(in crate::plc::step7) fn by_number(block: BlockName) -> Option<usize> {
+    SYSTEM.iter().position(|row| row.block == Some(block))
+}
+
+/// The index of a library function by its name.
+pub(in crate::plc::step7) fn by_name(name: &str) -> Option<usize> {
+    SYSTEM.iter().position(|row| row.block.is_none() && row.name.eq_ignore_ascii_case(name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_iec_timer_has_22_bytes() {
+        let timer = &SYSTEM[by_number(BlockName { kind: BlockKind::Sfb, number: 4 }).unwrap()];
+        let layout = timer.layout();
+        let bits: Vec<_> = layout.fields.iter().map(|field| field.bit / 8).collect();
+        assert_eq!(bits, [0, 2, 6, 8, 12]);
+        assert_eq!(layout.image.len(), 22);
+    }
+}

@@ -1,0 +1,9 @@
+//! Built-in blocks: system functions, and functions of the IEC and converting libraries.
+
+mod counters;
+mod dispatch;
+mod interface;
+mod library;
+mod transfer;
+
+pub(in crate::plc::step7) use interface::{SYSTEM, by_name, by_number};

@@ -1,0 +1,195 @@
+//! Built-in blocks: step7.md 4.
+
+use super::{Plc, SECOND, ob1, program};
+
+fn plc(blocks: &str, statements: &str) -> Plc {
+    Plc::new(&format!("{blocks}\n{}", ob1(statements)))
+}
+
+#[test]
+fn blkmov_and_fill_copy_the_smaller_length() {
+    let mut moved = plc(
+        "",
+        "CALL SFC 20 ( SRCBLK := P#M 20.0 BYTE 4, RET_VAL := MW 0, DSTBLK := P#DB10.DBX 2.0 BYTE 8 ); A BR; = M 2.0;",
+    );
+    moved.memory.flags[20..26].copy_from_slice(&[1, 2, 3, 4, 5, 6]);
+    moved.scan();
+    assert_eq!(&moved.memory.data(10).unwrap()[..8], [0, 0, 1, 2, 3, 4, 0, 0]);
+    assert_eq!((moved.word(0), moved.bit(2, 0)), (0, true));
+    let mut filled =
+        plc("", "L W#16#AB12; T MW 20; CALL SFC 21 ( BVAL := MW 20, RET_VAL := MW 0, BLK := P#M 30.0 BYTE 5 );");
+    filled.scan();
+    assert_eq!(&filled.memory.flags[29..36], [0, 0xAB, 0x12, 0xAB, 0x12, 0xAB, 0]);
+    // Beyond the end of DB10: an error of parameter 3, area length when writing.
+    let mut beyond = plc(
+        "",
+        "CALL SFC 20 ( SRCBLK := P#M 20.0 BYTE 4, RET_VAL := MW 0, DSTBLK := P#DB10.DBX 30.0 BYTE 4 ); A BR; = M 2.0;",
+    );
+    beyond.scan();
+    assert_eq!((beyond.word(0), beyond.bit(2, 0)), (0x8323, false));
+    let mut missing = plc("", "CALL SFC 20 ( SRCBLK := P#DB99.DBX 0.0 BYTE 4, RET_VAL := MW 0, DSTBLK := MD 30 );");
+    missing.scan();
+    assert_eq!(missing.word(0), 0x813A);
+}
+
+#[test]
+fn consistent_data_are_those_of_the_peripheral_area() {
+    let mut plc = plc(
+        "",
+        "CALL SFC 14 ( LADDR := W#16#10, RET_VAL := MW 0, RECORD := P#M 20.0 BYTE 3 ); \
+         CALL SFC 15 ( LADDR := W#16#20, RECORD := P#M 20.0 BYTE 3, RET_VAL := MW 2 ); \
+         CALL SFC 14 ( LADDR := W#16#FFF0, RET_VAL := MW 4, RECORD := P#M 20.0 BYTE 3 );",
+    );
+    plc.memory.inputs[16..19].copy_from_slice(&[7, 8, 9]);
+    plc.scan();
+    assert_eq!(&plc.memory.flags[20..23], [7, 8, 9]);
+    assert_eq!(&plc.memory.outputs[32..35], [7, 8, 9]);
+    assert_eq!((plc.word(0), plc.word(2), plc.word(4)), (0, 0, 0x80A0));
+}
+
+#[test]
+fn the_clock_is_virtual_and_can_be_set() {
+    let block = "DATA_BLOCK DB 20\nSTRUCT\nnow : DATE_AND_TIME;\nset : DATE_AND_TIME := DT#2008-2-29-23:59:59.500;\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK";
+    let mut plc = plc(
+        block,
+        "A M 0.0; JCN a; CALL SFC 0 ( PDT := DB20.set, RET_VAL := MW 2 ); a: NOP 0; CALL SFC 1 ( RET_VAL := MW 4, CDT := DB20.now ); \
+         CALL SFC 64 ( RET_VAL := MD 8 );",
+    );
+    plc.after(1_500 * 1_000_000);
+    // 1 January 2024 was a Monday: 2.
+    assert_eq!(&plc.memory.data(20).unwrap()[..8], [0x24, 0x01, 0x01, 0, 0, 0x01, 0x50, 0x02]);
+    assert_eq!(plc.double(8), 1500);
+    plc.set_bit(0, 0, true).after(SECOND);
+    plc.set_bit(0, 0, false).after(SECOND);
+    // 1 s after the set time: 1 March 2008, a Saturday: 7.
+    assert_eq!(&plc.memory.data(20).unwrap()[..8], [0x08, 0x03, 0x01, 0, 0, 0, 0x50, 0x07]);
+    assert_eq!(plc.double(8), 3500);
+}
+
+#[test]
+fn interrupts_are_delayed_disabled_and_start_information_is_read() {
+    let block = "DATA_BLOCK DB 20\nSTRUCT\ntop : ARRAY [1 .. 20] OF BYTE;\nstart : ARRAY [1 .. 20] OF BYTE;\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK\n\
+        ORGANIZATION_BLOCK OB 35\nBEGIN\nL MW 20; + 1; T MW 20;\nEND_ORGANIZATION_BLOCK";
+    let mut plc = plc(
+        block,
+        "CALL SFC 41 ( RET_VAL := MW 0 ); CALL SFC 41 ( RET_VAL := MW 2 ); CALL SFC 42 ( RET_VAL := MW 4 ); CALL SFC 42 ( RET_VAL := MW 6 ); \
+         CALL SFC 42 ( RET_VAL := MW 8 ); CALL SFC 6 ( RET_VAL := MW 10, TOP_SI := DB20.top, START_UP_SI := DB20.start ); CALL SFC 47 ( WT := 100 ); \
+         A M 30.0; JCN a; CALL SFC 39 ( MODE := B#16#0, OB_NR := 0, RET_VAL := MW 12 ); a: A M 30.1; JCN b; \
+         CALL SFC 40 ( MODE := B#16#2, OB_NR := 35, RET_VAL := MW 12 ); b: NOP 0;",
+    );
+    plc.scan();
+    assert_eq!([0, 2, 4, 6, 8, 10].map(|byte| plc.word(byte)), [1, 2, 1, 0, 0x8080, 0]);
+    let data = plc.memory.data(20).unwrap();
+    assert_eq!((&data[..4], &data[20..24]), (&[0x11, 1, 1, 1][..], &[0x13, 0x82, 27, 100][..]));
+    plc.after(SECOND / 10);
+    assert_eq!(plc.word(20), 1);
+    plc.set_bit(30, 0, true).scan();
+    plc.set_bit(30, 0, false).after(SECOND / 10);
+    assert_eq!(plc.word(20), 1);
+    plc.set_bit(30, 1, true).scan();
+    plc.after(SECOND / 10);
+    assert_eq!(plc.word(20), 2);
+}
+
+const TIMERS: &str = "DATA_BLOCK DB 20\nSFB 3\nBEGIN\nEND_DATA_BLOCK\nDATA_BLOCK DB 21\nSFB 4\nBEGIN\nEND_DATA_BLOCK\nDATA_BLOCK DB 22\nSFB 5\nBEGIN\nEND_DATA_BLOCK";
+
+#[test]
+fn iec_timers_take_their_courses() {
+    let mut plc = plc(
+        TIMERS,
+        "CALL SFB 3, DB 20 ( IN := M 0.0, PT := T#300MS, Q := M 1.0, ET := MD 4 ); CALL SFB 4, DB 21 ( IN := M 0.0, PT := T#300MS, Q := M 1.1, ET := MD 8 ); \
+         CALL SFB 5, DB 22 ( IN := M 0.0, PT := T#300MS, Q := M 1.2, ET := MD 12 );",
+    );
+    let mut course = |inputs: &str| {
+        inputs
+            .chars()
+            .map(|letter| {
+                plc.set_bit(0, 0, letter == '1').after(SECOND / 10);
+                (plc.memory.flags[1], plc.double(4), plc.double(8), plc.double(12))
+            })
+            .collect::<Vec<_>>()
+    };
+    // TP 1, TON 2, TOF 4.
+    let found = course("0111110000");
+    let states: Vec<u8> = found.iter().map(|row| row.0).collect();
+    assert_eq!(states, [0, 5, 5, 5, 6, 6, 4, 4, 4, 0]);
+    let elapsed: Vec<_> = found.iter().map(|row| (row.1, row.2, row.3)).collect();
+    assert_eq!(
+        elapsed,
+        [
+            (0, 0, 0),
+            (0, 0, 0),
+            (100, 100, 0),
+            (200, 200, 0),
+            (300, 300, 0),
+            (300, 300, 0),
+            (0, 0, 0),
+            (0, 0, 100),
+            (0, 0, 200),
+            (0, 0, 300)
+        ]
+    );
+    // A short input: the pulse has its full length, the on delay never comes.
+    assert_eq!(course("10000").iter().map(|row| row.0).collect::<Vec<_>>(), [5, 5, 5, 4, 0]);
+}
+
+#[test]
+fn iec_counters_count_edges() {
+    let blocks = "DATA_BLOCK DB 20\nSFB 2\nBEGIN\nEND_DATA_BLOCK\nDATA_BLOCK DB 21\nSFB 0\nBEGIN\nEND_DATA_BLOCK\nDATA_BLOCK DB 22\nSFB 1\nBEGIN\nEND_DATA_BLOCK";
+    let mut plc = plc(
+        blocks,
+        "CALL SFB 2, DB 20 ( CU := M 0.0, CD := M 0.1, R := M 0.2, LOAD := M 0.3, PV := 2, QU := M 1.0, QD := M 1.1, CV := MW 2 ); \
+         CALL SFB 0, DB 21 ( CU := M 0.0, R := M 0.2, PV := 2, Q := M 1.2, CV := MW 4 ); \
+         CALL SFB 1, DB 22 ( CD := M 0.1, LOAD := M 0.3, PV := 2, Q := M 1.3, CV := MW 6 );",
+    );
+    let mut after = |bits: u8| {
+        plc.memory.flags[0] = bits;
+        plc.scan();
+        (plc.memory.flags[1], plc.word(2), plc.word(4), plc.word(6))
+    };
+    assert_eq!(after(0), (0b1010, 0, 0, 0));
+    assert_eq!(after(1), (0b1000, 1, 1, 0));
+    assert_eq!(after(1), (0b1000, 1, 1, 0));
+    after(0);
+    assert_eq!(after(1), (0b1101, 2, 2, 0));
+    // CTD goes below 0.
+    assert_eq!(after(2), (0b1100, 1, 2, 0xFFFF));
+    assert_eq!(after(8), (0b0101, 2, 2, 2));
+    // R wins.
+    assert_eq!(after(0b1100), (0b0010, 0, 0, 2));
+}
+
+#[test]
+fn library_functions_are_found_by_their_names() {
+    let library = "FUNCTION FC 133 : TIME\nNAME : S5TI_TIM\nVAR_INPUT\nIN : S5TIME;\nEND_VAR\nBEGIN\nEND_FUNCTION\n\
+        FUNCTION FC 140 : S5TIME\nNAME : TIM_S5TI\nVAR_INPUT\nIN : TIME;\nEND_VAR\nBEGIN\nEND_FUNCTION\n\
+        FUNCTION FC 105 : WORD\nNAME : SCALE\nVAR_INPUT\nIN : INT;\nHI_LIM : REAL;\nLO_LIM : REAL;\nBIPOLAR : BOOL;\nEND_VAR\nVAR_OUTPUT\nOUT : REAL;\nEND_VAR\nBEGIN\nEND_FUNCTION\n\
+        FUNCTION FC 122 : ANY\nNAME : LIMIT\nVAR_INPUT\nMN : ANY;\nIN : ANY;\nMX : ANY;\nEND_VAR\nBEGIN\nEND_FUNCTION\n\
+        FUNCTION FC 116 : STRING\nNAME : I_STRNG\nVAR_INPUT\nI : INT;\nEND_VAR\nBEGIN\nEND_FUNCTION\n\
+        FUNCTION FC 138 : INT\nNAME : STRNG_I\nVAR_INPUT\nS : STRING;\nEND_VAR\nBEGIN\nEND_FUNCTION\n\
+        DATA_BLOCK DB 20\nSTRUCT\na : INT := 1;\nb : INT := 9;\nc : INT := 5;\nd : INT;\ns : STRING [6];\nEND_STRUCT;\nBEGIN\nEND_DATA_BLOCK";
+    let mut plc = plc(
+        library,
+        "CALL FC 133 ( IN := S5T#12S340MS, RET_VAL := MD 0 ); CALL FC 140 ( IN := T#12S345MS, RET_VAL := MW 4 ); \
+         CALL FC 105 ( IN := 13824, HI_LIM := 100.0, LO_LIM := 0.0, BIPOLAR := M 255.0, RET_VAL := MW 6, OUT := MD 8 ); \
+         CALL FC 105 ( IN := 30000, HI_LIM := 100.0, LO_LIM := 0.0, BIPOLAR := M 255.0, RET_VAL := MW 12, OUT := MD 14 ); A BR; = M 18.0; \
+         CALL FC 122 ( MN := DB20.a, IN := DB20.b, MX := DB20.c, RET_VAL := DB20.d ); \
+         CALL FC 116 ( I := -123, RET_VAL := DB20.s ); CALL FC 138 ( S := DB20.s, RET_VAL := MW 20 );",
+    );
+    plc.scan();
+    // 12.3 s: the base of 100 ms cuts the rest.
+    assert_eq!((plc.double(0), plc.word(4)), (12_300, 0x1123));
+    // Half of 27648.
+    assert_eq!((plc.word(6), f32::from_bits(plc.double(8))), (0, 50.0));
+    assert_eq!((plc.word(12), f32::from_bits(plc.double(14)), plc.bit(18, 0)), (8, 100.0, false));
+    let data = plc.memory.data(20).unwrap();
+    assert_eq!((data[7], &data[8..14]), (5, &[6, 4, b'-', b'1', b'2', b'3'][..]));
+    assert_eq!(plc.word(20), 0xFF85);
+}
+
+#[test]
+fn a_block_of_the_sources_with_statements_stays() {
+    let text = "FUNCTION FC 1 : INT\nNAME : LIMIT\nBEGIN\nL 3; T #RET_VAL;\nEND_FUNCTION\n";
+    let program = program(&format!("{text}{}", ob1("CALL FC 1 ( RET_VAL := MW 0 );")));
+    assert_eq!(program.code_blocks().count(), 2);
+}
