@@ -25,6 +25,7 @@ mod log;
 mod machine_data;
 mod nc;
 mod output;
+mod plc;
 mod rule;
 mod run;
 #[cfg(feature = "s7")]
@@ -197,6 +198,23 @@ enum Command {
         #[command(subcommand)]
         command: MachineData,
     },
+    /// Works with STEP 7 programs.
+    Plc {
+        #[command(subcommand)]
+        command: Plc,
+    },
+}
+
+#[derive(Debug, Subcommand)]
+enum Plc {
+    /// Compiles the AWL sources of a folder and lists its blocks, what is missing, and what is not supported, with file and line.
+    ///
+    /// Exit codes: 0 the program can be loaded; 1 it calls blocks that are nowhere or are not supported; 2 the sources have errors, or
+    /// cannot be read.
+    Check {
+        /// A folder with `*.awl`, a symbol table (`*.asc`, `*.sdf`, `*.seq`) and, if needed, `plc.toml`.
+        folder: PathBuf,
+    },
 }
 
 #[derive(Debug, Subcommand)]
@@ -274,6 +292,7 @@ fn run_command(programs: &Programs) -> ExitCode {
         Some(Command::MachineData { command: MachineData::Check { machine, all, deny } }) => {
             machine_data::check(&machine, all, &deny, &mut output)
         }
+        Some(Command::Plc { command: Plc::Check { folder } }) => plc::check(&folder, &mut output),
     };
     ExitCode::from(output.code(code))
 }

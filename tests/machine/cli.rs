@@ -387,12 +387,54 @@ fn every_command_has_help_and_a_mistyped_one_ends_with_2() {
         &["why", "--help"],
         &["signals", "--help"],
         &["machine-data", "check", "--help"],
+        &["plc", "check", "--help"],
     ] {
         let output = opennck(arguments, &directory);
         assert!(output.status.code() == Some(0) && out(&output).contains("Usage:"), "{arguments:?}");
     }
     assert_eq!(opennck(&["rum"], &directory).status.code(), Some(2));
     assert_eq!(opennck(&["run"], &directory).status.code(), Some(2));
+}
+
+#[test]
+fn a_step_7_program_is_checked_with_file_line_and_network() {
+    let directory = directory("step7");
+    let folder = directory.join("portal");
+    fs::create_dir_all(&folder).unwrap();
+    let check = |source: &str| {
+        fs::write(
+            folder.join("main.awl"),
+            format!("ORGANIZATION_BLOCK OB 1\nBEGIN\nNETWORK\n{source}\nEND_ORGANIZATION_BLOCK\n"),
+        )
+        .unwrap();
+        let output = opennck(&["plc", "check", "portal"], &directory);
+        (output.status.code(), out(&output))
+    };
+    let (code, text) = check("A M 0.0; = DB31.DBX 2.1;");
+    assert_eq!(code, Some(0), "{text}");
+    assert!(
+        text.contains("data blocks that the machine must have: DB31\n") && text.contains("no findings\n"),
+        "{text}"
+    );
+    let (code, text) = check("CALL FC 19;\nCALL SFC 51;");
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.contains("main.awl:4:1: OB1, network 1: FC19 is called and is nowhere\n"), "{text}");
+    assert!(
+        text.contains("not supported: 1\n") && text.contains("main.awl:5:1: OB1, network 1: SFC51 is not built in"),
+        "{text}"
+    );
+    let (code, text) = check("A M 0.9;");
+    assert_eq!(code, Some(2), "{text}");
+    assert!(text.contains("errors: 1\n") && text.contains("main.awl:4:5: expected a bit from 0 to 7"), "{text}");
+    fs::write(folder.join("plc.toml"), "missing = \"ignore\"\n").unwrap();
+    assert_eq!(check("CALL FC 19;").0, Some(0));
+    fs::remove_file(folder.join("main.awl")).unwrap();
+    let output = opennck(&["plc", "check", "portal"], &directory);
+    assert!(
+        output.status.code() == Some(2) && err(&output).contains("expected at least one source"),
+        "{}",
+        err(&output)
+    );
 }
 
 #[test]

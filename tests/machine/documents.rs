@@ -92,9 +92,14 @@ impl Page {
 impl Block {
     /// The file that the block shows: its first line is a comment with the name.
     fn file(&self) -> Option<&str> {
-        // A comment of an NC program begins with `;`.
-        let comment = if self.language == "nc" { "; " } else { "# " };
-        self.text.lines().next()?.strip_prefix(comment).filter(|name| !name.contains(' '))
+        // A comment of an NC program begins with `;`, one of a STEP 7 source with `//`.
+        let first = self.text.lines().next()?;
+        let comment = match self.language.as_str() {
+            "nc" => "; ",
+            "awl" => "// ",
+            _ => "# ",
+        };
+        first.strip_prefix(comment).filter(|name| !name.contains(' '))
     }
 
     fn is_scenario(&self) -> bool {
@@ -203,7 +208,7 @@ fn folder_of(page: &Page) -> PathBuf {
     }
     fs::copy(project().join("examples/python_plc/opennck_image.py"), folder.join("opennck_image.py"))
         .expect("the project has it");
-    for block in page.of("toml").chain(page.of("python")).chain(page.of("nc")) {
+    for block in page.of("toml").chain(page.of("python")).chain(page.of("nc")).chain(page.of("awl")) {
         if let Some(file) = block.file() {
             let file = folder.join(file);
             fs::create_dir_all(file.parent().expect("the project has it")).expect("the project has it");
