@@ -8,8 +8,8 @@ use crate::controls;
 pub(super) fn alarms(filter: Option<&str>, format: Format, output: &mut Output) -> u8 {
     let rows = controls::texts().flat_map(Texts::alarms).map(row).collect();
     let mut list = List { heads: &["alarm", "raised", "cancelled by", "reaction", "text"], rows };
-    list.retain_with(filter, output);
-    list.print(format, output)
+    let found = list.retain_with(filter, output);
+    list.print(format, output).max(found)
 }
 
 fn row(alarm: AlarmRow) -> Vec<String> {

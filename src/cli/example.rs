@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use terminal_size::{Width, terminal_size};
+
 use super::files::Files;
 use super::output::Output;
 use super::run::result;
@@ -29,7 +31,7 @@ const SCREEN: &[&str] = &[
 /// Rows with these texts are not on the screen: what ends is less important than what begins.
 const OMITTED: &[&str] = &["1 -> 0", "set MD active", "alarm 10655"];
 
-/// The longest row on the screen.
+/// The longest row on the screen, if its width is not known.
 const WIDTH: usize = 140;
 
 const NEXT: &str = "
@@ -82,12 +84,14 @@ fn screen(finished: &Finished) -> Result<String, Problem> {
     let watch = Watch::parse(SCREEN, machine.names(), machine.memory()).map_err(|(_, problem)| problem)?;
     let rows = session.trace().text(machine, &watch, true);
     let shown = rows.lines().filter(|row| !OMITTED.iter().any(|text| row.contains(text)));
-    Ok(shown.map(|row| cut(row) + "\n").collect())
+    // On a terminal, a row is a line of it.
+    let width = terminal_size().map_or(WIDTH, |(Width(columns), _)| usize::from(columns).clamp(40, WIDTH));
+    Ok(shown.map(|row| cut(row, width) + "\n").collect())
 }
 
-fn cut(row: &str) -> String {
-    match row.char_indices().nth(WIDTH - 1) {
-        Some((end, _)) if row.chars().count() > WIDTH => format!("{}\u{2026}", &row[..end]),
+fn cut(row: &str, width: usize) -> String {
+    match row.char_indices().nth(width - 1) {
+        Some((end, _)) if row.chars().count() > width => format!("{}\u{2026}", &row[..end]),
         Some(_) | None => row.to_owned(),
     }
 }

@@ -40,14 +40,15 @@ pub(super) struct List<C = String> {
 }
 
 impl<C: Cell> List<C> {
-    /// Keeps the rows that contain a text, ignoring case. Warns if none is left.
-    pub(super) fn retain_with(&mut self, filter: Option<&str>, output: &mut Output) {
-        let Some(filter) = filter else { return };
+    /// Keeps the rows that contain a text, ignoring case. Warns if none is left. Returns the exit code, as `grep`: 1 if none is left.
+    pub(super) fn retain_with(&mut self, filter: Option<&str>, output: &mut Output) -> u8 {
+        let Some(filter) = filter else { return 0 };
         let wanted = filter.to_lowercase();
         self.rows.retain(|row| row.iter().any(|cell| cell.text().to_lowercase().contains(&wanted)));
         if self.rows.is_empty() {
             output.warning(format!("no row contains `{filter}`; omit the filter to list all rows"));
         }
+        u8::from(self.rows.is_empty())
     }
 
     /// Prints the list and returns the exit code.

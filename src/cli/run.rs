@@ -184,11 +184,15 @@ fn prepare(
     let mut ready = Vec::new();
     let mut known = Vec::new();
     for scenario in &cases {
-        if let (Some(wanted), Some(variant)) = (wanted, &scenario.variant)
-            && !variant.fits(wanted)
-        {
-            known.push(variant.to_string());
-            continue;
+        if let Some(wanted) = wanted {
+            match &scenario.variant {
+                Some(variant) if variant.fits(wanted) => {}
+                Some(variant) => {
+                    known.push(variant.to_string());
+                    continue;
+                }
+                None => continue,
+            }
         }
         for profile in &scenario.profiles {
             ready.push(scenario.prepare(*profile, programs)?);
@@ -197,7 +201,10 @@ fn prepare(
     if ready.is_empty() {
         let what = format!("expected a case with `{}`, found none", wanted.unwrap_or_default());
         known.truncate(10);
-        let cure = format!("cases are {}", known.join("; "));
+        let cure = match known.is_empty() {
+            true => "the scenario has no `[matrix]`: omit --case".to_owned(),
+            false => format!("cases are {}", known.join("; ")),
+        };
         return Err(Place::file(&file.display().to_string()).problem(what, cure));
     }
     Ok(ready)

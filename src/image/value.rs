@@ -54,7 +54,11 @@ fn integer(number: i64, node: &Node, location: Location) -> Result<u64, Problem>
     } else {
         Err(node.place.problem(
             format!("expected a number from {least} to {most}, found {number}"),
-            format!("the address has {} bits", location.width),
+            if location.width == 1 {
+                "the address is one bit".to_owned()
+            } else {
+                format!("the address has {} bits", location.width)
+            },
         ))
     }
 }

@@ -25,7 +25,7 @@ struct State {
     was: bool,
     /// The cycles in which the open watches began, the oldest first.
     open: VecDeque<Point>,
-    /// The number of watches that began, and of those that ended as they must.
+    /// The number of watches that began.
     begun: u64,
     met: u64,
     /// The number of watches that power on closed.

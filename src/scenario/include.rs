@@ -52,7 +52,7 @@ impl Reader<'_> {
         self.times = outer.saturating_mul(times);
         if self.times > TIMES {
             let what = format!("expected steps that run at most {TIMES} times, found {} times", self.times);
-            return Err(place.problem(what, "the times of files that include each other multiply; write smaller ones"));
+            return Err(place.problem(what, "the `times` of nested includes multiply; make one of them smaller"));
         }
         self.files.push(file);
         self.steps(&steps, list)?;

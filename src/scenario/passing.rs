@@ -264,7 +264,11 @@ impl Book {
         match stopped {
             Stopped::Limit => {
                 let limit = self.time(machine);
-                self.missed(format!("reached the limit of {limit} s: {doing}"), expression, machine)
+                self.missed(
+                    format!("reached the limit of {limit} s: {doing}; `limit` at the head of the scenario raises it"),
+                    expression,
+                    machine,
+                )
             }
             Stopped::Broken(failure) => failure,
         }

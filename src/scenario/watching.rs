@@ -151,12 +151,15 @@ impl Book {
             if let Some((count, oldest)) = summary.open {
                 let oldest = oldest.time;
                 remarks.push(match count {
-                    1 => format!("rule `{name}` is open at the end: it began at {oldest} s"),
-                    count => format!("rule `{name}` is open at the end: it began {count} times, first at {oldest} s"),
+                    1 => format!("rule `{name}`: 1 watch was open at the end; it began at {oldest} s"),
+                    count => {
+                        format!("rule `{name}`: {count} watches were open at the end; the first began at {oldest} s")
+                    }
                 });
             }
             if summary.closed > 0 {
-                remarks.push(format!("rule `{name}`: power on closed it {}", times(summary.closed)));
+                let noun = if summary.closed == 1 { "watch" } else { "watches" };
+                remarks.push(format!("rule `{name}`: power on ended {} {noun} without a result", summary.closed));
             }
         }
         remarks
@@ -183,8 +186,9 @@ impl Book {
                     format!("{cycles} {noun} ({length} s), began at {began} s; {met} of {begun} in time")
                 }
                 (Some(margin), false) => format!("{} at {} s", margin.amount, margin.at.time),
+                (None, true) if summary.begun == 0 => "none: `when` never became true".to_owned(),
                 (None, true) => format!("none: it began {}", times(summary.begun)),
-                (None, false) => "none: it compares no numbers".to_owned(),
+                (None, false) => "none: no `<`, `<=`, `>` or `>=` decides it".to_owned(),
             };
             format!("margin of `{name}`: {margin}")
         };

@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use crate::source::{Node, Place, Problem, Table, Value};
+use crate::source::{Node, Place, Problem, Table, Value, nearest};
 
 /// The steps of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,8 +31,12 @@ impl WrittenSteps {
             return Ok(read);
         }
         let mut head = Table::parse(text, file)?;
-        let steps = tables(head.take("step"), &Place::file(file))?;
-        Ok((head, Self::Tables(steps.into())))
+        let steps = head.take("step");
+        let misspelt = head.entries().find(|(key, _)| steps.is_none() && nearest(key, ["step"]).is_some());
+        if let Some((key, node)) = misspelt {
+            return Err(node.place.problem(format!("expected `[[step]]`, found `{key}`"), "did you mean `[[step]]`?"));
+        }
+        Ok((head, Self::Tables(tables(steps, &Place::file(file))?.into())))
     }
 
     fn read_in_parts(text: &str, file: &str) -> Option<(Table, Self)> {
@@ -109,6 +113,12 @@ mod tests {
         };
         steps.each(note).unwrap();
         (lines, matches!(steps, WrittenSteps::Text(..)))
+    }
+
+    #[test]
+    fn a_misspelt_step_is_named_with_its_line() {
+        let problem = WrittenSteps::read("title = \"a\"\n[[steps]]\nrun = \"1s\"\n", "a.toml").unwrap_err();
+        assert_eq!(problem.to_string(), "a.toml:2: expected `[[step]]`, found `steps`\n  did you mean `[[step]]`?");
     }
 
     #[test]

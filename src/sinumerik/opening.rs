@@ -80,14 +80,28 @@ fn at_power_on(fault: &Fault, archive: &Archive, control: &Nck, names: &Names) -
     for (index, parameter) in fault.parameters.iter().enumerate() {
         text = text.replace(&format!("%{}", index + 1), &shown(parameter));
     }
-    let finding = Finding::new(
-        Class::AlarmAtPowerOn,
-        format!("{}: {text}", Alarm::name(fault.alarm)),
-        "the grouping is not formed; see the reasons of the alarm in the Diagnostics Manual, and correct MD37100",
-    );
+    let finding = Finding::new(Class::AlarmAtPowerOn, format!("{}: {text}", Alarm::name(fault.alarm)), cure_of(fault));
     match fault_axis(fault, control) {
         Some(axis) => archive.about(37100, Owner::Axis(axis), 0, finding),
         None => finding,
+    }
+}
+
+/// What to do about the definition of a grouping, by the reason of the alarm.
+fn cure_of(fault: &Fault) -> &'static str {
+    let reason = fault.parameters.iter().find_map(|parameter| match parameter {
+        Parameter::Number(reason) => Some(*reason),
+        Parameter::None | Parameter::Channel(_) | Parameter::Axis(_) | Parameter::Direction(_) => None,
+    });
+    match reason {
+        Some(1000..2000) => "no leading axis: give one axis MD37100 = the number of the grouping",
+        Some(2000..3000) => "no synchronous axis: give one axis MD37100 = the number of the grouping + 10",
+        Some(3000..4000) => "give the axes of the grouping the same MD30550",
+        Some(4000..7000) => "assign all axes of the grouping to the same channel (MD20070)",
+        Some(10_000) => "remove the synchronous axis from MD20050",
+        Some(13_000) => "set MD35000 = 0, or remove the axis from the grouping (MD37100)",
+        Some(14_000) => "set MD30505 = 0, or remove the axis from the grouping (MD37100)",
+        Some(_) | None => "compare MD37100 of all axes: 1 to 8 leads, 11 to 18 follows, each number leads once",
     }
 }
 

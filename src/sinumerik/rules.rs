@@ -110,7 +110,7 @@ rules! {
     StoppedOffCam "REF-31" "at rest off the cam";
     CamEdge "REF-31" "cam edge";
     CamShiftPassed "REF-31" "distance of MD34092 passed after the cam edge";
-    CreepVelocityMissed "20006" "creep velocity not reached at the cam edge: section 1 is repeated";
+    CreepVelocityMissed "20006" "creep velocity not reached at the cam edge: phase 1 is repeated";
     ZeroMark "REF-31" "zero mark";
     ReferencePointReached "REF-31" "at the reference point";
     Referenced "REF-03" "reference point reached";

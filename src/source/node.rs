@@ -66,8 +66,8 @@ impl Table {
                 message if message.contains("must be quoted") => {
                     "put texts, expressions and durations in quotes: \"X.position > 5\", \"500ms\""
                 }
-                message if message.contains("missing assignment") => {
-                    "put a key with brackets in quotes: \"34090[XF]\" = 1.5"
+                message if message.contains("missing assignment") || message.contains("key with no value") => {
+                    "put a key with brackets or other special characters in quotes: \"34090[XF]\" = 1.5"
                 }
                 _ => "TOML 1.0 has strings in quotes, tables in brackets, one value per key",
             };

@@ -124,6 +124,10 @@ fn a_case_of_a_matrix_and_a_part_of_a_picture_are_chosen() {
     assert_eq!((output.status.code(), out(&output).contains("by outside")), (Some(0), true), "{}", err(&output));
     assert!(err(&why(&[])).contains("--case TEXT"), "{}", err(&why(&[])));
     assert!(err(&why(&["--case", "140"])).contains("cases are plant.X.start = 120.0; plant.X.start = 130.0"));
+    fs::write(directory.join("plain.toml"), format!("title = \"p\"\nmachine = \"g1_example\"\n{}", set(1))).unwrap();
+    let plain = opennck(&["run", "plain.toml", "--case", "130.0"], &directory);
+    assert_eq!(plain.status.code(), Some(2));
+    assert!(err(&plain).contains("the scenario has no `[matrix]`: omit --case"), "{}", err(&plain));
     let run = |options: &[&str]| opennck(&[&["run", "m.toml", "--case", "130.0"], options].concat(), &directory);
     let output = run(&["--vcd", "t.vcd", "--from", "12ms", "--to", "1"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
@@ -268,7 +272,7 @@ fn test_compares_accepts_and_reports() {
     fs::write(directory.join("golden/area/bad.toml"), "title = 1").unwrap();
     let output = opennck(&["test"], &directory);
     assert_eq!(output.status.code(), Some(2));
-    assert_eq!(out(&output), "2 scenarios: 1 passed, 1 unusable\n");
+    assert_eq!(out(&output), "2 cases: 1 passed, 1 unusable\n");
 }
 
 #[test]
@@ -289,6 +293,9 @@ fn signals_are_listed_as_table_json_and_csv() {
     assert_eq!(opennck(&["signals", "--profile", "802d"], &directory).status.code(), Some(2));
     let output = opennck(&["signals", "no such signal", "--format", "csv"], &directory);
     assert_eq!(out(&output), "address,symbol,writer,name,modelled\n");
+    // As `grep`: nothing was found.
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(opennck(&["alarms", "no such alarm"], &directory).status.code(), Some(1));
 }
 
 #[test]

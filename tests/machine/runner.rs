@@ -64,7 +64,7 @@ fn a_case_of_a_matrix_is_the_unit_of_list_filter_and_shard() {
     let none = opennck(&["test", "--filter", "nowhere"], &directory);
     assert_eq!((none.status.code(), err(&none).contains("found none of 5")), (Some(2), true), "{}", err(&none));
     let empty = opennck(&["test", "--shard", "9/9"], &directory);
-    assert_eq!((empty.status.code(), out(&empty).as_str()), (Some(0), "0 scenarios: none in this shard\n"));
+    assert_eq!((empty.status.code(), out(&empty).as_str()), (Some(0), "0 cases: none in this shard\n"));
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn fail_fast_begins_no_case_after_the_first_failure() {
     fs::rename(directory.join("golden/failing.toml"), directory.join("golden/a.toml")).unwrap();
     let output = opennck(&["test", "--fail-fast", "--jobs", "1"], &directory);
     assert_eq!(output.status.code(), Some(1));
-    assert!(out(&output).ends_with("5 scenarios: 1 failed, 4 not run\n"), "{}", out(&output));
+    assert!(out(&output).ends_with("5 cases: 1 failed, 4 not run\n"), "{}", out(&output));
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn reports_name_rules_files_and_times_and_show_the_signals_of_failures() {
     }
     let html = fs::read_to_string(directory.join("r.html")).unwrap();
     assert_eq!((html.matches("<svg").count(), html.matches("<h2").count()), (1, 1), "one failure");
-    for words in ["<h1>5 scenarios: 4 passed, 1 failed</h1>", "M0.1 = 0", "REF-04 REF-11", "</html>"] {
+    for words in ["<h1>5 cases: 4 passed, 1 failed</h1>", "M0.1 = 0", "REF-04 REF-11", "</html>"] {
         assert!(html.contains(words), "{words} in {html}");
     }
 }

@@ -43,7 +43,7 @@ pub(super) fn rule(filter: Option<&str>, format: Format, output: &mut Output) ->
     list(Some(filter), format, output)
 }
 
-/// Two or more letters or digits, a hyphen, and a number; or an alarm number.
+/// Letters or digits, a hyphen, and a number; or an alarm number.
 fn is_id(text: &str) -> bool {
     let digits = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
     let letters = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric());
@@ -72,8 +72,8 @@ fn list(filter: Option<&str>, format: Format, output: &mut Output) -> u8 {
     });
     let rows = of_rules.chain(of_decisions).collect();
     let mut list = List { heads: &["id", "scenarios", "source", "rule"], rows };
-    list.retain_with(filter, output);
-    list.print(format, output)
+    let found = list.retain_with(filter, output);
+    list.print(format, output).max(found)
 }
 
 /// Manual and chapter, without the remark behind them.

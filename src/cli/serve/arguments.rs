@@ -88,7 +88,10 @@ pub(crate) struct Arguments {
     /// including machine data. A write to a protected address gets return code 03; the other items of the request are not affected.
     #[arg(long, value_name = "ADDRESS")]
     pub(super) protect: Vec<String>,
-    /// Password of the CPU, up to eight characters. Each wrong one from an address doubles the time until the next answer. Other users can see it in the process list; use the environment variable to hide it.
+    /// Password of the CPU, up to eight characters.
+    ///
+    /// Each wrong password doubles the waiting time for this client address, from 0.25 s to 1 min. Other users see the option in the process
+    /// list; the environment variable is hidden.
     #[arg(long, env = "OPENNCK_S7_PASSWORD", hide_env_values = true)]
     pub(super) password: Option<String>,
     /// What needs the password: 1 nothing; 2 stop, restart and setting the clock; 3 also uploading blocks. Reading and writing values never

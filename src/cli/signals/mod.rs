@@ -78,9 +78,11 @@ impl Catalogue {
         if format == Format::Table {
             rows.extend(self.values());
         }
+        let mut found = 0;
         if let Some(filter) = filter {
             rows = self.filtered(rows, filter);
             if rows.is_empty() {
+                found = 1;
                 output.warning(format!("no signal contains `{filter}`; omit the filter to list all signals"));
             }
         }
@@ -92,7 +94,7 @@ impl Catalogue {
             }
         });
         let heads = if format == Format::Table { TABLE } else { HEADS };
-        List { heads, rows: rows.collect() }.print(format, output)
+        List { heads, rows: rows.collect() }.print(format, output).max(found)
     }
 
     /// The rows that contain a text or are meant by an everyday word; without such a row, those with all words of the text.

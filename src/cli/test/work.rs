@@ -51,7 +51,7 @@ pub(super) struct Ran {
 /// The number of cases, and how many ended how.
 pub(super) fn sum(done: &[(&Work, Ran)], left: usize) -> String {
     let count = done.len() + left;
-    let noun = if count == 1 { "scenario" } else { "scenarios" };
+    let noun = if count == 1 { "case" } else { "cases" };
     format!("{count} {noun}: {}", counts(done, left))
 }
 

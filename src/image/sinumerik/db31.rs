@@ -25,7 +25,7 @@ signals! {
     bool, position_measuring_system_1, set_position_measuring_system_1: 1, 5;
     /// Position measuring system 2: 1 = selected; with both, only 1 is used.
     bool, position_measuring_system_2, set_position_measuring_system_2: 1, 6;
-    /// Override active: 0 = the axial override is 100 %.
+    /// Override active: 0 = the axial override is 100 %; its zero setting acts all the same.
     bool, override_active, set_override_active: 1, 7;
     /// Controller enable (servo enable): 0 = the axis brakes and the position control loop is opened.
     bool, controller_enable, set_controller_enable: 2, 1;
@@ -184,7 +184,7 @@ signals! {
     bool, axis_ready, set_axis_ready: 61, 2;
     /// Follow-up active: 1 = the setpoint follows the actual value.
     bool, follow_up_active, set_follow_up_active: 61, 3;
-    /// Axis/spindle stationary (n < nmin): 1 = slower than MD36060.
+    /// Axis/spindle stationary (n < nmin): 1 = no new setpoints are output and slower than MD36060.
     bool, axis_stationary, set_axis_stationary: 61, 4;
     /// Position controller active: 1 = the position control loop is closed.
     bool, position_controller_active, set_position_controller_active: 61, 5;

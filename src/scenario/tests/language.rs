@@ -126,7 +126,10 @@ fn rules_that_never_began_or_are_open_are_remarked_and_not_failed() {
     let finished = held(&format!("{rules}[[step]]\nset = {{ \"M0.0\" = 1 }}\n[[step]]\nrun = \"10ms\""));
     assert_eq!(
         finished.remarks(),
-        ["rule `a` never began: `M2.0` did not become true", "rule `b` is open at the end: it began at 0.002 s"]
+        [
+            "rule `a` never began: `M2.0` did not become true",
+            "rule `b`: 1 watch was open at the end; it began at 0.002 s"
+        ]
     );
     let must = rules.replacen("then", "must_begin = true\nthen", 1);
     let text = missed(&format!("{must}{STEP}"));
@@ -138,7 +141,7 @@ fn power_on_closes_open_watches() {
     let rule = "[[rule]]\nname = \"a\"\nwhen = \"M0.0\"\nthen = \"M0.1\"\nwithin = \"20ms\"\n";
     let steps =
         "[[step]]\nset = { \"M0.0\" = 1 }\n[[step]]\nrun = \"10ms\"\n[[step]]\npower_on = true\n[[step]]\nrun = \"1s\"";
-    assert_eq!(held(&format!("{rule}{steps}")).remarks(), ["rule `a`: power on closed it once"]);
+    assert_eq!(held(&format!("{rule}{steps}")).remarks(), ["rule `a`: power on ended 1 watch without a result"]);
 }
 
 #[test]

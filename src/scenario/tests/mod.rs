@@ -52,6 +52,7 @@ const STEP: &str = "[[step]]\nrun = \"1s\"\n";
 fn every_mistake_in_the_head_names_its_line_and_a_cure() {
     for (head, line, cause, cure) in [
         ("titel = 1\n", 3, "unknown key `titel`", "did you mean `title`?"),
+        ("[machine_data]\n37110[XF] = 1.5\n", 4, "key with no value", "in quotes: \"34090[XF]\" = 1.5"),
         ("profile = \"840d\"\n", 3, "a profile, found `840d`", "840d_sl"),
         ("profile = []\n", 3, "at least one profile", "840d_sl"),
         ("profile = [\"828d\", \"828d\"]\n", 3, "twice", "remove one"),

@@ -223,7 +223,7 @@ alarms! {
     /// Reference cam not reached within MD34030.
     CAM_NOT_REACHED 20000 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 reference cam not reached";
-    /// At standstill after section 1 and not on the cam.
+    /// At standstill after phase 1 and not on the cam.
     CAM_SIGNAL_MISSING 20001 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 cam signal missing";
     /// No zero mark within MD34060.
