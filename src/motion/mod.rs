@@ -1,5 +1,5 @@
 //! AXIS MECHANICS AND CONTROL LOOPS, independent of the kind of control: setpoint profiles, position control, the drive's response,
-//! encoders, and the one [`coupling`] engine for all gantries.
+//! encoders, the one [`coupling`] engine for all gantries, and the [`path`] of an NC program.
 //!
 //! Everything is computed in whole cycles; the cycle time is in seconds. Positions are whole increments; a fraction of an increment is
 //! carried over and never lost. Arithmetic uses only `+ − × ÷ sqrt` and comparisons, so every build and machine computes the same bits.
@@ -10,6 +10,7 @@ mod delay;
 mod encoder;
 mod feedback;
 mod jerk;
+pub mod path;
 mod profile;
 mod servo;
 

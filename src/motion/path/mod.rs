@@ -1,0 +1,292 @@
+//! The path of an NC program: lines and arcs of several axes, with one velocity along the way.
+//!
+//! A path knows no machine: its axes are numbered from 0, and the control says which machine axis each of them is. It interpolates in whole
+//! cycles. In each cycle it takes the largest velocity with which
+//!
+//! * no axis exceeds its velocity or its acceleration,
+//! * the path can still slow down for every block that is known: for a smaller feed, for a corner, and for standstill at the end of the last
+//!   one (look-ahead),
+//! * at a corner no axis changes its velocity by more than its acceleration permits in one cycle, times the overload factor.
+//!
+//! A block with an exact stop ends at rest, and the next one begins when the control [continues](Path::go_on). So corners are rounded by
+//! no more than what one cycle passes over, and a block that comes late only makes the path wait at its end.
+//!
+//! Positions are computed from the start of a block, never added up, so that nothing is lost and every block ends exactly on its end.
+
+mod angle;
+#[cfg(test)]
+mod tests;
+mod way;
+
+use std::collections::VecDeque;
+
+use serde::{Deserialize, Serialize};
+
+pub use way::{Circle, RadiiDiffer, Turn, Way};
+
+/// The largest number of axes of a path.
+pub const PATH_AXES: usize = 8;
+
+/// One value per axis of a path, in increments or in increments per second.
+pub type PerPathAxis = [f64; PATH_AXES];
+
+/// The number of blocks that a path takes. Looking further ahead changes nothing unless they are shorter than one braking distance together.
+pub const BLOCKS: usize = 64;
+
+/// A block that ends within this distance has ended.
+const HALF_AN_INCREMENT: f64 = 0.5;
+
+/// Why a path does not take a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refused {
+    /// It has [`BLOCKS`] blocks already.
+    Full,
+    /// The way of the block is shorter than half an increment: there is nothing to interpolate.
+    NoWay,
+}
+
+/// What the axes of a path can do.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PathLimits {
+    /// Largest velocity of each axis, in increments per second.
+    pub velocity: PerPathAxis,
+    /// Largest acceleration, in increments per second squared.
+    pub acceleration: PerPathAxis,
+    /// How many times its acceleration per cycle an axis may change its velocity at a corner; at least 1.
+    pub overload: PerPathAxis,
+}
+
+/// The feed of a block.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Feed {
+    /// A programmed velocity along the way, in increments per second, to which the feed override applies.
+    Programmed(f64),
+    /// As fast as the axes can, to which the rapid traverse override applies.
+    Rapid,
+}
+
+/// The overrides of a cycle, as factors; 0 holds the path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overrides {
+    /// Of a programmed feed.
+    pub feed: f64,
+    /// Of rapid traverse.
+    pub rapid: f64,
+}
+
+/// One block of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PathBlock {
+    /// A number by which the control recognises the block.
+    pub number: u64,
+    /// Its geometry.
+    pub way: Way,
+    /// Its feed.
+    pub feed: Feed,
+    /// The path stops at its end.
+    pub exact_stop: bool,
+}
+
+/// A block with what is computed once.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Planned {
+    block: PathBlock,
+    /// Largest velocity and acceleration along its way.
+    velocity: f64,
+    acceleration: f64,
+    /// Largest velocity at its start, after the corner to the block before.
+    corner: f64,
+}
+
+/// The result of a cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moved {
+    /// The position of each axis.
+    pub position: PerPathAxis,
+    /// How many blocks have ended in this cycle and are gone.
+    pub ended: usize,
+}
+
+/// A path in progress: plain data.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Path {
+    limits: PathLimits,
+    blocks: VecDeque<Planned>,
+    /// Where the axes are.
+    position: PerPathAxis,
+    /// The distance from the start of the first block.
+    distance: f64,
+    /// The velocity along the way.
+    velocity: f64,
+    /// The first block has ended with an exact stop, and the control has not continued.
+    stands: bool,
+}
+
+impl Path {
+    /// A path at rest at this position.
+    #[must_use]
+    pub fn new(position: PerPathAxis, limits: PathLimits) -> Self {
+        Self { limits, blocks: VecDeque::new(), position, distance: 0.0, velocity: 0.0, stands: false }
+    }
+
+    /// Appends a block that begins where the last one ends. `cycle` is in seconds.
+    ///
+    /// # Errors
+    /// There is no room, or the block moves nothing.
+    pub fn append(&mut self, block: PathBlock, cycle: f64) -> Result<(), Refused> {
+        if !self.has_room() {
+            return Err(Refused::Full);
+        }
+        if block.way.length() < HALF_AN_INCREMENT {
+            return Err(Refused::NoWay);
+        }
+        let (velocity, acceleration) = block.way.limits(&self.limits);
+        let corner = match self.blocks.back() {
+            Some(before) if !before.block.exact_stop => self.corner(&before.block.way, &block.way, cycle),
+            Some(_) | None => 0.0,
+        };
+        self.blocks.push_back(Planned { block, velocity, acceleration, corner });
+        Ok(())
+    }
+
+    /// The largest velocity with which the path passes from one way to the next.
+    fn corner(&self, before: &Way, after: &Way, cycle: f64) -> f64 {
+        let (from, to) = (before.direction(true), after.direction(false));
+        let mut velocity = f64::INFINITY;
+        for axis in 0..PATH_AXES {
+            let change = (to[axis] - from[axis]).abs();
+            if change > 1e-9 {
+                let permitted = self.limits.acceleration[axis] * cycle * self.limits.overload[axis];
+                velocity = velocity.min(permitted / change);
+            }
+        }
+        velocity
+    }
+
+    /// The block that moves or stands at its end, and the distance that is left of it, in increments.
+    #[must_use]
+    pub fn current(&self) -> Option<(&PathBlock, f64)> {
+        let planned = self.blocks.front()?;
+        Some((&planned.block, planned.block.way.length() - self.distance))
+    }
+
+    /// The velocity along the way, in increments per second.
+    #[must_use]
+    pub const fn velocity(&self) -> f64 {
+        self.velocity
+    }
+
+    /// Whether a block stands at its exact stop until [`Path::go_on`].
+    #[must_use]
+    pub const fn stands(&self) -> bool {
+        self.stands
+    }
+
+    /// Whether there is nothing left to move.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.blocks.is_empty()
+    }
+
+    /// Whether another block fits.
+    #[must_use]
+    pub fn has_room(&self) -> bool {
+        self.blocks.len() < BLOCKS
+    }
+
+    /// The axes are in position: the block that stands at its exact stop is over.
+    pub fn go_on(&mut self) {
+        if std::mem::take(&mut self.stands) {
+            self.blocks.pop_front();
+            self.distance = 0.0;
+        }
+    }
+
+    /// Drops all blocks; the position stays. To brake first, call [`Path::step`] with overrides of 0 until the velocity is 0.
+    pub fn clear(&mut self) {
+        self.blocks.clear();
+        (self.distance, self.velocity, self.stands) = (0.0, 0.0, false);
+    }
+
+    /// One cycle, in seconds.
+    pub fn step(&mut self, overrides: Overrides, cycle: f64) -> Moved {
+        let mut ended = 0;
+        let Some(first) = self.blocks.front() else {
+            self.velocity = 0.0;
+            return Moved { position: self.position, ended };
+        };
+        if self.stands {
+            return Moved { position: self.position, ended };
+        }
+        let change = first.acceleration * cycle;
+        let wanted = self.permitted(overrides, cycle);
+        // A corner or a limit was not foreseen only if an override fell; then the path brakes as it can.
+        self.velocity = wanted.clamp(self.velocity - change, self.velocity + change).max(0.0);
+        self.distance += self.velocity * cycle;
+        while let Some(planned) = self.blocks.front().copied() {
+            let length = planned.block.way.length();
+            let over = self.distance - length;
+            if over < -HALF_AN_INCREMENT {
+                self.position = planned.block.way.at(self.distance);
+                break;
+            }
+            self.position = planned.block.way.end();
+            let last = self.blocks.len() == 1;
+            if planned.block.exact_stop || last {
+                self.velocity = 0.0;
+            }
+            if planned.block.exact_stop {
+                (self.stands, self.distance) = (true, length);
+                break;
+            }
+            ended += 1;
+            self.blocks.pop_front();
+            self.distance = if last { 0.0 } else { over.max(0.0) };
+        }
+        Moved { position: self.position, ended }
+    }
+
+    /// The largest velocity of this cycle with which everything ahead can be met.
+    fn permitted(&self, overrides: Overrides, cycle: f64) -> f64 {
+        let mut permitted = f64::INFINITY;
+        let (mut ahead, mut acceleration) = (-self.distance, f64::INFINITY);
+        let slowest = self.blocks.iter().map(|planned| planned.acceleration).fold(f64::INFINITY, f64::min);
+        for (index, planned) in self.blocks.iter().enumerate() {
+            let wanted = match planned.block.feed {
+                Feed::Programmed(feed) => (feed * overrides.feed).min(planned.velocity),
+                Feed::Rapid => planned.velocity * overrides.rapid.min(1.0),
+            };
+            let at_start = if index == 0 { wanted } else { wanted.min(planned.corner) };
+            permitted = permitted.min(if index == 0 { wanted } else { slowing(ahead, at_start, acceleration, cycle) });
+            acceleration = acceleration.min(planned.acceleration);
+            ahead += planned.block.way.length();
+            let stops = planned.block.exact_stop || index + 1 == self.blocks.len();
+            if stops {
+                return permitted.min(stopping(ahead, acceleration, cycle));
+            }
+            // What comes later than the braking distance changes nothing in this cycle.
+            let fastest = permitted.min(self.velocity + acceleration * cycle);
+            if ahead > fastest * fastest / (2.0 * slowest) + fastest * cycle * 2.0 {
+                break;
+            }
+        }
+        permitted
+    }
+}
+
+/// The largest velocity of a cycle from which whole cycles of braking end at rest after this distance: the sum v·T + (v − aT)·T + … over N
+/// cycles equals the distance, for the smallest possible N.
+fn stopping(distance: f64, acceleration: f64, cycle: f64) -> f64 {
+    let step = acceleration * cycle;
+    let in_steps = distance.max(0.0) / (step * cycle);
+    let cycles = ((0.25 + 2.0 * in_steps).sqrt() - 0.5).ceil().max(1.0);
+    step * (in_steps / cycles + 0.5 * (cycles - 1.0))
+}
+
+/// The largest velocity of a cycle from which whole cycles of braking reach another velocity after this distance:
+/// (v² − w²) / 2a + (v + w)·T/2 equals the distance.
+fn slowing(distance: f64, to: f64, acceleration: f64, cycle: f64) -> f64 {
+    let half = 0.5 * acceleration * cycle;
+    let root = (half - to) * (half - to) + 2.0 * acceleration * distance.max(0.0);
+    (root.sqrt() - half).max(to)
+}
