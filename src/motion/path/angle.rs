@@ -86,7 +86,9 @@ mod tests {
         assert_eq!(sin_cos(0.0), (0.0, 1.0));
         let (sine, cosine) = sin_cos(PI / 6.0);
         assert!((sine - 0.5).abs() < 1e-15 && (cosine - 0.75_f64.sqrt()).abs() < 1e-15);
-        for (x, y, angle) in [(1.0, 0.0, 0.0), (0.0, 2.0, FRAC_PI_2), (-3.0, 0.0, PI), (0.0, -1.0, -FRAC_PI_2), (5.0, 5.0, FRAC_PI_4)] {
+        for (x, y, angle) in
+            [(1.0, 0.0, 0.0), (0.0, 2.0, FRAC_PI_2), (-3.0, 0.0, PI), (0.0, -1.0, -FRAC_PI_2), (5.0, 5.0, FRAC_PI_4)]
+        {
             assert!((angle_of(x, y) - angle).abs() < 1e-15, "{x}, {y}: {}", angle_of(x, y));
         }
         assert_eq!(angle_of(0.0, 0.0), 0.0);
