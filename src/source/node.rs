@@ -67,7 +67,7 @@ impl Table {
                     "put texts, expressions and durations in quotes: \"X.position > 5\", \"500ms\""
                 }
                 message if message.contains("missing assignment") || message.contains("key with no value") => {
-                    "put a key with brackets or other special characters in quotes: \"34090[XF]\" = 1.5"
+                    "put a key with brackets in quotes: \"34090[XF]\" = 1.5"
                 }
                 _ => "TOML 1.0 has strings in quotes, tables in brackets, one value per key",
             };

@@ -213,7 +213,7 @@ fn test_checks_the_causes_if_it_is_asked_to() {
     fs::write(directory.join("s.toml"), scenario).unwrap();
     let output = opennck(&["test", "s.toml", "--accept", "--check-causes"], &directory);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
-    assert!(out(&output).contains("1 scenario: 1 accepted"), "{}", out(&output));
+    assert!(out(&output).contains("1 case: 1 accepted"), "{}", out(&output));
 }
 
 #[test]
@@ -266,7 +266,7 @@ fn test_compares_accepts_and_reports() {
     assert_eq!((output.status.code(), out(&output).lines().count()), (Some(0), 2), "{}", out(&output));
     let output = opennck(&["test", "golden/area/flag.toml", "--jobs", "2", "--junit", "r.xml"], &directory);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
-    assert_eq!(out(&output), "1 scenario: 1 passed\n");
+    assert_eq!(out(&output), "1 case: 1 passed\n");
     assert!(fs::read_to_string(directory.join("r.xml")).unwrap().contains("tests=\"1\" failures=\"0\" errors=\"0\""));
     // Valid scenarios run in addition to an invalid one, and the exit code of the program is the highest code.
     fs::write(directory.join("golden/area/bad.toml"), "title = 1").unwrap();

@@ -91,7 +91,7 @@ pub(crate) struct Arguments {
     /// Password of the CPU, up to eight characters.
     ///
     /// Each wrong password doubles the waiting time for this client address, from 0.25 s to 1 min. Other users see the option in the process
-    /// list; the environment variable is hidden.
+    /// list, but not the environment variable.
     #[arg(long, env = "OPENNCK_S7_PASSWORD", hide_env_values = true)]
     pub(super) password: Option<String>,
     /// What needs the password: 1 nothing; 2 stop, restart and setting the clock; 3 also uploading blocks. Reading and writing values never

@@ -14,6 +14,7 @@
 //! Positions are computed from the start of a block, never added up, so that nothing is lost and every block ends exactly on its end.
 
 mod angle;
+mod axes;
 #[cfg(test)]
 mod tests;
 mod way;
@@ -22,13 +23,8 @@ use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 
+pub use axes::{PATH_AXES, PathLimits, PerPathAxis};
 pub use way::{Circle, RadiiDiffer, Turn, Way};
-
-/// The largest number of axes of a path.
-pub const PATH_AXES: usize = 8;
-
-/// One value per axis of a path, in increments or in increments per second.
-pub type PerPathAxis = [f64; PATH_AXES];
 
 /// The number of blocks that a path takes. Looking further ahead changes nothing unless they are shorter than one braking distance together.
 pub const BLOCKS: usize = 64;
@@ -43,17 +39,6 @@ pub enum Refused {
     Full,
     /// The way of the block is shorter than half an increment: there is nothing to interpolate.
     NoWay,
-}
-
-/// What the axes of a path can do.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PathLimits {
-    /// Largest velocity of each axis, in increments per second.
-    pub velocity: PerPathAxis,
-    /// Largest acceleration, in increments per second squared.
-    pub acceleration: PerPathAxis,
-    /// How many times its acceleration per cycle an axis may change its velocity at a corner; at least 1.
-    pub overload: PerPathAxis,
 }
 
 /// The feed of a block.

@@ -6,7 +6,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::angle::{angle_of, sin_cos};
-use super::{PATH_AXES, PathLimits, PerPathAxis};
+use super::axes::{PATH_AXES, PathLimits, PerPathAxis};
 
 /// The direction of an arc, seen against the third axis of its plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
