@@ -154,15 +154,14 @@ enum Command {
         /// the last one at or before this time is explained.
         #[arg(value_name = "ADDRESS@TIME")]
         edge: String,
-        /// Of a scenario with a matrix: the case whose values contain this text, as `plc = a`.
-        #[arg(long, value_name = "TEXT")]
-        case: Option<String>,
+        #[command(flatten)]
+        run: why::Run,
     },
     /// Explains what the control waits for before a signal changes: a tree of the conditions that do not hold.
     ///
     /// The signal can be 0 (what keeps it at 0?) or 1 (what would reset it?). Each line shows what the control tests, what it finds and what
-    /// it wants. A signal that the control writes itself is explained in turn; the others show who wrote them last. Only signals of the
-    /// control have conditions: enabling, referencing, gantry, movements, modes, ready and channel states.
+    /// it wants. A signal that the control writes itself is explained in turn; the others show who wrote them last. Every bit that the
+    /// control writes has conditions; `opennck signals` shows which ones are modelled.
     WhyNot {
         /// A scenario (*.toml) to run up to the time.
         scenario: PathBuf,
@@ -172,6 +171,8 @@ enum Command {
         /// Also shows the conditions that hold.
         #[arg(long)]
         all: bool,
+        #[command(flatten)]
+        run: why::Run,
     },
     /// Prints the reference point approach and the gantry grouping as a Mermaid flowchart; each transition shows its rule.
     ///
@@ -282,9 +283,9 @@ fn run_command(programs: &Programs) -> ExitCode {
         Some(Command::Alarms { filter, format }) => alarms::alarms(filter.as_deref(), format, &mut output),
         Some(Command::Rule { filter, format }) => rule::rule(filter.as_deref(), format, &mut output),
         Some(Command::Diff { expected, found }) => diff::diff(&expected, &found, &mut output),
-        Some(Command::Why { trace, edge, case }) => why::why(&trace, &edge, case.as_deref(), programs, &mut output),
-        Some(Command::WhyNot { scenario, signal, all }) => {
-            why_not::why_not(&scenario, &signal, all, programs, &mut output)
+        Some(Command::Why { trace, edge, run }) => why::why(&trace, &edge, &run, programs, &mut output),
+        Some(Command::WhyNot { scenario, signal, all, run }) => {
+            why_not::why_not(&scenario, &signal, &run, all, programs, &mut output)
         }
         Some(Command::Flowchart { chart }) => flowchart::flowchart(chart.as_deref(), &mut output),
         Some(Command::Completions { shell }) => completions::completions(shell, &mut Arguments::command(), &mut output),

@@ -2,15 +2,40 @@
 
 use std::path::Path;
 
+use clap::Args;
+
 use super::output::Output;
 use crate::plc::Programs;
-use crate::scenario::Scenario;
+use crate::scenario::{Prepared, Scenario, profile_named};
 use crate::source::{Place, Problem, read_text};
 use crate::trace::Story;
 use crate::units::Time;
 
-pub(super) fn why(trace: &Path, edge: &str, case: Option<&str>, programs: &Programs, output: &mut Output) -> u8 {
-    match explanation(trace, edge, case, programs) {
+/// Which run of a scenario is explained: one case under one profile.
+#[derive(Clone, Debug, Args)]
+pub(super) struct Run {
+    /// Of a scenario with a matrix: the case whose values contain this text, as `plc = a`.
+    #[arg(long, value_name = "TEXT")]
+    case: Option<String>,
+    /// Runs the scenario under this profile, 840d_sl or 828d, whose addresses are understood and shown [default: the first of the scenario].
+    #[arg(long, value_name = "PROFILE")]
+    profile: Option<String>,
+}
+
+impl Run {
+    /// The case of a scenario under the profile, ready to run.
+    pub(super) fn prepare(&self, scenario: &Path, programs: &Programs) -> Result<Prepared, Problem> {
+        let scenario = Scenario::read_case(scenario, self.case.as_deref())?;
+        let profile = match &self.profile {
+            Some(name) => profile_named(name)?,
+            None => scenario.profiles.first().copied().unwrap_or_default(),
+        };
+        scenario.prepare(profile, programs)
+    }
+}
+
+pub(super) fn why(trace: &Path, edge: &str, run: &Run, programs: &Programs, output: &mut Output) -> u8 {
+    match explanation(trace, edge, run, programs) {
         Ok(text) => {
             output.print(&text);
             0
@@ -22,15 +47,24 @@ pub(super) fn why(trace: &Path, edge: &str, case: Option<&str>, programs: &Progr
     }
 }
 
-fn explanation(trace: &Path, edge: &str, case: Option<&str>, programs: &Programs) -> Result<String, Problem> {
+fn explanation(trace: &Path, edge: &str, run: &Run, programs: &Programs) -> Result<String, Problem> {
     let (what, time) = parse_edge(edge)?;
     let is_scenario = trace.extension().is_some_and(|extension| extension == "toml");
-    let story = match (is_scenario, case) {
-        (true, case) => run(trace, case, programs)?,
-        (false, None) => read(trace)?,
-        (false, Some(case)) => {
+    let story = match (is_scenario, &run.case, &run.profile) {
+        (true, _, _) => {
+            let finished = run.prepare(trace, programs)?.run();
+            let session = finished.session();
+            session.trace().story(session.machine())
+        }
+        (false, None, None) => read(trace)?,
+        (false, Some(case), _) => {
             let what = format!("expected a scenario together with --case, found a trace and the case `{case}`");
             return Err(Problem::new(what, "a trace is of one case already; omit --case"));
+        }
+        (false, None, Some(profile)) => {
+            let what =
+                format!("expected a scenario together with --profile, found a trace and the profile `{profile}`");
+            return Err(Problem::new(what, "a trace is of one profile already; omit --profile"));
         }
     };
     story.why(what, time).map_err(|problem| problem.at(&Place::file(&trace.display().to_string())))
@@ -40,14 +74,6 @@ fn read(trace: &Path) -> Result<Story, Problem> {
     let place = Place::file(&trace.display().to_string());
     let at = |line| place.at_line(u32::try_from(line).unwrap_or(0));
     Story::read(&read_text(trace)?).map_err(|(line, problem)| problem.at(&at(line)))
-}
-
-fn run(scenario: &Path, case: Option<&str>, programs: &Programs) -> Result<Story, Problem> {
-    let scenario = Scenario::read_case(scenario, case)?;
-    let profile = scenario.profiles.first().copied().unwrap_or_default();
-    let finished = scenario.prepare(profile, programs)?.run();
-    let session = finished.session();
-    Ok(session.trace().story(session.machine()))
 }
 
 /// Parses `X.controller_enable@7.466`; the time is in seconds or has a unit.

@@ -3,14 +3,20 @@
 use std::path::Path;
 
 use super::output::Output;
-use super::why::parse_edge;
+use super::why::{Run, parse_edge};
 use crate::plc::Programs;
-use crate::scenario::Scenario;
 use crate::source::{Place, Problem};
 use crate::units::Time;
 
-pub(super) fn why_not(scenario: &Path, signal: &str, complete: bool, programs: &Programs, output: &mut Output) -> u8 {
-    match explanation(scenario, signal, complete, programs) {
+pub(super) fn why_not(
+    scenario: &Path,
+    signal: &str,
+    run: &Run,
+    complete: bool,
+    programs: &Programs,
+    output: &mut Output,
+) -> u8 {
+    match explanation(scenario, signal, run, complete, programs) {
         Ok(text) => {
             output.print(&text);
             0
@@ -22,14 +28,18 @@ pub(super) fn why_not(scenario: &Path, signal: &str, complete: bool, programs: &
     }
 }
 
-fn explanation(scenario: &Path, signal: &str, complete: bool, programs: &Programs) -> Result<String, Problem> {
+fn explanation(
+    scenario: &Path,
+    signal: &str,
+    run: &Run,
+    complete: bool,
+    programs: &Programs,
+) -> Result<String, Problem> {
     let (what, time) = match signal.contains('@') {
         true => parse_edge(signal).map(|(what, time)| (what, Some(time)))?,
         false => (signal, None),
     };
-    let read = Scenario::read(scenario)?;
-    let profile = read.profiles.first().copied().unwrap_or_default();
-    let finished = read.prepare(profile, programs)?.run_until(time);
+    let finished = run.prepare(scenario, programs)?.run_until(time);
     let session = finished.session();
     let end = session.time();
     if let Some(time) = time.filter(|&time| end + session.machine().cycle_time() <= time) {

@@ -2,7 +2,7 @@
 
 use super::Machine;
 use crate::control::{Condition, Fact, Question};
-use crate::image::{Location, Writer};
+use crate::image::{Location, Part, Writer};
 use crate::variables::{Place, SignalBit};
 
 /// A condition with what is found now.
@@ -20,7 +20,8 @@ pub struct Tested {
 /// What is tested.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Subject {
-    /// A signal: its location and the value that it must have.
+    /// A signal: its location and the value that it must have. What is tested is the value that the control has read, which with
+    /// `to_nck_delay` is older than that of the memory (O-28).
     Signal(Location, bool),
     /// A fact of the control.
     Fact {
@@ -79,7 +80,12 @@ impl Machine {
             |signal: &&crate::image::Signal| (signal.block, signal.byte, signal.bit) == (block, bit.byte, bit.bit);
         let location = interface.signals().find(is_meant).and_then(|signal| interface.location(signal, number));
         let location = location.expect("a control names signals of its own interface");
-        let found = self.memory().read(location) != 0;
+        let found = if location.part == Part::ToNck {
+            let byte = self.state.plc_side().to_nck.get(location.offset as usize);
+            byte.is_some_and(|byte| byte >> location.bit & 1 == 1)
+        } else {
+            self.memory().read(location) != 0
+        };
         Tested { what: Subject::Signal(location, wanted), holds: found == wanted, parts: Vec::new() }
     }
 }

@@ -155,6 +155,9 @@ impl Tree<'_> {
         match below {
             None => {
                 let _ = write!(text, ": {}", session.writer(location));
+                if machine.memory().read(location) != u64::from(found) {
+                    text += ", on its way to the control (to_nck_delay)";
+                }
                 self.line(depth, holds, &text);
             }
             Some(_) if !self.recursive => self.line(depth, holds, &text),

@@ -6,7 +6,7 @@ use crate::control::{
     Activated, Changes, Condition, Control, ControlCommand, ControlSide, CycleTimes, Data, Datum, Owner, PlcSide,
     Question, Taken, Texts,
 };
-use crate::image::{FromNck, Hmi, Names, OverrideCoding, ToNck, View};
+use crate::image::{FromNck, Hmi, Names, NckHmi, OverrideCoding, ToNck, View};
 use crate::motion::Feedback;
 use crate::sinumerik::jog::state::HANDWHEELS;
 use crate::sinumerik::machine_data::Target;
@@ -21,6 +21,10 @@ const LENGTHS: &str = "the memory of a machine has the interface of its control"
 
 fn to_nck(plc: PlcSide<'_>) -> &ToNck {
     ToNck::of_bytes(plc.to_nck).expect(LENGTHS)
+}
+
+fn nck_hmi(plc: PlcSide<'_>) -> &NckHmi {
+    &Hmi::of_bytes(plc.hmi).expect(LENGTHS).nck
 }
 
 impl Control for Nck {
@@ -78,7 +82,7 @@ impl Control for Nck {
     }
 
     fn decide(&mut self, plc: PlcSide<'_>, changes: Changes) {
-        self.select_handwheels(&Hmi::of_bytes(plc.hmi).expect(LENGTHS).nck);
+        self.select_handwheels(nck_hmi(plc));
         Self::decide(self, to_nck(plc), changes);
     }
 
@@ -142,7 +146,7 @@ impl Control for Nck {
     }
 
     fn conditions(&self, question: &Question<'_>, plc: PlcSide<'_>) -> Option<Condition> {
-        Self::conditions(self, question, to_nck(plc))
+        Self::conditions(self, question, to_nck(plc), nck_hmi(plc))
     }
 
     fn events(&self) -> &Events {

@@ -7,14 +7,14 @@ use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
 /// A directory for one test.
-fn directory(name: &str) -> PathBuf {
+pub(crate) fn directory(name: &str) -> PathBuf {
     let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&directory);
     fs::create_dir_all(&directory).expect("the target directory is writable");
     directory
 }
 
-fn opennck(arguments: &[&str], directory: &PathBuf) -> Output {
+pub(crate) fn opennck(arguments: &[&str], directory: &PathBuf) -> Output {
     Command::new(env!("CARGO_BIN_EXE_opennck"))
         .args(arguments)
         .current_dir(directory)
@@ -22,11 +22,11 @@ fn opennck(arguments: &[&str], directory: &PathBuf) -> Output {
         .expect("the program was built")
 }
 
-fn out(output: &Output) -> String {
+pub(crate) fn out(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).expect("text")
 }
 
-fn err(output: &Output) -> String {
+pub(crate) fn err(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).expect("text")
 }
 
@@ -513,49 +513,6 @@ fn bash_sources_its_completions_and_completes_a_command() {
     };
     assert!(output.status.success(), "{}", err(&output));
     assert_eq!(out(&output).lines().last(), Some("flowchart"), "{}", out(&output));
-}
-
-/// The conditions of the tree are in the order in which the control tests them; each branch ends with a signal of another writer.
-#[test]
-fn why_not_names_what_the_control_waits_for() {
-    let directory = directory("why_not");
-    let enable = "\"X.position_measuring_system_1\" = 1, \"X.pulse_enable\" = 1, \"XF.position_measuring_system_1\" = 1, \
-        \"XF.controller_enable\" = 1";
-    let text = format!(
-        "title = \"X has no controller enable\"\nmachine = \"g1_example\"\n[[step]]\nset = {{ {enable} }}\n[[step]]\nrun = \"300ms\"\n"
-    );
-    fs::write(directory.join("s.toml"), text).unwrap();
-    let ask = |arguments: &[&str]| {
-        let output = opennck(&[&["why-not", "s.toml"], arguments].concat(), &directory);
-        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
-        out(&output)
-    };
-    let expected = "    0.300  X.position_controller_active (DB31.DBX61.5) is 0 (off), because
-             ✗ X.controller_enable (DB31.DBX2.1) = 0, wanted 1: never changed
-             ✗ X.pulses_enabled (DB31.DBX93.7) = 0, wanted 1 (disabled)
-               ✗ X.controller_enable (DB31.DBX2.1) = 0, wanted 1: never changed
-             ✗ XF.pulses_enabled (DB33.DBX93.7) = 0, wanted 1 (disabled)
-               ✗ XF.pulse_enable (DB33.DBX21.7) = 0, wanted 1: never changed
-";
-    assert_eq!(ask(&["X.position_controller_active"]), expected);
-    assert_eq!(ask(&["DB31.DBX61.5@300ms"]), expected);
-    let complete = ask(&["X.position_controller_active@0.3", "--all"]);
-    let words = "✓ XF.controller_enable (DB33.DBX2.1) = 1: changed last at 0.002 s by outside";
-    assert!(complete.contains(words) && complete.contains("✗ X.controller_enable"), "{complete}");
-    let one = ask(&["X.drive_ready"]);
-    assert!(one.contains("X.drive_ready (DB31.DBX93.5) is 1; it becomes 0 with"), "{one}");
-    let written = ask(&["X.pulse_enable"]);
-    assert!(written.contains("is 1: the control does not write it; changed last at 0.002 s by outside"), "{written}");
-    for (signal, words) in [
-        ("X.position_controller_active@0.5", "expected a time up to 0.300 s"),
-        ("X.measurement_active", "expected a signal with known conditions"),
-        ("DB31.DBB61", "expected a signal of one bit"),
-        ("X.controller_enabel", "did you mean `X.controller_enable`?"),
-    ] {
-        let output = opennck(&["why-not", "s.toml", signal], &directory);
-        assert_eq!((output.status.code(), out(&output).as_str()), (Some(2), ""), "{signal}");
-        assert!(err(&output).contains(words), "{signal}: {}", err(&output));
-    }
 }
 
 #[test]

@@ -20,3 +20,4 @@ mod s7;
 mod scenario_language;
 mod second_control;
 mod why_not;
+mod why_not_command;

@@ -1,13 +1,14 @@
 //! The conditions of signals: in every golden scenario they agree with the signals, and what they name is what the control waits for.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::path::Path;
 
 use opennck::golden::{cases, scenario_files};
-use opennck::image::{Location, Writer};
+use opennck::image::{Location, Memory, Part, Writer};
 use opennck::machine::{Machine, Subject, Tested};
 use opennck::plc::Programs;
 use opennck::scenario::{Operator, State};
+use opennck::units::Time;
 
 /// Every so many cycles all signals are checked, in addition to the cycles with an edge.
 const SAMPLE: u64 = 250;
@@ -40,8 +41,18 @@ fn stuck(tested: &Tested) -> bool {
     }
 }
 
+/// The signals of a tree, with the value that is found.
+fn leaves(tested: &Tested) -> Vec<(Location, bool)> {
+    match tested.what {
+        Subject::Signal(location, wanted) => vec![(location, tested.holds == wanted)],
+        Subject::Fact { .. } | Subject::All | Subject::Any => tested.parts.iter().flat_map(leaves).collect(),
+    }
+}
+
 struct Check {
     scenario: String,
+    /// The memories of the cycles that the control has not read yet, with the one that it has read last (O-28).
+    memories: VecDeque<Memory>,
     bits: Vec<Location>,
     /// What is stuck, since which cycle.
     stuck: BTreeMap<(Location, bool), u64>,
@@ -69,6 +80,13 @@ impl Check {
                 if tested.holds != (value == wanted) {
                     self.find(machine, bit, wanted, "the conditions contradict the signal", &tested);
                 }
+                for (location, found) in leaves(&tested) {
+                    let is_late = location.part == Part::ToNck;
+                    let memory = self.memories.front().filter(|_| is_late).unwrap_or(machine.memory());
+                    if (memory.read(location) != 0) != found {
+                        self.find(machine, bit, wanted, "a condition is not what the control has read", &tested);
+                    }
+                }
                 if value == wanted || !stuck(&tested) {
                     self.stuck.remove(&key);
                     continue;
@@ -82,8 +100,11 @@ impl Check {
     }
 }
 
-fn follow(mut machine: Machine, mut operator: Operator, scenario: String) -> Findings {
-    let mut check = Check { scenario, bits: bits(&machine), stuck: BTreeMap::new(), wrong: Findings::new() };
+/// `delay`: the cycles until the control reads a byte of the PLC.
+fn follow(mut machine: Machine, mut operator: Operator, scenario: String, delay: usize) -> Findings {
+    let (bits, stuck, wrong) = (bits(&machine), BTreeMap::new(), Findings::new());
+    let memories = std::iter::repeat_n(machine.memory().clone(), delay).collect();
+    let mut check = Check { scenario, memories, bits, stuck, wrong };
     loop {
         operator.act(&mut machine);
         if *operator.state() != State::Acting {
@@ -91,6 +112,10 @@ fn follow(mut machine: Machine, mut operator: Operator, scenario: String) -> Fin
         }
         machine.step();
         operator.look(&machine);
+        if delay > 0 {
+            check.memories.push_back(machine.memory().clone());
+            check.memories.drain(..check.memories.len().saturating_sub(delay + 1));
+        }
         let phase = machine.cycle() % SAMPLE;
         // What is stuck in a sample must not be stuck some cycles later. An edge is a sample, too.
         if phase == 0 || phase == PATIENCE + 1 || !machine.recorder().rows().is_empty() {
@@ -110,7 +135,10 @@ fn conditions_have_the_value_of_their_signal_and_name_what_it_waits_for() {
             let prepared = case.scenario.prepare(case.profile, &programs).unwrap();
             let name = file.strip_prefix(root).unwrap_or(&file).display().to_string();
             let (machine, operator, _) = prepared.into_operator();
-            wrong.extend(follow(machine, operator, name));
+            let text = std::fs::read_to_string(&file).unwrap();
+            let delay = text.lines().find_map(|line| line.strip_prefix("to_nck_delay")?.split('"').nth(1));
+            let delay = delay.map_or(0, |delay| Time::parse(delay).unwrap().in_cycles(machine.cycle_time()));
+            wrong.extend(follow(machine, operator, name, usize::try_from(delay).unwrap()));
         }
     }
     assert!(
@@ -131,7 +159,7 @@ fn the_tree_in_the_page_is_that_of_the_program() {
     let file = root.join("golden/worked_example/gantry_references_and_synchronises.toml");
     let scenario = opennck::scenario::Scenario::read(&file).unwrap();
     let prepared = scenario.prepare(scenario.profiles[0], &Programs::ready()).unwrap();
-    let finished = prepared.run_until(Some(opennck::units::Time::from_millis(4)));
+    let finished = prepared.run_until(Some(Time::from_millis(4)));
     let tree = finished.session().why_not("X.position_controller_active", false).unwrap();
     assert!(tree.starts_with(block), "{tree}");
 }

@@ -9,6 +9,7 @@ use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber};
 
 /// DB10.
 pub(super) const NCK: &[Row<()>] = &[
+    Row::new(nck_from_nck::inch_measuring_system_active, |look, ()| look.inch()),
     Row::new(nck_from_nck::nc_cpu_ready, |look, ()| look.started_up("computes", look.state.run_up.is_cpu_ready())),
     Row::with(
         nck_from_nck::emergency_stop_active,
@@ -53,6 +54,10 @@ pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
         |look, owner| look.channel_referencing(owner),
         |look, owner| look.channel_referencing_ended(owner),
     ),
+    // Without a program its state is "aborted", as after RESET.
+    Row::new(channel_from_nck::program_state_aborted, |_, _| {
+        Fact::new("program that runs", "none", "none", true).into()
+    }),
     Row::new(channel_from_nck::channel_state_active, |look, channel| look.at_rest(channel).opposite()),
     Row::new(channel_from_nck::channel_state_reset, |look, owner| look.at_rest(owner)),
     Row::new(channel_from_nck::all_axes_requiring_reference_point_are_referenced, |look, owner| {
@@ -69,6 +74,12 @@ pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
 ];
 
 impl Look<'_> {
+    fn inch(self) -> Condition {
+        let is_inch = self.parameters.is_inch;
+        let found = if is_inch { "inch" } else { "metric" };
+        Fact::new("active system of units (MD10240, from power on)", found, "inch", is_inch).into()
+    }
+
     /// A step of the start-up, which takes a fixed number of cycles.
     fn started_up(self, step: &str, holds: bool) -> Condition {
         let cycles = self.state.run_up.cycles;

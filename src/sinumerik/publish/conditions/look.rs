@@ -1,7 +1,7 @@
-//! What conditions are computed from: the state after a cycle, what the PLC wrote in it, and names; and parts of many conditions.
+//! What conditions are computed from: the state after a cycle, what the control read from the PLC and the HMI in it, and names; and parts of many conditions.
 
 use crate::control::{Condition, Fact, Question};
-use crate::image::{Names, Signal, ToNck};
+use crate::image::{Names, NckHmi, Signal, ToNck};
 use crate::sinumerik::alarms::Alarm;
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::inputs::required;
@@ -16,6 +16,7 @@ pub(super) struct Look<'a> {
     pub(super) state: &'a State,
     pub(super) parameters: &'a Parameters,
     pub(super) to_nck: &'a ToNck,
+    pub(super) hmi: &'a NckHmi,
     pub(super) names: &'a Names,
 }
 

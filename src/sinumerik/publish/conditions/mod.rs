@@ -11,6 +11,7 @@
 //! | `referencing.rs` | 60.4, 60.5, 33.0 |
 //! | `gantry.rs` | 101.x |
 //! | `motion.rs` | 64.4 to 64.7, and what stops and holds movements |
+//! | `jog.rs` | handwheels, increments: 64.0 to 64.2, 65.x, 67.0, DB11 8.x |
 //! | `control.rs` | DB10, DB11, DB21 |
 //!
 //! `look.rs` has what they are computed from.
@@ -18,12 +19,13 @@
 mod axis;
 mod control;
 mod gantry;
+mod jog;
 mod look;
 mod motion;
 mod referencing;
 
 use crate::control::{Condition, Question};
-use crate::image::ToNck;
+use crate::image::{NckHmi, ToNck};
 use crate::sinumerik::nck::Nck;
 use crate::variables::Place;
 use look::Look;
@@ -31,19 +33,52 @@ use look::Look;
 impl Nck {
     /// What must hold so that a bit has a value; `None` for a signal without conditions.
     #[must_use]
-    pub fn conditions(&self, question: &Question<'_>, to_nck: &ToNck) -> Option<Condition> {
-        let look = Look { state: &self.state, parameters: &self.parameters, to_nck, names: question.names };
+    pub fn conditions(&self, question: &Question<'_>, to_nck: &ToNck, hmi: &NckHmi) -> Option<Condition> {
+        let look = Look { state: &self.state, parameters: &self.parameters, to_nck, hmi, names: question.names };
         if let Some(hidden) = look.not_shown(question.place, question.wanted) {
             return Some(hidden);
         }
         match question.place {
             Place::Nck => look.find(control::NCK, (), question),
-            Place::ModeGroup(group) => look.find(control::MODE_GROUP, group, question),
+            Place::ModeGroup(group) => {
+                let found = [control::MODE_GROUP, jog::MODE_GROUP];
+                found.iter().find_map(|rows| look.find(rows, group, question))
+            }
             Place::Channel(channel) => look.find(control::CHANNEL, channel, question),
             Place::Axis(axis) => {
-                let found = [axis::ROWS, referencing::ROWS, gantry::ROWS, motion::ROWS];
+                let found = [axis::ROWS, referencing::ROWS, gantry::ROWS, motion::ROWS, jog::ROWS];
                 found.iter().find_map(|rows| look.find(rows, axis, question))
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::Texts;
+    use crate::image::{Block, Signal, Writer};
+    use crate::sinumerik::publish::known::has_row;
+    use crate::sinumerik::texts::TEXTS;
+
+    fn is_in<Owner>(rows: &[look::Row<Owner>], signal: &Signal) -> bool {
+        rows.iter().any(|row| (row.signal.byte, row.signal.bit) == (signal.byte, signal.bit))
+    }
+
+    #[test]
+    fn every_bit_that_the_control_writes_has_conditions() {
+        let has_conditions = |signal: &Signal| match signal.block {
+            Block::Nck => is_in(control::NCK, signal),
+            Block::ModeGroup => is_in(control::MODE_GROUP, signal) || is_in(jog::MODE_GROUP, signal),
+            Block::Channel => is_in(control::CHANNEL, signal),
+            _ => {
+                let all = [axis::ROWS, referencing::ROWS, gantry::ROWS, motion::ROWS, jog::ROWS];
+                all.iter().any(|rows| is_in(rows, signal))
+            }
+        };
+        let written = TEXTS.interface().signals();
+        let written = written.filter(|signal| signal.writer == Writer::Nck && signal.kind.width() == 1);
+        let without: Vec<_> = written.filter(|signal| has_row(signal) && !has_conditions(signal)).collect();
+        assert_eq!(without, Vec::<&Signal>::new());
     }
 }

@@ -1,0 +1,95 @@
+//! `opennck why-not` as users call it.
+#![cfg(feature = "cli")]
+
+use std::fs;
+
+use crate::cli::{directory, err, opennck, out};
+
+/// The conditions of the tree are in the order in which the control tests them; each branch ends with a signal of another writer.
+#[test]
+fn why_not_names_what_the_control_waits_for() {
+    let directory = directory("why_not");
+    let enable = "\"X.position_measuring_system_1\" = 1, \"X.pulse_enable\" = 1, \"XF.position_measuring_system_1\" = 1, \
+        \"XF.controller_enable\" = 1";
+    let text = format!(
+        "title = \"X has no controller enable\"\nmachine = \"g1_example\"\n[[step]]\nset = {{ {enable} }}\n[[step]]\nrun = \"300ms\"\n"
+    );
+    fs::write(directory.join("s.toml"), text).unwrap();
+    let ask = |arguments: &[&str]| {
+        let output = opennck(&[&["why-not", "s.toml"], arguments].concat(), &directory);
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        out(&output)
+    };
+    let expected = "    0.300  X.position_controller_active (DB31.DBX61.5) is 0 (off), because
+             ✗ X.controller_enable (DB31.DBX2.1) = 0, wanted 1: never changed
+             ✗ X.pulses_enabled (DB31.DBX93.7) = 0, wanted 1 (disabled)
+               ✗ X.controller_enable (DB31.DBX2.1) = 0, wanted 1: never changed
+             ✗ XF.pulses_enabled (DB33.DBX93.7) = 0, wanted 1 (disabled)
+               ✗ XF.pulse_enable (DB33.DBX21.7) = 0, wanted 1: never changed
+";
+    assert_eq!(ask(&["X.position_controller_active"]), expected);
+    assert_eq!(ask(&["DB31.DBX61.5@300ms"]), expected);
+    let complete = ask(&["X.position_controller_active@0.3", "--all"]);
+    let words = "✓ XF.controller_enable (DB33.DBX2.1) = 1: changed last at 0.002 s by outside";
+    assert!(complete.contains(words) && complete.contains("✗ X.controller_enable"), "{complete}");
+    let one = ask(&["X.drive_ready"]);
+    assert!(one.contains("X.drive_ready (DB31.DBX93.5) is 1; it becomes 0 with"), "{one}");
+    let written = ask(&["X.pulse_enable"]);
+    assert!(written.contains("is 1: the control does not write it; changed last at 0.002 s by outside"), "{written}");
+    for (signal, words) in [
+        ("X.position_controller_active@0.5", "expected a time up to 0.300 s"),
+        ("X.measurement_active", "expected a signal with known conditions"),
+        ("DB31.DBB61", "expected a signal of one bit"),
+        ("X.controller_enabel", "did you mean `X.controller_enable`?"),
+    ] {
+        let output = opennck(&["why-not", "s.toml", signal], &directory);
+        assert_eq!((output.status.code(), out(&output).as_str()), (Some(2), ""), "{signal}");
+        assert!(err(&output).contains(words), "{signal}: {}", err(&output));
+    }
+}
+
+/// O-28: a byte of the PLC that is on its way is not what the control tests.
+#[test]
+fn why_not_tests_what_the_control_has_read() {
+    let directory = directory("why_not_delay");
+    let scenario = "title = \"t\"\nmachine = \"g1_example\"\nplc = \"enable_all\"\n[plant.machine]\nto_nck_delay = \"20ms\"\n\
+        [[step]]\nrun = \"300ms\"\n[[step]]\nset = { \"Y.activate_handwheel_1\" = 1 }\n[[step]]\nrun = \"40ms\"\n";
+    fs::write(directory.join("s.toml"), scenario).unwrap();
+    let ask = |signal: &str| out(&opennck(&["why-not", "s.toml", signal], &directory));
+    let late = ask("Y.handwheel_1_active@0.310");
+    let words = "✗ Y.activate_handwheel_1 (DB32.DBX4.0) = 0, wanted 1: changed last at 0.302 s by outside, \
+        on its way to the control (to_nck_delay)\n";
+    assert!(late.starts_with("    0.310  Y.handwheel_1_active (DB32.DBX64.0) is 0 (none), because\n"), "{late}");
+    assert!(late.contains(words), "{late}");
+    let there = ask("Y.handwheel_1_active@0.330");
+    assert!(there.contains("Y.handwheel_1_active (DB32.DBX64.0) is 1 (1); it becomes 0 with\n"), "{there}");
+    assert!(there.contains("✗ Y.activate_handwheel_1 (DB32.DBX4.0) = 1, wanted 0: changed last"), "{there}");
+}
+
+#[test]
+fn why_not_explains_one_case_of_a_matrix_under_one_profile() {
+    let directory = directory("why_not_case");
+    let scenario = "title = \"t\"\nmachine = \"g1_example\"\nplc = \"enable_all\"\nprofile = [\"840d_sl\", \"828d\"]\n\
+        [matrix]\n\"10240\" = [0, 1]\n[[step]]\nrun = \"100ms\"\n";
+    fs::write(directory.join("s.toml"), scenario).unwrap();
+    let ask = |arguments: &[&str]| opennck(&[&["why-not", "s.toml"], arguments].concat(), &directory);
+    for (case, value) in [("10240 = 0", "is 1; it becomes 0"), ("10240 = 1", "is 0, because")] {
+        let output = ask(&["nck.inch_measuring_system_active", "--case", case]);
+        let expected = format!("    0.100  nck.inch_measuring_system_active (DB10.DBX107.7) {value}");
+        assert!(out(&output).starts_with(&expected), "{}{}", out(&output), err(&output));
+    }
+    let output = ask(&["DB3900.DBX1.6", "--case", "10240 = 1", "--profile", "828d"]);
+    let expected = "    0.100  X.speed_controller_active (DB3900.DBX1.6) is 1 (on)";
+    assert!(out(&output).starts_with(expected), "{}{}", out(&output), err(&output));
+    for (arguments, words) in [
+        (&["--case", "10240 = 2"][..], "cases are 10240 = 0; 10240 = 1"),
+        (&[], "`--case TEXT`"),
+        (&["--case", "10240 = 1", "--profile", "840d"], "profiles are 840d_sl and 828d"),
+    ] {
+        let output = ask(&[&["X.axis_ready"], arguments].concat());
+        assert_eq!((output.status.code(), out(&output).as_str()), (Some(2), ""), "{arguments:?}");
+        assert!(err(&output).contains(words), "{}", err(&output));
+    }
+    let why = opennck(&["why", "s.toml", "DB3900.DBX1.5@1", "--case", "10240 = 1", "--profile", "828d"], &directory);
+    assert!(out(&why).contains("X.position_controller_active (DB3900.DBX1.5)  0 -> 1  by nck"), "{}", err(&why));
+}
