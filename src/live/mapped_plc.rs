@@ -323,8 +323,8 @@ impl Drop for Keeper {
 fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mpsc::Receiver<()>) {
     let mut powers = lock(image).power_requests();
     let mut was_stopped = false;
-    let [mut opened, mut switched, mut doubled] = std::array::from_fn(|_| RepeatedEvent::default());
-    let mut both = [0; 2];
+    let [mut opened, mut switched, mut replaced, mut doubled] = std::array::from_fn(|_| RepeatedEvent::default());
+    let (mut replacement, mut both) = ([0; 2], [0; 2]);
     while ended.recv_timeout(KEEPER_INTERVAL) == Err(RecvTimeoutError::Timeout) {
         let mut lines = Vec::new();
         let mut clocked = shared.lend();
@@ -357,6 +357,10 @@ fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mp
                 let _ = machine.queue(Command::PowerOn);
             }
         }
+        if let Some(processes) = image.take_replacement() {
+            replacement = processes;
+            replaced.times += 1;
+        }
         if let Some(processes) = image.take_both() {
             both = processes;
             doubled.times += 1;
@@ -371,10 +375,13 @@ fn keep(shared: &Shared, image: &Mutex<MappedImage>, mut starts: u64, ended: &mp
         for line in opened.into_iter().chain(lines).chain(switched) {
             tracing::info!("{line}");
         }
+        let [new, old] = replacement;
+        let replaced =
+            replaced.line(&format!("PLC process {new} answers instead of {old}: end {old} if it still runs"), now);
         let [one, other] = both;
         let what =
             format!("two PLC processes answer, {one} and {other}: each takes steps of the other; end one of them");
-        if let Some(line) = doubled.line(&what, now) {
+        for line in replaced.into_iter().chain(doubled.line(&what, now)) {
             tracing::warn!("{line}");
         }
     }

@@ -467,6 +467,44 @@ fn a_silent_plc_raises_2000_and_another_one_restarts_the_plc() {
     }
 }
 
+/// The two take each other's steps: in lock-step in turn, otherwise the second one takes them all. The operator is told which two they are.
+#[cfg(unix)]
+#[test]
+fn a_second_plc_process_at_the_same_file_is_reported() {
+    const SCRIPT: &str = "
+import sys
+from opennck_image import Image
+with Image(sys.argv[1], wait=60) as image:
+    for step in image.steps():
+        step['DB31.DBX2.1'] = 1
+        image.answer(step)
+";
+    for lock_step in [false, true] {
+        let file = File::new(if lock_step { "doubled-lock" } else { "doubled" });
+        let plc = || Some(python()?.args(["-c", SCRIPT, file.text()]).spawn().unwrap());
+        let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
+        command.args(["serve", "g1_example", "--s7", "127.0.0.1:0", "--plc-timeout", "1min", "--image", file.text()]);
+        command.args(lock_step.then_some("--lock-step")).stdout(Stdio::null()).stderr(Stdio::piped());
+        let Some(first) = plc() else { return };
+        let mut processes = vec![first, command.spawn().unwrap()];
+        let mut log = BufReader::new(processes[1].stderr.take().unwrap()).lines().map_while(Result::ok);
+        assert!(log.any(|line| line.ends_with("a PLC process has opened the image")));
+        // The first process answers before the second one comes.
+        let answers = || fs::read(&file.0).is_ok_and(|bytes| bytes[520] > 3);
+        wait("the first process answers", answers);
+        processes.extend(plc());
+        let [one, other] = [processes[0].id(), processes[2].id()];
+        let said = log.find(|line| line.contains("two PLC processes answer") || line.contains("answers instead of"));
+        for process in &mut processes {
+            process.kill().unwrap();
+            process.wait().unwrap();
+        }
+        let said = said.expect("the log has it");
+        assert!(said.contains(&one.to_string()) && said.contains(&other.to_string()), "{said}: {one}, {other}");
+        assert!(said.contains("end one of them") || said.contains(&format!("end {one} if it still runs")), "{said}");
+    }
+}
+
 /// The machine is in the middle of a scan.
 #[cfg(unix)]
 #[test]

@@ -93,6 +93,7 @@ pub struct MappedImage {
 struct Answering {
     newest: u64,
     replaced: Vec<u64>,
+    replacement: Option<[u64; 2]>,
     both: Option<[u64; 2]>,
 }
 
@@ -106,6 +107,8 @@ impl Answering {
         }
         if self.replaced.contains(&process) {
             self.both = Some([self.newest, process]);
+        } else if self.newest != 0 {
+            self.replacement = Some([process, self.newest]);
         }
         if self.newest != 0 && !self.replaced.contains(&self.newest) {
             self.replaced.push(self.newest);
@@ -346,6 +349,12 @@ impl MappedImage {
     /// Two PLC processes that answer in turn, by their numbers, if there are any since the last call. Each takes steps of the other.
     pub fn take_both(&mut self) -> Option<[u64; 2]> {
         self.answering.both.take()
+    }
+
+    /// A PLC process that has begun to answer and the one that answered before, by their numbers, if there are any since the last call. The
+    /// earlier one has ended, or it waits for ever because its steps go to the other.
+    pub fn take_replacement(&mut self) -> Option<[u64; 2]> {
+        self.answering.replacement.take()
     }
 
     /// The number of power off/on requests of the PLC.

@@ -174,7 +174,7 @@ fn a_list_of_changes_and_two_images_say_the_same() {
 }
 
 #[test]
-fn two_processes_that_answer_in_turn_are_noticed_and_one_after_the_other_is_not() {
+fn two_processes_that_answer_in_turn_are_told_from_one_after_the_other() {
     let file = File::new("two");
     let memory = Memory::new();
     let (mut nc, mut plc) = both(&file, &memory);
@@ -185,9 +185,10 @@ fn two_processes_that_answer_in_turn_are_noticed_and_one_after_the_other_is_not(
         let slot = nc.geometry.plc_slot(nc.words.load(header::NEWEST_ANSWER));
         nc.words.store(slot + answer::PROCESS, process);
         assert_eq!(nc.look(number), Look::Answer(number));
-        nc.take_both()
+        (nc.take_replacement(), nc.take_both())
     };
-    let both: Vec<_> = [7, 7, 8, 8, 9, 0, 8, 8, 9].into_iter().map(&mut answer_as).collect();
+    let (replacements, both): (Vec<_>, Vec<_>) = [7, 7, 8, 8, 9, 0, 8, 8, 9].into_iter().map(&mut answer_as).unzip();
+    assert_eq!(replacements, [None, None, Some([8, 7]), None, Some([9, 8]), None, None, None, None]);
     assert_eq!(both, [None, None, None, None, None, None, Some([9, 8]), None, Some([8, 9])]);
 }
 
