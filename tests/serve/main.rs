@@ -5,6 +5,7 @@
 
 mod another_server;
 mod clients;
+mod lying_proxy;
 mod mapped_image;
 mod program;
 mod record;

@@ -6,20 +6,20 @@ use std::net::TcpListener;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 
-fn program(arguments: &[&str]) -> Command {
+pub(crate) fn program(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
     command.args(arguments).current_dir(Path::new(env!("CARGO_MANIFEST_DIR")));
     command
 }
 
 /// A server on any free port.
-struct Served {
+pub(crate) struct Served {
     child: Child,
-    host: String,
+    pub(crate) host: String,
 }
 
 impl Served {
-    fn start() -> Self {
+    pub(crate) fn start() -> Self {
         Self::with(&[])
     }
 
@@ -40,7 +40,7 @@ impl Served {
         program(&["s7", command, &self.host]).args(arguments).output().expect("it was built")
     }
 
-    fn text(&self, command: &str, arguments: &[&str]) -> String {
+    pub(crate) fn text(&self, command: &str, arguments: &[&str]) -> String {
         let output = self.s7(command, arguments);
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8(output.stdout).expect("it is text")
