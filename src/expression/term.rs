@@ -82,6 +82,7 @@ fn parameter(parameter: Parameter) -> f64 {
         Parameter::Axis(axis) => f64::from(axis.number()),
         Parameter::Number(number) => number as f64,
         Parameter::Direction(direction) => f64::from(direction),
+        Parameter::Milliseconds(time) => time.milliseconds(),
     }
 }
 

@@ -66,5 +66,6 @@ fn shown(machine: &Machine, parameter: Parameter) -> String {
         Parameter::Axis(number) => names.axes[number].clone().unwrap_or_else(|| format!("AX{number}")),
         Parameter::Number(number) => number.to_string(),
         Parameter::Direction(direction) => if direction < 0 { "-" } else { "+" }.to_owned(),
+        Parameter::Milliseconds(time) => time.milliseconds().to_string(),
     }
 }

@@ -17,7 +17,7 @@ use crate::units::{AxisSet, PerAxis, PerChannel};
 use crate::variables::Alarms;
 
 /// Version of the format of a saved machine.
-const VERSION: u32 = 11;
+const VERSION: u32 = 12;
 
 #[derive(Serialize, Deserialize)]
 struct Saved {

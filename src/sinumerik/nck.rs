@@ -153,12 +153,13 @@ impl Nck {
         self.fix_strobes();
         let event = self.state.log.note_plain(Place::Nck, Rule::PowerOn, EventId::NONE);
         self.note_activated(&before, Rule::DataActiveAtPowerOn, event);
+        self.report_scaling(&before, event);
         self.state.note_after_power_on(event);
         event
     }
 
     /// From the active machine data.
-    fn parameters_now(&self) -> Parameters {
+    pub(super) fn parameters_now(&self) -> Parameters {
         parameters(&self.active, &self.presence, &self.out_of_range, self.output_entered[1])
     }
 
@@ -448,7 +449,7 @@ impl Nck {
 }
 
 /// The axis of an axial datum.
-fn axis_of(target: &Target) -> Option<AxisNumber> {
+pub(super) fn axis_of(target: &Target) -> Option<AxisNumber> {
     match target.owner() {
         Owner::Axis(axis) => Some(axis),
         Owner::Nck | Owner::Channel(_) => None,

@@ -6,7 +6,7 @@
 
 use crate::control::{Class, EncoderModel, Finding, Owner, Site, Value};
 use crate::image::Names;
-use crate::sinumerik::alarms::Alarm;
+use crate::sinumerik::alarms::{self, Alarm};
 use crate::sinumerik::machine_data::{Archive, Axis, check};
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::groupings::Fault;
@@ -51,8 +51,15 @@ const SEEN_BY_THE_PLC: &[(u32, f64, &str)] = &[
 pub(super) fn findings(archive: &Archive, control: &Nck, names: &Names, site: &Site<'_>) -> Vec<Finding> {
     let mut findings = archive.findings.clone();
     findings.extend(check(archive));
-    let faults = control.parameters().groupings.faults.iter();
-    findings.extend(faults.map(|fault| at_power_on(fault, archive, control, names)));
+    let parameters = control.parameters();
+    findings.extend(parameters.groupings.faults.iter().map(|fault| of_grouping(fault, archive, control, names)));
+    findings.extend(parameters.faults.iter().map(|found| of_channel(&found.fault, archive, names)));
+    if parameters.corrected_ratios.is_some() {
+        let shown = [Parameter::Milliseconds(parameters.cycle), Parameter::None, Parameter::None, Parameter::None];
+        let fault = Fault { alarm: alarms::CYCLE_CHANGED, place: Place::Nck, parameters: shown };
+        let finding = at_power_on(&fault, "set MD10070 to a multiple of MD10060", names);
+        findings.push(archive.about(10070, Owner::Nck, 0, finding));
+    }
     mode_groups(archive, &mut findings);
     for (number, _) in control.parameters().existing() {
         let axis = &control.active().axes[number];
@@ -66,25 +73,62 @@ pub(super) fn findings(archive: &Archive, control: &Nck, names: &Names, site: &S
     findings
 }
 
-/// The finding of an alarm that the definition of a grouping raises at power on.
-fn at_power_on(fault: &Fault, archive: &Archive, control: &Nck, names: &Names) -> Finding {
+/// The finding of a fault of a channel and its axes.
+fn of_channel(fault: &Fault, archive: &Archive, names: &Names) -> Finding {
+    let (cure, index) = match fault.parameters {
+        [Parameter::Channel(channel), Parameter::Axis(axis), ..] => {
+            let used = archive.data.channels[channel].axconf_machax_used;
+            let cure =
+                "give the axis to one channel, or set MD30550 of the axis to the channel that has it after power on";
+            (cure, used.iter().position(|&number| number == axis.number()))
+        }
+        [_, _, Parameter::Number(index), _] => {
+            ("close the gap, or set bit 0 of MD11640 ($MN_ENABLE_CHAN_AX_GAP)", usize::try_from(index).ok())
+        }
+        _ => ("", None),
+    };
+    let finding = at_power_on(fault, cure, names);
+    match (fault.place, index.and_then(|index| u8::try_from(index).ok())) {
+        (Place::Channel(channel), Some(index)) => archive.about(20070, Owner::Channel(channel), index, finding),
+        _ => finding,
+    }
+}
+
+/// The finding of a fault in the definition of a grouping.
+fn of_grouping(fault: &Fault, archive: &Archive, control: &Nck, names: &Names) -> Finding {
+    let cure =
+        "the grouping is not formed; see the reasons of the alarm in the Diagnostics Manual, and correct MD37100";
+    let finding = at_power_on(fault, cure, names);
+    match fault_axis(fault, control) {
+        Some(axis) => archive.about(37100, Owner::Axis(axis), 0, finding),
+        None => finding,
+    }
+}
+
+/// The finding of an alarm that power on raises.
+fn at_power_on(fault: &Fault, cure: &str, names: &Names) -> Finding {
     let shown = |parameter: &Parameter| match parameter {
         Parameter::None => String::new(),
         Parameter::Channel(channel) => names.channels[*channel].clone().unwrap_or_else(|| format!("CHAN{channel}")),
         Parameter::Axis(axis) => names.axes[*axis].clone().unwrap_or_else(|| format!("AX{axis}")),
         Parameter::Number(number) => number.to_string(),
         Parameter::Direction(sign) => if *sign < 0 { "-" } else { "+" }.to_owned(),
+        Parameter::Milliseconds(time) => time.milliseconds().to_string(),
     };
     let alarm = Alarm::find(fault.alarm);
     let mut text = alarm.map_or_else(String::new, |alarm| alarm.text.to_owned());
     for (index, parameter) in fault.parameters.iter().enumerate() {
         text = text.replace(&format!("%{}", index + 1), &shown(parameter));
     }
+<<<<<<< HEAD
     let finding = Finding::new(Class::AlarmAtPowerOn, format!("{}: {text}", Alarm::name(fault.alarm)), cure_of(fault));
     match fault_axis(fault, control) {
         Some(axis) => archive.about(37100, Owner::Axis(axis), 0, finding),
         None => finding,
     }
+=======
+    Finding::new(Class::AlarmAtPowerOn, format!("{}: {text}", Alarm::name(fault.alarm)), cure)
+>>>>>>> 01c7561 (wip)
 }
 
 /// What to do about the definition of a grouping, by the reason of the alarm.
@@ -112,7 +156,11 @@ fn fault_axis(fault: &Fault, control: &Nck) -> Option<AxisNumber> {
     }
     let reason = fault.parameters.iter().find_map(|parameter| match parameter {
         Parameter::Number(reason) => Some(*reason),
-        Parameter::None | Parameter::Channel(_) | Parameter::Axis(_) | Parameter::Direction(_) => None,
+        Parameter::None
+        | Parameter::Channel(_)
+        | Parameter::Axis(_)
+        | Parameter::Direction(_)
+        | Parameter::Milliseconds(_) => None,
     })?;
     let grouping = reason % 100;
     let of_grouping = |axis: &AxisNumber| {

@@ -47,6 +47,10 @@ rules! {
     ParameterSetJumps "26050" "the parameter set selected by 9.0 to 9.2 has another load gear: the actual value would jump";
     DriveDataSet "SIG-05" "drive data set selected by 21.0 to 21.4";
     SystemOfUnits "MD10240" "basic system of units";
+    ChannelAxisGap "4000" "MD20070 has a gap, which MD11640 does not allow";
+    NoMasterChannel "4001" "several channels name the axis, and MD30550 names none of them";
+    ScalingChanged "4070" "a scaling machine datum was changed";
+    CycleCorrected "4110" "not a multiple of MD10060: the next multiple acts";
     // Emergency stop.
     EmergencyStop "E-06" "emergency stop";
     EmergencyStopAcknowledged "E-06" "emergency stop acknowledged";

@@ -177,6 +177,7 @@ impl Trace {
             Parameter::Axis(axis) => Some(Err(place_name(Place::Axis(axis), names))),
             Parameter::Number(number) => Some(Ok(number)),
             Parameter::Direction(direction) => Some(Err(if direction < 0 { "-" } else { "+" }.to_owned())),
+            Parameter::Milliseconds(time) => Some(Err(time.milliseconds().to_string())),
         };
         AlarmLine {
             name: describe.alarm_name(alarm.number),

@@ -82,6 +82,12 @@ impl Time {
         self.0 as f64 / 1e9
     }
 
+    /// The time in milliseconds, for display.
+    #[must_use]
+    pub fn milliseconds(self) -> f64 {
+        self.0 as f64 / 1e6
+    }
+
     /// The duration in cycles of length `cycle`: rounded up, at least one.
     #[must_use]
     pub fn in_cycles(self, cycle: Self) -> u64 {

@@ -23,6 +23,8 @@ pub enum Parameter {
     Number(i64),
     /// A direction, shown as `+` or `-`.
     Direction(i8),
+    /// A duration, shown in milliseconds.
+    Milliseconds(Time),
 }
 
 /// Number of an alarm in the list of the manual. Numbers from [`AlarmNumber::OWN`] on stand for alarms that have only a name (O-18).

@@ -5,11 +5,12 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
-use opennck::control::{Class, Kind};
+use opennck::control::{Class, Kind, Owner};
 use opennck::machine::Machine;
 use opennck::plc::program;
 use opennck::scenario::Session;
 use opennck::sinumerik::machine_data::{Datum, Scope, catalogue};
+use opennck::units::AxisNumber;
 use proptest::prelude::*;
 
 /// A member of a binary archive: a header of 512 bytes, and the data with their padding.
@@ -76,6 +77,65 @@ fn an_archive_with_search_velocities_and_mark_distances_of_0_references_the_othe
     session.wait("X1.referenced_synchronized_1", "60s").unwrap();
     session.pulse("Y1.traversing_key_plus").unwrap();
     session.wait("alarm(20005, Y1) && !Y1.referenced_synchronized_1", "1s").unwrap();
+}
+
+/// `machine-data check` finds an alarm at power on exactly if power on raises it.
+#[test]
+fn power_on_raises_the_alarms_that_the_check_finds() {
+    for (data, found) in [
+        ("", &[][..]),
+        (
+            "N20070 $MC_AXCONF_MACHAX_USED[4]=5\n",
+            &[
+                "MD20070 $MC_AXCONF_MACHAX_USED[3] = 0, channel MILL: 4000: channel MILL machine datum 20070[3] has a gap",
+            ],
+        ),
+        ("N20070 $MC_AXCONF_MACHAX_USED[4]=5\nN11640 $MN_ENABLE_CHAN_AX_GAP='H1'\n", &[]),
+        (
+            "N10060 $MN_POSCTRL_SYSCLOCK_TIME_RATIO=3\n",
+            &["MD10070 $MN_IPO_SYSCLOCK_TIME_RATIO = 2: 4110: interpolation cycle changed to 6 ms"],
+        ),
+        ("N10060 $MN_POSCTRL_SYSCLOCK_TIME_RATIO=2\n", &[]),
+        (
+            "N10010 $MN_ASSIGN_CHAN_TO_MODE_GROUP[1]=1\nCHANDATA(2)\nN20070 $MC_AXCONF_MACHAX_USED[0]=2\n",
+            &[
+                "MD20070 $MC_AXCONF_MACHAX_USED[0] = 2, channel CHAN2: 4001: channel CHAN2 axis Y1 defined for more than",
+            ],
+        ),
+        (
+            "N30550 $MA_AXCONF_ASSIGN_MASTER_CHAN[AX2]=2\nN10010 $MN_ASSIGN_CHAN_TO_MODE_GROUP[1]=1\nCHANDATA(2)\n\
+                N20070 $MC_AXCONF_MACHAX_USED[0]=2\n",
+            &[],
+        ),
+        (
+            "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=9\n",
+            &["MD37100 $MA_GANTRY_AXIS_TYPE[AX1] = 9, axis X1: 10650: channel MILL axis X1"],
+        ),
+    ] {
+        let mut machine = Machine::open(file("power_on.arc", &archive(&format!("{AXES}{data}")))).unwrap();
+        let alarms = machine.findings().iter().filter(|finding| finding.class == Class::AlarmAtPowerOn);
+        let listed: Vec<String> = alarms.map(ToString::to_string).collect();
+        assert_eq!(listed.len(), found.len(), "{listed:?}");
+        for (listed, found) in listed.iter().zip(found) {
+            assert!(listed.contains(found), "{listed}");
+        }
+        machine.step();
+        let raised = machine.variables().alarms.iter();
+        let raised: Vec<String> = raised.map(|alarm| format!(": {}: ", alarm.number.0)).collect();
+        assert_eq!(raised.len(), found.len(), "{data}: {raised:?}");
+        assert!(listed.iter().zip(&raised).all(|(listed, raised)| listed.contains(raised)), "{listed:?}, {raised:?}");
+    }
+}
+
+/// O-30: MD10250 = 0 is kept, but no length becomes 0.
+#[test]
+fn an_inch_has_25_4_mm_where_md10250_is_0() {
+    for (inch, expected) in [("0", 2_540.0), ("25", 2_500.0)] {
+        let text = format!("INCH\nN10250 $MN_SCALING_VALUE_INCH={inch}\nN32020 $MA_JOG_VELO[AX1]=100\n");
+        let machine = Machine::open(file("inch.tea", text.as_bytes())).unwrap();
+        let stored = machine.control().data().stored(32020, Owner::Axis(AxisNumber::FIRST), 0).unwrap();
+        assert_eq!(stored.value.number(), Some(expected), "{inch}");
+    }
 }
 
 #[test]

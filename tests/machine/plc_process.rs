@@ -57,13 +57,19 @@ fn err(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
+/// The word of the file in which a process counts that it has opened it.
+const PLC_STARTS: usize = 512;
+
+/// The command of a process that has this text, if one runs.
+fn command_with(text: &str) -> Option<String> {
+    let processes = fs::read_dir("/proc").into_iter().flatten().flatten();
+    let mut commands = processes.map(|process| fs::read(process.path().join("cmdline")).unwrap_or_default());
+    commands.find_map(|command| Some(String::from_utf8_lossy(&command).into_owned()).filter(|it| it.contains(text)))
+}
+
 /// Whether a process runs whose command has this text.
 fn is_left(text: &str) -> bool {
-    let processes = fs::read_dir("/proc").into_iter().flatten().flatten();
-    processes.into_iter().any(|process| {
-        let command = fs::read(process.path().join("cmdline")).unwrap_or_default();
-        String::from_utf8_lossy(&command).contains(text)
-    })
+    command_with(text).is_some()
 }
 
 #[test]
@@ -151,8 +157,13 @@ fn a_process_whose_nc_was_killed_ends_by_itself() {
             std::thread::sleep(Duration::from_millis(20));
         }
     };
-    wait(&|| is_left("orphan.py"), "it starts");
-    std::thread::sleep(Duration::from_millis(500));
+    // A process that opens a file which nobody serves would wait for the next NC.
+    let has_opened = || {
+        let command = command_with("orphan.py")?;
+        let image = fs::read(command.split('\0').find(|word| word.ends_with(".image"))?).ok()?;
+        Some(image.get(PLC_STARTS).is_some_and(|starts| *starts > 0))
+    };
+    wait(&|| has_opened() == Some(true), "it opens the image");
     child.kill().unwrap();
     child.wait().unwrap();
     wait(&|| !is_left("orphan.py"), "it ends");

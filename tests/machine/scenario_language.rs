@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use opennck::plc::Programs;
-use opennck::scenario::Scenario;
+use opennck::scenario::{Scenario, Session};
 use opennck::variables::AxisValue;
 
 fn page() -> String {
@@ -73,7 +73,7 @@ fn the_page_names_every_key_and_verb() {
 #[test]
 fn the_page_names_every_function_and_every_value() {
     let page = page();
-    let problem = opennck::scenario::Session::open("g1_example").unwrap().value("no_function_like_it(1)").unwrap_err();
+    let problem = Session::open("g1_example").unwrap().value("no_function_like_it(1)").unwrap_err();
     let text = problem.to_string();
     let functions = text.split("functions are ").nth(1).expect("the message lists all functions");
     for function in functions.lines().next().unwrap().split(", ") {
@@ -87,4 +87,40 @@ fn the_page_names_every_function_and_every_value() {
     {
         assert!(page.contains(&format!("| `{kind}` |")), "{kind}");
     }
+}
+
+/// A message about an expression.
+fn mistake(expression: &str) -> Option<String> {
+    Session::open("g1_example").unwrap().expect(expression).err().map(|failure| failure.to_string())
+}
+
+/// The whole expression and 99 signs or parentheses are 100 levels.
+#[test]
+fn an_expression_has_at_most_100_levels() {
+    for sign in ["!", "-", "("] {
+        let levels = |count: usize| {
+            format!("{}1{}", sign.repeat(count), if sign == "(" { ")".repeat(count) } else { String::new() })
+        };
+        let found = mistake(&format!("{} != 7", levels(98)));
+        assert_eq!(found, None, "{sign}");
+        let found = mistake(&format!("{} != 7", levels(100))).expect(sign);
+        assert!(found.contains("expected at most 100 "), "{found}");
+    }
+    assert_eq!(mistake(&format!("{}1 == 0", "!".repeat(99))), None);
+    assert!(mistake(&format!("{}1 == 1", "!".repeat(100))).unwrap().contains("at most 100 signs in a row"));
+}
+
+#[test]
+fn a_message_about_a_long_expression_shows_the_mistake_in_the_middle() {
+    let ones = vec!["1"; 300].join("+");
+    let found = mistake(&format!("{ones} + ? + {ones}")).unwrap();
+    let shown = found.split('…').nth(1).expect(&found);
+    let (before, after) = shown.split_once('?').expect(shown);
+    assert!(before.chars().count().abs_diff(after.chars().count()) < 3, "{found}");
+}
+
+/// Before the first cycle the control shows nothing, and the slides are where `plant.toml` puts them.
+#[test]
+fn the_positions_of_the_slides_are_known_before_the_first_cycle() {
+    assert_eq!(mistake("time == 0 && X.slide == 120 && XF.slide == 120 && X.position == 0"), None);
 }

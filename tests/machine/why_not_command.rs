@@ -93,3 +93,21 @@ fn why_not_explains_one_case_of_a_matrix_under_one_profile() {
     let why = opennck(&["why", "s.toml", "DB3900.DBX1.5@1", "--case", "10240 = 1", "--profile", "828d"], &directory);
     assert!(out(&why).contains("X.position_controller_active (DB3900.DBX1.5)  0 -> 1  by nck"), "{}", err(&why));
 }
+
+/// A fact shows what the control finds: the number of the measuring system, and the limit that applies in this phase of the grouping.
+#[test]
+fn why_not_shows_what_is_found_and_which_limit_applies() {
+    let directory = directory("why_not_facts");
+    let scenario = include_str!("../../golden/worked_example/gantry_references_and_synchronises.toml");
+    fs::write(directory.join("s.toml"), scenario.replace("../../machine_data/", "")).unwrap();
+    let ask = |signal: &str| out(&opennck(&["why-not", "s.toml", signal], &directory));
+    let second = ask("X.position_measuring_system_2_activated@1");
+    assert!(
+        second.starts_with("    1.000  X.position_measuring_system_2_activated (DB31.DBX102.6) is 0 (1), because"),
+        "{second}"
+    );
+    let not_synchronised = ask("XF.gantry_trip_limit_exceeded@1");
+    assert!(not_synchronised.contains("wanted above its trip limit (MD37130 = 100.000000)"), "{not_synchronised}");
+    let synchronised = ask("XF.gantry_trip_limit_exceeded");
+    assert!(synchronised.contains("wanted above its trip limit (MD37120 = 1.000000)"), "{synchronised}");
+}

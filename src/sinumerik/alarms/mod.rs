@@ -180,6 +180,20 @@ alarms! {
     EMERGENCY_STOP 3000
         [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP NO_DELAY] ModeGroupReset
         "emergency stop";
+    /// MD20070 of a channel has a gap, and MD11640 does not allow it. %2: the machine datum; %3: the index of the first gap.
+    CHANNEL_AXIS_GAP 4000
+        [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
+        "channel %1 machine datum %2[%3] has a gap in the axis assignment";
+    /// MD20070 of several channels names an axis, and MD30550 names none of them as its master.
+    AXIS_IN_SEVERAL_CHANNELS 4001
+        [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn
+        "channel %1 axis %2 defined for more than one channel";
+    /// MD10240, MD10250 or MD30300 was changed and became active by power on.
+    SCALING_CHANGED 4070 [DISPLAY] CancelKey
+        "scaling machine datum changed";
+    /// MD10070 is not a multiple of MD10060: the next multiple acts. %1: the cycle in milliseconds.
+    CYCLE_CHANGED 4110 [DISPLAY] Reset
+        "interpolation cycle changed to %1 ms";
     /// MD30450 on a synchronous axis of a closed grouping: the value is ignored, and the value of the leading axis applies. %1: the machine
     /// datum.
     DECLARATION_NOT_ALLOWED 4300 [DISPLAY] Reset

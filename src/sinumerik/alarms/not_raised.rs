@@ -3,7 +3,7 @@
 //!
 //! | numbers | not modelled |
 //! |---|---|
-//! | 2001, 2900, 4xxx but 4300, 26014, 26015, 26017, 26024, 26025 | alarms of machine data: the model checks them before the control starts and reports them there |
+//! | 2001, 2900, 4002, 4004, 4005, 4011, 4040, 4060, 4075, 4111, 4112, 4113, 4200, 4210, 26014, 26015, 26017, 26024, 26025 | alarms of machine data: the model checks them before the control starts and reports them there |
 //! | 10620, 10630, 10631, 107xx, 12550, 14xxx, 16xxx, 17xxx, 20070, 20071, 26072, 26076 | programs, blocks, the PLC's positioning axes, working areas |
 //! | 20003, 20004, 20007, 20008, 22062, 22064 | distance-coded marks, and MD34200 = 6 and 7 |
 //! | 20052, 20053, 20060, 20062 | geometry axes, and overlaid movements such as DRF |
@@ -26,17 +26,13 @@ alarms! {
     NOT_RAISED;
     2001 [NC_NOT_READY LOCAL CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "PLC has not started up";
     2900 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY STOP NO_DELAY] PowerOn "reboot is delayed";
-    4000 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 machine datum %2[%3] has a gap in the axis assignment";
-    4001 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 axis %2 defined for more than one channel";
     4002 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 axis %2 not defined in the channel";
     4004 [MODE_GROUP_NOT_READY CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 geometry axis %2 defined more than once";
     4005 [NC_NOT_READY CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 more axes than allowed";
     4011 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 machine datum invalid";
     4040 [NC_NOT_READY MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "channel %1 axis identifier %2 not consistent with machine datum";
     4060 [DISPLAY] Reset "default machine data loaded";
-    4070 [DISPLAY] CancelKey "scaling machine datum changed";
     4075 [DISPLAY] CancelKey "machine datum %1 not changed, access level %2 missing";
-    4110 [DISPLAY] Reset "interpolation cycle changed to %1 ms";
     4111 [DISPLAY] Reset "PLC cycle changed to %1 ms";
     4112 [DISPLAY] Reset "position control cycle changed to %1 ms";
     4113 [DISPLAY] Reset "system clock cycle changed to %1 ms";

@@ -79,7 +79,7 @@ impl Nck {
                 cause = cause.max(found.map_or(EventId::NONE, |found| found.causes.trip));
             }
         }
-        self.parameters = Arc::new(Parameters::new(&self.active, &self.presence));
+        self.parameters = Arc::new(self.parameters_now());
         self.note_activated(&before, Rule::DifferenceStored, cause);
     }
 

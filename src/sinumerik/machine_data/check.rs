@@ -1,6 +1,6 @@
 //! Values of an archive that contradict each other.
 //!
-//! Definitions that the control rejects at power on (10650, 10651) are left to its alarms.
+//! Definitions that the control rejects or corrects at power on (4000, 4001, 4110, 10650, 10651) are left to its alarms.
 
 use crate::control::{Class, Finding, Owner};
 use crate::units::AxisNumber;
@@ -73,16 +73,9 @@ impl Archive {
     }
 }
 
-/// Checks that the interpolation cycle is a whole multiple of the position control cycle, and that both are within the
-/// range of a control.
+/// Checks that the basic cycle is within the range of a control.
 fn cycles(archive: &Archive, findings: &mut Vec<Finding>) {
-    let general = &archive.data.general;
-    let (position, interpolation) = (general.posctrl_sysclock_time_ratio, general.ipo_sysclock_time_ratio);
-    if interpolation % position.max(1) != 0 {
-        let what = format!("expected a whole multiple of MD10060 = {position} (else alarm 4110)");
-        findings.push(finding(archive, 10070, Owner::Nck, 0, what, "correct MD10070"));
-    }
-    let cycle = general.sysclock_cycle_time;
+    let cycle = archive.data.general.sysclock_cycle_time;
     if !(0.000_1..=0.032).contains(&cycle) {
         let what = "expected a basic cycle from 0.0001 to 0.032 s".to_owned();
         findings.push(finding(archive, 10050, Owner::Nck, 0, what, "correct MD10050; its unit is seconds"));

@@ -43,6 +43,8 @@ General {
     11411 ENABLE_ALARM_MASK enable_alarm_mask: u32 = 0; "", Range::ANY, Reset;
     /// an alarm resets ready of 1 its channel, 0 the mode group
     11412 ALARM_REACTION_CHAN_NOREADY alarm_reaction_chan_noready: bool = false; "", Range::ANY, PowerOn;
+    /// bit 0: gaps in the channel axes (MD20070) are allowed; without it, power on raises 4000
+    11640 ENABLE_CHAN_AX_GAP enable_chan_ax_gap: u32 = 0; "", Range::ANY, PowerOn;
     /// coding of the axial feed override: 1 Gray, 0 binary
     12000 OVR_AX_IS_GRAY_CODE ovr_ax_is_gray_code: bool = true; "", Range::ANY, PowerOn;
     /// axial feed override of each switch position

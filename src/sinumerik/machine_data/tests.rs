@@ -737,7 +737,6 @@ mod checking {
     #[test]
     fn cycles_and_names_are_found() {
         assert!(found("$MN_SYSCLOCK_CYCLE_TIME=0.4")[0].starts_with("a.tea:1: implausible: MD10050 "));
-        assert!(found("$MN_POSCTRL_SYSCLOCK_TIME_RATIO=2")[0].contains("4110"));
         let twice = "$MN_AXCONF_MACHAX_NAME_TAB[0]=\"Q\"\n$MN_AXCONF_MACHAX_NAME_TAB[1]=\"Q\"";
         assert!(found(twice)[0].contains("which axis 1 has"));
         assert!(found("$MN_AXCONF_MACHAX_NAME_TAB[0]=\"AX2\"")[0].contains("means axis 2"));

@@ -51,6 +51,7 @@ impl Nck {
             let alarm = RaisedAlarm { number: fault.alarm, place: fault.place, parameters: fault.parameters };
             state.raise_tested(alarm, state.definition_cause, Rule::ConditionHolds, [Input::None; 3]);
         }
+        state.raise_faults(parameters);
         let of_nck = |number| RaisedAlarm { number, place: Place::Nck, parameters: [Parameter::None; 4] };
         if let Some(cause) = state.emergency_stop.active_cause() {
             let shown = nck_signal(nck_from_nck::emergency_stop_active, true);

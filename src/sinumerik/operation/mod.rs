@@ -2,6 +2,7 @@
 //!
 //! The first stages of a cycle: the requests of the PLC to the control as a whole.
 
+pub(super) mod configuration;
 pub(super) mod emergency_stop;
 pub(super) mod modes;
 pub(super) mod reset;

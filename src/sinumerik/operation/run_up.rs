@@ -24,6 +24,10 @@ impl State {
         if run_up.cycles < 2 * STEP || run_up.cycles < 3 * STEP && ready {
             run_up.cycles += 1;
         }
+        if before.cycles == 0 {
+            self.report_cycle(parameters);
+        }
+        let run_up = &mut self.run_up;
         let steps = |r: &RunUp| (r.is_cpu_ready(), r.are_drives_cyclic(), r.is_nc_ready());
         let (stepped, changed) =
             (steps(&before) != steps(run_up), before.are_drives_ready() != run_up.are_drives_ready());

@@ -5,6 +5,7 @@
 
 pub(super) mod axis;
 pub(super) mod channels;
+pub(super) mod configuration;
 pub(super) mod dynamics;
 pub(super) mod groupings;
 pub(super) mod mechanics;
@@ -16,6 +17,7 @@ use arrayvec::ArrayVec;
 use crate::sinumerik::machine_data::MachineData;
 use crate::sinumerik::parameters::axis::{AxisParameters, AxisPresence, axis};
 use crate::sinumerik::parameters::channels::{ChannelParameters, channels};
+use crate::sinumerik::parameters::configuration::{ChannelFault, faults};
 use crate::sinumerik::parameters::groupings::{Definitions, define};
 use crate::sinumerik::parameters::overrides::{effective, factor, is_zero_setting};
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Time};
@@ -28,6 +30,8 @@ pub struct Parameters {
     pub cycle: Time,
     /// Number of position-control cycles in it, MD10070 / MD10060.
     pub servo_cycles: u32,
+    /// MD10070 and MD10060 if the first is not a multiple of the second: the next multiple acts (4110).
+    pub corrected_ratios: Option<[f64; 2]>,
     /// Duration of a position-control cycle, in seconds.
     pub servo_cycle: f64,
     /// MD10240 = 0: the basic system is inch.
@@ -68,6 +72,8 @@ pub struct Parameters {
     pub axes: PerAxis<AxisParameters>,
     /// The groupings defined by MD37100, and the faults of their definition.
     pub groupings: Definitions,
+    /// The faults of the channels and their axes.
+    pub faults: Vec<ChannelFault>,
 }
 
 impl Parameters {
@@ -85,6 +91,7 @@ impl Parameters {
             cycle,
             servo_cycles: servo_cycles(data),
             servo_cycle: cycle.seconds() / f64::from(servo_cycles(data)),
+            corrected_ratios: corrected_ratios(data),
             is_inch: !data.general.scaling_system_is_metric,
             only_channel_not_ready: data.general.alarm_reaction_chan_noready,
             jog_mode: data.general.jog_inc_mode_leveltriggrd,
@@ -104,6 +111,7 @@ impl Parameters {
             channels: channels(data, &axes),
             mode_after_power_on: PerModeGroup::from_fn(|group| data.general.operating_mode_default[group.index()]),
             groupings: define(data, &axes),
+            faults: faults(data, &axes),
             axes,
         }
     }
@@ -126,13 +134,25 @@ impl Parameters {
 /// The interpolation cycle (O-22), rounded to whole nanoseconds, at least one microsecond.
 #[must_use]
 pub(super) fn cycle_time(data: &MachineData) -> Time {
-    let seconds = data.general.sysclock_cycle_time * f64::from(data.general.ipo_sysclock_time_ratio.max(1));
+    let [_, position] = ratios(data);
+    let seconds = data.general.sysclock_cycle_time * f64::from(servo_cycles(data) * position);
     Time::from_seconds(seconds).max(Time::from_micros(1))
 }
 
+/// MD10070 and MD10060.
+fn ratios(data: &MachineData) -> [u32; 2] {
+    [data.general.ipo_sysclock_time_ratio, data.general.posctrl_sysclock_time_ratio]
+        .map(|ratio| u32::try_from(ratio).unwrap_or(1).max(1))
+}
+
 fn servo_cycles(data: &MachineData) -> u32 {
-    let ratio = data.general.ipo_sysclock_time_ratio.max(1) / data.general.posctrl_sysclock_time_ratio.max(1);
-    ratio.max(1).unsigned_abs()
+    let [interpolation, position] = ratios(data);
+    interpolation.div_ceil(position)
+}
+
+pub(super) fn corrected_ratios(data: &MachineData) -> Option<[f64; 2]> {
+    let [interpolation, position] = ratios(data);
+    (!interpolation.is_multiple_of(position)).then(|| [interpolation, position].map(f64::from))
 }
 
 /// The modes of the traversing keys.
