@@ -245,6 +245,11 @@ pub trait Control: Send + Sync + Debug {
     /// Whether positions of the axis are in degrees.
     fn is_rotary(&self, axis: AxisNumber) -> bool;
 
+    /// The value of a machine datum in the units of causes: lengths in mm. The default is a control whose data have these units.
+    fn in_causes(&self, _number: u32, _axis: Option<AxisNumber>, value: f64) -> f64 {
+        value
+    }
+
     /// The configuration that results from the data, as lines of text: the gantry groupings. The default is no line.
     fn configuration(&self, _names: &Names) -> Vec<String> {
         Vec::new()

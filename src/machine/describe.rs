@@ -46,6 +46,10 @@ impl Describe for Machine {
     fn is_rotary(&self, axis: AxisNumber) -> bool {
         self.control.is_rotary(axis)
     }
+
+    fn in_causes(&self, number: u32, axis: Option<AxisNumber>, value: f64) -> f64 {
+        self.control.in_causes(number, axis, value)
+    }
 }
 
 impl Scope for Machine {

@@ -181,6 +181,10 @@ impl Control for Nck {
         self.active().axes[axis].is_rot_ax
     }
 
+    fn in_causes(&self, number: u32, axis: Option<AxisNumber>, value: f64) -> f64 {
+        self.active().metric(number, axis, value)
+    }
+
     fn configuration(&self, names: &Names) -> Vec<String> {
         (1..=8).filter_map(|grouping| self.grouping_in_words(grouping, names)).collect()
     }

@@ -145,8 +145,13 @@ impl Trace {
             {
                 faults.push(CauseFault::NotPending(describe.alarm_name(AlarmNumber(number))));
             }
+            let differs = |number, axis, active: f64, named: f64| {
+                // A datum that became active in mm, before the system was inch, is in mm.
+                [active, describe.in_causes(number, axis, active)].iter().all(|value| (value - named).abs() > 1e-6)
+            };
             if let Input::Datum(number, axis, named) = input
-                && let Some(&active) = seen.data.get(&(number, axis)).filter(|&&active| (active - named).abs() > 1e-6)
+                && let Some(&active) = seen.data.get(&(number, axis))
+                && differs(number, axis, active, named)
             {
                 faults.push(CauseFault::OtherDatum(describe.datum_name(number), named, active));
             }

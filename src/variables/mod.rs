@@ -74,4 +74,8 @@ pub trait Describe {
     fn is_rotary(&self, _axis: AxisNumber) -> bool {
         false
     }
+    /// The value of a machine datum in the units of causes: lengths in mm.
+    fn in_causes(&self, _number: u32, _axis: Option<AxisNumber>, value: f64) -> f64 {
+        value
+    }
 }

@@ -6,10 +6,12 @@
 //!
 //! A trip in extended monitoring writes the difference into MD37135, in the next cycle. 10653 then stays, also without the difference,
 //! until a RESET at which MD37150 bit 0 = 0 and MD37135 = 0 are in effect (MON-11; both become active by this RESET). After power off and on,
-//! 10657 is raised instead if MD37150 bit 0 = 1 and MD37135 is not 0; either of bit 0 = 0 and MD37135 = 0 lets a RESET cancel it.
+//! 10657 is raised instead if MD37150 bit 0 = 1 and MD37135 is not 0; either of bit 0 = 0 and MD37135 = 0 lets a RESET cancel it. This RESET also
+//! ends extended monitoring: with bit 0 = 1 again it acts only after the next referencing or synchronisation of the grouping (MON-11).
 //!
 //! Choices where the manuals leave one: MD37135 keeps the largest of the differences that tripped since it was 0. While an axis is not
-//! referenced, its difference counts from the return to position control in both settings (O-12).
+//! referenced, its difference counts from the return to position control in both settings (O-12). MD37135 is a length in the basic system
+//! (MD10240), as every other datum.
 
 use std::sync::Arc;
 
@@ -39,6 +41,7 @@ impl Grouping {
             let gantry = &parameters(axis).gantry;
             if !gantry.extended_monitoring || gantry.tripped_difference == Position::ZERO {
                 self.extended.switched_off.set(axis, false);
+                self.extended.readiness.release();
             }
         }
         for found in self.monitored() {
@@ -70,7 +73,8 @@ impl Nck {
         let mut cause = EventId::NONE;
         for grouping in &mut self.state.groupings {
             for (axis, difference) in std::mem::take(&mut grouping.extended.differences) {
-                let larger = |old: f64| if old.abs() < difference.abs().user() { difference.user() } else { old };
+                let number = before.number_of(axis, difference);
+                let larger = |old: f64| if old.abs() < number.abs() { number } else { old };
                 for data in [&mut self.stored, &mut self.active] {
                     let data = &mut Arc::make_mut(data).axes[axis];
                     data.gantry_act_pos_tol_error = larger(data.gantry_act_pos_tol_error);
@@ -80,6 +84,7 @@ impl Nck {
             }
         }
         self.parameters = Arc::new(self.parameters_now());
+        self.resting.wake_all();
         self.note_activated(&before, Rule::DifferenceStored, cause);
     }
 
@@ -90,6 +95,7 @@ impl Nck {
                 let data = &self.stored.axes[axis];
                 if data.gantry_function_mask & 1 == 0 && data.gantry_act_pos_tol_error == 0.0 {
                     grouping.extended.tripped.set(axis, false);
+                    grouping.extended.readiness.release();
                 }
             }
         }

@@ -108,11 +108,41 @@ pub(in crate::sinumerik) struct Monitored {
     pub causes: LimitCauses,
 }
 
+/// Whether extended monitoring of a grouping can act (MON-10, MON-11).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum Readiness {
+    /// The axes have not all been referenced since power on, or since a trip was released.
+    #[default]
+    NotReferenced,
+    /// All axes have been referenced.
+    Ready,
+    /// A trip was released. The grouping must be referenced or synchronised again.
+    Released,
+}
+
+impl Readiness {
+    /// Called in each cycle.
+    pub(in crate::sinumerik) fn observe(&mut self, all_referenced: bool) {
+        *self = match (*self, all_referenced) {
+            (Self::Ready, true | false) | (Self::NotReferenced, true) => Self::Ready,
+            (Self::Released, true) => Self::Released,
+            (Self::NotReferenced | Self::Released, false) => Self::NotReferenced,
+        };
+    }
+
+    /// A trip was released.
+    pub(in crate::sinumerik) fn release(&mut self) {
+        if *self == Self::Ready {
+            *self = Self::Released;
+        }
+    }
+}
+
 /// The state of extended monitoring of a grouping.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct Extended {
-    /// All axes have been referenced since power on.
-    pub ready: bool,
+    /// Whether it can act.
+    pub readiness: Readiness,
     /// Synchronous axes that tripped in extended monitoring; their 10653 stays.
     pub tripped: AxisSet,
     /// Synchronous axes that were switched off like this: 10657.
@@ -124,7 +154,7 @@ pub(in crate::sinumerik) struct Extended {
 impl Extended {
     /// Whether extended monitoring of a synchronous axis acts.
     pub(in crate::sinumerik) fn acts(&self, axis: AxisNumber, parameters: &Parameters) -> bool {
-        self.ready && parameters.axes[axis].gantry.extended_monitoring
+        self.readiness == Readiness::Ready && parameters.axes[axis].gantry.extended_monitoring
     }
 
     /// An axis tripped in extended monitoring.
@@ -281,7 +311,10 @@ impl Grouping {
             Phase::WaitingForStart => (self.message, self.waited_for) = (true, true),
             Phase::ReferencingLeadingAxis => self.waited_for = false,
             Phase::Synchronising => self.shown_cycles = 0,
-            Phase::Synchronised => self.clear_bases(),
+            Phase::Synchronised => {
+                self.clear_bases();
+                self.extended.readiness = Readiness::Ready;
+            }
             Phase::Open => self.coupling.clear_bases(),
             Phase::NotSynchronised | Phase::ReferencingSynchronousAxis => {}
         }

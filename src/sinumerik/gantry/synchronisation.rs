@@ -218,7 +218,7 @@ impl Grouping {
             self.returning = true;
             self.coupling.clear_bases();
         }
-        self.extended.ready |= self.coupling.members().all(|axis| axes[axis].is_referenced());
+        self.extended.readiness.observe(self.coupling.members().all(|axis| axes[axis].is_referenced()));
         // If an enable is missing on another axis, follow-up ends in hold.
         let back = self.coupling.members().all(|axis| axes[axis].enabling.is_on());
         if back && std::mem::take(&mut self.returning) {

@@ -10,8 +10,9 @@
 use std::borrow::Cow;
 
 use super::scaling::{System, convert, metric_units};
-use super::{MachineData, Target};
+use super::{MachineData, Target, by_number};
 use crate::control::{Owner, Value};
+use crate::units::{AxisNumber, Position};
 
 impl MachineData {
     /// MD10240: the system of these data.
@@ -43,6 +44,24 @@ impl MachineData {
         for (_, axis) in self.axes.iter_mut() {
             let is_rotary = axis.is_rot_ax;
             convert(axis, is_rotary, millimetres, to);
+        }
+    }
+
+    /// The value of a datum of these data in metric units.
+    pub(in crate::sinumerik) fn metric(&self, number: u32, axis: Option<AxisNumber>, value: f64) -> f64 {
+        let is_rotary = axis.is_some_and(|axis| self.axes[axis].is_rot_ax);
+        let units = by_number(number).and_then(|datum| metric_units(datum, is_rotary, self.millimetres()));
+        match self.system() {
+            System::Inch => value * units.unwrap_or(1.0),
+            System::Metric => value,
+        }
+    }
+
+    /// A distance of an axis as the number of a datum in these data: millimetres or inches, or degrees of a rotary axis.
+    pub(in crate::sinumerik) fn number_of(&self, axis: AxisNumber, distance: Position) -> f64 {
+        match self.system() {
+            System::Inch if !self.axes[axis].is_rot_ax => distance.user() / self.millimetres(),
+            System::Inch | System::Metric => distance.user(),
         }
     }
 
