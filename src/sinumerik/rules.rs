@@ -180,6 +180,7 @@ rules! {
     DriveNotReady "25202" "the drive does not start up";
     AlarmPending "ALARM" "an alarm is pending";
     ConditionHolds "ALARM" "the condition of the alarm holds";
+    AlarmDropped "ALARM" "an alarm found no place in the alarm list";
     OnSoftwareLimit "10621" "at rest on the software limit switch or beyond it";
     OffSoftwareLimit "10621" "no longer at rest on the software limit switch or beyond it";
     KeyMeetsHandwheel "20050" "a traversing key is pressed while a handwheel moves the axis";

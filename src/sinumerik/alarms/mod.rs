@@ -350,10 +350,13 @@ alarms! {
     /// Data that must be equal within a grouping differ at power on (DYN-03). The manuals give no number (O-18).
     GANTRY_UNEQUAL_DATA 1_000_001 [DISPLAY] Reset
         "channel %1 axis %2 machine datum %3 differs from that of the leading axis of gantry grouping %4";
+    /// More alarms are pending than the list takes; the further ones are not shown and have no effect (C-28). %1: the first of them.
+    ALARM_LIST_FULL 1_000_002 [DISPLAY] CancelKey
+        "the alarm list is full: alarm %1 and further ones are not shown";
 }
 
 /// The names of the alarms for which no source gives a number (O-18), in the order of our own numbers.
-const OWN_NAMES: &[&str] = &["gantry-mixed-axis-types", "gantry-unequal-data"];
+const OWN_NAMES: &[&str] = &["gantry-mixed-axis-types", "gantry-unequal-data", "alarm-list-full"];
 
 impl Alarm {
     /// The name of an alarm: its number, or our own name if no source gives a number.

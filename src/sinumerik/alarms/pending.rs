@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 use serde::{Deserialize, Serialize};
 
-use crate::sinumerik::alarms::{Alarm, Cancel, Reaction};
+use crate::sinumerik::alarms::{ALARM_LIST_FULL, Alarm, Cancel, Reaction};
 use crate::units::AxisSet;
 use crate::variables::{AlarmNumber, Alarms, EventId, Parameter, Place, RaisedAlarm};
 
@@ -16,13 +16,18 @@ struct Entry {
     fresh: bool,
 }
 
-/// The pending alarms. The list is bounded, as on a control; further alarms are dropped.
+/// The number of alarms that the list takes. One more place is that of the message that it is full.
+const ROOM: usize = Alarms::CAPACITY - 1;
+
+/// The pending alarms. The list is bounded, as on a control; further alarms are dropped, and a message says so.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) struct Pending {
     entries: ArrayVec<Entry, { Alarms::CAPACITY }>,
     /// The alarms that ended in this cycle, each with the event that ended it.
     ended: ArrayVec<(RaisedAlarm, EventId), { Alarms::CAPACITY }>,
     changed: bool,
+    /// The first alarm that was dropped in this cycle.
+    dropped: Option<AlarmNumber>,
     /// Counts the changes of the list.
     version: u32,
 }
@@ -46,9 +51,24 @@ impl Pending {
             entry.fresh = true;
             return;
         }
+        if number != ALARM_LIST_FULL && !self.has_room() {
+            self.dropped.get_or_insert(number);
+            return;
+        }
         let index = self.entries.partition_point(|entry| (entry.alarm.number, entry.alarm.place) < (number, place));
         let added = self.entries.try_insert(index, Entry { alarm, cause, fresh: true }).is_ok();
         self.note_changed(added);
+    }
+
+    /// Whether the list takes another alarm.
+    #[must_use]
+    pub(in crate::sinumerik) fn has_room(&self) -> bool {
+        self.entries.iter().filter(|entry| entry.alarm.number != ALARM_LIST_FULL).count() < ROOM
+    }
+
+    /// The first alarm that was dropped since the last call.
+    pub(in crate::sinumerik) fn take_dropped(&mut self) -> Option<AlarmNumber> {
+        self.dropped.take()
     }
 
     /// Removes the alarms that this action clears, at places for which `concerns` is true, after the event of the action.
@@ -217,6 +237,26 @@ mod tests {
         pending.cancel(Cancel::ModeGroupReset, EventId(9), |_| true);
         assert!(!has(&pending, GANTRY_TRIP_LIMIT));
         assert!(has(&pending, GANTRY_CONFIGURATION) && has(&pending, GANTRY_WAITING));
+    }
+
+    #[test]
+    fn a_full_list_drops_alarms_and_has_a_place_for_the_message() {
+        let mut pending = Pending::default();
+        for number in 0..64 {
+            assert_eq!(pending.take_dropped(), None);
+            raise(&mut pending, AlarmNumber(700_000 + number));
+        }
+        assert!(!pending.has_room());
+        assert_eq!(pending.take_dropped(), Some(AlarmNumber(700_063)));
+        raise(&mut pending, ALARM_LIST_FULL);
+        assert!(has(&pending, ALARM_LIST_FULL) && !has(&pending, AlarmNumber(700_063)));
+        assert_eq!(pending.iter().count(), Alarms::CAPACITY);
+        let alarm = *pending.iter().next().unwrap().0;
+        pending.end(&alarm, EventId::NONE);
+        assert!(pending.has_room(), "the message takes no place of an alarm");
+        raise(&mut pending, AlarmNumber(700_063));
+        assert!(has(&pending, AlarmNumber(700_063)));
+        assert_eq!(pending.take_dropped(), None);
     }
 
     #[test]

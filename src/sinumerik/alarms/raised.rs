@@ -1,5 +1,6 @@
 //! Raises the alarms of an axis, with the event behind each. The stages call these functions at the place of a condition.
 
+use crate::sinumerik::alarms;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, ChannelNumber};
@@ -20,6 +21,25 @@ impl State {
         self.alarms.raise(number, place, parameters, event);
     }
 
+    /// Whether an alarm is not pending, and the list takes it. An alarm that is dropped in each cycle has no event.
+    fn is_new(&self, alarm: &RaisedAlarm) -> bool {
+        let has_room = || alarm.number == alarms::ALARM_LIST_FULL || self.alarms.has_room();
+        !self.alarms.iter().any(|(known, _)| known == alarm) && has_room()
+    }
+
+    /// After monitoring: the message that alarms were dropped in this cycle.
+    pub(in crate::sinumerik) fn report_dropped(&mut self) {
+        let Some(dropped) = self.alarms.take_dropped() else { return };
+        let (number, place) = (alarms::ALARM_LIST_FULL, Place::Nck);
+        if !self.alarms.is_pending(number, place) {
+            let shown = [Parameter::Number(dropped.0.into()), Parameter::None, Parameter::None, Parameter::None];
+            let alarm = RaisedAlarm { number, place, parameters: shown };
+            // The alarm that took the last place.
+            let last = self.alarms.iter().map(|(_, cause)| cause).max();
+            self.raise_new(alarm, Rule::AlarmDropped, [Input::None; 3], last.unwrap_or(EventId::NONE));
+        }
+    }
+
     /// Raises an alarm whose condition these inputs fulfil. The event behind it is recorded when it is new.
     pub(in crate::sinumerik) fn raise_new(
         &mut self,
@@ -28,7 +48,7 @@ impl State {
         inputs: [Input; 3],
         parent: EventId,
     ) {
-        let is_new = !self.alarms.iter().any(|(known, _)| *known == alarm);
+        let is_new = self.is_new(&alarm);
         let event = if is_new { self.log.note(alarm.place, rule, inputs, parent) } else { EventId::NONE };
         self.alarms.raise(alarm.number, alarm.place, alarm.parameters, event);
     }
@@ -42,8 +62,7 @@ impl State {
         inputs: [Input; 3],
     ) {
         let RaisedAlarm { number, place, parameters } = alarm;
-        let is_known = self.alarms.iter().any(|(known, _)| *known == alarm);
-        let cause = if is_known { EventId::NONE } else { self.log.now(place, cause, rule, inputs) };
+        let cause = if self.is_new(&alarm) { self.log.now(place, cause, rule, inputs) } else { EventId::NONE };
         self.alarms.raise(number, place, parameters, cause);
     }
 
@@ -57,7 +76,7 @@ impl State {
     ) {
         let place = Place::Axis(number);
         let shown = [Parameter::Axis(number), Parameter::None, Parameter::None, Parameter::None];
-        let cause = if self.alarms.is_pending(alarm, place) {
+        let cause = if self.alarms.is_pending(alarm, place) || !self.alarms.has_room() {
             EventId::NONE
         } else {
             let causes = &self.axes[number].causes;

@@ -98,7 +98,9 @@ impl State {
 
     fn refuse(&mut self, alarm: AlarmNumber, rule: Rule, inputs: [Input; 3], place: Place, shown: [Parameter; 4]) {
         if !self.alarms.iter().any(|(known, _)| known.number == alarm && known.place == place) {
-            let event = self.log.note(place, rule, inputs, EventId::NONE);
+            // An alarm that is dropped in each cycle has no event.
+            let has_room = self.alarms.has_room();
+            let event = if has_room { self.log.note(place, rule, inputs, EventId::NONE) } else { EventId::NONE };
             self.alarms.raise(alarm, place, shown, event);
         }
     }

@@ -61,6 +61,7 @@ impl Nck {
         if state.plc_missing {
             state.raise_new(of_nck(alarms::PLC_SIGN_OF_LIFE), Rule::PlcMissing, [Input::None; 3], state.plc_cause);
         }
+        state.report_dropped();
         state.end_expired(parameters);
     }
 }
