@@ -149,6 +149,29 @@ fn conditions_have_the_value_of_their_signal_and_name_what_it_waits_for() {
     );
 }
 
+/// The limit in effect, its datum, and what it counts from (E-14).
+#[test]
+fn the_limits_of_the_difference_are_those_in_effect() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let file = root.join("golden/monitoring/base_after_synchronism_was_lost.toml");
+    let scenario = opennck::scenario::Scenario::read(&file).unwrap();
+    let unmonitored = "the difference of XF is monitored: the grouping is closed and not in follow-up: no, wanted yes";
+    for (milliseconds, bit, words) in [
+        (7_900, 2, "synchronism difference of XF: 0.000000, wanted above 0.500000 (MD37120)"),
+        (7_900, 3, "synchronism difference of XF: 0.000000, wanted above 0.200000 (MD37110)"),
+        (8_100, 2, unmonitored),
+        (8_100, 3, unmonitored),
+        (8_270, 2, "distance of XF from its base 1.000000: 0.200000, wanted above 0.500000 (MD37120)"),
+        (8_270, 3, "distance of XF from its base 1.000000: 0.200000, wanted above 0.200000 (MD37110)"),
+        (8_274, 3, "distance of XF from its base 1.000000: 0.200100, wanted not above 0.200000 (MD37110)"),
+    ] {
+        let prepared = scenario.prepare(scenario.profiles[0], &Programs::ready()).unwrap();
+        let finished = prepared.run_until(Some(Time::from_millis(milliseconds)));
+        let tree = finished.session().why_not(&format!("DB33.DBX101.{bit}"), false).unwrap();
+        assert!(tree.contains(words), "{milliseconds} ms, {words} in {tree}");
+    }
+}
+
 /// The tree in the page for commissioning engineers is that of the program.
 #[test]
 fn the_tree_in_the_page_is_that_of_the_program() {

@@ -22,8 +22,14 @@ pub struct Limit {
 }
 
 impl Limit {
+    /// The distance of a difference from the base.
+    #[must_use]
+    pub fn distance(self, difference: Position) -> Position {
+        (difference - self.base.unwrap_or(Position::ZERO)).abs()
+    }
+
     fn is_exceeded_by(self, difference: Position) -> bool {
-        (difference - self.base.unwrap_or(Position::ZERO)).abs() > self.at
+        self.distance(difference) > self.at
     }
 }
 
@@ -103,6 +109,14 @@ impl Coupled {
             let setpoint = |axis| axes.setpoint(axis).position;
             self.base = setpoint(self.follower.axis) - self.follower.factor * setpoint(leader);
         }
+    }
+
+    /// The limits with which its difference is compared; `None` if it is not monitored.
+    fn compared(&self, leader: AxisNumber, before_reference: BeforeReference, axes: &impl Axes) -> Option<TwoStage> {
+        let counts = before_reference == BeforeReference::Relative
+            || self.absolute_base().is_none()
+            || self.is_referenced(leader, axes);
+        self.follower.limits.filter(|_| counts)
     }
 
     /// The limits in effect. They count from the kept base if they are defined to do so; the smaller second limit then acts.
@@ -187,10 +201,7 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
         let (leader, open) = (self.leader, self.is_open());
         let realigns = matches!(self.connection, Connection::Realigning(_) | Connection::Settling);
         for coupled in &mut self.followers {
-            let counts = self.policy.before_reference == BeforeReference::Relative
-                || coupled.absolute_base().is_none()
-                || coupled.is_referenced(leader, axes);
-            let limits = coupled.follower.limits.filter(|_| counts && !open);
+            let limits = coupled.compared(leader, self.policy.before_reference, axes).filter(|_| !open);
             let difference = coupled.difference(leader, axes);
             if realigns {
                 coupled.lower_base(difference);
@@ -209,6 +220,14 @@ impl<const FOLLOWERS: usize> Coupling<FOLLOWERS> {
                 Reaction::Lock => Some(Halt::Locked),
             });
         }
+    }
+
+    /// The first and the second limit in effect for a follower; `None` while its difference is not monitored.
+    #[must_use]
+    pub fn limits(&self, follower: AxisNumber, axes: &impl Axes) -> Option<(Option<Limit>, Limit)> {
+        let coupled = self.follower(follower)?;
+        let compared = coupled.compared(self.leader, self.policy.before_reference, axes);
+        compared.filter(|_| !self.is_open()).map(|limits| coupled.limits(limits))
     }
 
     /// The present difference of a follower.

@@ -19,13 +19,14 @@
 use crate::control::Log;
 use crate::motion::coupling::{CouplingEvent, Events, Limit, TwoStage, What};
 use crate::sinumerik::alarms;
+use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::gantry::view::{View, Want, Wants};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::Gantry;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
-use crate::units::{AxisNumber, Position};
+use crate::units::{AxisNumber, PerAxis, Position};
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
 
 /// The limits that apply to a synchronous axis (DEF-12: its own). MON-03: 0 means no warning limit.
@@ -79,6 +80,23 @@ impl State {
 }
 
 impl Grouping {
+    /// The limit in effect that sets 101.2 (`trip`) or 101.3 of a synchronous axis, and its machine datum; `None` while its difference is not
+    /// monitored or has no such limit.
+    pub(in crate::sinumerik) fn limit(
+        &self,
+        axis: AxisNumber,
+        is_trip: bool,
+        axes: &PerAxis<Axis>,
+        parameters: &Parameters,
+    ) -> Option<(Limit, u32)> {
+        let (first, second) = self.coupling.limits(axis, axes)?;
+        if !is_trip {
+            return first.map(|limit| (limit, warning(limit).1));
+        }
+        let (own, extended) = (&parameters.axes[axis].gantry, self.extended.acts(axis, parameters));
+        Some((second, trip(second, own, self.phase == Phase::Synchronised, extended).1))
+    }
+
     fn monitor(&mut self, view: &View<'_>, defined: EventId, log: &mut Log, wants: &mut Wants) {
         let followed_up = self.coupling.members().any(|axis| view.axes[axis].enabling.follow_up);
         let synchronised = self.phase == Phase::Synchronised;

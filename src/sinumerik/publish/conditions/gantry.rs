@@ -39,22 +39,28 @@ impl<'a> Look<'a> {
     }
 
     fn beyond(self, number: AxisNumber, trip: bool) -> Condition {
-        let mut all = self.state.groupings.iter().flat_map(Grouping::monitored);
-        let Some(found) = all.find(|monitored| monitored.axis == number) else {
-            return fact(format!("{} is a synchronous axis (MD37100 at power on)", self.axis_name(number)), false)
-                .into();
+        let name = self.axis_name(number);
+        let found = self.state.groupings.iter().find_map(|grouping| {
+            let found = grouping.monitored().find(|monitored| monitored.axis == number)?;
+            Some((grouping, found))
+        });
+        let Some((grouping, found)) = found else {
+            return fact(format!("{name} is a synchronous axis (MD37100 at power on)"), false).into();
         };
-        let gantry = &self.parameters.axes[number].gantry;
-        let (limit, exceeded) = if trip {
-            let limits = [("MD37120", gantry.trip_limit), ("MD37130", gantry.trip_limit_not_synchronised)];
-            let synchronised = self.grouping(number).is_some_and(|grouping| grouping.phase == Phase::Synchronised);
-            let (datum, limit) = limits[usize::from(!synchronised)];
-            (format!("above its trip limit ({datum} = {})", length(limit)), found.trip)
-        } else {
-            (format!("above its warning limit (MD37110 = {})", length(gantry.warning_limit)), found.warning)
+        let Some((limit, datum)) = grouping.limit(number, trip, &self.state.axes, self.parameters) else {
+            if grouping.coupling.limits(number, &self.state.axes).is_some() {
+                return fact(format!("{name} has a warning limit (MD37110 above 0)"), false).into();
+            }
+            let what = format!("the difference of {name} is monitored: the grouping is closed and not in follow-up");
+            return fact(what, false).into();
         };
-        let what = format!("synchronism difference of {}", self.axis_name(number));
-        Fact::new(what, length(found.difference), limit, exceeded).into()
+        let what = limit.base.map_or_else(
+            || format!("synchronism difference of {name}"),
+            |base| format!("distance of {name} from its base {}", length(base)),
+        );
+        let shown = limit.base.map_or(found.difference, |_| limit.distance(found.difference));
+        let wanted = format!("above {} (MD{datum})", length(limit.at));
+        Fact::new(what, length(shown), wanted, if trip { found.trip } else { found.warning }).into()
     }
 
     fn phase(self, grouping: &Grouping, wanted: &str, holds: bool) -> Fact {
