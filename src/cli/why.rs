@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::output::Output;
 use crate::plc::Programs;
-use crate::scenario::{Prepared, Scenario, profile_named};
+use crate::scenario::{Failure, Finished, Prepared, Scenario, profile_named};
 use crate::source::{Place, Problem, read_text};
 use crate::trace::Story;
 use crate::units::Time;
@@ -24,7 +24,7 @@ pub(super) struct Run {
 
 impl Run {
     /// The case of a scenario under the profile, ready to run.
-    pub(super) fn prepare(&self, scenario: &Path, programs: &Programs) -> Result<Prepared, Problem> {
+    fn prepare(&self, scenario: &Path, programs: &Programs) -> Result<Prepared, Problem> {
         let scenario = Scenario::read_case(scenario, self.case.as_deref())?;
         let profile = match &self.profile {
             Some(name) => profile_named(name)?,
@@ -32,10 +32,33 @@ impl Run {
         };
         scenario.prepare(profile, programs)
     }
+
+    /// The same after its run, up to a time if one is given. A run that failed has an answer, too: `answer` says what it is, before a time.
+    pub(super) fn finish(
+        &self,
+        scenario: &Path,
+        end: Option<Time>,
+        programs: &Programs,
+        answer: &str,
+        output: &mut Output,
+    ) -> Result<Finished, Problem> {
+        let finished = self.prepare(scenario, programs)?.run_until(end);
+        match &finished.failure {
+            None => {}
+            Some(Failure::Unusable(problem)) => return Err(problem.clone()),
+            Some(Failure::Missed(missed)) => {
+                let (failed, ended) = (missed.time, finished.session().time());
+                let time = if failed == ended { "that time".to_owned() } else { format!("its end, {ended} s") };
+                let what = &missed.what;
+                output.warning(format!("the scenario failed at {failed} s: {what}; the answer is {answer} {time}"));
+            }
+        }
+        Ok(finished)
+    }
 }
 
 pub(super) fn why(trace: &Path, edge: &str, run: &Run, programs: &Programs, output: &mut Output) -> u8 {
-    match explanation(trace, edge, run, programs) {
+    match explanation(trace, edge, run, programs, output) {
         Ok(text) => {
             output.print(&text);
             0
@@ -47,12 +70,23 @@ pub(super) fn why(trace: &Path, edge: &str, run: &Run, programs: &Programs, outp
     }
 }
 
-fn explanation(trace: &Path, edge: &str, run: &Run, programs: &Programs) -> Result<String, Problem> {
-    let (what, time) = parse_edge(edge)?;
+fn explanation(
+    trace: &Path,
+    edge: &str,
+    run: &Run,
+    programs: &Programs,
+    output: &mut Output,
+) -> Result<String, Problem> {
+    let (what, time) = parse_edge(edge).ok_or_else(|| {
+        Problem::new(
+            format!("expected SIGNAL@TIME or alarm(NUMBER)@TIME, found `{edge}`"),
+            "write `X.gantry_grouping_is_synchronized@8.068`, `DB31.DBX101.5@9s`, `alarm(10654)@7.6`, `power_on@2` or `fault drive_fault[XF]@3`",
+        )
+    })?;
     let is_scenario = trace.extension().is_some_and(|extension| extension == "toml");
     let story = match (is_scenario, &run.case, &run.profile) {
         (true, _, _) => {
-            let finished = run.prepare(trace, programs)?.run();
+            let finished = run.finish(trace, None, programs, "the trace up to", output)?;
             let session = finished.session();
             session.trace().story(session.machine())
         }
@@ -77,12 +111,7 @@ fn read(trace: &Path) -> Result<Story, Problem> {
 }
 
 /// Parses `X.controller_enable@7.466`; the time is in seconds or has a unit.
-pub(super) fn parse_edge(edge: &str) -> Result<(&str, Time), Problem> {
+pub(super) fn parse_edge(edge: &str) -> Option<(&str, Time)> {
     let parsed = edge.rsplit_once('@').and_then(|(what, time)| Some((what, Time::parse_or_seconds(time)?)));
-    parsed.filter(|(what, _)| !what.is_empty()).ok_or_else(|| {
-        Problem::new(
-            format!("expected SIGNAL@TIME or alarm(NUMBER)@TIME, found `{edge}`"),
-            "write `X.gantry_grouping_is_synchronized@8.068`, `DB31.DBX101.5@9s`, `alarm(10654)@7.6`, `power_on@2` or `fault drive_fault[XF]@3`",
-        )
-    })
+    parsed.filter(|(what, _)| !what.is_empty())
 }

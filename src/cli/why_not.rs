@@ -16,7 +16,7 @@ pub(super) fn why_not(
     programs: &Programs,
     output: &mut Output,
 ) -> u8 {
-    match explanation(scenario, signal, run, complete, programs) {
+    match explanation(scenario, signal, run, complete, programs, output) {
         Ok(text) => {
             output.print(&text);
             0
@@ -34,12 +34,20 @@ fn explanation(
     run: &Run,
     complete: bool,
     programs: &Programs,
+    output: &mut Output,
 ) -> Result<String, Problem> {
-    let (what, time) = match signal.contains('@') {
-        true => parse_edge(signal).map(|(what, time)| (what, Some(time)))?,
-        false => (signal, None),
+    let (what, time) = if signal.contains('@') {
+        let (what, time) = parse_edge(signal).ok_or_else(|| {
+            Problem::new(
+                format!("expected a signal of one bit, or SIGNAL@TIME, found `{signal}`"),
+                "write `X.position_controller_active@0.3` or `DB31.DBX61.5@300ms`; without a time it is the end",
+            )
+        })?;
+        (what, Some(time))
+    } else {
+        (signal, None)
     };
-    let finished = run.prepare(scenario, programs)?.run_until(time);
+    let finished = run.finish(scenario, time, programs, "the state at", output)?;
     let session = finished.session();
     let end = session.time();
     if let Some(time) = time.filter(|&time| end + session.machine().cycle_time() <= time) {

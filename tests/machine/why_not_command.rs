@@ -40,6 +40,7 @@ fn why_not_names_what_the_control_waits_for() {
         ("X.position_controller_active@0.5", "expected a time up to 0.300 s"),
         ("X.measurement_active", "expected a signal with known conditions"),
         ("DB31.DBB61", "expected a signal of one bit"),
+        ("X.position_controller_active@soon", "write `X.position_controller_active@0.3`"),
         ("X.controller_enabel", "did you mean `X.controller_enable`?"),
     ] {
         let output = opennck(&["why-not", "s.toml", signal], &directory);
@@ -64,6 +65,34 @@ fn why_not_tests_what_the_control_has_read() {
     let there = ask("Y.handwheel_1_active@0.330");
     assert!(there.contains("Y.handwheel_1_active (DB32.DBX64.0) is 1 (1); it becomes 0 with\n"), "{there}");
     assert!(there.contains("✗ Y.activate_handwheel_1 (DB32.DBX4.0) = 1, wanted 0: changed last"), "{there}");
+}
+
+/// A run that failed has an answer, with a warning; one that could not run has none.
+#[test]
+fn why_and_why_not_say_that_the_scenario_failed() {
+    let directory = directory("why_not_failed");
+    let head = "title = \"t\"\nmachine = \"g1_example\"\n";
+    let fails = "plc = \"enable_all\"\n[[rule]]\nname = \"r\"\nwhen = \"alarm(25050)\"\nthen = \"M0.0\"\nmust_begin = true\n\
+        [[step]]\nrun = \"100ms\"\n[[step]]\nexpect = \"M0.0\"\n[[step]]\nrun = \"100ms\"\n";
+    fs::write(directory.join("fails.toml"), format!("{head}{fails}")).unwrap();
+    let process = "plc = { process = \"no_such_program {image}\" }\n[[step]]\nrun = \"1s\"\n";
+    fs::write(directory.join("unusable.toml"), format!("{head}{process}")).unwrap();
+    for (command, signal, answer) in [
+        ("why-not", "X.position_controller_active", "is 1 (on)"),
+        ("why", "X.position_controller_active@1", "X.position_controller_active (DB31.DBX61.5)  0 -> 1  by nck"),
+    ] {
+        let output = opennck(&[command, "fails.toml", signal], &directory);
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        assert!(out(&output).contains(answer), "{}", out(&output));
+        let warning = "the scenario failed at 0.100 s: expected `M0.0`, but it is false; the answer is";
+        assert!(err(&output).contains(warning) && err(&output).contains("that time"), "{}", err(&output));
+        let output = opennck(&[command, "unusable.toml", signal], &directory);
+        assert_eq!((output.status.code(), out(&output).as_str()), (Some(2), ""));
+        assert!(err(&output).contains("unusable.toml:3: the PLC process `no_such_program"), "{}", err(&output));
+    }
+    // Before the failure there is nothing to warn of, and a rule may still begin.
+    let before = opennck(&["why-not", "fails.toml", "X.position_controller_active@0.09"], &directory);
+    assert_eq!((before.status.code(), err(&before).as_str()), (Some(0), ""));
 }
 
 #[test]
