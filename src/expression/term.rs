@@ -149,8 +149,28 @@ impl Term {
             Self::Pair(O::Or, left, right) => left.distance(view).max(right.distance(view)),
             Self::Pair(O::Less | O::LessOrEqual, left, right) => right.value(view) - left.value(view),
             Self::Pair(O::Greater | O::GreaterOrEqual, left, right) => left.value(view) - right.value(view),
-            _ if truth(self.value(view)) => f64::INFINITY,
-            _ => f64::NEG_INFINITY,
+            Self::Pair(
+                O::Equal | O::NotEqual | O::Add | O::Subtract | O::Multiply | O::Divide | O::Minimum | O::Maximum,
+                ..,
+            )
+            | Self::Number(_)
+            | Self::Signal(_)
+            | Self::Value(..)
+            | Self::Time
+            | Self::Named(..)
+            | Self::Alarm(..)
+            | Self::AlarmParameter(..)
+            | Self::Alarms
+            | Self::Edge { .. }
+            | Self::Followed(_)
+            | Self::Negative(_)
+            | Self::Absolute(_) => {
+                if truth(self.value(view)) {
+                    f64::INFINITY
+                } else {
+                    f64::NEG_INFINITY
+                }
+            }
         }
     }
 

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use std::time::SystemTime;
 
-use crate::machine::{Command, Machine};
+use crate::machine::{Command, Machine, PlcOrder};
 
 /// The maximum number of entries.
 const ENTRIES: usize = 100;
@@ -59,21 +59,10 @@ impl Buffer {
 
     /// Remembers a restart that a client requested. It is entered when the CPU runs again.
     pub(super) fn ordered(&mut self, command: &Command) {
-        match command {
-            Command::PlcRun => self.restart = Some(Event::WarmRestart),
-            Command::PlcColdRestart => self.restart = Some(Event::ColdRestart),
-            Command::Write { .. }
-            | Command::Force { .. }
-            | Command::Release { .. }
-            | Command::MachineDatum { .. }
-            | Command::RParameter { .. }
-            | Command::NewConf
-            | Command::PowerOn
-            | Command::PlcStop
-            | Command::Cancel
-            | Command::Handwheel { .. }
-            | Command::Fault(_)
-            | Command::ClearFault(_) => {}
+        match command.plc_order() {
+            Some(PlcOrder::WarmRestart) => self.restart = Some(Event::WarmRestart),
+            Some(PlcOrder::ColdRestart) => self.restart = Some(Event::ColdRestart),
+            Some(PlcOrder::Stop) | None => {}
         }
     }
 

@@ -7,7 +7,7 @@ use std::net::SocketAddr;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
-use crate::machine::Command;
+use crate::machine::{Command, PlcOrder};
 
 /// From this number of queued orders on, each client waits for its own.
 const MANY: usize = 1000;
@@ -59,45 +59,12 @@ impl Order {
 
     /// The state requested by its last command to start or stop the PLC, RUN as true; `None` without one.
     fn plc_runs(&self) -> Option<bool> {
-        self.commands.iter().rev().find_map(plc_runs)
+        self.commands.iter().rev().find_map(Command::plc_order).map(|order| order != PlcOrder::Stop)
     }
 }
 
 fn bytes(command: &Command) -> usize {
-    match command {
-        Command::Write { location, .. } | Command::Force { location, .. } | Command::Release { location } => {
-            location.bytes() as usize
-        }
-        Command::MachineDatum { .. }
-        | Command::RParameter { .. }
-        | Command::NewConf
-        | Command::PowerOn
-        | Command::PlcStop
-        | Command::PlcRun
-        | Command::PlcColdRestart
-        | Command::Cancel
-        | Command::Handwheel { .. }
-        | Command::Fault(_)
-        | Command::ClearFault(_) => size_of::<f64>(),
-    }
-}
-
-fn plc_runs(command: &Command) -> Option<bool> {
-    match command {
-        Command::PlcStop => Some(false),
-        Command::PlcRun | Command::PlcColdRestart => Some(true),
-        Command::Write { .. }
-        | Command::Force { .. }
-        | Command::Release { .. }
-        | Command::MachineDatum { .. }
-        | Command::RParameter { .. }
-        | Command::NewConf
-        | Command::PowerOn
-        | Command::Cancel
-        | Command::Handwheel { .. }
-        | Command::Fault(_)
-        | Command::ClearFault(_) => None,
-    }
+    command.location().map_or(size_of::<f64>(), |location| location.bytes() as usize)
 }
 
 impl Inbox {

@@ -142,16 +142,12 @@ impl Machine {
         if self.state.forces.iter().any(is_meant) {
             return By::Force;
         }
-        match part {
-            Part::FromNck => {
-                return if written.is_some() && !is_signal(self.definition.names.interface(), part, offset, bit) {
-                    By::Outside
-                } else {
-                    By::Nck
-                };
-            }
-            Part::ToNck if self.is_switch(offset, bit) => return By::Plant,
-            _ => {}
+        if part == Part::FromNck {
+            let is_outside = written.is_some() && !is_signal(self.definition.names.interface(), part, offset, bit);
+            return if is_outside { By::Outside } else { By::Nck };
+        }
+        if part == Part::ToNck && self.is_switch(offset, bit) {
+            return By::Plant;
         }
         if written == Some(value) {
             return By::Outside;
@@ -159,11 +155,13 @@ impl Machine {
         let preset = |memory: &Memory| {
             memory.part(part).get(offset as usize).is_some_and(|byte| (byte >> bit & 1 == 1) == value)
         };
+        if self.before.power_on.as_deref().is_some_and(preset) {
+            return By::PowerOn;
+        }
         match part {
-            _ if self.before.power_on.as_deref().is_some_and(preset) => By::PowerOn,
-            Part::Hmi => By::Nck,
+            Part::FromNck | Part::Hmi => By::Nck,
             Part::Inputs => By::Plant,
-            _ => By::Plc,
+            Part::ToNck | Part::Outputs | Part::Flags | Part::Timers | Part::Counters | Part::Block(_) => By::Plc,
         }
     }
 

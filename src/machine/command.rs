@@ -72,3 +72,56 @@ pub enum Command {
     /// Clears a fault.
     ClearFault(Fault),
 }
+
+impl Command {
+    /// The bits that it writes, forces or releases.
+    #[must_use]
+    pub const fn location(&self) -> Option<Location> {
+        match self {
+            Self::Write { location, .. } | Self::Force { location, .. } | Self::Release { location } => Some(*location),
+            Self::MachineDatum { .. }
+            | Self::RParameter { .. }
+            | Self::NewConf
+            | Self::PowerOn
+            | Self::PlcStop
+            | Self::PlcRun
+            | Self::PlcColdRestart
+            | Self::Cancel
+            | Self::Handwheel { .. }
+            | Self::Fault(_)
+            | Self::ClearFault(_) => None,
+        }
+    }
+
+    /// The operating state of the PLC that it orders.
+    #[must_use]
+    pub const fn plc_order(&self) -> Option<PlcOrder> {
+        match self {
+            Self::PlcStop => Some(PlcOrder::Stop),
+            Self::PlcRun => Some(PlcOrder::WarmRestart),
+            Self::PlcColdRestart => Some(PlcOrder::ColdRestart),
+            Self::Write { .. }
+            | Self::Force { .. }
+            | Self::Release { .. }
+            | Self::MachineDatum { .. }
+            | Self::RParameter { .. }
+            | Self::NewConf
+            | Self::PowerOn
+            | Self::Cancel
+            | Self::Handwheel { .. }
+            | Self::Fault(_)
+            | Self::ClearFault(_) => None,
+        }
+    }
+}
+
+/// What a command orders the PLC to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlcOrder {
+    /// STOP.
+    Stop,
+    /// OB100, then OB1; the memory stays.
+    WarmRestart,
+    /// The same with the initial memory.
+    ColdRestart,
+}

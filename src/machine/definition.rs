@@ -46,7 +46,7 @@ pub(super) struct Fingerprints {
 impl Definition {
     pub(super) fn fingerprints(&self) -> Fingerprints {
         *self.fingerprints.get_or_init(|| Fingerprints {
-            plc_image: hash(&postcard::to_stdvec(&self.memory).unwrap_or_default()),
+            plc_image: hash(&postcard::to_stdvec(&self.memory).expect("plain data can always be written")),
             // Numbers in this text are exact.
             plant: hash(format!("{:?}", (&self.layout, self.plc_cycle, self.delays)).as_bytes()),
             machine_data: hash(format!("{:?}", self.control).as_bytes()),

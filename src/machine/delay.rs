@@ -24,7 +24,7 @@ impl Delay {
     /// A delay of whole cycles. The reader sees these bytes until a later state arrives.
     pub(super) fn new(cycles: u64, bytes: &PartBytes) -> Self {
         // Those on their way, the one that the reader has, and the one that it had before.
-        let states = if cycles == 0 { 0 } else { usize::try_from(cycles.min(MOST_CYCLES) + 2).unwrap_or(0) };
+        let states = if cycles == 0 { 0 } else { usize::try_from(cycles.min(MOST_CYCLES) + 2).expect("at most 1,002") };
         Self { states: vec![bytes.clone(); states], seen: 0 }
     }
 

@@ -33,7 +33,7 @@ mod written;
 
 pub use crate::control::Value as DatumValue;
 pub use crate::plant::{Fault, FaultKind, Switch};
-pub use command::Command;
+pub use command::{Command, PlcOrder};
 pub use conditions::{Subject, Tested};
 pub use open::OpenOptions;
 pub use saved::Snapshot;
@@ -174,10 +174,10 @@ impl Machine {
         self.state.plc.stopped
     }
 
-    /// Whether the last step began with power off and on.
+    /// The memory after power on, if the last step began with power off and on.
     #[must_use]
-    pub fn has_powered_on(&self) -> bool {
-        self.before.power_on.is_some()
+    pub fn powered_on(&self) -> Option<&Memory> {
+        self.before.power_on.as_deref()
     }
 
     /// The fault that stopped the PLC program, if any.

@@ -32,32 +32,25 @@ impl Machine {
         if let Some(command) = of_the_control(command) {
             self.control.check(&command)?;
         }
-        match command {
-            Command::RParameter { number, value, .. } if *number >= RParameters::COUNT || !value.is_finite() => {
-                Err(Problem::new(
-                    format!(
-                        "expected a finite value for R0 to R{}, found {value} for R{number}",
-                        RParameters::COUNT - 1
-                    ),
-                    "a channel has 100 R parameters",
-                ))
+        if let Some(location) = command.location() {
+            self.names().check_location(self.memory(), location)?;
+            if !matches!(command, Command::Write { .. }) {
+                self.names().check_writer(location)?;
             }
-            Command::Write { location, .. } => self.names().check_location(self.memory(), *location),
-            Command::Force { location, .. } | Command::Release { location } => {
-                self.names().check_location(self.memory(), *location)?;
-                self.names().check_writer(*location)
-            }
-            Command::Fault(fault) | Command::ClearFault(fault) => self.check_fault(*fault),
-            Command::RParameter { .. }
-            | Command::MachineDatum { .. }
-            | Command::NewConf
-            | Command::PowerOn
-            | Command::PlcStop
-            | Command::PlcRun
-            | Command::PlcColdRestart
-            | Command::Cancel
-            | Command::Handwheel { .. } => Ok(()),
         }
+        if let Command::Fault(fault) | Command::ClearFault(fault) = command {
+            self.check_fault(*fault)?;
+        }
+        if let Command::RParameter { number, value, .. } = command
+            && (*number >= RParameters::COUNT || !value.is_finite())
+        {
+            let last = RParameters::COUNT - 1;
+            return Err(Problem::new(
+                format!("expected a finite value for R0 to R{last}, found {value} for R{number}"),
+                "a channel has 100 R parameters",
+            ));
+        }
+        Ok(())
     }
 
     fn check_fault(&self, Fault { axis, kind }: Fault) -> Result<(), Problem> {

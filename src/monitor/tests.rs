@@ -74,7 +74,8 @@ fn watch(claim: Claim, bytes: &str) -> (Monitor, Vec<(Reason, u64, u64)>) {
     let report = &mut |breach: Breach| breaches.push((breach.reason, breach.began.cycle, breach.failed.cycle));
     for (index, byte) in bytes.chars().enumerate() {
         let Some(byte) = byte.to_digit(10) else {
-            monitor.power_on();
+            let memory = Memory::new();
+            monitor.power_on(&View::at(Moment { memory: &memory, variables: &variables, time, named_values: &[] }));
             length = Time::from_millis(4);
             continue;
         };
@@ -122,7 +123,10 @@ fn the_last_cycle_of_within_counts_and_the_next_one_is_too_late() {
     assert_eq!(breaches(follows(consequence(3, 0)), "0011113"), [(Reason::Late, 2, 5)]);
     let (monitor, _) = watch(follows(consequence(3, 0)), "00113");
     let summary = monitor.summaries().next().unwrap();
-    assert_eq!((summary.begun, summary.met, summary.margin.unwrap()), (1, 1, Margin { amount: 1.0, at: at(2) }));
+    assert_eq!(
+        (summary.begun, summary.met, summary.margin.unwrap()),
+        (1, 1, Margin { amount: 1.0, at: at(2), cycle: Time::from_millis(2) })
+    );
 }
 
 #[test]
@@ -153,11 +157,20 @@ fn true_before_the_first_cycle_is_an_edge_only_from_start() {
 
 #[test]
 fn power_on_closes_open_watches_and_the_end_leaves_them_open() {
-    let (monitor, found) = watch(follows(consequence(3, 0)), "01x1111");
+    let (monitor, found) = watch(follows(consequence(3, 0)), "01x0000");
     let summary = monitor.summaries().next().unwrap();
     assert_eq!((found.len(), summary.begun, summary.closed, summary.open), (0, 1, 1, None));
     let (monitor, found) = watch(follows(consequence(9, 0)), "0101");
     assert_eq!((found.len(), monitor.summaries().next().unwrap().open), (0, Some((2, at(1)))));
+}
+
+#[test]
+fn a_signal_that_the_first_cycle_after_power_on_sets_is_an_edge() {
+    assert_eq!(breaches(follows(consequence(3, 0)), "01x1111"), [(Reason::Late, 2, 5)]);
+    // What is true after power on, before the cycle, is no edge.
+    let absence = || Consequence { when: expression("!M0.0"), ..consequence(1, 0) };
+    assert_eq!(breaches(follows(absence()), "1x000"), []);
+    assert_eq!(breaches(follows(absence()), "1x100"), [(Reason::Late, 2, 3)]);
 }
 
 #[test]
@@ -171,7 +184,7 @@ fn a_rule_that_must_begin_is_broken_without_an_edge() {
 #[test]
 fn the_margin_of_a_condition_is_the_distance_of_its_comparison() {
     let margin = |claim, bytes| watch(claim, bytes).0.summaries().next().unwrap().margin;
-    let expected = |amount, cycle| Some(Margin { amount, at: at(cycle) });
+    let expected = |amount, cycle| Some(Margin { amount, at: at(cycle), cycle: Time::from_millis(2) });
     assert_eq!(margin(Claim::Always(expression("MB0 < 9")), "03714"), expected(2.0, 2));
     assert_eq!(margin(Claim::Never(expression("MB0 >= 8 || MB0 > 9")), "0371"), expected(1.0, 2));
     assert_eq!(margin(Claim::Always(expression("!(MB0 > 9)")), "0352"), expected(4.0, 2));
@@ -193,11 +206,18 @@ fn a_time_is_the_time_of_the_machine_when_power_on_makes_its_cycles_longer() {
     // The consequence comes 12 ms after the edge: one cycle after 8 ms, two before 20 ms.
     let margin = monitor.summaries().next().unwrap().margin.unwrap();
     assert_eq!((found.len(), margin.amount.to_string().as_str()), (0, "1"));
+    assert_eq!(margin.cycle, Time::from_millis(4));
+    // A margin from before power on keeps the cycle that it was counted in.
+    let margin = |bytes| watch(follows(times(8, 1)), bytes).0.summaries().next().unwrap().margin.unwrap().cycle;
+    assert_eq!(margin("01112x00"), Time::from_millis(2));
 }
 
 #[test]
 fn the_margin_of_a_consequence_before_the_first_cycle_is_counted_in_cycles() {
     let within = Span::time(Time::from_millis(8));
     let (monitor, _) = watch(follows(Consequence { within, from_start: true, ..consequence(0, 0) }), "30");
-    assert_eq!(monitor.summaries().next().unwrap().margin.unwrap(), Margin { amount: 4.0, at: at(0) });
+    assert_eq!(
+        monitor.summaries().next().unwrap().margin.unwrap(),
+        Margin { amount: 4.0, at: at(0), cycle: Time::from_millis(2) }
+    );
 }

@@ -41,6 +41,8 @@ pub struct Margin {
     pub amount: f64,
     /// The cycle in which the watch began, or in which the value was nearest.
     pub at: Point,
+    /// The length of a cycle then.
+    pub cycle: Time,
 }
 
 /// A rule that was broken.
@@ -134,13 +136,13 @@ impl Monitor {
                 Claim::Always(condition) => {
                     state.condition(index, condition.holds(view), now, report);
                     if self.measures {
-                        state.measure(condition.distance(view), now);
+                        state.measure(condition.distance(view), now, length);
                     }
                 }
                 Claim::Never(condition) => {
                     state.condition(index, !condition.holds(view), now, report);
                     if self.measures {
-                        state.measure(condition.distance(view).map(|distance| -distance), now);
+                        state.measure(condition.distance(view).map(|distance| -distance), now, length);
                     }
                 }
                 Claim::Follows(consequence) => {
@@ -157,11 +159,14 @@ impl Monitor {
         }
     }
 
-    /// Power on: closes all open watches without a result.
-    pub fn power_on(&mut self) {
-        for state in &mut self.states {
+    /// Power on, with the state before its first cycle: closes all open watches without a result. A signal that this cycle sets is an edge.
+    pub fn power_on(&mut self, view: &View<'_>) {
+        for (rule, state) in self.rules.iter().zip(&mut self.states) {
             state.closed += state.open.len() as u64;
             state.open.clear();
+            if let Claim::Follows(consequence) = &rule.claim {
+                state.was = consequence.when.holds(view);
+            }
         }
     }
 
@@ -241,7 +246,7 @@ impl State {
                 let late = within.cycles_left(began, now, length);
                 let early = || not_before.cycles_beyond(began, now, length);
                 let margin = if *not_before == Span::NONE { late } else { late.min(early()) };
-                self.measure(Some(margin as f64), began);
+                self.measure(Some(margin as f64), began, length);
             }
             return;
         }
@@ -253,12 +258,12 @@ impl State {
         }
     }
 
-    fn measure(&mut self, amount: Option<f64>, at: Point) {
+    fn measure(&mut self, amount: Option<f64>, at: Point, cycle: Time) {
         let Some(amount) = amount.filter(|amount| amount.is_finite()) else {
             return;
         };
         if self.margin.is_none_or(|margin| amount < margin.amount) {
-            self.margin = Some(Margin { amount, at });
+            self.margin = Some(Margin { amount, at, cycle });
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::monitor::Monitor;
 use crate::source::Place;
 use crate::trace::Past;
 use crate::units::Time;
-use crate::variables::{Describe, place_name};
+use crate::variables::{Describe, Variables, place_name};
 
 /// The state of a session beside its machine.
 #[derive(Clone, Debug)]
@@ -124,11 +124,8 @@ impl Book {
 
     /// Queues a command for the next cycle.
     pub(super) fn queue(&mut self, command: Command, machine: &mut Machine) -> Result<(), Failure> {
-        match command {
-            Command::Write { location, value } | Command::Force { location, value } => {
-                self.pending.push((location, value));
-            }
-            _ => {}
+        if let Command::Write { location, value } | Command::Force { location, value } = command {
+            self.pending.push((location, value));
         }
         Ok(machine.queue(command)?)
     }
@@ -230,8 +227,10 @@ impl Book {
 
     /// Called after a cycle and after [`Book::note_changes`]: checks the rules.
     pub(super) fn end_cycle(&mut self, machine: &Machine) -> Result<(), Stopped> {
-        if machine.has_powered_on() {
-            self.monitor.power_on();
+        if let Some(memory) = machine.powered_on() {
+            let (variables, time) = (Variables::default(), self.time(machine) - machine.cycle_time());
+            let now = Moment { memory, variables: &variables, time, named_values: &self.captured };
+            self.monitor.power_on(&View { followed: self.followed.histories(), ..View::at(now) });
         }
         if !self.followed.is_empty() {
             let mut followed = std::mem::take(&mut self.followed);

@@ -475,11 +475,8 @@ pub(super) fn whole<T: TryFrom<i64> + PartialOrd>(
     what: &str,
     range: RangeInclusive<T>,
 ) -> Result<T, Problem> {
-    let number = match node.value {
-        Value::Integer(number) => T::try_from(number).ok().filter(|number| range.contains(number)),
-        _ => None,
-    };
-    number.ok_or_else(|| node.expected(what, "write a whole number"))
+    let number = if let Value::Integer(number) = node.value { T::try_from(number).ok() } else { None };
+    number.filter(|number| range.contains(number)).ok_or_else(|| node.expected(what, "write a whole number"))
 }
 
 #[cfg(test)]

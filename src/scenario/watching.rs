@@ -166,7 +166,7 @@ impl Book {
     }
 
     /// The smallest margin of each rule.
-    pub(super) fn margins(&self, machine: &Machine) -> Vec<String> {
+    pub(super) fn margins(&self) -> Vec<String> {
         let of_rule = |summary: Summary<'_>| {
             let rule = summary.rule;
             let (name, is_watch) = match (&rule.name, &rule.claim) {
@@ -179,7 +179,7 @@ impl Book {
             let margin = match (summary.margin, is_watch) {
                 (Some(margin), true) => {
                     let cycles = margin.amount;
-                    let (length, began) = (cycles * machine.cycle_time().seconds(), margin.at.time);
+                    let (length, began) = (cycles * margin.cycle.seconds(), margin.at.time);
                     let length = Time::from_seconds(length);
                     let (met, begun) = (summary.met, summary.begun);
                     let noun = if (cycles - 1.0).abs() < 0.5 { "cycle" } else { "cycles" };
