@@ -3,11 +3,14 @@
 //! The process maps a file of its own (in memory where the system has `/dev/shm`), in lock-step. It starts before the first step, and the
 //! first step waits until it has opened the file: a program that does not start, or never opens the file, is an error of the scenario. One
 //! that ends or is silent during the run is a fault of the PLC, as in [`MappedPlc`]: alarm 2000, with the last lines that it printed. At the
-//! end the process sees that the NC has ended, and has two seconds to end by itself; then it is killed. In each case it is waited for, so no
-//! process stays.
+//! end the process sees that the NC has ended, and has two seconds to end by itself; then it is killed. In each case it is waited for. This
+//! concerns the process of the command itself: one that it starts in turn must end when it ends, or when the image shows the end of the NC.
+//!
+//! What the process prints goes into a file in the temporary directory, and the end of it into messages. On Unix both files have no name from
+//! the time on at which the process has opened the image, so they go with the two processes, even if both are killed.
 
-use std::fs::{self, File};
-use std::io;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -29,6 +32,8 @@ const LAST: Duration = Duration::from_secs(2);
 const INTERVAL: Duration = Duration::from_millis(2);
 /// The number of lines of its output in a message.
 const LINES: usize = 8;
+/// How much of the end of its output is read for them.
+const OUTPUT_BYTES: u64 = 64 * 1024;
 /// In the command, the mapped file.
 const IMAGE: &str = "{image}";
 
@@ -56,29 +61,54 @@ struct ProcessProgram {
     counts: [u64; 2],
 }
 
-/// The files of the exchange, which are removed at the end.
+/// The files of the exchange. Their names are removed at the end, or before.
 struct Files {
     image: PathBuf,
-    /// What the process prints.
     log: PathBuf,
+    have_names: bool,
+    /// What the process prints, open for reading; none if it prints to the output of this process.
+    printed: Option<Arc<File>>,
+}
+
+impl Files {
+    fn new(name: &str) -> Self {
+        let (in_memory, temporary) = (Path::new("/dev/shm"), std::env::temp_dir());
+        let folder = if in_memory.is_dir() { in_memory } else { &temporary };
+        let (image, log) = (folder.join(format!("{name}.image")), temporary.join(format!("{name}.log")));
+        let mut files = Self { image, log, have_names: true, printed: None };
+        // Those of an earlier process with the same number.
+        files.remove_names();
+        files.have_names = true;
+        files
+    }
+
+    /// Creates the file for what the process prints. It must be new: others can write to the temporary directory.
+    fn create_log(&mut self) -> io::Result<File> {
+        let log = OpenOptions::new().write(true).create_new(true).open(&self.log)?;
+        self.printed = Some(Arc::new(File::open(&self.log)?));
+        Ok(log)
+    }
+
+    /// The processes that have opened the files keep them.
+    fn remove_names(&mut self) {
+        if std::mem::take(&mut self.have_names) {
+            let _ = fs::remove_file(&self.image);
+            let _ = fs::remove_file(&self.log);
+        }
+    }
 }
 
 impl Drop for Files {
     fn drop(&mut self) {
-        let _ = fs::remove_file(&self.image);
-        let _ = fs::remove_file(&self.log);
+        self.remove_names();
     }
 }
 
 impl ProcessProgram {
     fn create(process: &PlcProcess, memory: &Memory, names: &Names, cycle: Time) -> Result<Self, Problem> {
         let words = words(&process.command)?;
-        let in_memory = Path::new("/dev/shm");
-        let folder = if in_memory.is_dir() { in_memory.to_owned() } else { std::env::temp_dir() };
-        let name = format!("opennck-{}-{}", std::process::id(), NUMBER.fetch_add(1, Ordering::Relaxed));
-        let files = Files { image: folder.join(format!("{name}.image")), log: folder.join(format!("{name}.log")) };
-        // Files of an earlier process with the same number.
-        let _ = fs::remove_file(&files.image);
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let files = Files::new(&format!("opennck-{}-{number}", std::process::id()));
         let time_out = Duration::from_nanos(u64::try_from(process.time_out.nanos()).unwrap_or(0));
         let exchange = Exchange { lock_step: true, time_out };
         let mapped = MappedPlc::of(&files.image, memory, names, cycle, exchange)?;
@@ -104,7 +134,7 @@ impl ProcessProgram {
         if self.process.is_shown {
             command.stdout(io::stderr()).stderr(Stdio::inherit());
         } else {
-            let log = File::create(&self.files.log).map_err(unstarted)?;
+            let log = self.files.create_log().map_err(unstarted)?;
             command.stdout(log.try_clone().map_err(unstarted)?).stderr(log);
         }
         let child = Arc::new(Mutex::new(command.spawn().map_err(unstarted)?));
@@ -131,17 +161,23 @@ impl ProcessProgram {
             std::thread::sleep(INTERVAL);
         }
         self.counts = self.mapped.counts();
-        let (log, command) = (self.files.log.clone(), program.clone());
+        if cfg!(unix) {
+            self.files.remove_names();
+        }
+        let (printed, command) = (self.files.printed.clone(), program.clone());
         self.mapped.notice_end(move || {
             let how = ended(&child)?;
-            Some(format!("the PLC process `{command}` ended while the NC runs ({how}){}", last_lines(&log)))
+            Some(format!(
+                "the PLC process `{command}` ended while the NC runs ({how}){}",
+                last_lines(printed.as_deref())
+            ))
         });
         Ok(())
     }
 
     /// The last lines that the process printed.
     fn said(&self) -> String {
-        last_lines(&self.files.log)
+        last_lines(self.files.printed.as_deref())
     }
 
     /// The requests of the process that nobody grants here.
@@ -228,11 +264,20 @@ fn ended(child: &Mutex<Child>) -> Option<String> {
 }
 
 /// The end of what a process printed, as further lines of a message.
-fn last_lines(log: &Path) -> String {
-    let text = decode(&fs::read(log).unwrap_or_default());
+fn last_lines(printed: Option<&File>) -> String {
+    let end = printed.and_then(|file| end_of(file).ok()).unwrap_or_default();
+    let text = decode(&end);
     let lines: Vec<&str> = text.lines().map(str::trim_end).filter(|line| !line.is_empty()).collect();
     let last = lines[lines.len().saturating_sub(LINES)..].iter();
     last.map(|line| format!("\n  it printed: {}", line.replace(char::is_control, " "))).collect()
+}
+
+fn end_of(mut file: &File) -> io::Result<Vec<u8>> {
+    let length = file.seek(SeekFrom::End(0))?;
+    file.seek(SeekFrom::Start(length.saturating_sub(OUTPUT_BYTES)))?;
+    let mut end = Vec::new();
+    file.take(OUTPUT_BYTES).read_to_end(&mut end)?;
+    Ok(end)
 }
 
 fn shown(directory: &Path) -> String {
@@ -271,7 +316,31 @@ fn words(command: &str) -> Result<Vec<String>, Problem> {
 
 #[cfg(test)]
 mod tests {
+    use std::io::Write;
+
     use super::*;
+
+    #[test]
+    fn the_output_of_a_process_is_new_and_only_its_end_is_read() {
+        let name = format!("opennck-test-{}", std::process::id());
+        let mut files = Files::new(&name);
+        let mut log = files.create_log().unwrap();
+        assert!(files.create_log().is_err(), "it exists");
+        let path = files.log.clone();
+        if cfg!(unix) {
+            files.remove_names();
+            assert!(!path.exists());
+        }
+        log.write_all(&b"line\n".repeat(100_000)).unwrap();
+        log.write_all(b"last\n").unwrap();
+        let printed = files.printed.clone().unwrap();
+        assert_eq!(end_of(&printed).unwrap().len() as u64, OUTPUT_BYTES);
+        let lines = last_lines(Some(&printed));
+        assert_eq!(lines.lines().filter(|line| line.starts_with("  it printed: ")).count(), LINES);
+        assert!(lines.ends_with("  it printed: last"), "{lines}");
+        drop((files, log, printed));
+        assert!(!path.exists());
+    }
 
     #[test]
     fn quotes_keep_a_word_together_and_the_image_is_required() {

@@ -57,19 +57,22 @@ fn err(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// The word of the file in which a process counts that it has opened it.
-const PLC_STARTS: usize = 512;
-
-/// The command of a process that has this text, if one runs.
-fn command_with(text: &str) -> Option<String> {
-    let processes = fs::read_dir("/proc").into_iter().flatten().flatten();
-    let mut commands = processes.map(|process| fs::read(process.path().join("cmdline")).unwrap_or_default());
-    commands.find_map(|command| Some(String::from_utf8_lossy(&command).into_owned()).filter(|it| it.contains(text)))
-}
-
 /// Whether a process runs whose command has this text.
 fn is_left(text: &str) -> bool {
-    command_with(text).is_some()
+    let processes = fs::read_dir("/proc").into_iter().flatten().flatten();
+    processes.into_iter().any(|process| {
+        let command = fs::read(process.path().join("cmdline")).unwrap_or_default();
+        String::from_utf8_lossy(&command).contains(text)
+    })
+}
+
+/// The names of the files that this NC has made for its PLC processes.
+#[cfg(target_os = "linux")]
+fn left_files(nc: u32) -> Vec<PathBuf> {
+    let folders = [PathBuf::from("/dev/shm"), std::env::temp_dir()];
+    let files = folders.iter().filter_map(|folder| fs::read_dir(folder).ok()).flatten().flatten();
+    let own = format!("opennck-{nc}-");
+    files.map(|file| file.path()).filter(|path| path.to_string_lossy().contains(&own)).collect()
 }
 
 #[test]
@@ -145,7 +148,12 @@ fn a_process_whose_nc_was_killed_ends_by_itself() {
         return;
     }
     let directory = directory("killed");
-    write(&directory, "orphan", "plc = { process = \"python3 orphan.py {image}\" }", "time.sleep(0.01)");
+    write(
+        &directory,
+        "orphan",
+        "plc = { process = \"python3 orphan.py {image}\" }",
+        "open('opened', 'w').close(); time.sleep(0.01)",
+    );
     let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
     let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/python_plc");
     command.env("PYTHONPATH", module).env("PYTHONDONTWRITEBYTECODE", "1").args(["test", "orphan.toml"]);
@@ -157,13 +165,11 @@ fn a_process_whose_nc_was_killed_ends_by_itself() {
             std::thread::sleep(Duration::from_millis(20));
         }
     };
-    // A process that opens a file which nobody serves would wait for the next NC.
-    let has_opened = || {
-        let command = command_with("orphan.py")?;
-        let image = fs::read(command.split('\0').find(|word| word.ends_with(".image"))?).ok()?;
-        Some(image.get(PLC_STARTS).is_some_and(|starts| *starts > 0))
-    };
-    wait(&|| has_opened() == Some(true), "it opens the image");
+    wait(&|| is_left("orphan.py"), "it starts");
+    let id = child.id();
+    // It has written the mark when it had opened the image.
+    wait(&|| directory.join("opened").exists(), "it opens the image");
+    wait(&|| left_files(id).is_empty(), "its files have no names any more");
     child.kill().unwrap();
     child.wait().unwrap();
     wait(&|| !is_left("orphan.py"), "it ends");
