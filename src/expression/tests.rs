@@ -139,6 +139,10 @@ fn numbers_are_read_with_base_point_and_underscore() {
     {
         assert!((value(source) - expected).abs() < 1e-12, "{source}");
     }
+    for misplaced in ["1_.5", "1._5", "1__0", "1_", "16#_D0", "16#D0_", "1_.5_0"] {
+        let problem = parsed(misplaced).unwrap_err();
+        assert!(problem.to_string().contains(&format!("found `{misplaced}`")), "{problem}");
+    }
 }
 
 #[test]

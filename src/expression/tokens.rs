@@ -137,8 +137,13 @@ fn parse_number(word: &str) -> Option<f64> {
 
 /// Digits without underscores. An underscore is valid only between two digits.
 fn without_separators(word: &str) -> Option<String> {
-    let misplaced = word.starts_with('_') || word.ends_with('_') || word.contains("__");
-    (!misplaced && !word.is_empty()).then(|| word.replace('_', ""))
+    let bytes = word.as_bytes();
+    let is_digit = |index: Option<usize>| {
+        index.and_then(|index| bytes.get(index)).is_some_and(|byte| byte.is_ascii_alphanumeric())
+    };
+    let mut separators = bytes.iter().enumerate().filter(|(_, byte)| **byte == b'_');
+    let all_between = separators.all(|(index, _)| is_digit(index.checked_sub(1)) && is_digit(Some(index + 1)));
+    (all_between && !word.is_empty()).then(|| word.replace('_', ""))
 }
 
 fn number(word: &str, source: &str, column: usize) -> Result<f64, Problem> {
