@@ -141,16 +141,22 @@ impl Table {
         Err(place.problem(format!("expected one of `{known}`, found the unknown key `{name}`"), cure))
     }
 
-    /// Merges another table over this one: tables are merged, all other values are replaced; `false` also replaces a table.
+    /// Merges another table over this one: tables are merged, all other values are replaced; `false` also replaces a table. The place of a
+    /// merged table is that of the one that changed it last: what does not fit together then does so because of this change.
     pub fn merge(&mut self, over: Self) {
+        self.place = over.place;
         for (name, place, node) in over.entries {
             let existing = self.entries.iter().position(|(other, ..)| *other == name);
             match existing {
                 None => self.entries.push((name, place, node)),
                 Some(index) => {
-                    let (.., old) = &mut self.entries[index];
+                    let (_, old_place, old) = &mut self.entries[index];
+                    *old_place = place;
                     match (&mut old.value, node.value) {
-                        (Value::Table(old), Value::Table(new)) => old.merge(new),
+                        (Value::Table(table), Value::Table(new)) => {
+                            table.merge(new);
+                            old.place = node.place;
+                        }
                         (_, value) => *old = Node { place: node.place, value },
                     }
                 }
@@ -383,6 +389,22 @@ mod tests {
         assert!(!x.take("cam").unwrap().boolean("cam").unwrap());
         assert_eq!(x.take("start").unwrap().integer("start").unwrap(), 1);
         assert_eq!(x.take("stop").unwrap().integer("stop").unwrap(), 4);
+    }
+
+    #[test]
+    fn a_merged_table_has_the_place_of_its_last_change() {
+        let mut table = parsed("[x]\nstart = 1\n[x.cam]\nfrom = 2\nto = 3\n[y]\na = 1\n");
+        table.merge(Table::parse("\n[x]\ncam = { from = 5 }\n", "over.toml").unwrap());
+        let place = |table: &mut Table, key| {
+            let (_, place, node) = table.take_rest().into_iter().find(|(name, ..)| name == key).unwrap();
+            (place.to_string(), node.into_table("a table").unwrap())
+        };
+        let (of_x, mut x) = place(&mut table.clone(), "x");
+        let (of_cam, mut cam) = place(&mut x, "cam");
+        assert_eq!((of_x.as_str(), of_cam.as_str()), ("over.toml:2", "over.toml:3"));
+        assert_eq!(cam.place.to_string(), "over.toml:3");
+        assert_eq!(cam.take("to").unwrap().place.to_string(), "t.toml:5");
+        assert_eq!(place(&mut table, "y").0, "t.toml:6");
     }
 
     #[test]
