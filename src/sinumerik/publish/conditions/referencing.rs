@@ -145,6 +145,10 @@ impl Look<'_> {
             self.may_move(unit),
             self.axis(number, axis_to_nck::axis_spindle_disable, false),
         ];
+        if reference.is_spindle {
+            let what = format!("reference point approach of {name} (MD35000)");
+            all.push(Fact::new(what, "none, because it is a spindle", "that of an axis", false).into());
+        }
         if active.is_some() {
             let what = format!("referencing mode of {name} (MD34200)");
             all.push(Fact::new(what, mode.to_string(), "1", mode == 1).into());
