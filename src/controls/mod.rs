@@ -1,6 +1,8 @@
 //! THE AVAILABLE CONTROLS: the only module that names them, one row of `CONTROLS` for each. It reads the files of a machine and selects the
 //! matching control. All other modules use [`Control`](crate::control::Control).
 
+pub mod documented;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

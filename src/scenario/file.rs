@@ -12,6 +12,7 @@ use super::rules;
 use super::written::WrittenSteps;
 use crate::control::{StoredDatum, Value as DatumValue};
 use crate::controls;
+use crate::controls::documented::check_id;
 use crate::image::Profile;
 use crate::plc::PlcProcess;
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean, read_text};
@@ -189,7 +190,7 @@ impl Scenario {
             path: path.to_owned(),
             title,
             machine,
-            covers: texts(table.take("covers"), "requirement IDs")?.into_iter().map(|id| id.text).collect(),
+            covers: covers(table.take("covers"))?,
             profiles: profiles(table.take("profile"))?,
             plc,
             plc_process,
@@ -291,6 +292,12 @@ fn process(node: Node, path: &Path) -> Result<(PlcProcess, Place), Problem> {
     let directory = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
     let command = command.text("a command")?.to_owned();
     Ok((PlcProcess { command, directory, time_out, is_shown: false }, place))
+}
+
+/// The IDs of rules. IDs of the project exist; those of other families are free, as the numbers of a user's own requirements.
+fn covers(node: Option<Node>) -> Result<Vec<String>, Problem> {
+    let ids = texts(node, "requirement IDs")?.into_iter();
+    ids.map(|id| check_id(&id.text).map(|()| id.text).map_err(|problem| problem.at(&id.place))).collect()
 }
 
 fn machine_data(node: Node) -> Result<Vec<StoredDatum>, Problem> {

@@ -34,13 +34,27 @@ fn covers(text: &str) -> Vec<String> {
     list.iter().filter_map(|value| Some(value.as_str()?.to_owned())).collect()
 }
 
+/// The alarms that are raised in a golden trace: `1.072  alarm 25030   Y   raised`.
+fn alarms(snap: &str) -> impl Iterator<Item = &str> {
+    snap.lines().filter_map(|line| {
+        let mut words = line.split_whitespace();
+        let alarm = words.nth(1).filter(|word| *word == "alarm").and_then(|_| words.next())?;
+        words.any(|word| word == "raised").then_some(alarm)
+    })
+}
+
 #[test]
-fn the_scenarios_that_show_a_rule_are_listed() {
+fn the_scenarios_that_show_a_rule_or_an_alarm_are_listed() {
     let list = "src/cli/rule/scenarios.txt";
     let mut pairs = BTreeSet::new();
     for file in scenario_files(&[project().join("golden")]).unwrap() {
         let name = file.strip_prefix(project()).unwrap().display().to_string().replace('\\', "/");
-        assert!(!cases(&file).unwrap().is_empty(), "{name}");
+        let cases = cases(&file).unwrap();
+        assert!(!cases.is_empty(), "{name}");
+        for case in cases {
+            let snap = fs::read_to_string(&case.snap).unwrap();
+            pairs.extend(alarms(&snap).map(|alarm| format!("{alarm} {name}\n")));
+        }
         pairs.extend(covers(&fs::read_to_string(&file).unwrap()).into_iter().map(|rule| format!("{rule} {name}\n")));
     }
     let expected: String = pairs.into_iter().collect();

@@ -1,15 +1,17 @@
 //! `opennck rule`: what a rule says, where it stands, which decisions touch it, and which scenarios show it.
 
-mod tables;
-
 use serde_json::json;
 
 use super::list::{Format, List};
 use super::output::Output;
 use crate::control::Texts;
 use crate::controls;
+use crate::controls::documented::{Decision, RuleRow, contains, decisions, rules, without_row};
 use crate::source::{Problem, did_you_mean};
-use tables::{Decision, RuleRow, contains, decisions, rules, scenarios, without_row};
+
+/// A rule and a scenario that cites it in `covers`, or an alarm and a scenario whose golden trace has it; one pair a line. A test compares this
+/// file with the scenarios.
+const SCENARIOS: &str = include_str!("scenarios.txt");
 
 /// Everything about one ID.
 struct Entry {
@@ -41,6 +43,12 @@ pub(super) fn rule(filter: Option<&str>, format: Format, output: &mut Output) ->
         return 2;
     }
     list(Some(filter), format, output)
+}
+
+/// The scenarios that show a rule or an alarm.
+fn scenarios(id: &str) -> Vec<&'static str> {
+    let pairs = SCENARIOS.lines().filter_map(|line| line.split_once(' '));
+    pairs.filter(|(rule, _)| rule.eq_ignore_ascii_case(id)).map(|(_, scenario)| scenario).collect()
 }
 
 /// Letters or digits, a hyphen, and a number; or an alarm number.
