@@ -4,8 +4,10 @@
 //! `name.snap` only when accepting is requested, and `name.snap.new` for review. The files have the format of insta, so that the tools
 //! of insta show and accept changes: `cargo insta review`.
 
+mod orphans;
 mod snapshot;
 
+pub use orphans::{is_of, orphans};
 pub use snapshot::{Snapshot, normalized, pending};
 
 use std::collections::BTreeSet;

@@ -20,8 +20,8 @@ use select::found;
 use suite::{list, once, reports};
 
 pub(super) fn test(arguments: &Arguments, programs: &Programs, output: &mut Output) -> u8 {
-    let begun = found(arguments).and_then(|work| Ok((reports(arguments, &work)?, work)));
-    let (reports, work) = match begun {
+    let begun = found(arguments).and_then(|found| Ok((reports(arguments, &found.work)?, found)));
+    let (reports, found) = match begun {
         Ok(begun) => begun,
         Err(problem) => {
             output.error(problem);
@@ -29,8 +29,8 @@ pub(super) fn test(arguments: &Arguments, programs: &Programs, output: &mut Outp
         }
     };
     if arguments.list {
-        return list(&work, output);
+        return list(&found.work, output);
     }
-    let code = once(&work, Some(reports), arguments, programs, output);
+    let code = once(&found, Some(reports), arguments, programs, output);
     if arguments.watch { watch::again(arguments, programs, output) } else { code }
 }

@@ -1,15 +1,27 @@
 //! Which cases run, and in which order: `--filter`, then `--shard`, then `--shuffle`.
 
+use std::path::PathBuf;
+
 use super::arguments::{Arguments, Shard};
 use super::work::{Item, Work};
-use crate::golden::{cases, scenario_files};
+use crate::golden::{cases, orphans, scenario_files};
 use crate::source::Problem;
 
-/// The selected cases, in the order in which they run.
-pub(super) fn found(arguments: &Arguments) -> Result<Vec<Work>, Problem> {
-    let mut work = Vec::new();
+/// The selected cases, and the golden files that belong to no case.
+pub(super) struct Found {
+    /// In the order in which they run.
+    pub(super) work: Vec<Work>,
+    pub(super) orphans: Vec<PathBuf>,
+}
+
+/// What is below the paths.
+pub(super) fn found(arguments: &Arguments) -> Result<Found, Problem> {
+    let (mut work, mut files) = (Vec::new(), Vec::new());
     for file in scenario_files(&arguments.paths)? {
-        match cases(&file) {
+        let cases = cases(&file);
+        let snaps = cases.as_ref().ok().map(|cases| cases.iter().map(|case| case.snap.clone()).collect());
+        files.push((file.clone(), snaps));
+        match cases {
             Err(problem) => {
                 work.push(Work { name: file.display().to_string(), file, item: Item::Unusable(problem) });
             }
@@ -19,7 +31,8 @@ pub(super) fn found(arguments: &Arguments) -> Result<Vec<Work>, Problem> {
             })),
         }
     }
-    select(work, arguments)
+    let orphans = orphans(&arguments.paths, &files)?;
+    Ok(Found { work: select(work, arguments)?, orphans })
 }
 
 /// The selected cases. A file that cannot be used stays: it may hold the case that is looked for.

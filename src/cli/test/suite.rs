@@ -13,13 +13,14 @@ use super::annotations;
 use super::arguments::{Arguments, Format};
 use super::junit;
 use super::page;
+use super::select::Found;
 use super::work::{Item, Ran, Work, sum};
 use crate::cli::files::Files;
 use crate::cli::flowchart;
 use crate::cli::output::Output;
-use crate::golden::{Exercised, Outcome, Update};
+use crate::golden::{Exercised, Outcome, Update, is_of};
 use crate::plc::Programs;
-use crate::source::{Problem, Replacement};
+use crate::source::{Problem, Replacement, unwritable};
 
 /// The output files, open before anything runs.
 pub(super) struct Reports {
@@ -57,13 +58,14 @@ pub(super) fn list(work: &[Work], output: &mut Output) -> u8 {
 
 /// Runs the cases once and reports them.
 pub(super) fn once(
-    work: &[Work],
+    found: &Found,
     reports: Option<Reports>,
     arguments: &Arguments,
     programs: &Programs,
     output: &mut Output,
 ) -> u8 {
     let begin = Instant::now();
+    let work = &found.work;
     let (ran, taken) = all(work, arguments, programs);
     let took = begin.elapsed();
     // One line for each machine with findings.
@@ -75,6 +77,7 @@ pub(super) fn once(
     let left = ran.iter().filter(|ran| ran.is_none()).count();
     let done: Vec<(&Work, Ran)> = work.iter().zip(ran).filter_map(|(work, ran)| Some((work, ran?))).collect();
     let mut code = report(&done, left, arguments.format, output);
+    code = code.max(orphans(&found.orphans, &done, arguments.accept, output));
     let Some(reports) = reports else { return code };
     let written = |file: Option<Replacement>, text: &mut dyn FnMut() -> Result<String, Problem>| {
         file.map_or(Ok(()), |mut file| {
@@ -97,6 +100,38 @@ pub(super) fn once(
     }
     code
 }
+
+/// Golden files that belong to no case: with `--accept`, those of scenarios that have run are removed. The others are named.
+fn orphans(orphans: &[PathBuf], done: &[(&Work, Ran)], is_accepted: bool, output: &mut Output) -> u8 {
+    let has_run = |snap: &PathBuf| done.iter().any(|(work, _)| work.case().is_some() && is_of(snap, &work.file));
+    let (removed, left): (Vec<_>, Vec<_>) = orphans.iter().partition(|snap| is_accepted && has_run(snap));
+    let mut code = 0;
+    for snap in removed {
+        match std::fs::remove_file(snap) {
+            Ok(()) => output.line(format!("removed  {}", snap.display())),
+            Err(error) => {
+                output.error(unwritable(snap, &error));
+                code = 2;
+            }
+        }
+    }
+    let names: Vec<_> = left.iter().take(SHOWN).map(|snap| snap.display().to_string()).collect();
+    let more = if left.len() > SHOWN { format!(" and {} more", left.len() - SHOWN) } else { String::new() };
+    let names = format!("{}{more}", names.join(", "));
+    match left.len() {
+        0 => {}
+        1 => output.warning(format!("1 golden file belongs to no case: {names}; {CURE}")),
+        count => output.warning(format!("{count} golden files belong to no case: {names}; {CURE}")),
+    }
+    code
+}
+
+/// The number of golden files without a case that are named.
+const SHOWN: usize = 10;
+
+/// What to do about golden files without a case.
+const CURE: &str =
+    "delete those of scenarios that do not exist any more; `--accept` removes those of scenarios that run";
 
 /// Runs all cases in parallel. The outcomes are in the order of the work, not in order of completion; with `--fail-fast`, a case that did
 /// not begin before the first failure has none. The transitions taken in all cases are added up per control.

@@ -36,11 +36,11 @@ pub(super) fn again(arguments: &Arguments, programs: &Programs, output: &mut Out
             output.line(format!("\nchanged: {}", path.display()));
         }
         match found(arguments) {
-            Ok(mut work) => {
-                work.retain(|work| {
+            Ok(mut found) => {
+                found.work.retain(|work| {
                     work.inputs().iter().any(|input| changed.iter().any(|path| path.starts_with(input)))
                 });
-                once(&work, None, arguments, programs, output);
+                once(&found, None, arguments, programs, output);
             }
             Err(problem) => output.error(problem),
         }
@@ -52,7 +52,8 @@ pub(super) fn again(arguments: &Arguments, programs: &Programs, output: &mut Out
 
 /// All files of the selected cases with their states.
 fn states(arguments: &Arguments) -> BTreeMap<PathBuf, State> {
-    let inputs: BTreeSet<PathBuf> = found(arguments).unwrap_or_default().iter().flat_map(Work::inputs).collect();
+    let inputs: BTreeSet<PathBuf> =
+        found(arguments).map_or_else(|_| BTreeSet::new(), |found| found.work.iter().flat_map(Work::inputs).collect());
     let mut states = BTreeMap::new();
     for input in inputs {
         collect(&input, &mut states);
