@@ -1,4 +1,5 @@
-//! `opennck machine-data check`: prints what was read as a machine, and the findings in its machine data by class.
+//! `opennck machine-data`: the catalogue of machine data (`list`); what was read as a machine, and the findings in its machine data by class
+//! (`check`), also of a machine as a scenario changes it.
 //!
 //! The alarms at power on are those that the machine itself raises in its first cycle.
 
@@ -7,10 +8,12 @@ use std::path::Path;
 
 use clap::ValueEnum;
 
+use super::list::{Format, List};
 use super::output::Output;
-use crate::control::{Class, Examined, Finding, summary};
+use crate::control::{Class, DatumRow, Examined, Finding, Texts, summary};
 use crate::controls;
 use crate::machine::Machine;
+use crate::scenario::Scenario;
 use crate::source::{Place, Problem};
 use crate::units::AxisNumber;
 use crate::variables::Describe;
@@ -20,7 +23,7 @@ use crate::variables::Describe;
 pub(super) enum Deny {
     /// Data that the control knows and that have no effect here.
     NotModelled,
-    /// Values that a later file replaced.
+    /// Values that a later file or line replaced.
     Overlaid,
 }
 
@@ -34,19 +37,91 @@ impl Deny {
 }
 
 /// A summary of what was read, and the findings.
+#[derive(PartialEq)]
 struct Checked {
     summary: Vec<String>,
     findings: Vec<Finding>,
 }
 
-pub(super) fn check(path: &Path, all: bool, deny: &[Deny], output: &mut Output) -> u8 {
-    let Checked { summary: read, findings } = match checked(path) {
-        Ok(checked) => checked,
+/// Prints the catalogue.
+pub(super) fn list(filter: Option<&str>, format: Format, output: &mut Output) -> u8 {
+    let heads = &["number", "name", "unit", "range", "default", "takes effect", "modelled", "meaning"];
+    let rows = controls::texts().flat_map(Texts::machine_data).map(row).collect();
+    let mut list = List { heads, rows };
+    match filter {
+        // A number is that of a datum, not a part of a range or of a default.
+        Some(number) if list.rows.iter().any(|row| row[0] == number) => list.rows.retain(|row| row[0] == number),
+        filter => list.retain_with(filter, output),
+    }
+    list.print(format, output)
+}
+
+fn row(datum: DatumRow) -> Vec<String> {
+    let DatumRow { number, name, unit, range, default, effect, modelled, text } = datum;
+    let modelled = if modelled { "yes" } else { "no" };
+    vec![number.to_string(), name, unit.to_owned(), range, default, effect, modelled.to_owned(), text.to_owned()]
+}
+
+pub(super) fn check(path: &Path, case: Option<&str>, all: bool, deny: &[Deny], output: &mut Output) -> u8 {
+    let result = if is_scenario(path) { of_scenario(path, case) } else { of_machine(path, case) };
+    let reports = match result {
+        Ok(reports) => reports,
         Err(problem) => {
             output.error(problem);
             return 2;
         }
     };
+    let mut highest = 0;
+    for (index, (cases, checked)) in reports.into_iter().enumerate() {
+        if index > 0 {
+            output.line("");
+        }
+        for case in cases {
+            output.line(format!("case {case}"));
+        }
+        highest = highest.max(report(checked, all, deny, output));
+    }
+    highest
+}
+
+/// What was checked, and the cases of a matrix for which it is the same.
+type Reports = Vec<(Vec<String>, Checked)>;
+
+fn is_scenario(path: &Path) -> bool {
+    path.is_file() && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+}
+
+fn of_machine(path: &Path, case: Option<&str>) -> Result<Reports, Problem> {
+    if case.is_some() {
+        let place = Place::file(&path.display().to_string());
+        return Err(place.problem("expected a scenario (*.toml) with --case, found a machine", "omit --case"));
+    }
+    Ok(vec![(Vec::new(), checked(path, || Machine::open(path))?)])
+}
+
+/// The machine of each case of a scenario; cases with the same findings are one.
+fn of_scenario(path: &Path, case: Option<&str>) -> Result<Reports, Problem> {
+    let scenarios = match case {
+        Some(_) => vec![Scenario::read_case(path, case)?],
+        None => Scenario::read_cases(path)?,
+    };
+    let mut reports = Reports::new();
+    for scenario in scenarios {
+        let machine = scenario.directory().join(&scenario.machine.text);
+        let profile = scenario.profiles.first().copied().unwrap_or_default();
+        let checked = checked(&machine, || scenario.machine(profile))?;
+        let name = scenario.variant.as_ref().map(ToString::to_string);
+        match reports.iter_mut().find(|(_, known)| *known == checked) {
+            Some((names, _)) => names.extend(name),
+            None => reports.push((name.into_iter().collect(), checked)),
+        }
+    }
+    Ok(reports)
+}
+
+/// Prints a summary of what was read and the findings, and returns the exit code.
+fn report(checked: Checked, all: bool, deny: &[Deny], output: &mut Output) -> u8 {
+    let Checked { summary: read, findings } = checked;
     for line in read {
         output.line(line);
     }
@@ -101,11 +176,11 @@ fn groups(findings: &[&Finding], all: bool, output: &mut Output) {
     }
 }
 
-/// The findings in the files of a machine. A reason to reject the machine is a finding as well.
-fn checked(path: &Path) -> Result<Checked, Problem> {
+/// The findings in the files of a machine. A reason to reject the machine is a finding as well. `open` opens the machine.
+fn checked(path: &Path, open: impl FnOnce() -> Result<Machine, Problem>) -> Result<Checked, Problem> {
     if !path.exists() {
         // The name of a built-in machine, or an unknown name.
-        return Ok(opened(Machine::open(path)?, Vec::new()));
+        return Ok(opened(open()?, Vec::new()));
     }
     let Examined { is_refused, is_empty, summary, findings } = controls::examine(path)?;
     if is_refused {
@@ -118,7 +193,7 @@ fn checked(path: &Path) -> Result<Checked, Problem> {
             _ => Ok(Checked { summary, findings }),
         };
     }
-    match Machine::open(path) {
+    match open() {
         Ok(machine) => Ok(opened(machine, summary)),
         Err(problem) if is_empty => Err(problem),
         // A run rejects this although each machine datum is valid, for example names that clash.

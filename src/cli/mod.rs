@@ -220,20 +220,36 @@ enum Plc {
 
 #[derive(Debug, Subcommand)]
 enum MachineData {
-    /// Reads machine data and reports every finding: errors, alarms at power on, implausible values, data that act otherwise than on a
-    /// control, values that a later file replaced, data that are not modelled.
+    /// Reads machine data and reports every finding: errors, alarms at power on, data that are perhaps mistyped, implausible values, data
+    /// that act otherwise than on a control, values that a later file or line replaced, data that are not modelled.
     ///
-    /// Exit codes: 0 usable; 1 a finding changes the behaviour (an alarm at power on, an implausible value, a datum that acts otherwise than
-    /// on a control), or a finding that --deny names; 2 unusable.
+    /// Exit codes: 0 usable; 1 a finding changes the behaviour (an alarm at power on, an unknown datum in a file that a person wrote, an
+    /// implausible value, a datum that acts otherwise than on a control), or a finding that --deny names; 2 unusable.
     Check {
-        /// A directory, an archive file, or the name of a built-in machine.
+        /// A directory, an archive file, the name of a built-in machine, or a scenario (*.toml): its machine as the scenario changes it.
         machine: PathBuf,
+        /// Of a scenario with a matrix: only the cases whose values contain this text, as `plc = a`.
+        #[arg(long, value_name = "TEXT")]
+        case: Option<String>,
         /// Lists every datum that is not modelled, instead of one line for each function.
         #[arg(long)]
         all: bool,
         /// Ends with 1 if there are findings of this kind.
         #[arg(long, value_enum, value_name = "KIND")]
         deny: Vec<machine_data::Deny>,
+    },
+    /// Lists the catalogue of machine data: number, name, unit, range, default, the action with which it takes effect, whether it is
+    /// modelled, meaning.
+    ///
+    /// Modelled: `yes`: the datum has an effect. `no`: it is read, checked and kept, without effect. A control has further data; they are kept
+    /// as well.
+    List {
+        /// A number, or a text: only data with this text in their row.
+        #[arg(value_name = "TEXT|NUMBER")]
+        filter: Option<String>,
+        /// Output format.
+        #[arg(long, value_enum, default_value = "table")]
+        format: Format,
     },
 }
 
@@ -290,8 +306,11 @@ fn run_command(programs: &Programs) -> ExitCode {
         Some(Command::Flowchart { chart }) => flowchart::flowchart(chart.as_deref(), &mut output),
         Some(Command::Completions { shell }) => completions::completions(shell, &mut Arguments::command(), &mut output),
         Some(Command::Nc { command }) => nc::run(&command, &mut output),
-        Some(Command::MachineData { command: MachineData::Check { machine, all, deny } }) => {
-            machine_data::check(&machine, all, &deny, &mut output)
+        Some(Command::MachineData { command: MachineData::Check { machine, case, all, deny } }) => {
+            machine_data::check(&machine, case.as_deref(), all, &deny, &mut output)
+        }
+        Some(Command::MachineData { command: MachineData::List { filter, format } }) => {
+            machine_data::list(filter.as_deref(), format, &mut output)
         }
         Some(Command::Plc { command: Plc::Check { folder } }) => plc::check(&folder, &mut output),
     };

@@ -12,11 +12,13 @@ pub enum Class {
     Unreadable,
     /// The control raises an alarm at power on, here and on a machine.
     AlarmAtPowerOn,
+    /// A text file that a person wrote names a datum that is not known. It has no effect.
+    Mistyped,
     /// A control accepts the value (O-30), but a function cannot work with it, or two values contradict each other.
     Implausible,
     /// The datum acts on a control otherwise than here.
     ActsOtherwise,
-    /// A later file replaced the value of an earlier file.
+    /// A later file replaced the value of an earlier file, or a later line that of an earlier line.
     Overlaid,
     /// The control knows the datum; here it is kept and has no effect.
     NotModelled,
@@ -24,9 +26,10 @@ pub enum Class {
 
 impl Class {
     /// All classes, the heaviest first.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Unreadable,
         Self::AlarmAtPowerOn,
+        Self::Mistyped,
         Self::Implausible,
         Self::ActsOtherwise,
         Self::Overlaid,
@@ -39,6 +42,7 @@ impl Class {
         match self {
             Self::Unreadable => "error",
             Self::AlarmAtPowerOn => "alarm at power on",
+            Self::Mistyped => "unknown",
             Self::Implausible => "implausible",
             Self::ActsOtherwise => "acts otherwise",
             Self::Overlaid => "overlaid",
@@ -52,9 +56,10 @@ impl Class {
         match self {
             Self::Unreadable => "errors",
             Self::AlarmAtPowerOn => "alarms at power on",
+            Self::Mistyped => "unknown, perhaps mistyped",
             Self::Implausible => "implausible",
             Self::ActsOtherwise => "acts otherwise than on a control",
-            Self::Overlaid => "values that a later file replaced",
+            Self::Overlaid => "values that a later file or line replaced",
             Self::NotModelled => "not modelled (known to the control, no effect here)",
         }
     }
@@ -63,7 +68,7 @@ impl Class {
     #[must_use]
     pub const fn changes_behaviour(self) -> bool {
         match self {
-            Self::Unreadable | Self::AlarmAtPowerOn | Self::Implausible | Self::ActsOtherwise => true,
+            Self::Unreadable | Self::AlarmAtPowerOn | Self::Mistyped | Self::Implausible | Self::ActsOtherwise => true,
             Self::Overlaid | Self::NotModelled => false,
         }
     }
@@ -160,10 +165,11 @@ pub fn summary(findings: &[Finding]) -> Option<String> {
             (Class::Unreadable, _) => "errors",
             (Class::AlarmAtPowerOn, 1) => "alarm at power on",
             (Class::AlarmAtPowerOn, _) => "alarms at power on",
+            (Class::Mistyped, _) => "unknown, perhaps mistyped",
             (Class::Implausible, _) => "implausible",
             (Class::ActsOtherwise, 1) => "acts otherwise than on a control",
             (Class::ActsOtherwise, _) => "act otherwise than on a control",
-            (Class::Overlaid, _) => "replaced by a later file",
+            (Class::Overlaid, _) => "replaced by a later file or line",
             (Class::NotModelled, _) => "not modelled",
         };
         let named = if class == Class::ActsOtherwise { named(findings) } else { String::new() };

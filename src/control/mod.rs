@@ -318,8 +318,34 @@ pub trait Texts: Sync {
     /// The data that set the cycle times, for use in error messages: `MD10050 and MD10070`.
     fn cycle_data(&self) -> &'static str;
 
+    /// All its machine data, ascending by number. The default is none, for a control without a list of its data.
+    fn machine_data(&self) -> Vec<DatumRow> {
+        Vec::new()
+    }
+
     /// Its state machines as charts.
     fn charts(&self) -> Vec<Chart>;
+}
+
+/// A machine datum of a control.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DatumRow {
+    /// Its number.
+    pub number: u32,
+    /// Its name with its index, as a file has it: `$MA_REFP_SET_POS[0..3,axis]`.
+    pub name: String,
+    /// Its unit; empty without a unit.
+    pub unit: &'static str,
+    /// Its permitted values, in words.
+    pub range: String,
+    /// Its default, as a file has it.
+    pub default: String,
+    /// The action with which a new value takes effect, in words.
+    pub effect: String,
+    /// Whether it has an effect in the model.
+    pub modelled: bool,
+    /// Its meaning.
+    pub text: &'static str,
 }
 
 /// An alarm of a control.

@@ -83,6 +83,8 @@ pub struct Site<'a> {
     pub names_axis: &'a dyn Fn(&str) -> bool,
     /// The types of encoder 1 and 2 of an axis, if the plant defines them.
     pub encoders: &'a dyn Fn(&str) -> [Option<EncoderModel>; 2],
+    /// The place where the plant gives an axis a reference cam, if it does.
+    pub cam: &'a dyn Fn(&str) -> Option<Place>,
 }
 
 /// An opened control, and the data of its files that the rest of the machine needs.

@@ -1,6 +1,6 @@
 //! Reads a machine: its control, `plant.toml` and presets, with all defaults filled in.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use super::Machine;
@@ -12,7 +12,7 @@ use super::state::State;
 use super::step::first_variables;
 use crate::control::{Configuration, Control, CycleTimes, EncoderModel, Finding, Opened, Settings, Site, summary};
 use crate::image::{Location, Memory, Names, Preset, Profile, SwitchSignals};
-use crate::plant::{EncoderKind, Hints, Layout, Plant, PlantDefinition, Switch};
+use crate::plant::{EncoderKind, Given, Hints, Layout, Plant, PlantDefinition, Switch};
 use crate::source::{Place, Problem, Table};
 use crate::trace::Recorder;
 use crate::units::{AxisNumber, AxisSet, PerAxis, Time};
@@ -27,6 +27,8 @@ pub struct OpenOptions {
     pub profile: Profile,
     /// PLC memory beside the interface, and initial values.
     pub preset: Option<Preset>,
+    /// The scenario that changes the machine: the line about findings names it, where they come from it.
+    pub scenario: Option<PathBuf>,
 }
 
 impl Machine {
@@ -52,17 +54,22 @@ impl Machine {
     /// # Errors
     /// Something in the plant or the options cannot be used with this control.
     pub fn of(configuration: &dyn Configuration, mut plant: Table, options: OpenOptions) -> Result<Self, Problem> {
+        let plant_place = plant.place.clone();
         if let Some(over) = options.plant_over {
             plant.merge(over);
         }
-        let plant_place = plant.place.clone();
         let mut plant = PlantDefinition::read(plant)?;
+        let machine_place = plant.machine.as_ref().map_or_else(|| plant_place.clone(), |table| table.place.clone());
         let mut settings = Settings {
             machine: plant.machine.take().unwrap_or_else(|| Table::empty(plant_place.clone())),
             compatibility: plant.compatibility.take().unwrap_or_else(|| Table::empty(plant_place.clone())),
         };
         let opened = configuration.open(
-            &Site { names_axis: &|name| plant.axes.contains_key(name), encoders: &|name| encoders(&plant, name) },
+            &Site {
+                names_axis: &|name| plant.axes.contains_key(name),
+                encoders: &|name| encoders(&plant, name),
+                cam: &|name| cam_place(&plant, name),
+            },
             &mut settings,
             options.profile,
         )?;
@@ -75,9 +82,9 @@ impl Machine {
             Some(preset) => Memory::from_preset(preset, &names, control.override_coding())?,
             None => Memory::after_power_on(&names, control.override_coding()),
         };
-        check_plc_cycle(plant.plc_cycle, &*control, &plant_place)?;
-        check_delay("to_nck_delay", plant.to_nck_delay, &*control, &plant_place)?;
-        check_delay("from_nck_delay", plant.from_nck_delay, &*control, &plant_place)?;
+        check_plc_cycle(plant.plc_cycle, &*control, &machine_place)?;
+        check_delay("to_nck_delay", plant.to_nck_delay, &*control, &machine_place)?;
+        check_delay("from_nck_delay", plant.from_nck_delay, &*control, &machine_place)?;
         let hints = PerAxis::from_fn(|axis| Hints {
             exists: axes[axis].exists,
             cam_direction: axes[axis].cam_direction,
@@ -93,23 +100,34 @@ impl Machine {
             memory: memory.clone(),
             control: control.clone_box(),
             fingerprints: OnceLock::new(),
-            warnings: warning(&findings, &plant_place).into_iter().collect(),
+            warnings: warning(&findings, &plant_place, options.scenario.as_deref()).into_iter().collect(),
             findings,
         };
         Ok(assemble(definition, control, memory))
     }
 }
 
-/// The findings in one line. `plant` is the place of `plant.toml`, or of the machine if it has none.
-fn warning(findings: &[Finding], plant: &Place) -> Option<String> {
+/// The findings in one line, with the command that lists them. `plant` is the place of `plant.toml`, or of the machine if it has none. The
+/// command names the scenario where findings come from it, or where the machine is a built-in one.
+fn warning(findings: &[Finding], plant: &Place, scenario: Option<&Path>) -> Option<String> {
     let counts = summary(findings)?;
     let file = Path::new(&*plant.file);
     let machine = if file.ends_with("plant.toml") { file.parent() } else { Some(file) };
-    let machine = machine.filter(|machine| machine.exists()).map(Path::display);
-    Some(machine.map_or_else(
+    let machine = machine.filter(|machine| machine.exists());
+    let is_of_scenario = |scenario: &Path| {
+        let mut places = findings.iter().filter_map(|finding| finding.place.as_ref());
+        places.any(|place| Path::new(&*place.file) == scenario)
+    };
+    let scenario = scenario.filter(|scenario| machine.is_none() || is_of_scenario(scenario));
+    Some(scenario.or(machine).map(Path::display).map_or_else(
         || format!("machine data: {counts}"),
         |machine| format!("machine data of {machine}: {counts}; `opennck machine-data check {machine}` lists them"),
     ))
+}
+
+fn cam_place(plant: &PlantDefinition, axis: &str) -> Option<Place> {
+    let axis = plant.axes.get(axis).filter(|axis| matches!(axis.cam, Given::Said(_)))?;
+    axis.cam_place.clone()
 }
 
 fn encoders(plant: &PlantDefinition, axis: &str) -> [Option<EncoderModel>; 2] {

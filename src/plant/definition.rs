@@ -54,6 +54,8 @@ pub struct AxisPlant {
     pub encoders: [EncoderPlant; 2],
     /// The reference cam.
     pub cam: Given<Cam>,
+    /// Place of the reference cam in the file, if the file gives it.
+    pub cam_place: Option<Place>,
     /// The hardware limit switch in plus direction.
     pub limit_plus: Given<LimitSwitch>,
     /// The hardware limit switch in minus direction.
@@ -157,6 +159,7 @@ impl AxisPlant {
             drive: Drive::default(),
             encoders: [EncoderPlant::default(); 2],
             cam: Given::Unsaid,
+            cam_place: None,
             limit_plus: Given::Unsaid,
             limit_minus: Given::Unsaid,
         }
@@ -259,7 +262,9 @@ fn axis(mut table: Table, place: Place) -> Result<AxisPlant, Problem> {
             *encoder = read_encoder(node)?;
         }
     }
-    plant.cam = given(table.take("cam"), "a reference cam", cam)?;
+    let node = table.take("cam");
+    plant.cam_place = node.as_ref().map(|node| node.place.clone());
+    plant.cam = given(node, "a reference cam", cam)?;
     plant.limit_plus = given(table.take("limit_plus"), "a limit switch", limit_switch)?;
     plant.limit_minus = given(table.take("limit_minus"), "a limit switch", limit_switch)?;
     table.finish()?;

@@ -102,13 +102,22 @@ impl Scenario {
         Ok(Prepared { session, plan, head, causes: self.causes, process })
     }
 
+    /// The machine as the scenario changes it, before its steps.
+    ///
+    /// # Errors
+    /// A file of the machine, or what the scenario changes, is invalid; the problem names file and line.
+    pub fn machine(&self, profile: Profile) -> Result<Machine, Problem> {
+        self.open(profile, controls::read).map_err(|problem| in_the_case(problem, self.case().as_deref()))
+    }
+
     fn open(&self, profile: Profile, read: Read) -> Result<Machine, Problem> {
         let image = |image: &Named| {
             let file = self.file_of(image)?;
             Preset::read(&file).map_err(|problem| problem.at(&image.place))
         };
         let preset = self.plc_image.as_ref().map(image).transpose()?;
-        let options = OpenOptions { plant_over: self.plant.clone(), profile, preset };
+        let scenario = Some(self.path.clone());
+        let options = OpenOptions { plant_over: self.plant.clone(), profile, preset, scenario };
         let opened = read(&self.directory().join(&self.machine.text));
         opened
             .and_then(|(mut configuration, plant)| {

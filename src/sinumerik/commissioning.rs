@@ -106,8 +106,7 @@ impl Configuration for Commissioning {
                 let found = self.archive.data.parse_target(target);
                 match found {
                     Ok(found) if order(found.datum().number) == turn => {
-                        self.archive.data.set(&found, value).map_err(|problem| problem.at(place))?;
-                        self.archive.given.insert(found, place.clone());
+                        self.archive.lay_over(found, value, place).map_err(|problem| problem.at(place))?;
                     }
                     // An axis may have its name only after another datum of this scenario.
                     Ok(_) => {}

@@ -47,9 +47,20 @@ const SEEN_BY_THE_PLC: &[(u32, f64, &str)] = &[
     (37000, 0.0, "travel to fixed stop is not modelled"),
 ];
 
+/// Whether a datum of the catalogue has an effect in the model.
+pub(super) fn has_effect(number: u32) -> bool {
+    !WITHOUT_EFFECT.contains(&number) && !ACTS_OTHERWISE.iter().any(|(other, _)| *other == number)
+}
+
 /// All findings about a machine, the heaviest first.
 pub(super) fn findings(archive: &Archive, control: &Nck, names: &Names, site: &Site<'_>) -> Vec<Finding> {
     let mut findings = archive.findings.clone();
+    // A datum beside the catalogue is known, although the catalogue does not have it.
+    let is_known = |number: Option<u32>| SEEN_BY_THE_PLC.iter().any(|(known, ..)| number == Some(*known));
+    let mistyped = findings.iter_mut().filter(|finding| finding.class == Class::Mistyped && is_known(finding.number));
+    for finding in mistyped {
+        (finding.class, finding.what, finding.cure) = (Class::NotModelled, "kept, no effect".to_owned(), String::new());
+    }
     findings.extend(check(archive));
     let parameters = control.parameters();
     findings.extend(parameters.groupings.faults.iter().map(|fault| of_grouping(fault, archive, control, names)));
@@ -66,6 +77,7 @@ pub(super) fn findings(archive: &Archive, control: &Nck, names: &Names, site: &S
         references(archive, number, axis, &mut findings);
         functions(archive, number, axis, &mut findings);
         encoders(archive, number, site, &mut findings);
+        unused_cam(archive, number, control, site, &mut findings);
     }
     without_effect(archive, control, &mut findings);
     seen_by_the_plc(archive, control, &mut findings);
@@ -177,6 +189,15 @@ fn mode_groups(archive: &Archive, findings: &mut Vec<Finding>) {
             findings.push(archive.about(10010, Owner::Nck, index, Finding::new(Class::ActsOtherwise, what, "")));
         }
     }
+}
+
+/// A cam of the plant for an axis that does not search for it.
+fn unused_cam(archive: &Archive, number: AxisNumber, control: &Nck, site: &Site<'_>, findings: &mut Vec<Finding>) {
+    let place = (site.cam)(archive.data.axis_name(number));
+    let Some(place) = place.filter(|_| !control.parameters().axes[number].reference.cam_is_active) else { return };
+    let what = format!("the reference point approach does not use the cam of {place}");
+    let cure = "set MD34000 to 1, or write cam = false";
+    findings.push(archive.about(34000, Owner::Axis(number), 0, Finding::new(Class::Implausible, what, cure)));
 }
 
 /// The reference point approach of the encoders that an axis has.

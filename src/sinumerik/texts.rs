@@ -1,10 +1,12 @@
 //! The texts of this control: alarms, rules, names of machine data and charts of its state machines.
 
-use crate::control::{AlarmRow, Chart, ClearInfo, Texts};
+use crate::control::{AlarmRow, Chart, ClearInfo, DatumRow, Kind, Texts};
 use crate::image::{Interface, SINUMERIK, Signal};
 use crate::sinumerik::alarms::{Alarm, CATALOGUE, Cancel, not_raised};
 use crate::sinumerik::gantry;
+use crate::sinumerik::machine_data::{Datum, Range, Scope, catalogue};
 use crate::sinumerik::modelled::is_modelled;
+use crate::sinumerik::opening::has_effect;
 use crate::sinumerik::referencing;
 use crate::sinumerik::rules::Rule;
 use crate::variables::{AlarmNumber, Rule as RuleText, RuleNumber};
@@ -61,6 +63,10 @@ impl Texts for Words {
         "MD10050 and MD10070"
     }
 
+    fn machine_data(&self) -> Vec<DatumRow> {
+        catalogue().map(datum_row).collect()
+    }
+
     fn charts(&self) -> Vec<Chart> {
         let approach = Chart::of(
             "approach",
@@ -91,6 +97,46 @@ fn row(alarm: &Alarm, raised: bool) -> AlarmRow {
         cancelled_by: alarm.cancel.to_string(),
         reaction: alarm.reaction.to_string(),
         clear_info: clear_info(alarm.cancel),
+    }
+}
+
+fn datum_row(datum: &Datum) -> DatumRow {
+    let values = (datum.count > 1).then(|| format!("0..{}", datum.count - 1));
+    let owner = (datum.scope == Scope::Axis).then(|| "axis".to_owned());
+    let index: Vec<_> = values.into_iter().chain(owner).collect();
+    let index = if index.is_empty() { String::new() } else { format!("[{}]", index.join(",")) };
+    let written = |is_rotary| {
+        let of =
+            |index| datum.default_value(index, is_rotary).map_or_else(String::new, |value| value.export(datum.kind));
+        let all: Vec<_> = (0..datum.count).map(of).collect();
+        // Most data have one default for all indices; the names of axes and channels have one for each.
+        match all.as_slice() {
+            [first, others @ ..] if others.iter().all(|value| value == first) => first.clone(),
+            [first, second, .., last] if all.len() > 4 => format!("{first} {second} … {last}"),
+            all => all.join(" "),
+        }
+    };
+    let (linear, rotary) = (written(false), written(true));
+    let default = if linear == rotary { linear } else { format!("{linear} (rotary axis {rotary})") };
+    let range = match datum.kind {
+        _ if datum.range != Range::ANY => datum.range.to_string(),
+        Kind::Boolean => "0 or 1".to_owned(),
+        Kind::Byte => "0 to 255".to_owned(),
+        Kind::Dword => "whole number".to_owned(),
+        Kind::Udword => "32 bits".to_owned(),
+        Kind::String => "text".to_owned(),
+        Kind::Double => datum.range.to_string(),
+    };
+    let effect = if datum.read_only { "only the control writes it".to_owned() } else { datum.effect.to_string() };
+    DatumRow {
+        number: datum.number,
+        name: format!("{}{index}", datum.full_identifier()),
+        unit: datum.unit,
+        range,
+        default,
+        effect,
+        modelled: has_effect(datum.number),
+        text: datum.doc,
     }
 }
 

@@ -299,6 +299,25 @@ fn signals_are_listed_as_table_json_and_csv() {
 }
 
 #[test]
+fn why_not_names_that_a_spindle_starts_no_reference_point_approach() {
+    let directory = directory("why_not_spindle");
+    let machine = format!("{}/golden/archives/spindle", env!("CARGO_MANIFEST_DIR"));
+    let scenario = format!(
+        "title = \"A\"\nmachine = {machine:?}\nplc = \"enable_all\"\n\
+        [[step]]\nset = {{ \"DB11.DBX0.2\" = 1, \"DB11.DBX1.2\" = 1 }}\n\
+        [[step]]\nwait = \"SP1.position_controller_active\"\nwithin = \"1s\"\n\
+        [[step]]\nset = {{ \"SP1.traversing_key_plus\" = 1 }}\n[[step]]\nrun = \"1s\"\n"
+    );
+    fs::write(directory.join("s.toml"), scenario).unwrap();
+    for signal in ["SP1.traverse_command_plus", "SP1.referenced_synchronized_1"] {
+        let output = opennck(&["why-not", "s.toml", signal], &directory);
+        let text = out(&output);
+        assert!(text.contains("reference point approach of SP1 (MD35000)") && text.contains("spindle"), "{text}");
+        assert!(!text.contains("it follows"), "{text}");
+    }
+}
+
+#[test]
 fn machine_data_are_checked_with_file_line_and_identifier() {
     let directory = directory("machine_data");
     fs::write(directory.join("m.tea"), "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=99\nM17\n").unwrap();
@@ -343,7 +362,7 @@ fn findings_are_grouped_and_only_those_that_change_the_behaviour_end_with_1() {
     let data = "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1\nN37100 $MA_GANTRY_AXIS_TYPE[AX2]=11\nN35100 $MA_SPIND_VELO_LIMIT[AX1]=5\n\
         N35100 $MA_SPIND_VELO_LIMIT[AX2]=5\nN35090 $MA_NUM_GEAR_STEPS[AX1]=1\nN36901 $MA_SAFE_FUNCTION_ENABLE[AX1]=0\n$TC_DP1[1,1]=120\n";
     fs::create_dir(directory.join("m")).unwrap();
-    fs::write(directory.join("m/a.tea"), data).unwrap();
+    fs::write(directory.join("m/a.arc"), data).unwrap();
     let check = |more: &[&str]| opennck(&[&["machine-data", "check", "m"], more].concat(), &directory);
     let output = check(&[]);
     assert_eq!(output.status.code(), Some(0), "{}{}", out(&output), err(&output));
@@ -358,7 +377,7 @@ fn findings_are_grouped_and_only_those_that_change_the_behaviour_end_with_1() {
         out(&output)
     );
     let listed = check(&["--all"]);
-    assert_eq!(lines(&out(&listed), "    m/a.tea:").len(), 4, "{}", out(&listed));
+    assert_eq!(lines(&out(&listed), "    m/a.arc:").len(), 4, "{}", out(&listed));
     assert_eq!(check(&["--deny", "not-modelled"]).status.code(), Some(1));
     assert_eq!(check(&["--deny", "overlaid"]).status.code(), Some(0));
     fs::write(directory.join("m/b.tea"), "N37100 $MA_GANTRY_AXIS_TYPE[AX2]=12\nN32450 $MA_BACKLASH[0,AX1]=0.01\n")
@@ -366,19 +385,19 @@ fn findings_are_grouped_and_only_those_that_change_the_behaviour_end_with_1() {
     let output = check(&[]);
     assert_eq!(output.status.code(), Some(1), "{}{}", out(&output), err(&output));
     let expected = [
-        "  m/a.tea:1: alarm at power on: MD37100 $MA_GANTRY_AXIS_TYPE[AX1] = 1, axis X1: 10651: channel CHAN1 illegal gantry \
+        "  m/a.arc:1: alarm at power on: MD37100 $MA_GANTRY_AXIS_TYPE[AX1] = 1, axis X1: 10651: channel CHAN1 illegal gantry \
          configuration, reason 2001",
         "  m/b.tea:1: alarm at power on: MD37100 $MA_GANTRY_AXIS_TYPE[AX2] = 12, axis Y1: 10651: channel CHAN1 illegal gantry \
          configuration, reason 1002",
         "  m/b.tea:2: acts otherwise: MD32450 $MA_BACKLASH[0,AX1] = 0.01, axis X1: backlash is not compensated",
-        "  m/b.tea:1: overlaid: MD37100 $MA_GANTRY_AXIS_TYPE[AX2] = 12, axis Y1: replaces 11 of m/a.tea:2",
+        "  m/b.tea:1: overlaid: MD37100 $MA_GANTRY_AXIS_TYPE[AX2] = 12, axis Y1: replaces 11 of m/a.arc:2",
     ];
     let text = out(&output);
     let found: Vec<_> = lines(&text, "  m/").into_iter().filter(|line| line.contains("MD3")).collect();
     assert_eq!(found, expected);
     fs::write(directory.join("s.toml"), "title = \"A\"\nmachine = \"m\"\n[[step]]\nrun = \"10ms\"\n").unwrap();
     let output = opennck(&["run", "s.toml"], &directory);
-    let summary = "2 alarms at power on, 1 acts otherwise than on a control (MD32450), 1 replaced by a later file, 4 not modelled";
+    let summary = "2 alarms at power on, 1 acts otherwise than on a control (MD32450), 1 replaced by a later file or line, 4 not modelled";
     assert_eq!(err(&output).lines().filter(|line| line.contains(summary)).count(), 1, "{}", err(&output));
     assert_eq!(err(&output).lines().count(), 1, "one line: {}", err(&output));
 }
@@ -395,6 +414,7 @@ fn every_command_has_help_and_a_mistyped_one_ends_with_2() {
         &["signals", "--help"],
         &["machine-data", "check", "--help"],
         &["plc", "check", "--help"],
+        &["machine-data", "list", "--help"],
     ] {
         let output = opennck(arguments, &directory);
         assert!(output.status.code() == Some(0) && out(&output).contains("Usage:"), "{arguments:?}");

@@ -4,12 +4,14 @@
 
 mod archives;
 mod causes;
+mod cited_rules;
 mod cli;
 mod determinism;
 mod documents;
 mod dynamics;
 mod first_test;
 mod foreign_readers;
+mod machine_data_command;
 mod own_interface;
 mod plc_process;
 mod referencing;

@@ -47,14 +47,14 @@ pub(super) fn read_text(name: &str, text: &str, author: Author, reading: &mut Re
         }
         match kind(line) {
             Kind::Channel(number) => channel = number,
-            Kind::Assignment { number, name, value } => {
+            Kind::Assignment { number, name, value, has_checksum } => {
                 let (name, value) = (name.to_owned(), value.to_owned());
                 let file = reading.file;
-                reading.lines.push(Line { place, number, name, channel, value, author, file, system });
+                reading.lines.push(Line { place, number, name, channel, value, author, file, system, has_checksum });
             }
             Kind::Broken(what, cure) => {
                 let finding = match author {
-                    Author::Person => Finding::new(Class::Unreadable, what, cure),
+                    Author::Person | Author::Export => Finding::new(Class::Unreadable, what, cure),
                     Author::Control => Finding {
                         group: "lines of an unknown kind",
                         ..Finding::new(Class::NotModelled, format!("{what}; the line is ignored"), "")
@@ -69,7 +69,7 @@ pub(super) fn read_text(name: &str, text: &str, author: Author, reading: &mut Re
 
 enum Kind<'a> {
     Channel(ChannelNumber),
-    Assignment { number: Option<u32>, name: &'a str, value: &'a str },
+    Assignment { number: Option<u32>, name: &'a str, value: &'a str, has_checksum: bool },
     Broken(String, &'static str),
 }
 
@@ -106,7 +106,7 @@ fn quoted(line: &str) -> String {
 fn assignment(line: &str) -> Option<Kind<'_>> {
     let (name, value) = line.split_once('=')?;
     let (mut name, mut value) = (name.trim(), value.trim());
-    let mut number = None;
+    let (mut number, mut has_checksum) = (None, false);
     if let Some(rest) = name.strip_prefix(['N', 'n']) {
         let digits = rest.len() - rest.trim_start_matches(|letter: char| letter.is_ascii_digit()).len();
         let (block, after) = rest.split_at(digits);
@@ -126,8 +126,9 @@ fn assignment(line: &str) -> Option<Kind<'_>> {
         && digits.bytes().all(|digit| digit.is_ascii_hexdigit())
     {
         value = before.trim();
+        has_checksum = true;
     }
-    (sound && !value.is_empty()).then_some(Kind::Assignment { number, name, value })
+    (sound && !value.is_empty()).then_some(Kind::Assignment { number, name, value, has_checksum })
 }
 
 /// The text after a word, in upper or lower case.

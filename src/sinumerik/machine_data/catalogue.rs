@@ -93,6 +93,15 @@ pub fn nearest_identifier(identifier: &str) -> Option<&'static str> {
     source::nearest(name, BY_IDENTIFIER.keys().copied())
 }
 
+/// The cure for an identifier that is not in the catalogue: the nearest one. The name with its prefix is shown where only the prefix is wrong.
+#[must_use]
+pub(super) fn meant(identifier: &str) -> Option<String> {
+    let near = nearest_identifier(identifier)?;
+    let has_this_name = identifier.to_ascii_uppercase().ends_with(near);
+    let shown = by_identifier(near).filter(|_| has_this_name).map(Datum::full_identifier);
+    Some(format!("did you mean `{}`?", shown.as_deref().unwrap_or(near)))
+}
+
 /// The row number of a datum in its table.
 pub(super) fn row(number: u32) -> Option<usize> {
     BY_NUMBER.get(&number).map(|(_, row)| *row)

@@ -15,6 +15,14 @@ pub(super) fn group(number: Option<u32>, identifier: &str) -> &'static str {
     above.checked_sub(1).and_then(|row| RANGES.get(row)).map_or("other system variables", |(_, group)| *group)
 }
 
+/// Whether a name belongs to another list of the control, of which nothing is in the catalogue: tools, frames, options, operating software,
+/// compensation tables.
+pub(super) fn is_of_another_list(identifier: &str) -> bool {
+    let name = identifier.to_ascii_uppercase();
+    let lists = ["$TC_", "$P_", "$ON_", "$OC_", "$OA_", "$MNS_", "$MCS_", "$MAS_", "$SNS_", "$SCS_", "$SAS_"];
+    lists.iter().chain(&["$AA_", "$AN_", "$AC_", "$A_"]).any(|prefix| name.starts_with(prefix))
+}
+
 fn by_name(name: &str) -> Option<&'static str> {
     let prefix = |prefixes: &[&str]| prefixes.iter().any(|prefix| name.starts_with(prefix));
     if name.contains("SAFE") && !name.starts_with("$TC_") {

@@ -2,17 +2,19 @@
 //!
 //! Two passes, because a file may use the name of an axis before MD10000 defines it. The first pass sets names of axes and channels and
 //! the types of axes (MD30300), the second everything else in the order of the files; a later assignment replaces an earlier one. A text
-//! file that replaces a value of an earlier file is reported, value by value. The system of units (MD10240) and the types of axes are
-//! known before any length is taken.
+//! file that replaces a value of an earlier file is reported, value by value; in a file that a person wrote, also one that replaces a value of
+//! its own. The system of units (MD10240) and the types of axes are known before any length is taken.
 //!
 //! A value outside of its range that has the type of its datum is kept, with a finding: a control accepted it (O-30). In a binary archive,
-//! which only a control writes, a line that does not fit the catalogue at all (another index, another type) is kept like unknown data.
+//! which only a control writes, a line that does not fit the catalogue at all (another index, another type) is kept like unknown data. A datum
+//! outside of the catalogue is perhaps mistyped in a file that a person wrote, and known to the control in one that it exported.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::archive::{Archive, Summary};
-use super::catalogue::{by_identifier, by_number, nearest_identifier};
-use super::groups::group;
+use super::catalogue::{by_identifier, by_number, meant};
+use super::export;
+use super::groups::{group, is_of_another_list};
 use super::named::{resolve, split_indices};
 use super::reading::{Assignment, Author, Line, Reading};
 use super::table::{Datum, numbered};
@@ -35,15 +37,43 @@ struct Import {
     given: BTreeMap<Target, (Place, usize)>,
     /// Unknown data with their order.
     unknown: BTreeMap<UnknownKey, (usize, Line)>,
+    /// The names among them that a control exported.
+    of_control: BTreeSet<String>,
     /// Values that are kept although they are implausible; the last assignment of a target counts.
     implausible: BTreeMap<Target, Finding>,
     findings: Vec<Finding>,
 }
 
 impl Archive {
+    /// Stores the value of a scenario over those of the files, with the findings that it ends and makes.
+    ///
+    /// # Errors
+    /// As [`MachineData::set`].
+    pub(in crate::sinumerik) fn lay_over(
+        &mut self,
+        target: Target,
+        value: &Value,
+        place: &Place,
+    ) -> Result<(), Problem> {
+        self.data.set(&target, value)?;
+        self.given.insert(target, place.clone());
+        let datum = target.datum();
+        let name = with_number(Some(datum.number), &target.to_string());
+        self.findings.retain(|finding| finding.class != Class::Implausible || finding.datum != name);
+        if let Some(number) = value.number()
+            && !datum.range.is_plausible(number)
+        {
+            let owner = self.data.owner_in_words(target.owner());
+            let finding = implausible(&target, number, &value.export(datum.kind), place);
+            self.findings.push(Finding { owner, ..finding });
+        }
+        Ok(())
+    }
+
     /// The archive from all lines.
     pub(super) fn from_reading(reading: Reading) -> Result<Self, Vec<Finding>> {
-        let Reading { lines, findings, members, file: _ } = reading;
+        let Reading { mut lines, findings, members, file: _ } = reading;
+        export::mark(&mut lines);
         let mut import = Import { findings, ..Import::default() };
         let mut known = Vec::new();
         for (order, line) in lines.into_iter().enumerate() {
@@ -72,6 +102,18 @@ impl Archive {
             import.keep_default_names_apart();
         }
         import.finish(members)
+    }
+}
+
+impl Author {
+    /// Whether a value that replaces another one is reported: in a text file one of an earlier file, in one that a person wrote also one of
+    /// the same file.
+    fn replaces(self, of_another_file: bool) -> bool {
+        match self {
+            Self::Person => true,
+            Self::Export => of_another_file,
+            Self::Control => false,
+        }
     }
 }
 
@@ -107,12 +149,14 @@ impl Import {
         let per_channel = line.name.starts_with("$MC") || line.name.starts_with("$SC");
         let key = (per_channel.then_some(line.channel), line.name.to_ascii_uppercase());
         let value = line.value.clone();
+        if line.author != Author::Person {
+            self.of_control.insert(identifier(&line.name).to_ascii_uppercase());
+        }
         let (place, file, author) = (line.place.clone(), line.file, line.author);
         let subject = with_number(line.number, &line.name);
         let before = self.unknown.insert(key, (order, line));
         if let Some((_, before)) = before
-            && author == Author::Person
-            && before.file != file
+            && author.replaces(before.file != file)
             && before.value != value
         {
             let finding =
@@ -124,7 +168,7 @@ impl Import {
     /// A line that does not fit the catalogue: an error of a person, or kept as it is if a control wrote it.
     fn unfit(&mut self, finding: Finding, order: usize, line: Line) {
         match line.author {
-            Author::Person => self.findings.push(finding),
+            Author::Person | Author::Export => self.findings.push(finding),
             Author::Control => {
                 let cure = "kept, no effect: a control exported it, and its default acts here".to_owned();
                 self.findings.push(Finding { class: Class::Implausible, cure, ..finding });
@@ -153,13 +197,12 @@ impl Import {
         if let Some(number) = value.number()
             && !datum.range.is_plausible(number)
         {
-            self.implausible.insert(target, implausible(&target, number, &line));
+            self.implausible.insert(target, implausible(&target, number, &line.value, &line.place));
         }
         let place = line.place.clone();
         let earlier = self.given.insert(target, (line.place, line.file));
         if let (Some(before), Some((from, file))) = (before, earlier)
-            && line.author == Author::Person
-            && file != line.file
+            && line.author.replaces(file != line.file)
             && self.data.get(&target).is_some_and(|now| now != before)
         {
             let finding = Finding {
@@ -201,7 +244,7 @@ impl Import {
     }
 
     fn finish(self, members: Vec<super::Member>) -> Result<Archive, Vec<Finding>> {
-        let Self { data, given, unknown, implausible, mut findings } = self;
+        let Self { data, given, unknown, of_control, implausible, mut findings } = self;
         let out_of_range = implausible.keys().copied().filter(|target| {
             let number = data.get(target).and_then(|value| value.number());
             number.is_some_and(|number| !target.datum().range.contains(number))
@@ -211,8 +254,8 @@ impl Import {
         findings.extend(implausible.into_iter().map(named));
         let mut unknown: Vec<_> = unknown.into_values().collect();
         unknown.sort_by_key(|(order, _)| *order);
+        findings.extend(unknown_findings(unknown.iter().map(|(_, line)| line), &of_control));
         let unknown: Vec<Assignment> = unknown.into_iter().map(|(_, line)| line.into()).collect();
-        findings.extend(unknown_findings(&unknown));
         findings.sort_by(|a, b| a.class.cmp(&b.class).then_with(|| a.place.cmp(&b.place)));
         if findings.iter().any(|finding| finding.class == Class::Unreadable) {
             return Err(findings);
@@ -223,9 +266,14 @@ impl Import {
     }
 }
 
+/// A name without its index.
+fn identifier(name: &str) -> &str {
+    name.split('[').next().unwrap_or_default().trim()
+}
+
 /// The datum of a line; `None` if it is not in the catalogue.
 fn known_datum(line: &Line) -> Result<Option<&'static Datum>, Box<Finding>> {
-    let identifier = line.name.split('[').next().unwrap_or_default().trim();
+    let identifier = identifier(&line.name);
     let number = line.number.filter(|number| *number >= FIRST_DATUM);
     let error = |what: String, cure: String| {
         Box::new(Finding {
@@ -235,23 +283,49 @@ fn known_datum(line: &Line) -> Result<Option<&'static Datum>, Box<Finding>> {
             ..Finding::new(Class::Unreadable, what, cure)
         })
     };
+    if line.author == Author::Person {
+        number_alone(identifier, &error)?;
+    }
     // A name without a prefix is a user variable, not a machine datum.
     let by_name = identifier.starts_with('$').then(|| by_identifier(identifier)).flatten();
     match (by_name, number.and_then(by_number)) {
-        (Some(datum), _) if number.is_none_or(|number| number == datum.number) => Ok(Some(datum)),
+        (Some(datum), _) if number.is_none_or(|number| number == datum.number) && !misses_a_digit(datum, line) => {
+            Ok(Some(datum))
+        }
         (Some(datum), _) => Err(error(
-            format!("expected N{} before {identifier}, found N{}", datum.number, number.unwrap_or_default()),
+            format!("expected N{} before {identifier}, found N{}", datum.number, line.number.unwrap_or_default()),
             "number and identifier must belong to the same datum; correct one, or omit the number".to_owned(),
         )),
         (None, Some(datum)) => Err(error(
             format!("expected {datum} by its number, found {identifier}"),
-            nearest_identifier(identifier).map_or_else(
-                || "correct the number or the identifier".to_owned(),
-                |near| format!("did you mean `{near}`?"),
-            ),
+            meant(identifier).unwrap_or_else(|| "correct the number or the identifier".to_owned()),
         )),
         (None, None) => Ok(None),
     }
+}
+
+/// A number without a name, `N32000=5`, which is no assignment on a control.
+fn number_alone(identifier: &str, error: &impl Fn(String, String) -> Box<Finding>) -> Result<(), Box<Finding>> {
+    let digits = identifier.strip_prefix(['N', 'n']).filter(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()));
+    let Some(digits) = digits.filter(|digits| !digits.is_empty()) else { return Ok(()) };
+    let known = digits.parse().ok().and_then(by_number);
+    let name = known.map_or_else(|| "$MA_GANTRY_AXIS_TYPE".to_owned(), Datum::full_identifier);
+    let number = known.map_or(37100, |datum| datum.number);
+    let index = if name.starts_with("$MA") { "[AX1]" } else { "" };
+    Err(error(
+        format!("expected the name of a machine datum after N{digits}, found none"),
+        format!("write number and name such as `N{number} {name}{index}=…`, or only the name"),
+    ))
+}
+
+/// Whether the block number before a datum is its own number without one digit: `N3200 $MA_MAX_AX_VELO`. Other numbers below 9000 are those
+/// of blocks.
+fn misses_a_digit(datum: &Datum, line: &Line) -> bool {
+    let Some(block) = line.number.filter(|number| *number < FIRST_DATUM && line.author == Author::Person) else {
+        return false;
+    };
+    let (own, block) = (datum.number.to_string(), block.to_string());
+    (0..own.len()).any(|at| own[..at] == block[..at.min(block.len())] && own[at + 1..] == block[at.min(block.len())..])
 }
 
 fn parsed(datum: &Datum, line: &Line) -> Result<Value, Problem> {
@@ -282,7 +356,7 @@ fn overlaid(before: &str, from: &Place) -> Finding {
     Finding::new(Class::Overlaid, format!("replaces {before} of {from}"), "")
 }
 
-fn implausible(target: &Target, number: f64, line: &Line) -> Finding {
+fn implausible(target: &Target, number: f64, value: &str, place: &Place) -> Finding {
     let datum = target.datum();
     let cure = if datum.range.contains(number) {
         "kept, as on a control; a function that needs it raises its alarm when it starts".to_owned()
@@ -290,20 +364,26 @@ fn implausible(target: &Target, number: f64, line: &Line) -> Finding {
         format!("kept, as on a control; {} acts", datum.range.nearest(number))
     };
     Finding {
-        place: Some(line.place.clone()),
+        place: Some(place.clone()),
         number: Some(datum.number),
         datum: with_number(Some(datum.number), &target.to_string()),
-        value: line.value.clone(),
+        value: value.to_owned(),
         ..Finding::new(Class::Implausible, format!("expected {}", datum.range), cure)
     }
 }
 
-/// One finding for each unknown identifier, at its first place.
-fn unknown_findings(unknown: &[Assignment]) -> Vec<Finding> {
+/// One finding for each unknown identifier that a control knows, at its first place, and one for each line that is perhaps mistyped.
+/// `of_control` are the names in files that a control exported: it knows them also in a file that a person wrote beside them.
+fn unknown_findings<'a>(unknown: impl Iterator<Item = &'a Line>, of_control: &BTreeSet<String>) -> Vec<Finding> {
     let mut found = BTreeMap::<&str, usize>::new();
     let mut findings = Vec::new();
-    for assignment in unknown {
-        let identifier = assignment.name.split('[').next().unwrap_or_default();
+    for line in unknown {
+        let identifier = identifier(&line.name);
+        let is_known = || of_control.contains(&identifier.to_ascii_uppercase()) || is_of_another_list(identifier);
+        if line.author == Author::Person && !is_known() {
+            findings.push(mistyped(line, identifier));
+            continue;
+        }
         if let Some(&at) = found.get(identifier) {
             let finding: &mut Finding = &mut findings[at];
             finding.values += 1;
@@ -311,12 +391,31 @@ fn unknown_findings(unknown: &[Assignment]) -> Vec<Finding> {
         }
         found.insert(identifier, findings.len());
         findings.push(Finding {
-            place: Some(assignment.place.clone()),
-            number: assignment.number,
-            datum: with_number(assignment.number, identifier),
-            group: group(assignment.number, identifier),
+            place: Some(line.place.clone()),
+            number: line.number,
+            datum: with_number(line.number, identifier),
+            group: group(line.number, identifier),
             ..Finding::new(Class::NotModelled, "kept, no effect", "")
         });
     }
     findings
+}
+
+fn mistyped(line: &Line, identifier: &str) -> Finding {
+    let all = || {
+        "`opennck machine-data list` shows the known ones; a datum of a control that is not among them has no effect"
+            .to_owned()
+    };
+    Finding {
+        place: Some(line.place.clone()),
+        number: line.number,
+        datum: with_number(line.number, &line.name),
+        value: line.value.clone(),
+        group: group(line.number, identifier),
+        ..Finding::new(
+            Class::Mistyped,
+            "expected a known machine datum; this one is kept, without effect",
+            meant(identifier).unwrap_or_else(all),
+        )
+    }
 }

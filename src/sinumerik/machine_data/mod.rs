@@ -16,6 +16,7 @@ mod binary;
 mod catalogue;
 mod channel;
 mod check;
+mod export;
 mod general;
 mod groups;
 mod import;

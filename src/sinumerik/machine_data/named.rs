@@ -5,7 +5,7 @@
 //! name (MD20000) or by `CHANn`. The default channel is channel 1, the default index is 0.
 
 use super::MachineData;
-use super::catalogue::{by_identifier, by_number, nearest_identifier};
+use super::catalogue::{by_identifier, by_number, meant};
 use super::table::{Datum, Scope};
 use super::target::{Target, bad_index, unknown_number};
 use crate::control::Owner;
@@ -90,10 +90,7 @@ fn unknown_axis(datum: &Datum, name: &str, data: &MachineData) -> Problem {
 }
 
 fn unknown_identifier(name: &str) -> Problem {
-    let cure = nearest_identifier(name).map_or_else(
-        || "see the catalogue of machine data for the known ones".to_owned(),
-        |near| format!("did you mean `{near}`?"),
-    );
+    let cure = meant(name).unwrap_or_else(|| "`opennck machine-data list` shows the known ones".to_owned());
     Problem::new(format!("expected a known machine datum, found `{name}`"), cure)
 }
 

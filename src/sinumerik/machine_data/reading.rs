@@ -48,8 +48,11 @@ pub struct Member {
 /// The author of a text of machine data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Author {
-    /// A text file: a person may have written it. Mistakes are errors.
+    /// A text file that a person wrote. Mistakes are errors, and what the catalogue does not know is perhaps mistyped.
     Person,
+    /// A text file that a control exported. Mistakes are errors, because a person may have edited it; what the catalogue does not know is
+    /// known to the control.
+    Export,
     /// A binary archive: a control wrote it. Nothing in it is a mistake (O-30); what the simulator does not know is kept.
     Control,
 }
@@ -67,6 +70,8 @@ pub(super) struct Line {
     pub(super) file: usize,
     /// The system of units that the file declares.
     pub(super) system: Option<System>,
+    /// Whether a checksum follows the value, which only a control writes.
+    pub(super) has_checksum: bool,
 }
 
 /// The data collected while reading files.
@@ -81,7 +86,7 @@ pub(super) struct Reading {
 
 impl From<Line> for Assignment {
     fn from(line: Line) -> Self {
-        let Line { place, number, name, channel, value, author: _, file: _, system: _ } = line;
+        let Line { place, number, name, channel, value, author: _, file: _, system: _, has_checksum: _ } = line;
         Self { place, number, name, channel, value }
     }
 }

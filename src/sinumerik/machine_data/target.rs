@@ -109,6 +109,6 @@ pub(super) fn bad_index(datum: &Datum, found: &str) -> Problem {
 pub(super) fn unknown_number(number: u32) -> Problem {
     Problem::new(
         format!("expected the number of a known machine datum, found {number}"),
-        "see the catalogue of machine data for the known ones",
+        "`opennck machine-data list` shows the known ones",
     )
 }

@@ -309,7 +309,13 @@ mod ascii_archives {
     fn a_value_out_of_range_in_a_text_file_is_kept_and_one_of_another_type_is_an_error() {
         let archive = archive("$MA_REFP_VELO_POS[AX1]=-1\n$MA_REFP_VELO_POS[AX2]=0\n$MA_REFP_VELO_POS[AX2]=10\n");
         assert_eq!((archive.data.axes[axis(1)].refp_velo_pos, archive.data.axes[axis(2)].refp_velo_pos), (-1.0, 10.0));
-        assert_eq!(archive.findings.len(), 1, "only the last value counts: {:?}", archive.findings);
+        let classes: Vec<_> = archive.findings.iter().map(|finding| finding.class).collect();
+        assert_eq!(
+            classes,
+            [Class::Implausible, Class::Overlaid],
+            "only the last value counts: {:?}",
+            archive.findings
+        );
         assert!(archive.findings[0].cure.ends_with("0 acts"), "{}", archive.findings[0]);
         assert_eq!(refused("$MA_REFP_VELO_POS[AX1]=\"fast\"\n").len(), 1);
     }
@@ -364,12 +370,85 @@ mod ascii_archives {
     #[test]
     fn unknown_data_are_kept_and_warned_of() {
         let text = "N35100 $MA_SPIND_VELO_LIMIT[AX9X]=500\n$TC_DP1[1,1]=120\nN18000 $MN_A=1 \n$MN_A=2\n";
-        let archive = archive(text);
+        let archive = Archive::read([("a.arc", text.as_bytes())]).unwrap();
         assert_eq!(archive.unknown.len(), 3);
         assert_eq!(archive.unknown[2].value, "2");
         let warning = archive.findings[0].to_string();
-        assert!(warning.starts_with("a.tea:1: not modelled: MD35100 $MA_SPIND_VELO_LIMIT: "), "{warning}");
+        assert!(warning.starts_with("a.arc:1: not modelled: MD35100 $MA_SPIND_VELO_LIMIT: "), "{warning}");
         assert!(archive.summary.to_string().starts_with("0 machine data taken, 3 unknown kept"));
+    }
+
+    #[test]
+    fn what_a_person_wrote_and_the_catalogue_does_not_know_is_perhaps_mistyped() {
+        let text = "$MA_MAX_AX_VEL0[X1]=5000\nN39999 $MA_FOO[X1]=5\nMAX_AX_VELO[X1]=5\n$MC_MAX_AX_VELO[X1]=5\n$TC_DP1[1,1]=120\n\
+            N10 $MA_MAX_AX_VELO[X1]=5000\n";
+        let archive = archive(text);
+        let found: Vec<_> = archive.findings.iter().map(|finding| finding.to_string().replace('\n', " ")).collect();
+        let starts = [
+            "a.tea:1: unknown: $MA_MAX_AX_VEL0[X1] = 5000: expected a known machine datum",
+            "a.tea:2: unknown: MD39999 $MA_FOO[X1] = 5: ",
+            "a.tea:3: unknown: MAX_AX_VELO[X1] = 5: ",
+            "a.tea:4: unknown: $MC_MAX_AX_VELO[X1] = 5: ",
+            "a.tea:5: not modelled: $TC_DP1: ",
+        ];
+        assert_eq!(found.len(), starts.len(), "{found:?}");
+        assert!(found.iter().zip(starts).all(|(found, start)| found.starts_with(start)), "{found:?}");
+        assert!(
+            found[0].contains("did you mean `MAX_AX_VELO`?") && found[1].contains("machine-data list"),
+            "{found:?}"
+        );
+        assert!(found[2..4].iter().all(|found| found.contains("did you mean `$MA_MAX_AX_VELO`?")), "{found:?}");
+        assert_near(archive.data.axes[axis(1)].max_ax_velo, 5_000.0);
+        // O-30: a control knows what it exports, also in a file beside its archive.
+        let files = [("a.arc", b"$MA_FOO[AX1]=1\n".as_slice()), ("b.tea", b"$MA_FOO[AX2]=1\n$MA_FOOT[AX2]=1\n")];
+        let classes: Vec<_> = Archive::read(files).unwrap().findings.iter().map(|finding| finding.class).collect();
+        assert_eq!(classes, [Class::Mistyped, Class::NotModelled]);
+        let rows: String = (0..100).map(|number| format!("$MA_FOREIGN_{number}[AX1]=1\n")).collect();
+        let many = "N32000 $MA_MAX_AX_VELO[AX1]=5\n".repeat(1_000);
+        let checked = "N32000 $MA_MAX_AX_VELO[AX1]=5 'a3f\n";
+        for export in [rows.as_str(), many.as_str(), checked] {
+            let archive = self::archive(&format!("{text}{export}"));
+            assert!(
+                archive.findings.iter().all(|finding| finding.class == Class::NotModelled),
+                "{:?}",
+                archive.findings
+            );
+        }
+    }
+
+    #[test]
+    fn a_number_that_contradicts_the_name_or_has_none_is_an_error() {
+        let found =
+            refused("N3200 $MA_MAX_AX_VELO[X1]=5\nN32010 $MA_MAX_AX_VELO[X1]=5\nN32000=5\nn34100[1,X1]=5\nN4=1\n");
+        let parts = [
+            "a.tea:1: error: $MA_MAX_AX_VELO: expected N32000 before $MA_MAX_AX_VELO, found N3200",
+            "a.tea:2: error: MD32010 $MA_MAX_AX_VELO: expected N32000 before",
+            "a.tea:3: error: N32000: expected the name of a machine datum after N32000, found none write number and name such as \
+             `N32000 $MA_MAX_AX_VELO[AX1]=…`",
+            "a.tea:4: error: n34100: expected the name of a machine datum after N34100",
+            "a.tea:5: error: N4: expected the name",
+        ];
+        assert_eq!(found.len(), parts.len(), "{found:?}");
+        for (found, part) in found.iter().zip(parts) {
+            assert!(found.starts_with(part), "{found} is not {part}");
+        }
+        assert_eq!(archive("N320 $MA_MAX_AX_VELO[X1]=5\nN7 $MA_MAX_AX_VELO[Y1]=5\n").findings, []);
+    }
+
+    #[test]
+    fn two_lines_of_one_text_file_for_one_value_are_found() {
+        let text = "$MA_REFP_VELO_POS[AX1]=1\n$MA_REFP_VELO_POS[X1]=2\n$MA_REFP_VELO_POS[X1]=2\n$MN_A=1\n$MN_A=2\n";
+        let overlaid = |file: &str| {
+            let archive = Archive::read([(file, text.as_bytes())]).unwrap();
+            let found = archive.findings.iter().filter(|finding| finding.class == Class::Overlaid);
+            found.map(ToString::to_string).collect::<Vec<_>>()
+        };
+        let expected = [
+            "a.tea:2: overlaid: MD34070 $MA_REFP_VELO_POS[AX1] = 2, axis X1: replaces 1 of a.tea:1",
+            "a.tea:5: overlaid: $MN_A = 2: replaces 1 of a.tea:4",
+        ];
+        assert_eq!(overlaid("a.tea"), expected);
+        assert_eq!(overlaid("a.arc"), [""; 0]);
     }
 
     #[test]
