@@ -423,7 +423,7 @@ mod ascii_archives {
         let parts = [
             "a.tea:1: error: $MA_MAX_AX_VELO: expected N32000 before $MA_MAX_AX_VELO, found N3200",
             "a.tea:2: error: MD32010 $MA_MAX_AX_VELO: expected N32000 before",
-            "a.tea:3: error: N32000: expected the name of a machine datum after N32000, found none write number and name such as \
+            "a.tea:3: error: N32000: expected the name of a machine datum after N32000, found none   write number and name such as \
              `N32000 $MA_MAX_AX_VELO[AX1]=…`",
             "a.tea:4: error: n34100: expected the name of a machine datum after N34100",
             "a.tea:5: error: N4: expected the name",
