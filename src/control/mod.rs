@@ -309,8 +309,13 @@ pub trait Texts: Sync {
     /// The number of an alarm that has only our own name.
     fn alarm_named(&self, name: &str) -> Option<AlarmNumber>;
 
+    /// All its rules; the number of a rule is its index. Several rules can have one ID.
+    fn rules(&self) -> &'static [Rule];
+
     /// A rule by its number.
-    fn rule(&self, rule: RuleNumber) -> Rule;
+    fn rule(&self, rule: RuleNumber) -> Rule {
+        self.rules().get(usize::from(rule.0)).copied().unwrap_or(Rule { id: "?", text: "unknown rule" })
+    }
 
     /// The name of a datum in a cause: `MD37110`.
     fn datum_name(&self, number: u32) -> String;

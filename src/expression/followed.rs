@@ -1,17 +1,36 @@
-//! The conditions of `since(E)` and `count(E)`, which a caller shows every cycle.
+//! What a caller follows from cycle to cycle for its expressions: the conditions of `since(E)` and `count(E)`, and the signals of
+//! `cause(S, 'ID')`.
 
+use super::edges::Edges;
 use super::history::History;
 use super::term::{Term, truth};
 use super::view::View;
 
-/// The conditions of all `since` and `count` of a caller, each once, with their histories.
+/// What all expressions of a caller look back at.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Followed {
+    /// The conditions of `since` and `count`.
+    pub conditions: Conditions,
+    /// The signals of `cause`.
+    pub edges: Edges,
+}
+
+impl Followed {
+    /// Whether it has a condition or a signal that `known` does not have.
+    #[must_use]
+    pub fn is_more_than(&self, known: &Self) -> bool {
+        self.conditions.len() > known.conditions.len() || self.edges.len() > known.edges.len()
+    }
+}
+
+/// The conditions of all `since` and `count` of a caller, each once, with their histories.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Conditions {
     terms: Vec<Term>,
     histories: Vec<History>,
 }
 
-impl Followed {
+impl Conditions {
     /// The number of conditions.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -22,12 +22,15 @@
 //! | any other plain name | [`Scope::named_values`] | [`Moment::named_values`] of `now` |
 //! | `rose(…)`, `fell(…)` | an edge between two cycles | the same of `before` and `last` |
 //! | `since(…)`, `count(…)` | the last rising edge of a condition, and their number | [`View::followed`] |
+//! | `cause(X.referenced_synchronized_1, 'REF-03')` | whether this rule made the last edge of a signal | [`Moment::rules`] of `now` |
 //! | `abs`, `min`, `max` | arithmetic | |
 //!
 //! `now` can be ahead of `last`: a scenario sees its own writes before a cycle takes them over. A caller that evaluates edges must provide
 //! `before`, the state one cycle earlier. [`Expression::looks_back`] reports whether an expression needs it. A caller that evaluates `since`
-//! and `count` lists their conditions with [`Expression::follow`] and shows them every cycle; otherwise they never became true.
+//! and `count` lists their conditions with [`Expression::follow`] and shows them every cycle; otherwise they never became true. The same call
+//! lists the signals of `cause`, whose edges the caller takes up in every cycle; otherwise they have no edge.
 
+mod edges;
 mod followed;
 mod history;
 mod parse;
@@ -36,7 +39,8 @@ mod term;
 mod tokens;
 mod view;
 
-pub use followed::Followed;
+pub use edges::Edges;
+pub use followed::{Conditions, Followed};
 pub use history::History;
 pub use scope::Scope;
 pub use view::{Moment, View};
@@ -92,9 +96,15 @@ impl Expression {
         self.root.any(&|term| matches!(term, Term::Edge { .. }))
     }
 
-    /// Lists the conditions of `since` and `count` in it, each once, so that the caller can show them every cycle.
+    /// Lists the conditions of `since` and `count` and the signals of `cause` in it, each once, so that the caller can follow them.
     pub fn follow(&mut self, followed: &mut Followed) {
-        self.root.each_followed(&mut |term| term.index = Some(followed.index_of(&term.of)));
+        self.root.each(&mut |term| {
+            if let Term::Cause(term) = term {
+                term.index = Some(followed.edges.index_of(term.signal));
+            } else if let Term::Followed(term) = term {
+                term.index = Some(followed.conditions.index_of(&term.of));
+            }
+        });
     }
 
     /// Every signal and value in it with its current value, one line each, without repetition.

@@ -1,18 +1,21 @@
 //! The parser: operator precedence, and the lookup of names.
 
+use std::collections::BTreeSet;
+
 use super::scope::Scope;
-use super::term::{FollowedTerm, Operator, Question, Term};
+use super::term::{CauseTerm, FollowedTerm, Operator, Question, Term};
 use super::tokens::{Token, excerpt, mistake, tokens};
+use crate::image::Location;
 use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber};
-use crate::variables::{AlarmNumber, AxisValue, Place};
+use crate::variables::{AlarmNumber, AxisValue, Place, RuleNumber};
 
 /// The maximum nesting depth of parentheses.
 const DEPTH: usize = 100;
 
 /// All functions.
-const FUNCTIONS: [&str; 10] =
-    ["alarm", "alarm_parameter", "alarms", "rose", "fell", "since", "count", "abs", "min", "max"];
+const FUNCTIONS: [&str; 11] =
+    ["alarm", "alarm_parameter", "alarms", "cause", "rose", "fell", "since", "count", "abs", "min", "max"];
 
 struct Parser<'a> {
     source: &'a str,
@@ -156,6 +159,12 @@ impl Parser<'_> {
                 self.sign(",")?;
                 Term::AlarmParameter(alarm, self.parameter_index()?)
             }
+            "cause" => {
+                let signal = self.cause_signal()?;
+                self.sign(",")?;
+                let (id, rules) = self.rule()?;
+                Term::Cause(Box::new(CauseTerm { signal, id, rules, index: None }))
+            }
             "rose" | "fell" => {
                 let of = Box::new(self.over_time(name, column)?);
                 Term::Edge { rising: name == "rose", of }
@@ -224,6 +233,36 @@ impl Parser<'_> {
             }),
             Token::Name(name) => Err(Problem { cure: format!("put a name in quotes: alarm('{name}')"), ..whole }),
             Token::Sign(_) | Token::End => Err(whole),
+        }
+    }
+
+    /// The signal whose last edge is asked for.
+    fn cause_signal(&mut self) -> Result<Location, Problem> {
+        let column = self.words[self.at].0;
+        let cure = "name a signal of the control and a rule: cause(X.traverse_command_plus, 'REF-02')".to_owned();
+        let problem = Problem { cure, ..self.expected("a signal") };
+        let Token::Name(name) = self.next() else { return Err(problem) };
+        match self.name(&name, column)? {
+            Term::Signal(location) => Ok(location),
+            _ => Err(problem),
+        }
+    }
+
+    /// The quoted ID of a rule, with the numbers of all rules that have it.
+    fn rule(&mut self) -> Result<(&'static str, Box<[RuleNumber]>), Problem> {
+        let problem = self.expected("the ID of a rule that causes name");
+        let Token::Quoted(wanted) = self.next() else {
+            return Err(Problem {
+                cure: "put the ID in quotes, as the trace shows it: 'REF-02', 'O-27'".to_owned(),
+                ..problem
+            });
+        };
+        let all = self.scope.describe().rules();
+        let numbered = (0..).map(RuleNumber).zip(all);
+        let rules: Box<[_]> = numbered.filter(|(_, rule)| rule.id == wanted).map(|(number, _)| number).collect();
+        match all.iter().find(|rule| rule.id == wanted) {
+            Some(rule) => Ok((rule.id, rules)),
+            None => Err(Problem { cure: near_rules(&wanted, all.iter().map(|rule| rule.id)), ..problem }),
         }
     }
 
@@ -331,6 +370,20 @@ impl Parser<'_> {
             ),
         }
     }
+}
+
+/// The remedy for an ID that no cause has: the IDs of the same group (`REF-`), else the nearest one, else all.
+fn near_rules(wanted: &str, known: impl Iterator<Item = &'static str>) -> String {
+    let known: BTreeSet<&str> = known.collect();
+    let group = |id: &str| id.split_once('-').map(|(group, _)| group.to_ascii_uppercase());
+    let mut same: Vec<_> =
+        known.iter().copied().filter(|id| group(id).is_some() && group(id) == group(wanted)).collect();
+    same.sort_by_key(|id| (id.len(), *id));
+    if !same.is_empty() {
+        return format!("causes name {}; the trace shows the ID of each cause", same.join(", "));
+    }
+    let all: Vec<_> = known.iter().copied().collect();
+    did_you_mean(wanted, known, &format!("causes name {}", all.join(", ")))
 }
 
 /// The remedy for a word that is an operator or a constant in other languages.

@@ -3,7 +3,9 @@
 use super::view::{Moment, View};
 use crate::image::Location;
 use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, AxisValue, Describe, Parameter, Place, axis_name, place_name, six_decimals};
+use crate::variables::{
+    AlarmNumber, AxisValue, Describe, Parameter, Place, RuleNumber, axis_name, place_name, six_decimals,
+};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Operator {
@@ -35,6 +37,7 @@ pub(super) enum Term {
     Alarms,
     Edge { rising: bool, of: Box<Self> },
     Followed(Box<FollowedTerm>),
+    Cause(Box<CauseTerm>),
     Not(Box<Self>),
     Negative(Box<Self>),
     Absolute(Box<Self>),
@@ -50,6 +53,25 @@ pub(super) struct FollowedTerm {
     pub(super) text: String,
     /// Its index in [`View::followed`]; none until the expression is followed.
     pub(super) index: Option<usize>,
+}
+
+/// `cause(S, 'ID')`.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct CauseTerm {
+    pub(super) signal: Location,
+    /// The ID of the rule.
+    pub(super) id: &'static str,
+    /// All rules with this ID.
+    pub(super) rules: Box<[RuleNumber]>,
+    /// Its index in [`Moment::rules`]; none until the expression is followed.
+    pub(super) index: Option<usize>,
+}
+
+impl CauseTerm {
+    /// The rule behind the last edge of the signal.
+    fn last_rule(&self, moment: &Moment<'_>) -> Option<RuleNumber> {
+        self.index.and_then(|index| moment.rules.get(index).copied().flatten())
+    }
 }
 
 /// What an expression asks of the rising edges of a term.
@@ -113,6 +135,7 @@ impl Term {
                     Question::Count => followed.map_or(0.0, |followed| followed.count() as f64),
                 }
             }
+            Self::Cause(term) => number(term.last_rule(now).is_some_and(|rule| term.rules.contains(&rule))),
             Self::Not(of) => number(!truth(of.value(view))),
             Self::Negative(of) => -of.value(view),
             Self::Absolute(of) => of.value(view).abs(),
@@ -132,7 +155,8 @@ impl Term {
             | Self::Named(..)
             | Self::Alarm(..)
             | Self::AlarmParameter(..)
-            | Self::Alarms => [None, None],
+            | Self::Alarms
+            | Self::Cause(_) => [None, None],
         }
     }
 
@@ -174,14 +198,14 @@ impl Term {
         }
     }
 
-    /// Visits every `since` and `count`.
-    pub(super) fn each_followed(&mut self, visit: &mut dyn FnMut(&mut FollowedTerm)) {
+    /// Visits every term, the inner ones before the outer ones.
+    pub(super) fn each(&mut self, visit: &mut dyn FnMut(&mut Self)) {
         match self {
-            Self::Followed(term) => visit(term),
-            Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) => of.each_followed(visit),
+            Self::Followed(term) => term.of.each(visit),
+            Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) => of.each(visit),
             Self::Pair(_, left, right) => {
-                left.each_followed(visit);
-                right.each_followed(visit);
+                left.each(visit);
+                right.each(visit);
             }
             Self::Number(_)
             | Self::Signal(_)
@@ -190,13 +214,20 @@ impl Term {
             | Self::Named(..)
             | Self::Alarm(..)
             | Self::AlarmParameter(..)
-            | Self::Alarms => {}
+            | Self::Alarms
+            | Self::Cause(_) => {}
         }
+        visit(self);
     }
 
     pub(super) fn operands(&self, view: &View<'_>, describe: &dyn Describe, lines: &mut Vec<String>) {
         if let Some(name) = self.name(describe) {
-            let line = format!("{name} = {}", shown(self.value(view), matches!(self, Self::Value(..))));
+            let mut line = format!("{name} = {}", shown(self.value(view), matches!(self, Self::Value(..))));
+            if let Self::Cause(term) = self {
+                let rule = term.last_rule(&view.now).map(|rule| describe.rule(rule).id);
+                let found = rule.map_or("no edge with a cause".to_owned(), |id| format!("last edge by {id}"));
+                line = format!("{line}, {found}");
+            }
             if !lines.contains(&line) {
                 lines.push(line);
             }
@@ -213,6 +244,10 @@ impl Term {
             Self::Signal(location) => {
                 let address = names.address(*location);
                 names.symbol(*location).map_or_else(|| address.to_string(), |symbol| format!("{symbol} ({address})"))
+            }
+            Self::Cause(term) => {
+                let address = names.address(term.signal).to_string();
+                format!("cause({}, '{}')", names.symbol(term.signal).unwrap_or(address), term.id)
             }
             Self::Value(axis, value) => format!("{}.{value}", axis_name(*axis, names)),
             Self::Time => "time".to_owned(),

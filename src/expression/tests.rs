@@ -38,9 +38,16 @@ impl Describe for Machine {
     fn has_alarm(&self, number: AlarmNumber) -> bool {
         number != AlarmNumber(1653)
     }
-    fn rule(&self, _: RuleNumber) -> Rule {
-        Rule { id: "", text: "" }
+    fn rule(&self, rule: RuleNumber) -> Rule {
+        self.rules()[usize::from(rule.0)]
     }
+    fn rules(&self) -> &'static [Rule] {
+        const { &[rule("REF-02"), rule("REF-31"), rule("JOG"), rule("REF-02"), rule("O-27")] }
+    }
+}
+
+const fn rule(id: &'static str) -> Rule {
+    Rule { id, text: "" }
 }
 
 /// The names of the machine, its memory, and one value of the caller.
@@ -102,7 +109,13 @@ fn parsed(source: &str) -> Result<Expression, Problem> {
 fn value(source: &str) -> f64 {
     let machine = Machine::new();
     let (memory, variables) = state(&machine);
-    let now = Moment { memory: &memory, variables: &variables, time: Time::from_millis(1_500), named_values: &[7.0] };
+    let now = Moment {
+        memory: &memory,
+        variables: &variables,
+        time: Time::from_millis(1_500),
+        named_values: &[7.0],
+        rules: &[],
+    };
     parsed(source).unwrap_or_else(|problem| panic!("{problem}")).value(&View::at(now))
 }
 
@@ -192,7 +205,7 @@ fn an_edge_is_between_the_last_two_cycles_and_not_in_pending_writes() {
     let machine = Machine::new();
     let (memory, variables) = state(&machine);
     let empty = Memory::new();
-    let at = |memory| Moment { memory, variables: &variables, time: Time::ZERO, named_values: &[] };
+    let at = |memory| Moment { memory, variables: &variables, time: Time::ZERO, named_values: &[], rules: &[] };
     let rose = parsed("rose(M10.3 && time == 0)").unwrap();
     let fell = parsed("fell(M10.3)").unwrap();
     let up = View { now: at(&empty), last: at(&memory), before: at(&empty), followed: &[] };
@@ -216,28 +229,78 @@ fn since_and_count_follow_the_rising_edges_of_a_condition() {
     for expression in [&mut since, &mut count, &mut other] {
         expression.follow(&mut followed);
     }
-    assert_eq!(followed.len(), 2, "one condition is followed once");
+    assert_eq!(followed.conditions.len(), 2, "one condition is followed once");
     memory.write(flag, 1);
     // True at the beginning, then 0, 1, 1, 0, 1 after cycles of 10 ms.
     let mut seen = Vec::new();
     for (cycle, bit) in [1, 0, 1, 1, 0, 1].into_iter().enumerate() {
         memory.write(flag, bit);
         let time = Time::from_millis(10 * i64::try_from(cycle).unwrap());
-        let now = Moment { memory: &memory, variables: &variables, time, named_values: &[] };
+        let now = Moment { memory: &memory, variables: &variables, time, named_values: &[], rules: &[] };
         if cycle == 0 {
-            followed.begin(0, &View::at(now));
+            followed.conditions.begin(0, &View::at(now));
         } else {
-            followed.observe(&View::at(now));
+            followed.conditions.observe(&View::at(now));
         }
-        let view = View { followed: followed.histories(), ..View::at(now) };
+        let view = View { followed: followed.conditions.histories(), ..View::at(now) };
         seen.push((since.value(&view), count.value(&view)));
         assert!(other.value(&view).is_infinite());
     }
     let inf = f64::INFINITY;
     assert_eq!(seen, [(inf, 1.0), (inf, 1.0), (0.0, 2.0), (0.01, 2.0), (0.02, 2.0), (0.0, 3.0)]);
-    let now = Moment { memory: &memory, variables: &variables, time: Time::from_millis(60), named_values: &[] };
-    let view = View { followed: followed.histories(), ..View::at(now) };
+    let now =
+        Moment { memory: &memory, variables: &variables, time: Time::from_millis(60), named_values: &[], rules: &[] };
+    let view = View { followed: followed.conditions.histories(), ..View::at(now) };
     assert_eq!(count.operands(&view, &Machine::new()), ["count(M10.3 == 1) = 2", "M10.3 = 1"]);
+}
+
+/// A signal with edges by rules 1, none, and 3, which has the ID of rule 0.
+#[test]
+fn a_cause_is_the_rule_of_the_last_edge_whatever_its_number() {
+    let (variables, memory) = (Variables::default(), Memory::new());
+    let mut followed = Followed::default();
+    let mut cause = parsed("cause(X.traverse_command_plus, 'REF-02')").unwrap();
+    let mut rose = parsed("rose(cause(DB31.DBX64.7, 'REF-02'))").unwrap();
+    let mut count = parsed("count(cause(X.traverse_command_plus, 'REF-02') && !cause(M0.0, 'JOG'))").unwrap();
+    for expression in [&mut cause, &mut rose, &mut count] {
+        expression.follow(&mut followed);
+    }
+    assert_eq!((followed.edges.len(), followed.conditions.len()), (2, 1), "one signal is followed once");
+    assert!(!cause.holds(&View::at(Moment {
+        memory: &memory,
+        variables: &variables,
+        time: Time::ZERO,
+        named_values: &[],
+        rules: &[]
+    })));
+    let flag = memory.locate(&"M0.0".parse().unwrap(), crate::image::Profile::default()).unwrap();
+    let mut seen = Vec::new();
+    // Of each cycle: the edge of the signal, and its rule.
+    let edges = [None, Some(Some(1)), Some(None), Some(Some(3)), None, Some(Some(0)), Some(Some(4))];
+    for edge in edges {
+        followed.edges.observe(|signal, known| match edge {
+            Some(rule) if signal != flag => rule.map(RuleNumber),
+            Some(_) | None => known,
+        });
+        let Followed { conditions, edges } = &mut followed;
+        let moment =
+            |rules| Moment { memory: &memory, variables: &variables, time: Time::ZERO, named_values: &[], rules };
+        let (now, before) = (moment(edges.rules()), moment(edges.rules_before()));
+        conditions.observe(&View::at(now));
+        let view = View { now, last: now, before, followed: conditions.histories() };
+        seen.push((cause.value(&view), rose.value(&view), count.value(&view)));
+    }
+    let expected = [(0, 0, 0), (0, 0, 0), (0, 0, 0), (1, 1, 1), (1, 0, 1), (1, 0, 1), (0, 0, 1)];
+    assert_eq!(seen, expected.map(|(cause, rose, count)| (f64::from(cause), f64::from(rose), f64::from(count))));
+    let now = Moment {
+        memory: &memory,
+        variables: &variables,
+        time: Time::ZERO,
+        named_values: &[],
+        rules: followed.edges.rules(),
+    };
+    let shown = cause.operands(&View::at(now), &Machine::new());
+    assert_eq!(shown, ["cause(X.traverse_command_plus, 'REF-02') = 0, last edge by O-27"]);
 }
 
 #[test]
@@ -285,6 +348,14 @@ fn an_error_names_the_expectation_the_place_and_the_remedy() {
         ("rose(fell(M10.3))", "found `fell`", "cannot be nested"),
         ("since(count(M10.3) > 1)", "found `count`", "cannot be nested"),
         ("since", "`since`", "parentheses"),
+        ("cause(X.position, 'JOG')", "a signal, found `X.position` at character 7", "cause(X.traverse_command_plus"),
+        ("cause(1, 'JOG')", "a signal, found the number 1", "cause(X.traverse_command_plus"),
+        ("cause(X.traverse_comand_plus, 'JOG')", "`X.traverse_comand_plus`", "traverse_command_plus"),
+        ("cause(M0.0)", "expected `,`", "operators are"),
+        ("cause(M0.0, JOG)", "the ID of a rule that causes name, found `JOG`", "in quotes"),
+        ("cause(M0.0, 'JGO')", "found 'JGO' at character 13", "did you mean `JOG`?"),
+        ("cause(M0.0, 'ref-2')", "found 'ref-2'", "causes name REF-02, REF-31; the trace shows"),
+        ("cause(M0.0, 'nothing')", "found 'nothing'", "causes name JOG, O-27, REF-02, REF-31"),
         ("DB99.DBX0.0", "DB99", "PLC image"),
         ("DB31.DBX148.0", "148 bytes", "the last byte is 147"),
     ] {
@@ -319,7 +390,7 @@ fn a_message_shows_only_the_part_of_a_long_expression_around_the_mistake() {
 fn the_operands_of_a_failed_expression_are_shown_once_each_with_symbol_and_address() {
     let machine = Machine::new();
     let (memory, variables) = state(&machine);
-    let now = Moment { memory: &memory, variables: &variables, time: Time::ZERO, named_values: &[7.0] };
+    let now = Moment { memory: &memory, variables: &variables, time: Time::ZERO, named_values: &[7.0], rules: &[] };
     let source = "X.traversing_key_plus && M10.3 && X.position > start && alarm(10651, X) && !X.traversing_key_plus";
     let lines = parsed(source).unwrap().operands(&View::at(now), &machine);
     assert_eq!(

@@ -1,9 +1,10 @@
 //! The input of an evaluation: borrowed moments of a machine.
 
+use super::edges::Edges;
 use super::history::History;
 use crate::image::Memory;
 use crate::units::Time;
-use crate::variables::Variables;
+use crate::variables::{RuleNumber, Variables};
 
 /// The state of a machine at one moment, as far as expressions read it.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +18,8 @@ pub struct Moment<'a> {
     /// The values of the caller, in the order of [`Scope::named_values`](super::Scope::named_values); NaN for a value that is not yet
     /// available.
     pub named_values: &'a [f64],
+    /// The rules behind the last edges of the signals of `cause`: those of [`Edges`](super::Edges).
+    pub rules: &'a [Option<RuleNumber>],
 }
 
 /// The current state, and the last two cycles for the detection of edges.
@@ -28,7 +31,7 @@ pub struct View<'a> {
     pub last: Moment<'a>,
     /// The state after the cycle before the last one.
     pub before: Moment<'a>,
-    /// The histories of `since` and `count`: those of [`Followed`](super::Followed).
+    /// The histories of `since` and `count`: those of [`Conditions`](super::Conditions).
     pub followed: &'a [History],
 }
 
@@ -37,5 +40,19 @@ impl<'a> View<'a> {
     #[must_use]
     pub fn at(now: Moment<'a>) -> Self {
         Self { now, last: now, before: now, followed: &[] }
+    }
+
+    /// The same with these signals of `cause`.
+    #[must_use]
+    pub fn with_edges<'b>(&self, edges: &'b Edges) -> View<'b>
+    where
+        'a: 'b,
+    {
+        View {
+            now: Moment { rules: edges.rules(), ..self.now },
+            last: Moment { rules: edges.rules(), ..self.last },
+            before: Moment { rules: edges.rules_before(), ..self.before },
+            followed: self.followed,
+        }
     }
 }

@@ -39,6 +39,10 @@ impl Describe for Machine {
         self.control.texts().rule(rule)
     }
 
+    fn rules(&self) -> &'static [Rule] {
+        self.control.texts().rules()
+    }
+
     fn datum_name(&self, number: u32) -> String {
         self.control.texts().datum_name(number)
     }

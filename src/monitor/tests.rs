@@ -83,7 +83,7 @@ fn watch(claim: Claim, bytes: &str) -> (Monitor, Vec<(Reason, u64, u64)>) {
         if index > 0 {
             (cycle, time) = (cycle + 1, time + length);
         }
-        let now = Moment { memory: &memory, variables: &variables, time, named_values: &[] };
+        let now = Moment { memory: &memory, variables: &variables, time, named_values: &[], rules: &[] };
         if index == 0 {
             monitor.begin(0, &View::at(now), (cycle, length), report);
         } else {

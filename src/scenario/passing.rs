@@ -28,7 +28,7 @@ pub(super) struct Book {
     captured: Vec<f64>,
     /// The rules of the session.
     pub(super) monitor: Monitor,
-    /// The histories of `since` and `count`.
+    /// The histories of `since` and `count`, and the rules of `cause`.
     pub(super) followed: Followed,
     /// A rule that was broken before the first cycle.
     pub(super) broken: Option<Failure>,
@@ -223,6 +223,11 @@ impl Book {
         if let Some(before) = &mut self.before {
             before.past.end_step(machine.recorder(), machine.cycle());
         }
+        let events = machine.control().events();
+        self.followed.edges.observe(|signal, known| match machine.recorder().edge(signal, machine.cycle()) {
+            Some(cause) => events.find(cause).map(|event| event.rule),
+            None => known,
+        });
     }
 
     /// Called after a cycle and after [`Book::note_changes`]: checks the rules.
@@ -232,10 +237,10 @@ impl Book {
             let now = Moment { memory, variables: &variables, time, named_values: &self.captured };
             self.monitor.power_on(&View { followed: self.followed.histories(), ..View::at(now) });
         }
-        if !self.followed.is_empty() {
-            let mut followed = std::mem::take(&mut self.followed);
-            self.with_view(self.last(machine), machine, |view| followed.observe(view));
-            self.followed = followed;
+        if !self.followed.conditions.is_empty() {
+            let mut conditions = std::mem::take(&mut self.followed.conditions);
+            self.with_view(self.last(machine), machine, |view| conditions.observe(view));
+            self.followed.conditions = conditions;
         }
         if self.monitor.rules().is_empty() {
             return Ok(());
@@ -340,6 +345,7 @@ impl Book {
             variables: machine.variables(),
             time: self.time(machine),
             named_values: &self.captured,
+            rules: self.followed.edges.rules(),
         }
     }
 
@@ -351,8 +357,9 @@ impl Book {
             variables: before.past.variables(),
             time: before.time,
             named_values: &self.captured,
+            rules: self.followed.edges.rules_before(),
         });
-        look(&View { now, last, before, followed: self.followed.histories() })
+        look(&View { now, last, before, followed: self.followed.conditions.histories() })
     }
 
     /// The memory now: after the last cycle, including writes since then.
@@ -376,7 +383,7 @@ impl Book {
         self.looked_at(machine, |view| expression.holds(view))
     }
 
-    pub(super) fn evaluated(&self, expression: &Expression, machine: &Machine) -> f64 {
+    fn evaluated(&self, expression: &Expression, machine: &Machine) -> f64 {
         self.looked_at(machine, |view| expression.value(view))
     }
 

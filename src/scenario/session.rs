@@ -288,9 +288,7 @@ impl Session {
         reader.steps(&steps_of(file)?, &mut steps)?;
         let Reader { captured, followed, .. } = reader;
         self.book.captured_names = captured;
-        if followed.len() > self.book.followed.len() {
-            self.book.follow(followed, &self.machine);
-        }
+        self.follow_more(followed);
         let mut plan = Plan::new(steps);
         loop {
             let Self { machine, book, trace, .. } = self;
@@ -359,7 +357,8 @@ impl Session {
     pub fn value(&self, expression: &str) -> Result<f64, Failure> {
         let mut followed = self.book.followed.clone();
         let expression = self.parsed(expression, &mut followed)?;
-        Ok(self.book.evaluated(&expression, &self.machine))
+        self.begin_edges(&mut followed);
+        Ok(self.book.looked_at(&self.machine, |view| expression.value(&view.with_edges(&followed.edges))))
     }
 
     /// Stores a value for later expressions.
@@ -429,10 +428,24 @@ impl Session {
     fn expression(&mut self, source: &str) -> Result<Expression, Problem> {
         let mut followed = self.book.followed.clone();
         let expression = self.parsed(source, &mut followed)?;
-        if followed.len() > self.book.followed.len() {
+        self.follow_more(followed);
+        Ok(expression)
+    }
+
+    /// Takes over what new expressions follow.
+    fn follow_more(&mut self, mut followed: Followed) {
+        if followed.is_more_than(&self.book.followed) {
+            self.begin_edges(&mut followed);
             self.book.follow(followed, &self.machine);
         }
-        Ok(expression)
+    }
+
+    /// The signals of new `cause` begin with the last edges in the trace.
+    fn begin_edges(&self, followed: &mut Followed) {
+        let cycle = self.machine.cycle();
+        let rule = |signal, cycle| self.trace.last_rule(signal, cycle);
+        let known = self.book.followed.edges.len();
+        followed.edges.begin(known, |signal| [rule(signal, cycle), rule(signal, cycle.saturating_sub(1))]);
     }
 
     fn parsed(&self, source: &str, followed: &mut Followed) -> Result<Expression, Problem> {

@@ -126,7 +126,7 @@ pub(super) struct Reader<'a> {
     machine: &'a Machine,
     /// The names captured so far.
     pub(super) captured: Vec<String>,
-    /// The conditions of `since` and `count` in all expressions.
+    /// The conditions of `since` and `count` and the signals of `cause` in all expressions.
     pub(super) followed: Followed,
     /// Data of the machine were stored, and have taken effect: the machine can have other channels than it has now.
     reconfigured: [bool; 2],

@@ -19,11 +19,13 @@ impl Book {
         }
     }
 
-    /// Takes over conditions to follow; those that are known keep their histories.
-    pub(super) fn follow(&mut self, mut followed: Followed, machine: &Machine) {
-        let known = self.followed.len();
-        self.with_view(self.last(machine), machine, |view| followed.begin(known, view));
-        self.followed = followed;
+    /// Takes over conditions and signals to follow; conditions that are known keep their histories.
+    pub(super) fn follow(&mut self, followed: Followed, machine: &Machine) {
+        let known = self.followed.conditions.len();
+        self.followed.edges = followed.edges;
+        let mut conditions = followed.conditions;
+        self.with_view(self.last(machine), machine, |view| conditions.begin(known, view));
+        self.followed.conditions = conditions;
     }
 
     /// Shows the state after the last cycle to the monitor. Returns the first breach that ends the run, with the others of this cycle that

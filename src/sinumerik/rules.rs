@@ -15,7 +15,10 @@ macro_rules! rules {
             $(#[doc = concat!($id, ": ", $text)] $name,)*
         }
 
-        const TEXTS: &[Text] = &[$(Text { id: $id, text: $text }),*];
+        impl Rule {
+            /// The texts of all rules, in the order of their numbers.
+            pub const ALL: &[Text] = &[$(Text { id: $id, text: $text }),*];
+        }
     };
 }
 
@@ -210,11 +213,5 @@ impl Rule {
     #[must_use]
     pub const fn number(self) -> RuleNumber {
         RuleNumber(self as u16)
-    }
-
-    /// The rule behind a number.
-    #[must_use]
-    pub fn text(number: RuleNumber) -> Text {
-        TEXTS.get(usize::from(number.0)).copied().unwrap_or(Text { id: "?", text: "unknown rule" })
     }
 }

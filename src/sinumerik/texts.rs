@@ -9,7 +9,7 @@ use crate::sinumerik::modelled::is_modelled;
 use crate::sinumerik::opening::has_effect;
 use crate::sinumerik::referencing;
 use crate::sinumerik::rules::Rule;
-use crate::variables::{AlarmNumber, Rule as RuleText, RuleNumber};
+use crate::variables::{AlarmNumber, Rule as RuleText};
 
 /// The texts of the SINUMERIK control.
 pub static TEXTS: Words = Words;
@@ -51,8 +51,8 @@ impl Texts for Words {
         Alarm::named(name)
     }
 
-    fn rule(&self, rule: RuleNumber) -> RuleText {
-        Rule::text(rule)
+    fn rules(&self) -> &'static [RuleText] {
+        Rule::ALL
     }
 
     fn datum_name(&self, number: u32) -> String {

@@ -1,14 +1,13 @@
 //! The trace of a running machine: rows of the recorder, events, notes and watched values.
 
 use super::calendar::Calendar;
-use super::printable::mask_in_byte;
 use super::record::by_in_words;
 use super::value::millionths;
 use super::watch::WatchedItem;
-use super::{Change, Recorder, Row, Watch};
+use super::{Recorder, Row, Watch};
 use crate::image::{Location, Memory};
 use crate::units::{AxisNumber, Time};
-use crate::variables::{AxisValue, Event, EventId, Variables};
+use crate::variables::{AxisValue, Event, EventId, RuleNumber, Variables};
 
 /// A trace that grows while a machine runs.
 #[derive(Clone, Debug)]
@@ -152,14 +151,20 @@ impl Trace {
     #[must_use]
     pub fn last_change(&self, location: Location) -> Option<(Time, &'static str)> {
         self.rows.iter().rev().find_map(|row| {
-            let Change::Byte { part, offset, old, new, by, .. } = &row.change else { return None };
-            let mask = if *part == location.part { mask_in_byte(location, *offset) } else { 0 };
-            let changed = (old ^ new) & mask;
-            (changed != 0).then(|| {
-                let bit = changed.trailing_zeros() as usize;
-                (self.time(row.cycle), by_in_words(by[bit]))
-            })
+            let (by, _) = row.edge(location)?;
+            Some((self.time(row.cycle), by_in_words(by)))
         })
+    }
+
+    /// The rule behind the last edge of a location up to a cycle; `None` if it had no edge, or one without a cause.
+    #[must_use]
+    pub fn last_rule(&self, location: Location, cycle: u64) -> Option<RuleNumber> {
+        let so_far = &self.rows[..self.rows.partition_point(|row| row.cycle <= cycle)];
+        let mut cycles = so_far.chunk_by(|one, next| one.cycle == next.cycle).rev();
+        // A number has several rows in a cycle; the first one gives the cause of its line.
+        let (edge, cycle) =
+            cycles.find_map(|rows| Some((rows.iter().find_map(|row| row.edge(location))?, rows[0].cycle)))?;
+        self.event(edge.1, cycle).map(|event| event.rule)
     }
 
     /// The number of rows that the recorder lost because it was not drained.

@@ -68,6 +68,10 @@ pub trait Describe {
     }
     /// The rule with this number.
     fn rule(&self, rule: RuleNumber) -> Rule;
+    /// All rules that causes name, in the order of their numbers, which begin at 0; several can have one ID. The default is none.
+    fn rules(&self) -> &'static [Rule] {
+        &[]
+    }
     /// The displayed name of a machine datum: `MD37110`.
     fn datum_name(&self, number: u32) -> String;
     /// Whether positions of the axis are in degrees.

@@ -9,6 +9,7 @@ use crate::image::Profile;
 use crate::plc::Programs;
 use crate::source::Problem;
 
+mod causes;
 mod language;
 
 /// A head of two lines; the steps begin in line 3.

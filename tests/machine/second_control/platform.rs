@@ -394,13 +394,12 @@ impl Texts for PlatformTexts {
         None
     }
 
-    fn rule(&self, rule: RuleNumber) -> Rule {
-        let (id, text) = match rule.0 {
-            0 => ("P-1", "power and release"),
-            1 => ("P-2", "power or release missing"),
-            _ => ("P-3", "no PLC program"),
-        };
-        Rule { id, text }
+    fn rules(&self) -> &'static [Rule] {
+        &[
+            Rule { id: "P-1", text: "power and release" },
+            Rule { id: "P-2", text: "power or release missing" },
+            Rule { id: "P-3", text: "no PLC program" },
+        ]
     }
 
     fn datum_name(&self, number: u32) -> String {
