@@ -89,7 +89,7 @@ impl Parser<'_> {
             }
             self.next();
             let right = self.expression(operator.binding())?;
-            left = Term::Pair(operator, Box::new(left), Box::new(right));
+            left = Term::Pair(operator, Box::new([left, right]));
         }
         self.depth -= 1;
         Ok(left)
@@ -185,7 +185,7 @@ impl Parser<'_> {
                 self.sign(",")?;
                 loop {
                     let right = self.expression(0)?;
-                    left = Term::Pair(operator, Box::new(left), Box::new(right));
+                    left = Term::Pair(operator, Box::new([left, right]));
                     if self.peek() != &Token::Sign(",") {
                         break;
                     }
@@ -302,7 +302,7 @@ impl Parser<'_> {
             return Ok(Term::Time);
         }
         if let Some(index) = self.scope.named_values().iter().position(|named| named == name) {
-            return Ok(Term::Named(index, name.to_owned()));
+            return Ok(Term::Named(Box::new((index, name.to_owned()))));
         }
         let problem = mistake(self.source, column, "a known name", &format!("`{name}`"));
         if FUNCTIONS.contains(&name) {

@@ -25,13 +25,15 @@ pub(super) enum Operator {
     Maximum,
 }
 
+/// A term of an expression. What is large or rare is boxed: a generated scenario has 100,000 expressions, and a term takes the memory of its
+/// largest variant.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Term {
     Number(f64),
     Signal(Location),
     Value(AxisNumber, AxisValue),
     Time,
-    Named(usize, String),
+    Named(Box<(usize, String)>),
     Alarm(AlarmNumber, Option<Place>),
     AlarmParameter(AlarmNumber, usize),
     Alarms,
@@ -41,7 +43,7 @@ pub(super) enum Term {
     Not(Box<Self>),
     Negative(Box<Self>),
     Absolute(Box<Self>),
-    Pair(Operator, Box<Self>, Box<Self>),
+    Pair(Operator, Box<[Self; 2]>),
 }
 
 /// `since(E)` or `count(E)`.
@@ -116,7 +118,7 @@ impl Term {
             Self::Signal(location) => now.memory.value(*location),
             Self::Value(axis, value) => value.of(*axis, now.variables),
             Self::Time => now.time.seconds(),
-            Self::Named(index, _) => named_value(now, *index),
+            Self::Named(named) => named_value(now, named.0),
             Self::Alarm(alarm, place) => number(now.variables.alarms.find(*alarm, *place).is_some()),
             Self::AlarmParameter(alarm, index) => {
                 let raised = now.variables.alarms.find(*alarm, None);
@@ -139,7 +141,7 @@ impl Term {
             Self::Not(of) => number(!truth(of.value(view))),
             Self::Negative(of) => -of.value(view),
             Self::Absolute(of) => of.value(view).abs(),
-            Self::Pair(operator, left, right) => operator.apply(left.value(view), || right.value(view)),
+            Self::Pair(operator, sides) => operator.apply(sides[0].value(view), || sides[1].value(view)),
         }
     }
 
@@ -147,7 +149,7 @@ impl Term {
         match self {
             Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) => [Some(of), None],
             Self::Followed(term) => [Some(&term.of), None],
-            Self::Pair(_, left, right) => [Some(left), Some(right)],
+            Self::Pair(_, sides) => sides.each_ref().map(Some),
             Self::Number(_)
             | Self::Signal(_)
             | Self::Value(..)
@@ -167,17 +169,21 @@ impl Term {
     /// The distance to the other truth: positive if true, negative if false; infinite if no comparison decides.
     pub(super) fn distance(&self, view: &View<'_>) -> f64 {
         use Operator as O;
+        let not_compared = || if truth(self.value(view)) { f64::INFINITY } else { f64::NEG_INFINITY };
         match self {
             Self::Not(of) => -of.distance(view),
-            Self::Pair(O::And, left, right) => left.distance(view).min(right.distance(view)),
-            Self::Pair(O::Or, left, right) => left.distance(view).max(right.distance(view)),
-            Self::Pair(O::Less | O::LessOrEqual, left, right) => right.value(view) - left.value(view),
-            Self::Pair(O::Greater | O::GreaterOrEqual, left, right) => left.value(view) - right.value(view),
-            Self::Pair(
-                O::Equal | O::NotEqual | O::Add | O::Subtract | O::Multiply | O::Divide | O::Minimum | O::Maximum,
-                ..,
-            )
-            | Self::Number(_)
+            Self::Pair(operator, sides) => {
+                let [left, right] = &**sides;
+                match operator {
+                    O::And => left.distance(view).min(right.distance(view)),
+                    O::Or => left.distance(view).max(right.distance(view)),
+                    O::Less | O::LessOrEqual => right.value(view) - left.value(view),
+                    O::Greater | O::GreaterOrEqual => left.value(view) - right.value(view),
+                    O::Equal | O::NotEqual => not_compared(),
+                    O::Add | O::Subtract | O::Multiply | O::Divide | O::Minimum | O::Maximum => not_compared(),
+                }
+            }
+            Self::Number(_)
             | Self::Signal(_)
             | Self::Value(..)
             | Self::Time
@@ -187,14 +193,9 @@ impl Term {
             | Self::Alarms
             | Self::Edge { .. }
             | Self::Followed(_)
+            | Self::Cause(_)
             | Self::Negative(_)
-            | Self::Absolute(_) => {
-                if truth(self.value(view)) {
-                    f64::INFINITY
-                } else {
-                    f64::NEG_INFINITY
-                }
-            }
+            | Self::Absolute(_) => not_compared(),
         }
     }
 
@@ -203,10 +204,7 @@ impl Term {
         match self {
             Self::Followed(term) => term.of.each(visit),
             Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) => of.each(visit),
-            Self::Pair(_, left, right) => {
-                left.each(visit);
-                right.each(visit);
-            }
+            Self::Pair(_, sides) => sides.iter_mut().for_each(|side| side.each(visit)),
             Self::Number(_)
             | Self::Signal(_)
             | Self::Value(..)
@@ -251,7 +249,7 @@ impl Term {
             }
             Self::Value(axis, value) => format!("{}.{value}", axis_name(*axis, names)),
             Self::Time => "time".to_owned(),
-            Self::Named(_, name) => name.clone(),
+            Self::Named(named) => named.1.clone(),
             Self::Alarm(alarm, None) => format!("alarm({})", describe.alarm_name(*alarm)),
             Self::Alarm(alarm, Some(place)) => {
                 format!("alarm({}, {})", describe.alarm_name(*alarm), place_name(*place, names))
@@ -333,5 +331,15 @@ impl Operator {
             Self::Minimum => left.min(right()),
             Self::Maximum => left.max(right()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_term_takes_16_bytes() {
+        assert_eq!(size_of::<Term>(), 16);
     }
 }

@@ -31,12 +31,17 @@ impl WrittenSteps {
             return Ok(read);
         }
         let mut head = Table::parse(text, file)?;
-        let steps = head.take("step");
-        let misspelt = head.entries().find(|(key, _)| steps.is_none() && nearest(key, ["step"]).is_some());
+        let written = head.take("step");
+        let misspelt = head.entries().find(|(key, _)| written.is_none() && nearest(key, ["step"]).is_some());
         if let Some((key, node)) = misspelt {
             return Err(node.place.problem(format!("expected `[[step]]`, found `{key}`"), "did you mean `[[step]]`?"));
         }
-        Ok((head, Self::Tables(tables(steps, &Place::file(file))?.into())))
+        let mut steps = Vec::new();
+        each_step(written, &Place::file(file), |step| {
+            steps.push(step);
+            Ok(())
+        })?;
+        Ok((head, Self::Tables(steps.into())))
     }
 
     fn read_in_parts(text: &str, file: &str) -> Option<(Table, Self)> {
@@ -59,7 +64,7 @@ impl WrittenSteps {
                 let mut place = place.clone();
                 for part in parts(text) {
                     let mut table = Table::parse_part(part, &place)?;
-                    tables(table.take("step"), &place)?.into_iter().try_for_each(&mut take)?;
+                    each_step(table.take("step"), &place, &mut take)?;
                     table.finish()?;
                     place.line += u32::try_from(part.matches('\n').count()).unwrap_or(0);
                 }
@@ -88,15 +93,23 @@ fn parts(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-fn tables(node: Option<Node>, whole: &Place) -> Result<Vec<Table>, Problem> {
+/// Shows the steps in the value of the key `step`, one by one: a list of them, made from the list of values in its place and shortened, would
+/// leave a gap in memory for each step.
+fn each_step(
+    node: Option<Node>,
+    whole: &Place,
+    mut take: impl FnMut(Table) -> Result<(), Problem>,
+) -> Result<(), Problem> {
     let none = || whole.problem("expected at least one `[[step]]`, found none", "add [[step]] with a verb");
     let node = node.ok_or_else(none)?;
     if !matches!(node.value, Value::Array(_)) {
         return Err(node.expected("a list of steps", "write [[step]] with two brackets"));
     }
-    let steps: Vec<_> =
-        node.into_list().into_iter().map(|step| step.into_table("a step with one verb")).collect::<Result<_, _>>()?;
-    if steps.is_empty() { Err(none()) } else { Ok(steps) }
+    let steps = node.into_list();
+    if steps.is_empty() {
+        return Err(none());
+    }
+    steps.into_iter().try_for_each(|step| take(step.into_table("a step with one verb")?))
 }
 
 #[cfg(test)]

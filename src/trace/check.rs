@@ -10,9 +10,10 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use super::because::because;
+use super::bits::Bits;
 use super::places::Places;
 use super::printable::{mask_in_byte, signal_at, signal_name};
-use super::{By, Change, Row, Trace, Watch};
+use super::{By, Change, Trace, Watch};
 use crate::image::{Format, Interface, Location, Memory, Part};
 use crate::units::{AxisNumber, Time};
 use crate::variables::{
@@ -80,19 +81,23 @@ impl Trace {
         let mut pending: Vec<RaisedAlarm> = Vec::new();
         let mut data = BTreeMap::new();
         let mut findings = Vec::new();
-        for rows in self.rows.chunk_by(|one, next| one.cycle == next.cycle) {
-            let cycle = rows[0].cycle;
+        for (cycle, bits, rows) in self.cycles() {
+            for bits in bits {
+                memory.write(byte(bits.part, bits.offset), bits.new.into());
+            }
             for row in rows {
                 match row.change {
-                    Change::Byte { part, offset, new, .. } => memory.write(byte(part, offset), new.into()),
                     Change::Alarm { alarm, raised: true, .. } => pending.push(alarm),
                     Change::Happened { what: Happening::DatumActive(datum), .. } if datum.index.is_none() => {
                         data.extend(datum.value.map(|value| ((datum.number, axis_of(datum.place)), value)));
                     }
-                    Change::Alarm { raised: false, .. } | Change::Happened { .. } | Change::Overwritten { .. } => {}
+                    Change::Byte { .. }
+                    | Change::Alarm { raised: false, .. }
+                    | Change::Happened { .. }
+                    | Change::Overwritten { .. } => {}
                 }
             }
-            let seen = Seen { memory: &memory, pending: &pending, data: &data, rows, interface: names.interface() };
+            let seen = Seen { memory: &memory, pending: &pending, data: &data, bits, interface: names.interface() };
             let mut check = |cause: EventId, what: String| {
                 let event = self.event(cause, cycle);
                 findings.extend(self.faults(event, cycle, &seen, describe).into_iter().map(|fault| CauseFinding {
@@ -102,23 +107,18 @@ impl Trace {
                     fault,
                 }));
             };
+            for bits in bits.iter().filter(|bits| bits.by == By::Nck) {
+                for printable in places.at(bits.part, bits.offset) {
+                    if bits.changed(printable.location) != 0 {
+                        check(bits.cause, printable.called());
+                    }
+                }
+            }
             for row in rows {
-                match row.change {
-                    Change::Byte { part, offset, old, new, by, causes } => {
-                        for printable in places.at(part, offset) {
-                            let changed = (old ^ new) & mask_in_byte(printable.location, offset);
-                            let bit = changed.trailing_zeros() as usize;
-                            if changed != 0 && by[bit] == By::Nck {
-                                check(causes[bit], printable.called());
-                            }
-                        }
-                    }
-                    Change::Alarm { alarm, raised, cause } => {
-                        let state = if raised { "raised" } else { "cleared" };
-                        let place = place_name(alarm.place, names);
-                        check(cause, format!("alarm {} of {place} {state}", describe.alarm_name(alarm.number)));
-                    }
-                    Change::Happened { .. } | Change::Overwritten { .. } => {}
+                if let Change::Alarm { alarm, raised, cause } = row.change {
+                    let state = if raised { "raised" } else { "cleared" };
+                    let place = place_name(alarm.place, names);
+                    check(cause, format!("alarm {} of {place} {state}", describe.alarm_name(alarm.number)));
                 }
             }
             for row in rows {
@@ -174,7 +174,7 @@ struct Seen<'a> {
     pending: &'a [RaisedAlarm],
     /// The machine data that became active so far, by number and axis.
     data: &'a BTreeMap<(u32, Option<AxisNumber>), f64>,
-    rows: &'a [Row],
+    bits: &'a [Bits],
     interface: &'static Interface,
 }
 
@@ -189,13 +189,9 @@ impl Seen<'_> {
         if !matches!(location.part, Part::FromNck | Part::Hmi) {
             return Some([now; 2]);
         }
-        let before = self.rows.iter().find_map(|row| match row.change {
-            Change::Byte { part, offset, old, .. } if (part, offset) == (location.part, location.offset) => {
-                Some(u64::from((old & mask_in_byte(location, offset)) >> location.bit))
-            }
-            Change::Byte { .. } | Change::Alarm { .. } | Change::Happened { .. } | Change::Overwritten { .. } => None,
-        });
-        Some([now, before.unwrap_or(now)])
+        let is_here = |bits: &&Bits| (bits.part, bits.offset) == (location.part, location.offset);
+        let before = self.bits.iter().find(is_here).map(|bits| bits.old & mask_in_byte(location, bits.offset));
+        Some([now, before.map_or(now, |before| u64::from(before >> location.bit))])
     }
 }
 

@@ -1,10 +1,11 @@
 //! The trace of a running machine: rows of the recorder, events, notes and watched values.
 
+use super::bits::Bits;
 use super::calendar::Calendar;
 use super::record::by_in_words;
 use super::value::millionths;
 use super::watch::WatchedItem;
-use super::{Recorder, Row, Watch};
+use super::{Change, Recorder, Row, Watch};
 use crate::image::{Location, Memory};
 use crate::units::{AxisNumber, Time};
 use crate::variables::{AxisValue, Event, EventId, RuleNumber, Variables};
@@ -19,7 +20,10 @@ pub struct Trace {
     pub(super) calendar: Calendar,
     /// The time of the machine at the first cycle.
     first_time: Time,
-    pub(super) rows: Vec<Row>,
+    /// The changed bytes.
+    pub(super) bits: Vec<Bits>,
+    /// All other rows: alarms, happenings, overwritten bits.
+    pub(super) others: Vec<Row>,
     pub(super) events: Vec<Event>,
     pub(super) notes: Vec<(u64, String)>,
     pub(super) watched: Vec<WatchedValue>,
@@ -57,7 +61,8 @@ impl Trace {
             first_cycle: cycle,
             calendar: Calendar::new(cycle_time),
             first_time: time,
-            rows: Vec::new(),
+            bits: Vec::new(),
+            others: Vec::new(),
             events: Vec::new(),
             notes: Vec::new(),
             watched: Vec::new(),
@@ -79,7 +84,12 @@ impl Trace {
 
     /// Takes over the contents of the recorder.
     pub fn extend(&mut self, recorder: &Recorder) {
-        self.rows.extend_from_slice(recorder.rows());
+        for row in recorder.rows() {
+            match row.change {
+                Change::Byte { .. } => self.bits.extend(Bits::of(row)),
+                Change::Alarm { .. } | Change::Happened { .. } | Change::Overwritten { .. } => self.others.push(*row),
+            }
+        }
         self.events.extend_from_slice(recorder.new_events());
         self.lost = recorder.lost();
     }
@@ -111,16 +121,25 @@ impl Trace {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let notes: usize = self.notes.iter().map(|(_, text)| text.len() + size_of::<(u64, String)>()).sum();
-        self.rows.len() * size_of::<Row>()
+        self.bits.len() * size_of::<Bits>()
+            + self.others.len() * size_of::<Row>()
             + self.events.len() * size_of::<Event>()
             + self.values.len() * size_of::<ValueRow>()
             + notes
     }
 
-    /// The rows that the machine has written.
-    #[must_use]
-    pub fn rows(&self) -> &[Row] {
-        &self.rows
+    /// The changes of each cycle that has any: its changed bits, and its other rows.
+    pub(super) fn cycles(&self) -> impl Iterator<Item = (u64, &[Bits], &[Row])> {
+        let (mut bits, mut others) = (&self.bits[..], &self.others[..]);
+        std::iter::from_fn(move || {
+            let next = [bits.first().map(|bits| bits.cycle), others.first().map(|row| row.cycle)];
+            let cycle = next.into_iter().flatten().min()?;
+            let of_bits = bits.iter().take_while(|bits| bits.cycle == cycle).count();
+            let of_others = others.iter().take_while(|row| row.cycle == cycle).count();
+            let found = (cycle, &bits[..of_bits], &others[..of_others]);
+            (bits, others) = (&bits[of_bits..], &others[of_others..]);
+            Some(found)
+        })
     }
 
     /// The event that had this number at the end of a cycle; numbers can restart at power on.
@@ -150,21 +169,22 @@ impl Trace {
     /// The last change of a location, with its time and its writer in words; `None` if it never changed.
     #[must_use]
     pub fn last_change(&self, location: Location) -> Option<(Time, &'static str)> {
-        self.rows.iter().rev().find_map(|row| {
-            let (by, _) = row.edge(location)?;
-            Some((self.time(row.cycle), by_in_words(by)))
-        })
+        let bits = self.last_edge(location, u64::MAX)?;
+        Some((self.time(bits.cycle), by_in_words(bits.by)))
     }
 
     /// The rule behind the last edge of a location up to a cycle; `None` if it had no edge, or one without a cause.
     #[must_use]
     pub fn last_rule(&self, location: Location, cycle: u64) -> Option<RuleNumber> {
-        let so_far = &self.rows[..self.rows.partition_point(|row| row.cycle <= cycle)];
+        let bits = self.last_edge(location, cycle)?;
+        self.event(bits.cause, bits.cycle).map(|event| event.rule)
+    }
+
+    /// The lowest bits of a location that changed in the last cycle that changed it, up to the given one: writer and cause of its line.
+    fn last_edge(&self, location: Location, cycle: u64) -> Option<&Bits> {
+        let so_far = &self.bits[..self.bits.partition_point(|bits| bits.cycle <= cycle)];
         let mut cycles = so_far.chunk_by(|one, next| one.cycle == next.cycle).rev();
-        // A number has several rows in a cycle; the first one gives the cause of its line.
-        let (edge, cycle) =
-            cycles.find_map(|rows| Some((rows.iter().find_map(|row| row.edge(location))?, rows[0].cycle)))?;
-        self.event(edge.1, cycle).map(|event| event.rule)
+        cycles.find_map(|of_cycle| of_cycle.iter().find(|bits| bits.changed(location) != 0))
     }
 
     /// The number of rows that the recorder lost because it was not drained.

@@ -5,11 +5,12 @@
 use std::collections::BTreeMap;
 
 use super::because::because;
+use super::bits::Bits;
 use super::happened::{HappeningLine, happened};
 use super::places::Places;
-use super::printable::{Order, Printable, Shown, mask_in_byte, shown};
+use super::printable::{Order, Printable, Shown, shown};
 use super::value::decimals;
-use super::{By, Change, Row, Trace, Watch};
+use super::{By, Change, Trace, Watch};
 use crate::image::{Format, Location, Memory};
 use crate::units::Time;
 use crate::variables::{AlarmNumber, Describe, EventId, Parameter, Place, RaisedAlarm, place_name};
@@ -104,11 +105,12 @@ impl Trace {
         for (cycle, text) in &self.notes {
             push(*cycle, 0, LineKind::Note(text.clone()));
         }
-        for rows in self.rows.chunk_by(|one, next| one.cycle == next.cycle) {
-            let cycle = rows[0].cycle;
+        for (cycle, bits, others) in self.cycles() {
             let mut drafts: BTreeMap<(bool, Order, u8), Draft> = BTreeMap::new();
-            for row in rows {
-                draft(row, &memory, &mut places, &mut drafts);
+            for bits in bits {
+                draft(bits, &memory, &mut places, &mut drafts);
+            }
+            for row in others {
                 if let Change::Happened { what, by, cause } = row.change {
                     let because = self.event(cause, cycle).map(|event| because(event, describe));
                     let event = self.event_number(cause, cycle);
@@ -124,11 +126,9 @@ impl Trace {
                     );
                 }
             }
-            for row in rows {
-                if let Change::Byte { part, offset, new, .. } = row.change {
-                    let byte = Location { part, offset, bit: 0, width: 8, format: Format::Unsigned };
-                    memory.write(byte, new.into());
-                }
+            for &Bits { part, offset, new, .. } in bits {
+                let byte = Location { part, offset, bit: 0, width: 8, format: Format::Unsigned };
+                memory.write(byte, new.into());
             }
             for Draft { printable, old, by, cause } in drafts.into_values() {
                 let new = shown(&memory, printable.location);
@@ -141,7 +141,7 @@ impl Trace {
                     push(cycle, rank, LineKind::Signal(line));
                 }
             }
-            let mut alarms: Vec<_> = rows
+            let mut alarms: Vec<_> = others
                 .iter()
                 .filter_map(|row| match row.change {
                     Change::Alarm { alarm, raised, cause } => Some((alarm, raised, cause)),
@@ -192,24 +192,18 @@ impl Trace {
     }
 }
 
-/// Records the printable items that a row changes; a number of several bytes is recorded once.
-fn draft(row: &Row, before: &Memory, places: &mut Places<'_>, drafts: &mut BTreeMap<(bool, Order, u8), Draft>) {
-    let Change::Byte { part, offset, old, new, by, causes } = row.change else {
-        return;
-    };
-    let changed = old ^ new;
-    for printable in places.at(part, offset) {
-        let mask = mask_in_byte(printable.location, offset) & changed;
-        if mask == 0 {
+/// Records the printable items that bits change; a number of several bytes, or with bits that changed for several reasons, is recorded once.
+fn draft(bits: &Bits, before: &Memory, places: &mut Places<'_>, drafts: &mut BTreeMap<(bool, Order, u8), Draft>) {
+    for printable in places.at(bits.part, bits.offset) {
+        if bits.changed(printable.location) == 0 {
             continue;
         }
-        let bit = mask.trailing_zeros() as usize;
-        let key = (by[bit] == By::Nck, printable.order, printable.location.width);
-        drafts.entry(key).or_insert_with(|| Draft {
-            printable: printable.clone(),
-            old: shown(before, printable.location),
-            by: by[bit],
-            cause: causes[bit],
-        });
+        let key = |by_nck| (by_nck, printable.order, printable.location.width);
+        if [true, false].iter().any(|by_nck| drafts.contains_key(&key(*by_nck))) {
+            continue;
+        }
+        let old = shown(before, printable.location);
+        let draft = Draft { printable: printable.clone(), old, by: bits.by, cause: bits.cause };
+        drafts.insert(key(bits.by == By::Nck), draft);
     }
 }

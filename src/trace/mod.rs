@@ -45,6 +45,7 @@
 //! ```
 
 mod because;
+mod bits;
 mod calendar;
 mod causes;
 mod check;

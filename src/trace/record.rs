@@ -3,8 +3,7 @@
 //! A row consists of numbers only: no text, no allocation. The machine fills a chunk of fixed size; the owner of the machine drains it
 //! between two steps.
 
-use super::printable::mask_in_byte;
-use crate::image::{Location, Part};
+use crate::image::Part;
 use crate::variables::{DatumValue, Event, EventId, Events, Happening, RaisedAlarm};
 
 /// The writer of a bit.
@@ -92,17 +91,6 @@ pub struct Row {
     pub change: Change,
 }
 
-impl Row {
-    /// The writer and the cause of the lowest bit of a location that this row changes; `None` if it changes none.
-    pub(super) fn edge(&self, location: Location) -> Option<(By, EventId)> {
-        let Change::Byte { part, offset, old, new, by, causes } = &self.change else { return None };
-        let mask = if *part == location.part { mask_in_byte(location, *offset) } else { 0 };
-        let changed = (old ^ new) & mask;
-        let bit = changed.trailing_zeros() as usize;
-        (changed != 0).then(|| (by[bit], causes[bit]))
-    }
-}
-
 /// A chunk of the record. The machine fills it, its owner drains it between two steps.
 #[derive(Debug)]
 pub struct Recorder {
@@ -173,14 +161,6 @@ impl Recorder {
     #[must_use]
     pub fn new_events(&self) -> &[Event] {
         &self.events
-    }
-
-    /// The cause of the edge that a location had in this cycle, which is the last one recorded; `None` if it had none.
-    #[must_use]
-    pub fn edge(&self, location: Location, cycle: u64) -> Option<EventId> {
-        let first = self.rows.iter().rposition(|row| row.cycle != cycle).map_or(0, |last| last + 1);
-        let (_, cause) = self.rows[first..].iter().find_map(|row| row.edge(location))?;
-        Some(cause)
     }
 
     /// The number of lost rows.

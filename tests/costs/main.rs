@@ -1,4 +1,4 @@
-//! Tests of costs: heap allocations of a step, memory of a client.
+//! Tests of costs: heap allocations of a step, memory of a client and of a long scenario.
 //!
 //! These tests are a separate binary because its allocator counts, and because the tests measure their own process.
 
@@ -6,4 +6,5 @@ mod allocation;
 #[cfg(all(feature = "cli", feature = "s7"))]
 #[path = "../serve/clients.rs"]
 mod clients;
+mod long_scenario;
 mod many_clients;

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::image::Names;
-use crate::trace::Recorder;
+use crate::trace::{Recorder, Row};
 use crate::units::AxisNumber;
 use crate::variables::{AlarmNumber, DatumValue, EventId, Parameter, Place, RaisedAlarm, Rule, RuleNumber};
 
