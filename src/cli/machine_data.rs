@@ -48,12 +48,15 @@ pub(super) fn list(filter: Option<&str>, format: Format, output: &mut Output) ->
     let heads = &["number", "name", "unit", "range", "default", "takes effect", "modelled", "meaning"];
     let rows = controls::texts().flat_map(Texts::machine_data).map(row).collect();
     let mut list = List { heads, rows };
-    match filter {
+    let found = match filter {
         // A number is that of a datum, not a part of a range or of a default.
-        Some(number) if list.rows.iter().any(|row| row[0] == number) => list.rows.retain(|row| row[0] == number),
+        Some(number) if list.rows.iter().any(|row| row[0] == number) => {
+            list.rows.retain(|row| row[0] == number);
+            0
+        }
         filter => list.retain_with(filter, output),
-    }
-    list.print(format, output)
+    };
+    list.print(format, output).max(found)
 }
 
 fn row(datum: DatumRow) -> Vec<String> {

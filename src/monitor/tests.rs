@@ -75,7 +75,13 @@ fn watch(claim: Claim, bytes: &str) -> (Monitor, Vec<(Reason, u64, u64)>) {
     for (index, byte) in bytes.chars().enumerate() {
         let Some(byte) = byte.to_digit(10) else {
             let memory = Memory::new();
-            monitor.power_on(&View::at(Moment { memory: &memory, variables: &variables, time, named_values: &[] }));
+            monitor.power_on(&View::at(Moment {
+                memory: &memory,
+                variables: &variables,
+                time,
+                named_values: &[],
+                rules: &[],
+            }));
             length = Time::from_millis(4);
             continue;
         };

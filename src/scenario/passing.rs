@@ -234,8 +234,9 @@ impl Book {
     pub(super) fn end_cycle(&mut self, machine: &Machine) -> Result<(), Stopped> {
         if let Some(memory) = machine.powered_on() {
             let (variables, time) = (Variables::default(), self.time(machine) - machine.cycle_time());
-            let now = Moment { memory, variables: &variables, time, named_values: &self.captured };
-            self.monitor.power_on(&View { followed: self.followed.histories(), ..View::at(now) });
+            let rules = self.followed.edges.rules_before();
+            let now = Moment { memory, variables: &variables, time, named_values: &self.captured, rules };
+            self.monitor.power_on(&View { followed: self.followed.conditions.histories(), ..View::at(now) });
         }
         if !self.followed.conditions.is_empty() {
             let mut conditions = std::mem::take(&mut self.followed.conditions);

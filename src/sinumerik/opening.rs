@@ -108,9 +108,7 @@ fn of_channel(fault: &Fault, archive: &Archive, names: &Names) -> Finding {
 
 /// The finding of a fault in the definition of a grouping.
 fn of_grouping(fault: &Fault, archive: &Archive, control: &Nck, names: &Names) -> Finding {
-    let cure =
-        "the grouping is not formed; see the reasons of the alarm in the Diagnostics Manual, and correct MD37100";
-    let finding = at_power_on(fault, cure, names);
+    let finding = at_power_on(fault, cure_of(fault), names);
     match fault_axis(fault, control) {
         Some(axis) => archive.about(37100, Owner::Axis(axis), 0, finding),
         None => finding,
@@ -132,22 +130,18 @@ fn at_power_on(fault: &Fault, cure: &str, names: &Names) -> Finding {
     for (index, parameter) in fault.parameters.iter().enumerate() {
         text = text.replace(&format!("%{}", index + 1), &shown(parameter));
     }
-<<<<<<< HEAD
-    let finding = Finding::new(Class::AlarmAtPowerOn, format!("{}: {text}", Alarm::name(fault.alarm)), cure_of(fault));
-    match fault_axis(fault, control) {
-        Some(axis) => archive.about(37100, Owner::Axis(axis), 0, finding),
-        None => finding,
-    }
-=======
     Finding::new(Class::AlarmAtPowerOn, format!("{}: {text}", Alarm::name(fault.alarm)), cure)
->>>>>>> 01c7561 (wip)
 }
 
 /// What to do about the definition of a grouping, by the reason of the alarm.
 fn cure_of(fault: &Fault) -> &'static str {
     let reason = fault.parameters.iter().find_map(|parameter| match parameter {
         Parameter::Number(reason) => Some(*reason),
-        Parameter::None | Parameter::Channel(_) | Parameter::Axis(_) | Parameter::Direction(_) => None,
+        Parameter::None
+        | Parameter::Channel(_)
+        | Parameter::Axis(_)
+        | Parameter::Direction(_)
+        | Parameter::Milliseconds(_) => None,
     });
     match reason {
         Some(1000..2000) => "no leading axis: give one axis MD37100 = the number of the grouping",
