@@ -82,7 +82,7 @@ impl Check {
                 }
                 for (location, found) in leaves(&tested) {
                     let is_late = location.part == Part::ToNck;
-                    let memory = self.memories.front().filter(|_| is_late).unwrap_or(machine.memory());
+                    let memory = self.memories.front().filter(|_| is_late).unwrap_or_else(|| machine.memory());
                     if (memory.read(location) != 0) != found {
                         self.find(machine, bit, wanted, "a condition is not what the control has read", &tested);
                     }
