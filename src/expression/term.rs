@@ -223,7 +223,7 @@ impl Term {
             let mut line = format!("{name} = {}", shown(self.value(view), matches!(self, Self::Value(..))));
             if let Self::Cause(term) = self {
                 let rule = term.last_rule(&view.now).map(|rule| describe.rule(rule).id);
-                let found = rule.map_or("no edge with a cause".to_owned(), |id| format!("last edge by {id}"));
+                let found = rule.map_or_else(|| "no edge with a cause".to_owned(), |id| format!("last edge by {id}"));
                 line = format!("{line}, {found}");
             }
             if !lines.contains(&line) {

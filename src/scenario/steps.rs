@@ -62,7 +62,7 @@ pub(super) enum Action {
     /// Stores values.
     Capture(Box<[(usize, Expression)]>),
     /// The locations must have these bits now.
-    Image(Box<[(Place, Location, u64)]>),
+    Image(Box<[Bits]>),
     /// Nothing: the note of an included file.
     Nothing,
     /// Continues at an earlier step until the steps from there have run this number of times.
@@ -136,6 +136,9 @@ pub(super) struct Reader<'a> {
     /// How often the present steps run.
     pub(super) times: u64,
 }
+
+/// The bits of an address: place, location, value.
+type Bits = (Place, Location, u64);
 
 impl<'a> Reader<'a> {
     /// A reader of the steps in this file.
@@ -429,7 +432,7 @@ impl<'a> Reader<'a> {
         Ok(commands.into())
     }
 
-    fn image(&self, node: Node) -> Result<Box<[(Place, Location, u64)]>, Problem> {
+    fn image(&self, node: Node) -> Result<Box<[Bits]>, Problem> {
         let mut table = node.into_table("addresses with their bits, as { \"DB31.DBB101\" = \"2#1100_0000\" }")?;
         let entries = table.take_rest();
         let mut expected = Vec::with_capacity(entries.len());

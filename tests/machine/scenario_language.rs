@@ -91,7 +91,7 @@ fn the_page_names_every_function_and_every_value() {
 
 /// A message about an expression.
 fn mistake(expression: &str) -> Option<String> {
-    Session::open("g1_example").unwrap().expect(expression).err().map(|failure| failure.to_string())
+    Session::open("g1_example").expect("a built-in machine").expect(expression).err().map(|failure| failure.to_string())
 }
 
 /// The whole expression and 99 signs or parentheses are 100 levels.

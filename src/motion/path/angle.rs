@@ -69,6 +69,9 @@ pub(super) fn angle_of(x: f64, y: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    #![expect(clippy::float_cmp, reason = "some angles are exact")]
+    #![expect(clippy::disallowed_methods, reason = "the functions of the platform are the judge")]
+
     use super::*;
 
     #[test]
