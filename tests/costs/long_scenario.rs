@@ -18,8 +18,8 @@ fn in_use(part: &str, steps: u64) -> u64 {
     }
     let mut ready = None;
     let allocated = allocation_counter::measure(|| {
-        let scenario = Scenario::parse(&text, Path::new("long.toml")).unwrap();
-        let prepared = scenario.prepare(scenario.profiles[0], &Programs::ready()).unwrap();
+        let scenario = Scenario::parse(&text, Path::new("long.toml")).expect("a scenario");
+        let prepared = scenario.prepare(scenario.profiles[0], &Programs::ready()).expect("it can run");
         ready = Some((scenario, prepared));
     });
     let (_scenario, prepared) = ready.expect("it is prepared");
