@@ -76,3 +76,22 @@ fn matching_adds_its_time() {
     assert_close(with(0.0, 1.0), way(0.003), "feed-forward");
     assert_close(with(1.0, 1.0), way(0.003) + way(0.006), "both");
 }
+
+/// MD32430 = 0 limits no jerk: with MD32420 = 1 an axis sets off as without it.
+#[test]
+fn a_largest_jerk_of_0_limits_nothing() {
+    let way = |limited: f64| {
+        let mut session = Session::open("g1_example").unwrap().with_program(Box::new(enable_all()));
+        session.machine_data("32420[Y]", limited).unwrap();
+        session.machine_data("32430[Y]", 0.0).unwrap();
+        session.pulse("CHAN1.channel_reset").unwrap();
+        session.set("DB11.DBX0.2", true).unwrap();
+        session.wait("Y.position_controller_active", "1s").unwrap();
+        session.set("Y.traversing_key_plus", true).unwrap();
+        session.run("100ms").unwrap();
+        session.value("Y.setpoint").unwrap()
+    };
+    // 1 m/s2 up to 33.3 mm/s.
+    assert!(way(0.0) > 2.0, "{}", way(0.0));
+    assert_close(way(1.0), way(0.0), "with MD32420");
+}
