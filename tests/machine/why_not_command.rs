@@ -140,3 +140,17 @@ fn why_not_shows_what_is_found_and_which_limit_applies() {
     let synchronised = ask("XF.gantry_trip_limit_exceeded");
     assert!(synchronised.contains("wanted above 1.000000 (MD37120)"), "{synchronised}");
 }
+
+/// O-03: an approach that an override of 0 % holds waits for the override, and for the next step of its own.
+#[test]
+fn why_not_names_the_override_that_holds_an_approach() {
+    let directory = directory("why_not_override");
+    let scenario = "title = \"t\"\nmachine = \"g1_example\"\nplc = \"enable_all\"\n\
+        [[step]]\nset = { \"DB11.DBX0.2\" = 1, \"DB11.DBX1.2\" = 1 }\n\
+        [[step]]\nwait = \"Y.position_controller_active && DB11.DBX7.2\"\n[[step]]\npulse = [\"Y.traversing_key_plus\"]\n\
+        [[step]]\nset = { \"Y.override_active\" = 1, \"Y.feed_override\" = \"0%\" }\n[[step]]\nrun = \"300ms\"\n";
+    fs::write(directory.join("s.toml"), scenario).unwrap();
+    let output = opennck(&["why-not", "s.toml", "Y.referenced_synchronized_1"], &directory);
+    assert!(out(&output).contains("✗ approach of Y: "), "{}{}", out(&output), err(&output));
+    assert!(out(&output).contains("✗ effective override of Y: 0 %, wanted above 0 %\n"), "{}", out(&output));
+}
