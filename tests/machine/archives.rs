@@ -138,9 +138,9 @@ fn an_inch_has_25_4_mm_where_md10250_is_0() {
     }
 }
 
-/// Names without a prefix are variables of programs: they are kept like data that are not modelled.
+/// Names without a prefix are no machine data: they are reported, and the machine opens.
 #[test]
-fn user_variables_of_an_archive_are_kept() {
+fn names_without_a_prefix_are_reported_and_refuse_no_archive() {
     let text = "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=0\nTOOL_COUNT=3\n_PARKED[2]=1\n2ND=1\n";
     let refused = Machine::open(file("variables.tea", text.as_bytes())).unwrap_err().to_string();
     assert!(
@@ -149,7 +149,7 @@ fn user_variables_of_an_archive_are_kept() {
     );
     let machine = Machine::open(file("variables.tea", text.replace("2ND=1\n", "").as_bytes())).unwrap();
     let kept: Vec<_> = machine.findings().iter().map(|finding| (finding.class, finding.datum.as_str())).collect();
-    assert_eq!(kept, [(Class::NotModelled, "TOOL_COUNT"), (Class::NotModelled, "_PARKED")]);
+    assert_eq!(kept, [(Class::Mistyped, "TOOL_COUNT"), (Class::Mistyped, "_PARKED[2]")]);
 }
 
 #[test]
