@@ -366,7 +366,7 @@ impl Nck {
             }
             state.set_setpoints(&unit, parameters);
         }
-        state.order_channel_referencing(parameters);
+        state.order_channel_referencing(parameters, to_nck);
     }
 
     /// Takes the feedback of encoders and drives of these axes, and monitors it. The feedback of the other axes has not changed.

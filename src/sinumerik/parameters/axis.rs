@@ -19,6 +19,10 @@ pub struct AxisPresence {
     pub mechanics: Mechanics,
 }
 
+/// MD34200 = 1: the reference point approach ends at a zero mark. With 0 an encoder that is not absolute has no reference point approach;
+/// the other values are not modelled.
+pub(in crate::sinumerik) const BY_ZERO_MARK: u8 = 1;
+
 /// The reference point approach of one axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {

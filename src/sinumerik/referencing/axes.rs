@@ -3,9 +3,9 @@
 //! Called in the stage "referencing and gantry". A held key starts one approach. It must be released before it starts another
 //! one, also if it was pressed while the approach ran, before REF was selected, or during RESET, emergency stop or an alarm that
 //! stops (O-26). A key that is pressed before the axes are in position control stays pending until they are, and the traverse command
-//! is already output (O-27). Channel-specific referencing (33.0 = 1) waits for an axis that cannot
-//! start in its turn (1.3, parked, MD34200 other than 1) until RESET or until REF is left. A spindle (MD35000) has no approach: its key
-//! starts none, and channel-specific referencing and NC start leave it out.
+//! is already output (O-27). Channel-specific referencing (33.0 = 1) waits for the enables of an axis. An axis that its machine data exclude
+//! from an approach (no encoder, MD34200 other than 1) is left out; an axis that is parked or has 1.3 = 1 in its turn ends it with 20005.
+//! A spindle (MD35000) has no approach: its key starts none, and channel-specific referencing and NC start leave it out.
 
 use crate::image::{ToNck, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck};
 use crate::sinumerik::alarms;
@@ -13,6 +13,7 @@ use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::inputs::{axis_signal, channel_signal, mode_group_signal};
 use crate::sinumerik::jog::keys::{key_direction, key_signal};
 use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::axis::BY_ZERO_MARK;
 use crate::sinumerik::referencing::approach::Outcome;
 use crate::sinumerik::referencing::state::ChannelReferencing;
 use crate::sinumerik::rules::Rule;
@@ -142,7 +143,7 @@ impl State {
         let signals = &to_nck.axes[number];
         let key = key_direction(signals);
         let has_zero_mark =
-            self.axes[number].measuring_system.is_some_and(|active| reference.mode[usize::from(active)] == 1);
+            self.axes[number].measuring_system.is_some_and(|active| reference.mode[usize::from(active)] == BY_ZERO_MARK);
         let hindered = reference.is_spindle || signals.axis_spindle_disable();
         if !self.mode_group(unit).is_referencing() || !has_zero_mark || hindered {
             return None;
@@ -342,10 +343,14 @@ impl State {
 
     /// Orders and ends it: axes with MD34110 = 1 start first, together; axes with n start after all with n − 1. 33.0 is reset
     /// with the last reference.
-    pub(in crate::sinumerik) fn order_channel_referencing(&mut self, parameters: &Parameters) {
+    pub(in crate::sinumerik) fn order_channel_referencing(&mut self, parameters: &Parameters, to_nck: &ToNck) {
         for (channel, group) in parameters.existing_channels() {
             if !self.channels[channel].is_referencing() {
                 continue;
+            }
+            // The PLC first sees that its request was taken.
+            if !self.log.is_of_this_cycle(self.channels[channel].referencing.cause) {
+                self.refuse_hindered_axes(channel, parameters, to_nck);
             }
             let (finished, failed) = self.channel_referencing_progress(channel, parameters);
             if failed || self.stop(channel, parameters).is_some() || !self.mode_groups[group].is_referencing() {
@@ -355,6 +360,41 @@ impl State {
                 self.end_channel_referencing(channel, self.next_cycle_number(channel, number, parameters));
             }
         }
+    }
+
+    /// 20005 for the axes that have their turn and are parked or have 1.3 = 1: only the PLC can change this, so they would wait for ever.
+    fn refuse_hindered_axes(&mut self, channel: ChannelNumber, parameters: &Parameters, to_nck: &ToNck) {
+        let referencing = self.channels[channel].referencing;
+        let wanted = |unit: &&Unit| {
+            let axis = unit.leader();
+            referencing.wants(axis, parameters.axes[axis].reference.cycle_number)
+        };
+        let refused: Vec<_> = self
+            .referenced_by(channel, parameters)
+            .filter(wanted)
+            .filter_map(|unit| Some((unit.leader(), self.approach_refused(unit, parameters, to_nck)?)))
+            .collect();
+        for (axis, inputs) in refused {
+            let event = self.log.note(Place::Axis(axis), Rule::ApproachAborted, inputs, referencing.cause);
+            self.raise_axis_alarm(alarms::APPROACH_ABORTED, axis, event);
+        }
+    }
+
+    /// The signals of the PLC with which a unit cannot begin an approach.
+    fn approach_refused(&self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) -> Option<[Input; 3]> {
+        let leader = unit.leader();
+        if self.axes[leader].measuring_system.is_none() {
+            let parked = unit.members().find(|&axis| self.selected(axis, parameters, to_nck).is_none());
+            let axis = parked.unwrap_or(leader);
+            let signals = &to_nck.axes[axis];
+            return Some([
+                axis_signal(axis, axis_to_nck::position_measuring_system_1, signals.position_measuring_system_1()),
+                axis_signal(axis, axis_to_nck::position_measuring_system_2, signals.position_measuring_system_2()),
+                Input::None,
+            ]);
+        }
+        let disabled = to_nck.axes[leader].axis_spindle_disable();
+        disabled.then(|| [axis_signal(leader, axis_to_nck::axis_spindle_disable, true), Input::None, Input::None])
     }
 
     fn end_channel_referencing(&mut self, channel: ChannelNumber, next: i32) {
@@ -367,14 +407,27 @@ impl State {
     }
 
     /// The units that a channel can reference.
-    fn referenced_by(&self, channel: ChannelNumber) -> impl Iterator<Item = &Unit> {
+    fn referenced_by(&self, channel: ChannelNumber, parameters: &Parameters) -> impl Iterator<Item = &Unit> {
         let whole = |unit: &&Unit| unit.grouping.is_some() || !self.is_gantry_axis(unit.leader());
-        self.units.iter().filter(move |unit| unit.channel == channel).filter(whole)
+        let of_channel = self.units.iter().filter(move |unit| unit.channel == channel);
+        of_channel.filter(whole).filter(|unit| self.has_approach(unit, parameters))
+    }
+
+    /// Whether the machine data allow an approach of a unit: every axis has an encoder, and that of the first axis is referenced by a zero
+    /// mark.
+    pub(in crate::sinumerik) fn has_approach(&self, unit: &Unit, parameters: &Parameters) -> bool {
+        let (leader, encoders) = (unit.leader(), |axis: AxisNumber| parameters.axes[axis].encoders);
+        let modes = &parameters.axes[leader].reference.mode;
+        let by_zero_mark = match self.axes[leader].measuring_system {
+            Some(active) => modes[usize::from(active)] == BY_ZERO_MARK,
+            None => modes.iter().take(usize::from(encoders(leader))).any(|&mode| mode == BY_ZERO_MARK),
+        };
+        by_zero_mark && unit.members().all(|axis| encoders(axis) > 0)
     }
 
     /// The next order number above this one with an axis that can be started; 0 if there is none.
     fn next_cycle_number(&self, channel: ChannelNumber, above: i32, parameters: &Parameters) -> i32 {
-        self.referenced_by(channel)
+        self.referenced_by(channel, parameters)
             .map(|unit| parameters.axes[unit.leader()].reference.cycle_number)
             .filter(|&number| number > above)
             .min()
@@ -385,7 +438,7 @@ impl State {
     fn channel_referencing_progress(&self, channel: ChannelNumber, parameters: &Parameters) -> (bool, bool) {
         let (mut finished, mut failed) = (true, false);
         let number = self.channels[channel].referencing.number;
-        for unit in self.referenced_by(channel) {
+        for unit in self.referenced_by(channel, parameters) {
             let axis = unit.leader();
             if parameters.axes[axis].reference.cycle_number != number {
                 continue;

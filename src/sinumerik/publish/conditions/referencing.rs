@@ -205,6 +205,12 @@ impl Look<'_> {
         })
     }
 
+    /// The axes of a channel that channel-specific referencing does not leave out.
+    fn ordered(self, channel: ChannelNumber) -> impl Iterator<Item = AxisNumber> {
+        let axes = self.parameters.channels[channel].axes;
+        axes.iter().filter(move |&axis| self.state.has_approach(&self.unit(axis), self.parameters))
+    }
+
     fn channel_fact(self, channel: ChannelNumber, wanted: bool) -> Fact {
         let word = |runs| if runs { "runs" } else { "does not run" };
         let runs = self.state.channels[channel].is_referencing();
@@ -217,9 +223,9 @@ impl Look<'_> {
         self.channel_fact(channel, true).after(|| {
             let referencing = &self.state.channels[channel].referencing;
             let group = self.parameters.mode_group(channel);
-            let axes = self.parameters.channels[channel].axes;
-            let ordered = axes.iter().any(|axis| self.parameters.axes[axis].reference.cycle_number > 0);
-            let what = format!("an axis of {} with MD34110 above 0", self.channel_name(channel));
+            let ordered = self.ordered(channel).any(|axis| self.parameters.axes[axis].reference.cycle_number > 0);
+            let name = self.channel_name(channel);
+            let what = format!("an axis of {name} with MD34110 above 0, an encoder and MD34200 = 1");
             Condition::All(vec![
                 self.channel(channel, channel_to_nck::activate_referencing, true),
                 fact("DBX1.0 rises: it was 0 before", !referencing.was).into(),
@@ -235,8 +241,7 @@ impl Look<'_> {
         self.channel_fact(channel, false).after(|| {
             let group = self.parameters.mode_group(channel);
             let number = self.state.channels[channel].referencing.number;
-            let axes = self.parameters.channels[channel].axes;
-            let open = axes.iter().filter(|&axis| {
+            let open = self.ordered(channel).filter(|&axis| {
                 self.parameters.axes[axis].reference.cycle_number >= number
                     && (!self.state.axes[axis].is_referenced() || self.state.axes[axis].approach.is_running())
             });
