@@ -229,17 +229,22 @@ fn immovable_by(md: &Axis) -> Option<u32> {
 }
 
 impl AxisParameters {
-    /// The datum of 0 with which a reference point approach on this encoder cannot end (O-30).
+    /// The datum, and its value, with which a reference point approach on this encoder cannot end: a velocity of 0 (O-30), or MD34200.
     #[must_use]
-    pub(in crate::sinumerik) fn approach_hindered_by(&self, encoder: usize) -> Option<u32> {
+    pub(in crate::sinumerik) fn approach_hindered_by(&self, encoder: usize) -> Option<(u32, f64)> {
         let reference = &self.reference;
+        let mode = reference.mode[encoder];
+        if mode != BY_ZERO_MARK {
+            return Some((34200, f64::from(mode)));
+        }
         let needed = [
             (34020, reference.cam_velocity, reference.cam_is_active),
             (34040, reference.marker_velocity[encoder], true),
             (34070, reference.position_velocity, true),
         ];
         let hinders = |(_, velocity, is_needed): &(u32, f64, bool)| *is_needed && *velocity <= 0.0;
-        self.immovable_by.or_else(|| needed.into_iter().find(hinders).map(|(datum, ..)| datum))
+        let datum = self.immovable_by.or_else(|| needed.into_iter().find(hinders).map(|(datum, ..)| datum));
+        datum.map(|datum| (datum, 0.0))
     }
 }
 
