@@ -5,6 +5,9 @@
 //! program unclamps and enables the axis because of it, so it must not wait for that. Only the movement waits. With bit 0 = 1 the command
 //! is output only while the axis may really move. The request is the same in both cases.
 //!
+//! A synchronous axis that its leading axis takes along shows the command of the leading axis, and no request: it has none of its own (SIG-09,
+//! C-48).
+//!
 //! A movement that something else blocks (a software limit switch, the fast stop 20.1) is requested and not commanded, in both cases.
 
 use serde::{Deserialize, Serialize};
@@ -27,6 +30,10 @@ pub(in crate::sinumerik) enum Travel {
     Waiting(i8),
     /// It is requested, and cannot take place in this direction.
     Blocked(i8),
+    /// A synchronous axis whose leading axis moves.
+    LedMoving(i8),
+    /// A synchronous axis whose leading axis waits.
+    LedWaiting(i8),
 }
 
 impl Travel {
@@ -48,11 +55,21 @@ impl Travel {
         if direction == 0 { Self::None } else { Self::Blocked(direction) }
     }
 
+    /// The travel of a synchronous axis whose leading axis has this one.
+    #[must_use]
+    pub(in crate::sinumerik) const fn of_led_axis(self) -> Self {
+        match self {
+            Self::None | Self::Blocked(_) => Self::None,
+            Self::Moving(direction) | Self::LedMoving(direction) => Self::LedMoving(direction),
+            Self::Waiting(direction) | Self::LedWaiting(direction) => Self::LedWaiting(direction),
+        }
+    }
+
     /// 64.4 and 64.5: +1, −1 or 0.
     #[must_use]
     pub(in crate::sinumerik) const fn request(self) -> i8 {
         match self {
-            Self::None => 0,
+            Self::None | Self::LedMoving(_) | Self::LedWaiting(_) => 0,
             Self::Moving(direction) | Self::Waiting(direction) | Self::Blocked(direction) => direction,
         }
     }
@@ -62,8 +79,8 @@ impl Travel {
     pub(in crate::sinumerik) const fn command(self, parameters: &Parameters) -> i8 {
         match self {
             Self::None | Self::Blocked(_) => 0,
-            Self::Moving(direction) => direction,
-            Self::Waiting(direction) => {
+            Self::Moving(direction) | Self::LedMoving(direction) => direction,
+            Self::Waiting(direction) | Self::LedWaiting(direction) => {
                 if parameters.command_only_in_motion {
                     0
                 } else {
@@ -76,19 +93,19 @@ impl Travel {
     /// Whether the axis moves or is to move.
     #[must_use]
     pub(in crate::sinumerik) const fn is_pending(self) -> bool {
-        matches!(self, Self::Moving(_) | Self::Waiting(_))
+        self.is_moving() || self.is_waiting()
     }
 
     /// Whether it moves.
     #[must_use]
     pub(in crate::sinumerik) const fn is_moving(self) -> bool {
-        matches!(self, Self::Moving(_))
+        matches!(self, Self::Moving(_) | Self::LedMoving(_))
     }
 
     /// Whether it waits.
     #[must_use]
     pub(in crate::sinumerik) const fn is_waiting(self) -> bool {
-        matches!(self, Self::Waiting(_))
+        matches!(self, Self::Waiting(_) | Self::LedWaiting(_))
     }
 
     /// The signal that shows it while the axis moves or is to move: the command if it is output, otherwise the request.

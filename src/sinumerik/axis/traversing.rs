@@ -114,7 +114,7 @@ impl State {
             return;
         }
         let (rule, input) = match travel {
-            Travel::None | Travel::Blocked(_) => {
+            Travel::None | Travel::Blocked(_) | Travel::LedMoving(_) | Travel::LedWaiting(_) => {
                 (Rule::TargetReached, Input::Length(Quantity::Position, number, target))
             }
             Travel::Moving(_) | Travel::Waiting(_) if before.request() != travel.request() => begins,

@@ -62,7 +62,7 @@ impl State {
                 self.axes[axis].execute(self.shaping[axis].as_deref_mut(), &parameters.axes[axis], cycle);
             }
             // SIG-09: the travel command of the leading axis is also displayed on the synchronous axes.
-            let mirrored = if leads == leader { travel } else { Travel::None };
+            let mirrored = if leads == leader { travel.of_led_axis() } else { Travel::None };
             if self.axes[axis].travel != mirrored {
                 let (rule, begun) = if leads == leader {
                     (Rule::CommandOfLeadingAxis, self.axes[leader].causes.motion)

@@ -151,7 +151,7 @@ impl State {
     }
 
     /// The axis that causes the movement of an axis: the one that leads its grouping now, or the axis itself.
-    fn mover(&self, number: AxisNumber) -> AxisNumber {
+    pub(in crate::sinumerik) fn mover(&self, number: AxisNumber) -> AxisNumber {
         let is_of = |grouping: &&Grouping| {
             grouping.coupling.is_closed() && grouping.coupling.members().any(|axis| axis == number)
         };

@@ -81,7 +81,9 @@ impl State {
             return tested(Rule::ChannelAtRest, plus, minus, axis.causes.motion);
         }
         if axis.travel.is_pending() {
-            return tested(Rule::ChannelActive, axis.travel.shown(number, parameters), Input::None, axis.causes.motion);
+            let mover = self.mover(number);
+            let shown = self.axes[mover].travel.shown(mover, parameters);
+            return tested(Rule::ChannelActive, shown, Input::None, axis.causes.motion);
         }
         if axis.approach.is_running() {
             return tested(Rule::ChannelActive, Input::None, Input::None, axis.approach.cause());

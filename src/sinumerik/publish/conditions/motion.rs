@@ -5,7 +5,7 @@ use crate::image::{axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_n
 use crate::motion::Motion;
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::axis::limits::Ahead;
-use crate::sinumerik::axis::travel::{command_signal, request_signal};
+use crate::sinumerik::axis::travel::command_signal;
 use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::jog::keys::{key_direction, key_signal};
 use crate::sinumerik::jog::state::{By, Movement};
@@ -90,9 +90,12 @@ impl Look<'_> {
         } else if let Some(leader) =
             grouping.map(|grouping| grouping.coupling.leader()).filter(|&leader| leader != number)
         {
-            // SIG-09: the travel of the leading axis is also displayed here.
-            let signal = if command { command_signal(direction) } else { request_signal(direction) };
-            return self.axis(leader, signal, true);
+            // SIG-09: the command of the leading axis is also displayed here, its request is not.
+            if command {
+                return self.axis(leader, command_signal(direction), true);
+            }
+            let what = format!("movement of {} for itself, in section 2 or 3", self.axis_name(number));
+            return Fact::new(what, "none", format!("direction {}", sign(direction)), false).into();
         } else if self.state.is_jogging(&unit) {
             all.push(self.jog(&unit, direction, command));
         } else {
