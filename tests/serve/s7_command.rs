@@ -148,6 +148,22 @@ fn a_wrong_password_ends_with_1_and_names_its_sources() {
     served.text("read", &["MB0", "--password", "right"]);
 }
 
+/// Twelve guesses in a queue would take 250 ms times 1 + 2 + 4 + … + 2048, more than 17 minutes. Of clients that have left, only the one that had
+/// its turn counts, and perhaps the ones after it that were quicker than their end.
+#[test]
+fn guesses_of_clients_that_have_left_do_not_lock_out_the_right_password() {
+    let served = Served::with(&["--password", "right", "--clients", "20"]);
+    let guess = |_| {
+        let arguments = ["s7", "read", &served.host, "MB0", "--password", "wrong", "--timeout", "100ms"];
+        program(&arguments).stderr(Stdio::null()).spawn().expect("it was built")
+    };
+    let guesses: Vec<Child> = (0..12).map(guess).collect();
+    for mut guess in guesses {
+        assert_eq!(guess.wait().expect("it ends").code(), Some(2), "no answer within 100 ms");
+    }
+    served.text("read", &["MB0", "--password", "right"]);
+}
+
 #[test]
 fn nc_variables_are_shown_as_they_were_written() {
     let served = Served::start();

@@ -11,11 +11,11 @@ use std::pin::{Pin, pin};
 use std::task::{Context, Poll, ready};
 use std::time::Duration;
 
-use tokio::io::{AsyncRead, AsyncReadExt, AsyncWriteExt, ReadBuf};
+use tokio::io::{AsyncRead, AsyncReadExt, AsyncWriteExt, Interest, ReadBuf, Ready};
 use tokio::net::TcpStream;
 use tokio::sync::watch;
 use tokio::task::yield_now;
-use tokio::time::{Instant, Interval, MissedTickBehavior, interval, sleep, sleep_until, timeout};
+use tokio::time::{Instant, Interval, MissedTickBehavior, interval, sleep, timeout};
 
 use super::end::End;
 use super::faults::Faulty;
@@ -40,6 +40,9 @@ const PARTS: u32 = 8;
 const PUSHES: Duration = Duration::from_millis(10);
 /// How long the server still reads from a client that is being disconnected.
 const LAST_READS: Duration = Duration::from_millis(200);
+
+/// Polling interval for the end of a connection whose requests are not read yet.
+const CLOSING: Duration = Duration::from_millis(20);
 
 thread_local! {
     /// The buffers of this thread, while no client uses them.
@@ -112,7 +115,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
                         self.witness.received(&self.input[self.filled..self.filled + count]);
                         self.filled += count;
                         is_full = self.filled == self.input.len();
-                        if let Some(end) = self.receive().await {
+                        if let Some(end) = self.receive(end.as_mut()).await {
                             return end;
                         }
                     }
@@ -189,7 +192,7 @@ impl<'a, S: Stations> Conversation<'a, S> {
 
     /// Passes the input to the session. Reads that arrive together see the same step. Writes that arrive together are executed in the same
     /// step, and any other request after them sees their result.
-    async fn receive(&mut self) -> Option<End> {
+    async fn receive(&mut self, mut end: Pin<&mut impl Future<Output = ()>>) -> Option<End> {
         let mut start = 0;
         let mut owed = None;
         while start < self.filled {
@@ -210,7 +213,11 @@ impl<'a, S: Stations> Conversation<'a, S> {
             owed = written.or(owed);
             if let Some(guess) = self.session.take_guess() {
                 let address = self.witness.peer().ip().to_canonical();
-                sleep_until(self.server.guesses.answer_at(address, guess, Instant::now())).await;
+                tokio::select! {
+                    () = self.server.guesses.wait(address, guess) => {}
+                    () = closes(&self.stream) => return Some(End::Left),
+                    () = end.as_mut() => return Some(End::Server),
+                }
             }
             if connection == Connection::Closed {
                 self.settle(&mut owed).await;
@@ -307,6 +314,14 @@ impl<'a, S: Stations> Conversation<'a, S> {
 /// Waits for the end of the server.
 async fn until(mut ended: watch::Receiver<bool>) {
     let _ = ended.wait_for(|ended| *ended).await;
+}
+
+/// Waits until the client closes its connection, without reading what it has sent.
+async fn closes(stream: &TcpStream) {
+    // It stays readable while it has unread bytes, so it is asked again only after a pause.
+    while !stream.ready(Interest::READABLE).await.is_ok_and(Ready::is_read_closed) {
+        sleep(CLOSING).await;
+    }
 }
 
 /// Waits until a client without a request must disconnect.

@@ -1,15 +1,17 @@
 //! The brake on guessing the password: each wrong password from an address doubles the time until the next one from there is answered.
 //!
-//! The time counts for the address, not for the connection: many connections do not guess faster. A right password is answered after the
-//! same time and ends it, so neither its speed nor a second connection tells anything earlier. Other requests are not affected, except those
-//! behind the password on the same connection.
+//! The time counts for the address, not for the connection: many connections do not guess faster. They take turns. A password that has its
+//! turn and is right is answered at once and ends the brake. A wrong one takes its time, also if its connection closes meanwhile: a client
+//! that does not wait for the answer learns nothing earlier. A password whose connection closes before its turn leaves the queue and costs
+//! nothing. Other requests are not affected, except those behind the password on the same connection.
 
 use std::collections::BTreeMap;
 use std::net::IpAddr;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use tokio::time::Instant;
+use tokio::sync::Mutex as Turns;
+use tokio::time::{Instant, sleep_until};
 
 use crate::s7::session::Guess;
 
@@ -22,34 +24,68 @@ const ADDRESSES: usize = 4096;
 #[derive(Debug, Default)]
 pub(super) struct Guesses(Mutex<BTreeMap<IpAddr, Wrong>>);
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Wrong {
     /// How much the next wrong password adds.
     next: Duration,
-    /// When the next answer may leave.
+    /// When the time of the last one is over.
     until: Instant,
+    /// The passwords from this address take turns.
+    turns: Arc<Turns<()>>,
+}
+
+impl Wrong {
+    fn new() -> Self {
+        Self { next: TIMES[0], until: Instant::now(), turns: Arc::default() }
+    }
 }
 
 impl Guesses {
-    /// When the answer to this password may leave.
-    pub(super) fn answer_at(&self, address: IpAddr, guess: Guess, now: Instant) -> Instant {
-        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+    /// Waits until the answer to this password may leave. Dropped when the connection closes, it leaves the queue.
+    pub(super) async fn wait(&self, address: IpAddr, guess: Guess) {
+        let known = self.known().get(&address).cloned();
+        let wrong = match (known, guess) {
+            (Some(known), _) => known,
+            (None, Guess::Right) => return,
+            (None, Guess::Wrong) => self.remember(address),
+        };
+        let _turn = wrong.turns.lock().await;
+        // Another one may have had its turn meanwhile.
+        let before = self.known().get(&address).map_or_else(Instant::now, |wrong| wrong.until);
+        sleep_until(before).await;
         match guess {
-            Guess::Right => known.remove(&address).map_or(now, |wrong| wrong.until.max(now)),
+            Guess::Right => drop(self.known().remove(&address)),
             Guess::Wrong => {
-                if known.len() >= ADDRESSES
-                    && !known.contains_key(&address)
-                    && let Some(oldest) = known.iter().min_by_key(|(_, wrong)| wrong.until).map(|(address, _)| *address)
-                {
-                    known.remove(&oldest);
-                }
-                let [first, most] = TIMES;
-                let wrong = known.entry(address).or_insert(Wrong { next: first, until: now });
-                wrong.until = wrong.until.max(now) + wrong.next;
-                wrong.next = (2 * wrong.next).min(most);
-                wrong.until
+                let until = self.note_wrong(address);
+                sleep_until(until).await;
             }
         }
+    }
+
+    fn known(&self) -> MutexGuard<'_, BTreeMap<IpAddr, Wrong>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn remember(&self, address: IpAddr) -> Wrong {
+        let mut known = self.known();
+        if known.len() >= ADDRESSES
+            && !known.contains_key(&address)
+            && let Some(oldest) = known.iter().min_by_key(|(_, wrong)| wrong.until).map(|(address, _)| *address)
+        {
+            known.remove(&oldest);
+        }
+        known.entry(address).or_insert_with(Wrong::new).clone()
+    }
+
+    /// Counts a wrong password, and returns when its time is over.
+    fn note_wrong(&self, address: IpAddr) -> Instant {
+        let [_, most] = TIMES;
+        self.remember(address);
+        let mut known = self.known();
+        let wrong = known.entry(address).or_insert_with(Wrong::new);
+        wrong.until = Instant::now() + wrong.next;
+        wrong.next = (2 * wrong.next).min(most);
+        wrong.until
     }
 }
 
@@ -57,29 +93,94 @@ impl Guesses {
 mod tests {
     use std::net::Ipv4Addr;
 
+    use tokio::time::timeout;
+
     use super::*;
+
+    fn run(test: impl Future<Output = ()>) {
+        tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap().block_on(test);
+    }
+
+    const ONE: IpAddr = IpAddr::V4(Ipv4Addr::new(10, 0, 0, 1));
+    const OTHER: IpAddr = IpAddr::V4(Ipv4Addr::new(10, 0, 0, 2));
+
+    /// How long a password waits, in ms.
+    async fn waits(guesses: &Guesses, address: IpAddr, guess: Guess) -> u128 {
+        let begin = Instant::now();
+        guesses.wait(address, guess).await;
+        begin.elapsed().as_millis()
+    }
+
+    /// A busy computer may wait longer, but not as long as for one more guess.
+    fn is_about(found: u128, wanted: u128) {
+        assert!((wanted..wanted + 240).contains(&found), "found {found} ms, wanted {wanted} ms");
+    }
 
     #[test]
     fn the_time_doubles_per_address_and_ends_with_the_right_password() {
-        let (guesses, now) = (Guesses::default(), Instant::now());
-        let [one, other] = [1, 2].map(|last| IpAddr::V4(Ipv4Addr::new(10, 0, 0, last)));
-        let wait = |address, guess| guesses.answer_at(address, guess, now) - now;
-        assert_eq!(wait(one, Guess::Right), Duration::ZERO);
-        let waits: Vec<_> = (0..4).map(|_| wait(one, Guess::Wrong).as_millis()).collect();
-        assert_eq!(waits, [250, 750, 1750, 3750], "parallel guesses wait for each other");
-        assert_eq!(wait(other, Guess::Wrong).as_millis(), 250);
-        assert_eq!(wait(one, Guess::Right).as_millis(), 3750, "the right one is not told apart by its time");
-        assert_eq!(wait(one, Guess::Wrong).as_millis(), 250);
-        let later = now + Duration::from_secs(1);
-        assert_eq!((guesses.answer_at(other, Guess::Wrong, later) - later).as_millis(), 500);
+        run(async {
+            let guesses = Guesses::default();
+            is_about(waits(&guesses, ONE, Guess::Right).await, 0);
+            // 250 + 500 + 1000 ms: parallel guesses wait for each other. Then the right one, and a wrong one at the first time again.
+            let [a, b, c, d, other, e] = [
+                (ONE, Guess::Wrong),
+                (ONE, Guess::Wrong),
+                (ONE, Guess::Wrong),
+                (ONE, Guess::Right),
+                (OTHER, Guess::Wrong),
+                (ONE, Guess::Wrong),
+            ]
+            .map(|(address, guess)| waits(&guesses, address, guess));
+            let (a, b, c, d, other, e) = tokio::join!(a, b, c, d, other, e);
+            for (found, wanted) in [(a, 250), (b, 750), (c, 1750), (d, 1750), (other, 250), (e, 2000)] {
+                is_about(found, wanted);
+            }
+            is_about(waits(&guesses, OTHER, Guess::Wrong).await, 500);
+        });
+    }
+
+    #[test]
+    fn a_guess_of_a_closed_connection_costs_no_more_than_its_own_delay_and_never_queues() {
+        run(async {
+            let guesses = Guesses::default();
+            // Thirty connections guess and close after 5 ms: one had its turn, and 29 were waiting.
+            let closed = (0..30).map(|_| timeout(Duration::from_millis(5), guesses.wait(ONE, Guess::Wrong)));
+            let mut closed: Vec<_> = closed.map(Box::pin).collect();
+            std::future::poll_fn(|cx| {
+                closed.retain_mut(|closed| closed.as_mut().poll(cx).is_pending());
+                if closed.is_empty() { std::task::Poll::Ready(()) } else { std::task::Poll::Pending }
+            })
+            .await;
+            // The right password waits for the rest of the first 250 ms.
+            let waited = waits(&guesses, ONE, Guess::Right).await;
+            assert!(waited < 500, "{waited}");
+            assert!(!guesses.known().contains_key(&ONE));
+        });
+    }
+
+    #[test]
+    fn a_client_that_does_not_wait_for_the_answer_guesses_no_faster() {
+        run(async {
+            let guesses = Guesses::default();
+            let begin = Instant::now();
+            // Four wrong passwords, each given up as soon as a right one would have been answered.
+            for doubled in [250, 500, 1000, 2000] {
+                let due = guesses.known().get(&ONE).map_or_else(Instant::now, |wrong| wrong.until);
+                let patience = due - Instant::now() + Duration::from_millis(5);
+                timeout(patience, guesses.wait(ONE, Guess::Wrong)).await.unwrap_err();
+                assert_eq!(guesses.known()[&ONE].next.as_millis(), 2 * doubled);
+            }
+            // 250 + 500 + 1000 ms passed before the fourth one had its turn.
+            assert!(begin.elapsed() >= Duration::from_millis(1750));
+        });
     }
 
     #[test]
     fn the_number_of_addresses_is_bounded() {
-        let (guesses, now) = (Guesses::default(), Instant::now());
+        let guesses = Guesses::default();
         for number in 0..10_000_u32 {
-            guesses.answer_at(IpAddr::V4(Ipv4Addr::from_bits(number)), Guess::Wrong, now);
+            guesses.note_wrong(IpAddr::V4(Ipv4Addr::from_bits(number)));
         }
-        assert_eq!(guesses.0.lock().unwrap().len(), ADDRESSES);
+        assert_eq!(guesses.known().len(), ADDRESSES);
     }
 }
