@@ -48,9 +48,7 @@ impl State {
         inputs: [Input; 3],
         parent: EventId,
     ) {
-        let is_new = self.is_new(&alarm);
-        let event = if is_new { self.log.note(alarm.place, rule, inputs, parent) } else { EventId::NONE };
-        self.alarms.raise(alarm.number, alarm.place, alarm.parameters, event);
+        self.raise(alarm, |state| state.log.note(alarm.place, rule, inputs, parent));
     }
 
     /// The same; the event behind it is `cause` if that is of this cycle.
@@ -61,9 +59,13 @@ impl State {
         rule: Rule,
         inputs: [Input; 3],
     ) {
-        let RaisedAlarm { number, place, parameters } = alarm;
-        let cause = if self.is_new(&alarm) { self.log.now(place, cause, rule, inputs) } else { EventId::NONE };
-        self.alarms.raise(number, place, parameters, cause);
+        self.raise(alarm, |state| state.log.now(alarm.place, cause, rule, inputs));
+    }
+
+    /// Raises an alarm; the event behind it is recorded when it is new.
+    fn raise(&mut self, alarm: RaisedAlarm, event: impl FnOnce(&mut Self) -> EventId) {
+        let event = if self.is_new(&alarm) { event(self) } else { EventId::NONE };
+        self.alarms.raise(alarm.number, alarm.place, alarm.parameters, event);
     }
 
     /// Raises an alarm with the event behind it, which is recorded when the alarm is new; `%1` is the axis.
@@ -76,10 +78,8 @@ impl State {
     ) {
         let place = Place::Axis(number);
         let shown = [Parameter::Axis(number), Parameter::None, Parameter::None, Parameter::None];
-        let cause = if self.alarms.is_pending(alarm, place) || !self.alarms.has_room() {
-            EventId::NONE
-        } else {
-            let causes = &self.axes[number].causes;
+        self.raise(RaisedAlarm { number: alarm, place, parameters: shown }, |state| {
+            let causes = &state.axes[number].causes;
             // A hardware fault acts whether or not the axis moves.
             let breaks =
                 matches!(rule, Rule::DriveFault | Rule::DriveNotReady | Rule::EncoderFault | Rule::EncoderPollution);
@@ -90,12 +90,11 @@ impl State {
                 causes.measuring_system
             } else if breaks {
                 // A fault without an event is there since power on.
-                if causes.fault.is_some() { causes.fault } else { self.as_after_power_on }
+                if causes.fault.is_some() { causes.fault } else { state.as_after_power_on }
             } else {
                 causes.movement()
             };
-            self.log.note(place, rule, inputs, parent)
-        };
-        self.alarms.raise(alarm, place, shown, cause);
+            state.log.note(place, rule, inputs, parent)
+        });
     }
 }
