@@ -170,50 +170,30 @@ impl Term {
     pub(super) fn distance(&self, view: &View<'_>) -> f64 {
         use Operator as O;
         let not_compared = || if truth(self.value(view)) { f64::INFINITY } else { f64::NEG_INFINITY };
-        match self {
-            Self::Not(of) => -of.distance(view),
-            Self::Pair(operator, sides) => {
-                let [left, right] = &**sides;
-                match operator {
-                    O::And => left.distance(view).min(right.distance(view)),
-                    O::Or => left.distance(view).max(right.distance(view)),
-                    O::Less | O::LessOrEqual => right.value(view) - left.value(view),
-                    O::Greater | O::GreaterOrEqual => left.value(view) - right.value(view),
-                    O::Equal | O::NotEqual => not_compared(),
-                    O::Add | O::Subtract | O::Multiply | O::Divide | O::Minimum | O::Maximum => not_compared(),
-                }
-            }
-            Self::Number(_)
-            | Self::Signal(_)
-            | Self::Value(..)
-            | Self::Time
-            | Self::Named(..)
-            | Self::Alarm(..)
-            | Self::AlarmParameter(..)
-            | Self::Alarms
-            | Self::Edge { .. }
-            | Self::Followed(_)
-            | Self::Cause(_)
-            | Self::Negative(_)
-            | Self::Absolute(_) => not_compared(),
+        if let Self::Not(of) = self {
+            return -of.distance(view);
+        }
+        let Self::Pair(operator, sides) = self else { return not_compared() };
+        let [left, right] = &**sides;
+        match operator {
+            O::And => left.distance(view).min(right.distance(view)),
+            O::Or => left.distance(view).max(right.distance(view)),
+            O::Less | O::LessOrEqual => right.value(view) - left.value(view),
+            O::Greater | O::GreaterOrEqual => left.value(view) - right.value(view),
+            O::Equal | O::NotEqual => not_compared(),
+            O::Add | O::Subtract | O::Multiply | O::Divide | O::Minimum | O::Maximum => not_compared(),
         }
     }
 
     /// Visits every term, the inner ones before the outer ones.
     pub(super) fn each(&mut self, visit: &mut dyn FnMut(&mut Self)) {
-        match self {
-            Self::Followed(term) => term.of.each(visit),
-            Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) => of.each(visit),
-            Self::Pair(_, sides) => sides.iter_mut().for_each(|side| side.each(visit)),
-            Self::Number(_)
-            | Self::Signal(_)
-            | Self::Value(..)
-            | Self::Time
-            | Self::Named(..)
-            | Self::Alarm(..)
-            | Self::AlarmParameter(..)
-            | Self::Alarms
-            | Self::Cause(_) => {}
+        // The inner terms are those of `children`.
+        if let Self::Followed(term) = self {
+            term.of.each(visit);
+        } else if let Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) = self {
+            of.each(visit);
+        } else if let Self::Pair(_, sides) = self {
+            sides.iter_mut().for_each(|side| side.each(visit));
         }
         visit(self);
     }
