@@ -28,6 +28,8 @@ enum Lie {
     Drip,
     /// Answers to somebody else come, and never the right one.
     Chatter,
+    /// No answer comes at all.
+    Mute,
     /// Half of the answer, then the connection is closed.
     Half,
     /// The same, on the first connection alone.
@@ -119,6 +121,7 @@ fn converse(mut client: TcpStream, mut server: TcpStream, (number, lie): (usize,
                     client.write_all(&answer)
                 })
             }
+            Lie::Mute => Ok(()),
             Lie::Half | Lie::HalfOnce => {
                 let _ = client.write_all(&answer[..answer.len() / 2]);
                 break;
@@ -170,6 +173,19 @@ fn the_time_limit_of_a_request_is_not_prolonged_by_what_arrives_meanwhile() {
             scope.spawn(move || ask(lie));
         }
     });
+}
+
+/// The names of axes, which the NCK does not have to tell, are asked for first: that time counts, too.
+#[test]
+fn a_module_that_never_answers_ends_a_read_after_the_time_limit_and_nothing_was_executed() {
+    let served = Served::start();
+    let proxy = Proxy::start(&served.host, Lie::Mute);
+    let (output, took) = proxy.ask("read", "AX1.controller_enable", "5s");
+    let error = error(&output);
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!((5.0..7.5).contains(&took.as_secs_f64()), "{took:?}: {error}");
+    assert!(error.contains("DB31.DBX2.1: no answer within 5 s\n"), "{error}");
+    assert!(error.contains("increase the timeout") && !error.contains("executed"), "{error}");
 }
 
 #[test]

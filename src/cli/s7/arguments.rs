@@ -1,9 +1,11 @@
 //! The host to connect to, and the source of names.
 
+use std::cell::Cell;
 use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::ValueEnum;
+use tokio::time::{Instant, timeout};
 
 use super::failure::Failure;
 use crate::controls;
@@ -13,8 +15,12 @@ use crate::units::Time;
 
 /// The port of S7 communication.
 const PORT: u16 = 102;
-/// Timeout for optional requests.
+/// Timeout for an optional request.
 const OPTIONAL_TIMEOUT: Duration = Duration::from_secs(1);
+/// Time for all optional requests together.
+const OPTIONAL_TOTAL: Duration = Duration::from_secs(2);
+/// The least time for an answer after others failed to arrive.
+const LEAST: Duration = Duration::from_millis(500);
 /// The longest allowed time: one day.
 const LONGEST: Time = Time::from_millis(86_400_000);
 
@@ -51,6 +57,9 @@ pub(in crate::cli) struct Host {
     /// Password of the PLC, one to eight ASCII characters; use the environment variable to hide it from other users.
     #[arg(long, value_name = "TEXT", env = "OPENNCK_S7_PASSWORD", hide_env_values = true)]
     password: Option<String>,
+    /// The time in which the host did not answer other requests. It counts for the next one: a silent host ends the command after `timeout`.
+    #[arg(skip)]
+    waited: Cell<Duration>,
 }
 
 /// The names of axes and channels, and the block numbers of the interface.
@@ -109,10 +118,31 @@ impl Host {
         self.connect(Options { tsaps: self.nck_tsap, timeout, ..self.options() }).await
     }
 
+    /// Work that the command can do without: `None` if it fails or takes too long.
+    pub(super) async fn optional<T>(&self, work: impl Future<Output = Option<T>>) -> Option<T> {
+        self.within(self.timeout.min(OPTIONAL_TOTAL), work).await
+    }
+
+    /// Work that takes as long as an answer at most.
+    pub(super) async fn answered<T>(&self, work: impl Future<Output = Option<T>>) -> Option<T> {
+        self.within(self.timeout, work).await
+    }
+
+    async fn within<T>(&self, limit: Duration, work: impl Future<Output = Option<T>>) -> Option<T> {
+        let begin = Instant::now();
+        let done = timeout(limit, work).await.ok().flatten();
+        if done.is_none() {
+            self.waited.set(self.waited.get() + begin.elapsed().min(limit));
+        }
+        done
+    }
+
     fn options(&self) -> Options {
-        let Self { pdu, items, timeout, .. } = *self;
+        let &Self { pdu, items, timeout, ref waited, .. } = self;
+        let waited = waited.get();
         // The time limit is that of the whole request, whatever happens to its connections.
-        Options { pdu, items, timeout, patience: timeout, ..Options::default() }
+        let timeout = timeout.saturating_sub(waited).max(LEAST.min(timeout));
+        Options { pdu, items, timeout, waited, patience: timeout, ..Options::default() }
     }
 
     async fn connect(&self, options: Options) -> Result<Client, Failure> {

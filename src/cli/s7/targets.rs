@@ -102,8 +102,8 @@ impl Dictionary {
                 Ok(all(self)?)
             }
             Ok(targets) if !self.is_known && targets.iter().any(Target::has_an_owner) => {
-                let Ok(nck) = host.nck_soon().await else { return Ok(targets) };
-                let Some(names) = self.ask_names(&nck).await else { return Ok(targets) };
+                let names = async { self.ask_names(&host.nck_soon().await.ok()?).await };
+                let Some(names) = host.optional(names).await else { return Ok(targets) };
                 let before = std::mem::replace(&mut self.names, names);
                 Ok(all(self).unwrap_or_else(|_| {
                     self.names = before; // AX1 on the command line means AX1
@@ -152,11 +152,11 @@ impl Dictionary {
 
     /// The names of axes (MD10000) and channels (MD20000) on the control; `None` if no NCK reports them.
     async fn names_of_the_nck(&self, host: &Host) -> Result<Option<Names>, Failure> {
-        let Ok(nck) = host.nck().await else {
+        let Some(nck) = host.answered(async { host.nck().await.ok() }).await else {
             // An unreachable host is an error; a PLC without an NCK is not.
             return host.plc().await.map(|_| None);
         };
-        Ok(self.ask_names(&nck).await)
+        Ok(host.answered(self.ask_names(&nck)).await)
     }
 
     async fn ask_names(&self, nck: &Client) -> Option<Names> {

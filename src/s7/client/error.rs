@@ -54,6 +54,8 @@ pub enum Error {
         after: Duration,
         /// Whether it was sent; a write that was sent may have been executed.
         sent: bool,
+        /// Whether it only reads, so that nothing can have been executed.
+        only_reads: bool,
     },
     /// The connection was lost, and the request was not repeated.
     Lost {
@@ -61,6 +63,8 @@ pub enum Error {
         what: String,
         /// Whether it was sent; a write that was sent may have been executed.
         sent: bool,
+        /// Whether it only reads, so that nothing can have been executed.
+        only_reads: bool,
         /// The reason.
         cause: String,
     },
@@ -104,6 +108,10 @@ impl Error {
                     .to_owned()
             }
             Self::Rejected { error, .. } => cure_of_error(*error).to_owned(),
+            Self::TimedOut { sent: true, only_reads: true, .. } => {
+                "the module is connected and does not answer: check whether it is overloaded, or increase the timeout".to_owned()
+            }
+            Self::Lost { sent: true, only_reads: true, .. } => "nothing was changed: repeat it".to_owned(),
             Self::TimedOut { sent: true, .. } => {
                 "the request may have been executed: read the value before you repeat it, or increase the timeout".to_owned()
             }
@@ -123,8 +131,8 @@ impl Error {
         match self {
             Self::Refused { code, .. } => Self::Refused { what, code },
             Self::Rejected { error, .. } => Self::Rejected { what, error },
-            Self::TimedOut { after, sent, .. } => Self::TimedOut { what, after, sent },
-            Self::Lost { sent, cause, .. } => Self::Lost { what, sent, cause },
+            Self::TimedOut { after, sent, only_reads, .. } => Self::TimedOut { what, after, sent, only_reads },
+            Self::Lost { sent, only_reads, cause, .. } => Self::Lost { what, sent, only_reads, cause },
             Self::Unexpected { found, .. } => Self::Unexpected { what, found },
             other @ (Self::Input { .. } | Self::Unreachable { .. } | Self::NotAccepted { .. }) => other,
         }
@@ -141,11 +149,11 @@ impl fmt::Display for Error {
             Self::Rejected { what, error } => {
                 write!(f, "{what}: {} (error {:04X})", codes::of_request(*error), error.0)
             }
-            Self::TimedOut { what, after, sent } => {
+            Self::TimedOut { what, after, sent, .. } => {
                 let sent = if *sent { "" } else { "; the request was not sent" };
                 write!(f, "{what}: no answer within {} s{sent}", after.as_secs_f64())
             }
-            Self::Lost { what, sent, cause } => {
+            Self::Lost { what, sent, cause, .. } => {
                 let sent = if *sent { "the request was sent" } else { "the request was not sent" };
                 write!(f, "{what}: connection lost ({cause}); {sent}")
             }

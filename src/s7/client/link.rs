@@ -299,20 +299,23 @@ impl Link {
     /// Ends requests that exceeded their time limit.
     fn expire(&mut self) {
         let now = Instant::now();
-        let (timeout, patience, heard) = (self.options.timeout, self.options.patience, self.heard);
+        let Options { timeout, patience, waited, .. } = *self.options;
+        let heard = self.heard;
         let ends: Vec<u16> =
             self.in_flight.iter().filter(|(_, waiting)| self.end_of(waiting) <= now).map(|(at, _)| *at).collect();
         let late: Vec<InFlight> = ends.iter().filter_map(|at| self.in_flight.remove(at)).collect();
         for InFlight { job, sent } in late {
             self.silences += u32::from(sent >= heard);
             let after = if job.was_sent { now - job.asked } else { timeout };
-            let error = Error::TimedOut { what: job.what.to_owned(), after: rounded(after), sent: true };
+            let (what, after, only_reads) = (job.what.to_owned(), rounded(waited + after), job.repeat);
+            let error = Error::TimedOut { what, after, sent: true, only_reads };
             self.answer(job, Err(Failure::Error(error)));
         }
         let (late, queue) = std::mem::take(&mut self.queue).into_iter().partition(|job| job.asked + patience <= now);
         self.queue = queue;
         for job in Vec::from(late) {
-            let error = Error::TimedOut { what: job.what.to_owned(), after: patience, sent: job.was_sent };
+            let (what, sent, only_reads) = (job.what.to_owned(), job.was_sent, job.repeat);
+            let error = Error::TimedOut { what, after: waited + patience, sent, only_reads };
             self.answer(job, Err(Failure::Error(error)));
         }
     }
@@ -326,7 +329,8 @@ impl Link {
                 job.was_sent = true;
                 self.queue.push_front(job);
             } else {
-                let error = Error::Lost { what: job.what.to_owned(), sent: true, cause: cause.to_owned() };
+                let (what, cause, only_reads) = (job.what.to_owned(), cause.to_owned(), job.repeat);
+                let error = Error::Lost { what, sent: true, only_reads, cause };
                 self.answer(job, Err(Failure::Error(error)));
             }
         }
@@ -343,7 +347,8 @@ impl Link {
                 self.accept(command);
             }
             for job in std::mem::take(&mut self.queue) {
-                let error = Error::Lost { what: job.what.to_owned(), sent: job.was_sent, cause: cause.to_owned() };
+                let (what, cause, only_reads) = (job.what.to_owned(), cause.to_owned(), job.repeat);
+                let error = Error::Lost { what, sent: job.was_sent, only_reads, cause };
                 self.answer(job, Err(Failure::Error(error)));
             }
             return None;

@@ -157,7 +157,12 @@ impl Client {
     /// Waits for a connection, at most as long as for a request.
     async fn connected(&self, what: &str) -> Result<Negotiated, Error> {
         let mut state = self.state.clone();
-        let lost = |cause: &str| Error::Lost { what: what.to_owned(), sent: false, cause: cause.to_owned() };
+        let lost = |cause: &str| Error::Lost {
+            what: what.to_owned(),
+            sent: false,
+            only_reads: false,
+            cause: cause.to_owned(),
+        };
         let deadline = Instant::now() + self.options.patience;
         loop {
             let last = match &*state.borrow_and_update() {
@@ -204,7 +209,7 @@ impl Client {
             State::Ended { cause } | State::Lost { cause, .. } => cause.clone(),
             State::Connected(_) => "the client ends".to_owned(),
         };
-        Error::Lost { what: what.to_owned(), sent: false, cause }
+        Error::Lost { what: what.to_owned(), sent: false, only_reads: false, cause }
     }
 }
 

@@ -50,7 +50,7 @@ enum Received {
 pub(super) async fn open(address: &str, options: &Options) -> Result<Opened, Error> {
     let deadline = Instant::now() + options.timeout;
     let unreachable = |cause: String| Error::Unreachable { host: address.to_owned(), cause };
-    let none = || unreachable(format!("no answer within {} s", options.timeout.as_secs_f64()));
+    let none = || unreachable(no_answer(options));
     let stream = by(deadline, TcpStream::connect(address)).await.ok_or_else(none)?;
     let stream = stream.map_err(|error| unreachable(error.to_string()))?;
     // The connection also works without these options, only more slowly.
@@ -78,6 +78,10 @@ pub(super) async fn greet(
     }
     let Opening { stream, conversation, .. } = opening;
     Ok(Opened { stream, conversation, negotiated, piece })
+}
+
+fn no_answer(options: &Options) -> String {
+    format!("no answer within {} s", (options.waited + options.timeout).as_secs_f64())
 }
 
 struct Opening<'a> {
@@ -167,7 +171,7 @@ impl Opening<'_> {
 
     /// Sends bytes and waits for a message.
     async fn exchange(&mut self, bytes: &[u8]) -> Result<Received, Error> {
-        let late = || format!("no answer within {} s", self.options.timeout.as_secs_f64());
+        let late = || no_answer(self.options);
         match by(self.deadline, self.stream.write_all(bytes)).await {
             Some(Ok(())) => {}
             Some(Err(error)) => return Err(self.refused(error.to_string())),
