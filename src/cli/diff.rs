@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::output::Output;
-use crate::source::{Place, Problem, read_text};
+use crate::source::{Place, Problem, TRACE_MIB, decode, read_bytes};
 use crate::trace::{Comparison, Reading};
 
 pub(super) fn diff(expected: &Path, found: &Path, output: &mut Output) -> u8 {
@@ -37,7 +37,7 @@ pub(super) fn diff(expected: &Path, found: &Path, output: &mut Output) -> u8 {
 }
 
 fn read(path: &Path) -> Result<Reading, Problem> {
-    let text = read_text(path)?;
+    let text = decode(&read_bytes(path, TRACE_MIB)?);
     // The header of a golden file does not describe the machine. Its lines still count so that line numbers are right.
     let text = match text.strip_prefix("---").and_then(|rest| rest.split_once("\n---")) {
         Some((header, body)) => "\n".repeat(header.lines().count()) + body,

@@ -11,7 +11,7 @@ use crate::machine::Machine;
 use crate::nc_program::{
     AxisKind, AxisName, AxisNames, CheckFinding, Library, Program, SINUMERIK, check as check_program,
 };
-use crate::source::{Place, Problem, unreadable};
+use crate::source::{INPUT_MIB, Place, Problem, read_bytes, unreadable};
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
@@ -128,7 +128,7 @@ fn add_folder(folder: &Path, library: &mut Library) -> Result<(), Problem> {
 }
 
 fn read(file: &Path) -> Result<Vec<Program>, Problem> {
-    let bytes = fs::read(file).map_err(|error| unreadable(file, &error))?;
+    let bytes = read_bytes(file, INPUT_MIB)?;
     let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     Ok(Program::read(&name, &folder_of(file).display().to_string(), &bytes))
 }

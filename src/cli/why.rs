@@ -7,7 +7,7 @@ use clap::Args;
 use super::output::Output;
 use crate::plc::Programs;
 use crate::scenario::{Failure, Finished, Prepared, Scenario, profile_named};
-use crate::source::{Place, Problem, read_text};
+use crate::source::{Place, Problem, TRACE_MIB, decode, read_bytes};
 use crate::trace::Story;
 use crate::units::Time;
 
@@ -107,7 +107,7 @@ fn explanation(
 fn read(trace: &Path) -> Result<Story, Problem> {
     let place = Place::file(&trace.display().to_string());
     let at = |line| place.at_line(u32::try_from(line).unwrap_or(0));
-    Story::read(&read_text(trace)?).map_err(|(line, problem)| problem.at(&at(line)))
+    Story::read(&decode(&read_bytes(trace, TRACE_MIB)?)).map_err(|(line, problem)| problem.at(&at(line)))
 }
 
 /// Parses `X.controller_enable@7.466`; the time is in seconds or has a unit.

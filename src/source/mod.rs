@@ -12,7 +12,15 @@ pub use replacement::{Replacement, replace, target};
 
 use std::borrow::Cow;
 use std::fmt;
+use std::fs::{File, Metadata};
+use std::io::{self, ErrorKind, IsTerminal, Read};
+use std::path::Path;
 use std::sync::Arc;
+
+/// The size of the largest input file, in MiB; traces may be larger.
+pub const INPUT_MIB: u64 = 256;
+/// The size of the largest trace that is read, in MiB.
+pub const TRACE_MIB: u64 = 4096;
 
 /// A line of a file.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -139,13 +147,48 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// Reads a text file. A byte order mark is removed; bytes that are not UTF-8 are read as Latin-1, which controls write.
+/// Reads a text file of at most [`INPUT_MIB`] MiB. A byte order mark is removed; bytes that are not UTF-8 are read as Latin-1, which controls
+/// write.
 ///
 /// # Errors
-/// The file cannot be read; the problem names the file and the reason.
-pub fn read_text(path: &std::path::Path) -> Result<String, Problem> {
-    let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
-    Ok(decode(&bytes))
+/// The file cannot be read or is too large; the problem names the file and the reason.
+pub fn read_text(path: &Path) -> Result<String, Problem> {
+    read_bytes(path, INPUT_MIB).map(|bytes| decode(&bytes))
+}
+
+/// Reads a file of at most this many MiB. Pipes are read up to the same limit; devices are refused, because they may have no end.
+///
+/// # Errors
+/// The file cannot be read, is a device or is too large; the problem names the file and the reason.
+pub fn read_bytes(path: &Path, most_mib: u64) -> Result<Vec<u8>, Problem> {
+    let failed = |error| unreadable(path, &error);
+    let place = || Place::file(&path.display().to_string());
+    let file = File::open(path).map_err(failed)?;
+    let metadata = file.metadata().map_err(failed)?;
+    if is_device(&metadata) && !file.is_terminal() {
+        let what = "expected a file, found a device, which may have no end";
+        return Err(place().problem(what, "name a file; `/dev/stdin` reads a pipe"));
+    }
+    let most = most_mib * 1024 * 1024;
+    let mut bytes = Vec::with_capacity(usize::try_from(metadata.len().min(most)).unwrap_or(0));
+    file.take(most + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > most {
+        let what = format!("expected at most {most_mib} MiB, found more");
+        return Err(place().problem(what, "check the path: no input of this kind is so large"));
+    }
+    Ok(bytes)
+}
+
+#[cfg(unix)]
+fn is_device(metadata: &Metadata) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    let kind = metadata.file_type();
+    kind.is_char_device() || kind.is_block_device()
+}
+
+#[cfg(not(unix))]
+fn is_device(_: &Metadata) -> bool {
+    false
 }
 
 /// The text of a file without its byte order mark; bytes that are not UTF-8 are read as Latin-1.
@@ -160,16 +203,35 @@ pub fn decode(bytes: &[u8]) -> String {
 
 /// The problem of a file that cannot be read.
 #[must_use]
-pub fn unreadable(path: &std::path::Path, error: &std::io::Error) -> Problem {
+pub fn unreadable(path: &Path, error: &io::Error) -> Problem {
+    let reason = reason(path, error);
     Place::file(&path.display().to_string())
-        .problem(format!("cannot be read: {error}"), "check the path and the permissions")
+        .problem(format!("cannot be read: {reason}"), "check the path and the permissions")
 }
 
 /// The problem of a file that cannot be written.
 #[must_use]
-pub fn unwritable(path: &std::path::Path, error: &std::io::Error) -> Problem {
+pub fn unwritable(path: &Path, error: &io::Error) -> Problem {
+    let reason = reason(path, error);
     Place::file(&path.display().to_string())
-        .problem(format!("cannot be written: {error}"), "check the path, the permissions and the disk")
+        .problem(format!("cannot be written: {reason}"), "check the path, the permissions and the disk")
+}
+
+/// An error of the system in words. Of a path through a file or through a missing folder, it names that one.
+fn reason(path: &Path, error: &io::Error) -> String {
+    let folders = || path.ancestors().skip(1).filter(|folder| !folder.as_os_str().is_empty());
+    let named = match error.kind() {
+        ErrorKind::NotADirectory if path.exists() => Some("it is neither a folder nor a plain file".to_owned()),
+        ErrorKind::NotADirectory => folders().find(|folder| folder.is_file()).map(|file| {
+            format!("{} is a file, not a folder", file.display())
+        }),
+        ErrorKind::NotFound => folders()
+            .take_while(|folder| !folder.exists())
+            .last()
+            .map(|folder| format!("the folder {} does not exist", folder.display())),
+        _ => None,
+    };
+    named.unwrap_or_else(|| error.to_string())
 }
 
 #[cfg(test)]
@@ -180,6 +242,37 @@ mod tests {
     fn a_problem_prints_place_cause_and_cure() {
         let problem = Place::file("a.toml").at_line(7).problem("expected a number, found a string", "write 1.5");
         assert_eq!(problem.to_string(), "a.toml:7: expected a number, found a string\n  write 1.5");
+    }
+
+    #[test]
+    fn a_path_through_a_file_or_a_missing_folder_names_it() {
+        let folder = std::env::temp_dir().join(format!("opennck-paths-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let file = folder.join("a.txt");
+        std::fs::write(&file, "").unwrap();
+        let told = |path: &Path| replace(path, "x").unwrap_err().what;
+        let through = format!("cannot be written: {} is a file, not a folder", file.display());
+        assert_eq!(told(&file.join("x.csv")), through);
+        assert_eq!(told(&file.join("below/x.csv")), through);
+        let missing = format!("cannot be written: the folder {} does not exist", folder.join("no").display());
+        assert_eq!(told(&folder.join("no/such/x.csv")), missing);
+        assert_eq!(read_text(&folder.join("no/x")).unwrap_err().what, missing.replace("written", "read"));
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn inputs_without_an_end_are_refused() {
+        let device = read_text(Path::new("/dev/zero")).unwrap_err();
+        assert_eq!(device.what, "expected a file, found a device, which may have no end");
+        let folder = std::env::temp_dir().join(format!("opennck-large-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let file = folder.join("a.toml");
+        // One byte more than allowed, which takes no room on the disk.
+        File::create(&file).unwrap().set_len(2 * 1024 * 1024 + 1).unwrap();
+        assert_eq!(read_bytes(&file, 2).unwrap_err().what, "expected at most 2 MiB, found more");
+        assert_eq!(read_bytes(&file, 3).unwrap().len(), 2 * 1024 * 1024 + 1);
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

@@ -1,11 +1,12 @@
 //! Outputs: a file is complete or not changed at all.
 //!
-//! A [`Replacement`] is a new file beside its target, and takes its place when it is complete. A full disk, a failed command or a kill
-//! leaves the old file; after a kill the new file stays beside it (`.NAME.PROCESS-NUMBER.new`) and can be deleted. Devices and pipes have no
-//! old content: they are written directly.
+//! A [`Replacement`] is a new file beside its target, and takes its place when it is complete. It exists only while it is written, after the
+//! run, so a signal during the run leaves nothing behind. A full disk, a failed command or a kill leaves the old file; after a kill while the
+//! new file is written, it stays beside the old one (`.NAME.PROCESS-NUMBER.new`) and can be deleted. Devices and pipes have no old content:
+//! they are written directly.
 
 use std::ffi::OsString;
-use std::fs::{File, OpenOptions};
+use std::fs::{File, OpenOptions, Permissions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -22,13 +23,26 @@ pub struct Replacement {
     named: PathBuf,
     /// The target; a symbolic link is followed, so that it stays a link.
     target: PathBuf,
-    /// The file beside the target; `None` for a device or pipe, and when it has taken the place of the target.
-    beside: Option<PathBuf>,
-    file: File,
+    /// Those of the file that it replaces.
+    permissions: Option<Permissions>,
+    to: To,
+}
+
+/// Where the text goes.
+#[derive(Debug)]
+enum To {
+    /// A device or a pipe.
+    Direct(File),
+    /// A file beside the target, which does not exist yet.
+    NewFile,
+    /// A file beside the target.
+    Beside(PathBuf, File),
+    /// It has taken the place of the target.
+    Placed,
 }
 
 impl Replacement {
-    /// Creates the new file. The target is not changed.
+    /// Tests whether the new file can be created. The target is not changed.
     ///
     /// # Errors
     /// The folder of the target does not exist or cannot be written, or the target is a folder.
@@ -45,18 +59,34 @@ impl Replacement {
         }
         if old.as_ref().is_some_and(|old| !old.is_file()) {
             let file = OpenOptions::new().write(true).open(&target)?;
-            return Ok(Self { named, target, beside: None, file });
+            return Ok(Self { named, target, permissions: None, to: To::Direct(file) });
         }
         if old.is_some() {
             // A file that its owner has protected is not replaced, although the folder would permit it.
             OpenOptions::new().write(true).open(&target)?;
         }
         let (beside, file) = create_beside(&target)?;
-        let replacement = Self { named, target, beside: Some(beside), file };
-        if let Some(old) = old {
-            replacement.file.set_permissions(old.permissions())?;
+        drop(file);
+        std::fs::remove_file(beside)?;
+        Ok(Self { named, target, permissions: old.map(|old| old.permissions()), to: To::NewFile })
+    }
+
+    /// The file to which the text goes.
+    fn file(&mut self) -> io::Result<&mut File> {
+        if matches!(self.to, To::NewFile) {
+            let (beside, file) = create_beside(&self.target)?;
+            self.to = To::Beside(beside, file);
         }
-        Ok(replacement)
+        match &mut self.to {
+            To::Direct(file) => Ok(file),
+            To::Beside(_, file) => {
+                if let Some(permissions) = self.permissions.take() {
+                    file.set_permissions(permissions)?;
+                }
+                Ok(file)
+            }
+            To::NewFile | To::Placed => Err(io::ErrorKind::NotFound.into()),
+        }
     }
 
     /// Adds text to the new file.
@@ -64,7 +94,8 @@ impl Replacement {
     /// # Errors
     /// The file cannot be written.
     pub fn write(&mut self, text: &str) -> Result<(), Problem> {
-        self.file.write_all(text.as_bytes()).map_err(|error| unwritable(&self.named, &error))
+        let written = self.file().and_then(|file| file.write_all(text.as_bytes()));
+        written.map_err(|error| unwritable(&self.named, &error))
     }
 
     /// Puts the new file in the place of its target.
@@ -72,11 +103,13 @@ impl Replacement {
     /// # Errors
     /// The target cannot be replaced.
     pub fn finish(mut self) -> Result<(), Problem> {
-        let flushed = self.file.flush();
-        let placed =
-            flushed.and_then(|()| self.beside.as_ref().map_or(Ok(()), |new| std::fs::rename(new, &self.target)));
+        let flushed = self.file().and_then(File::flush);
+        let placed = flushed.and_then(|()| match &self.to {
+            To::Beside(new, _) => std::fs::rename(new, &self.target),
+            To::Direct(_) | To::NewFile | To::Placed => Ok(()),
+        });
         placed.map_err(|error| unwritable(&self.named, &error))?;
-        self.beside = None;
+        self.to = To::Placed;
         Ok(())
     }
 }
@@ -84,7 +117,7 @@ impl Replacement {
 impl Drop for Replacement {
     /// Removes a file that is not complete.
     fn drop(&mut self) {
-        if let Some(beside) = &self.beside {
+        if let To::Beside(beside, _) = &self.to {
             let _ = std::fs::remove_file(beside);
         }
     }
@@ -152,6 +185,7 @@ mod tests {
         let path = folder.join("a.txt");
         replace(&path, "old").unwrap();
         let mut new = Replacement::begin(&path).unwrap();
+        assert_eq!(names(&folder), ["a.txt"], "a signal during the run leaves no other file");
         new.write("half of the ne").unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
         drop(new);

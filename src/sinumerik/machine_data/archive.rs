@@ -7,7 +7,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::control::{Finding, Owner};
-use crate::source::{Place, Problem, unreadable};
+use crate::source::{INPUT_MIB, Place, Problem, read_bytes, unreadable};
 use crate::units::AxisNumber;
 
 use super::reading::{Assignment, Member, Reading};
@@ -75,7 +75,7 @@ impl Archive {
     pub fn load(files: &[PathBuf]) -> Result<Self, Vec<Finding>> {
         let mut sources = Vec::new();
         for path in files {
-            let bytes = std::fs::read(path).map_err(|error| vec![Finding::from(unreadable(path, &error))])?;
+            let bytes = read_bytes(path, INPUT_MIB).map_err(|problem| vec![Finding::from(problem)])?;
             sources.push((path.display().to_string(), bytes));
         }
         Self::read(sources.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())))
