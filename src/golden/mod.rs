@@ -159,7 +159,10 @@ fn collect(path: &Path, above: &mut Vec<PathBuf>, files: &mut Vec<PathBuf>) -> R
         // A machine may be stored beside its scenarios.
         let is_plant = path.file_name().is_some_and(|name| name == "plant.toml");
         let is_toml = path.extension().is_some_and(|extension| extension == "toml") && !is_plant;
-        if path.is_dir() || is_toml {
+        // A link that cannot be followed is a file that cannot be used; all others still run.
+        if is_toml && std::fs::metadata(&path).is_err() {
+            files.push(path);
+        } else if path.is_dir() || is_toml {
             collect(&path, above, files)?;
         }
     }
