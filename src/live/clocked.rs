@@ -120,7 +120,8 @@ impl Clocked {
             trace.end_cycle(machine.cycle(), machine.time(), machine.variables());
             if trace.bytes() > most {
                 let mib = most / (1024 * 1024);
-                trace.note(machine.cycle(), format!("the trace ends here: it has reached its limit of {mib} MiB"));
+                // In the next cycle, which has no rows: the notes of a cycle stand before its rows.
+                trace.note(machine.cycle() + 1, format!("the trace ends here: it has reached its limit of {mib} MiB"));
                 lines.push(format!("the trace has reached its limit of {mib} MiB and ends; the machine keeps running"));
                 *trace_bytes = None;
             }

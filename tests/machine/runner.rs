@@ -109,6 +109,57 @@ fn a_link_to_a_folder_above_shows_no_scenario_twice() {
     assert_eq!(listed(&[], &directory).len(), 5);
 }
 
+#[cfg(unix)]
+#[test]
+fn a_link_that_cannot_be_followed_is_unusable_and_all_others_run() {
+    let directory = directory("loops");
+    std::os::unix::fs::symlink("loop.toml", directory.join("golden/loop.toml")).unwrap();
+    std::os::unix::fs::symlink("loop", directory.join("golden/loop")).unwrap();
+    std::os::unix::fs::symlink("nowhere.toml", directory.join("golden/area/gone.toml")).unwrap();
+    let output = opennck(&["test", "golden"], &directory);
+    assert_eq!(output.status.code(), Some(2), "{}", err(&output));
+    assert!(out(&output).ends_with("7 cases: 4 passed, 1 failed, 2 unusable\n"), "{}", out(&output));
+    assert!(err(&output).contains("golden/loop.toml: cannot be read: "), "{}", err(&output));
+    assert!(err(&output).contains("golden/area/gone.toml: cannot be read: "), "{}", err(&output));
+}
+
+#[test]
+fn characters_that_control_a_terminal_are_shown_by_their_codes_in_a_page_too() {
+    let directory = directory("codes");
+    let failing = "title = \"red \\u001b[31m\"\nmachine = \"g1_example\"\nwatch = [\"M0.*\"]\n[[step]]\nnote = \"back \\u0008 \\u202e\"\n\
+        set = { \"M0.0\" = 1 }\n[[step]]\nexpect = \"M0.1\"\n";
+    fs::write(directory.join("golden/failing.toml"), failing).unwrap();
+    opennck(&["test", "golden/failing.toml", "--html", "r.html"], &directory);
+    let html = fs::read_to_string(directory.join("r.html")).unwrap();
+    assert!(html.contains("<p>red \\u{1b}[31m</p>"), "{html}");
+    let controls = |c: char| c.is_control() && c != '\n' || c == '\u{202e}';
+    assert!(!html.contains(controls), "{html:?}");
+}
+
+/// A scenario of an hour and more, which is interrupted while it runs.
+#[cfg(unix)]
+#[test]
+fn a_signal_during_the_run_leaves_no_file_beside_the_outputs() {
+    let directory = directory("interrupted");
+    let long = "machine = \"g1_example\"\nlimit = \"1000h\"\n[[step]]\nrun = \"900h\"\n";
+    fs::write(directory.join("long.toml"), long).unwrap();
+    fs::write(directory.join("t.jsonl"), "old").unwrap();
+    for signal in ["-INT", "-TERM"] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_opennck"))
+            .args(["run", "long.toml", "--trace", "t.jsonl", "--svg", "t.svg"])
+            .current_dir(&directory)
+            .spawn()
+            .unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(500));
+        assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+        assert_eq!(child.wait().unwrap().code(), None, "the signal ends it");
+    }
+    let mut names: Vec<_> = fs::read_dir(&directory).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["golden", "long.toml", "t.jsonl"]);
+    assert_eq!(fs::read_to_string(directory.join("t.jsonl")).unwrap(), "old");
+}
+
 #[test]
 fn no_output_is_an_input_or_another_output() {
     let directory = directory("apart");
@@ -121,6 +172,7 @@ fn no_output_is_an_input_or_another_output() {
     for (arguments, words) in [
         (&["run", "own.toml", "--trace", "machine/plant.toml"][..], "this command also reads or writes, in "),
         (&["run", "own.toml", "--svg", "new.snap"], "found the name of an input: .snap"),
+        (&["run", "own.toml", "--trace", "own.toml/x.jsonl"], "cannot be written: own.toml is a file, not a folder, for --trace"),
         (&["run", "own.toml", "--trace", "f", "--vcd", "./f"], "found the file of --trace"),
         (&["test", "--junit", "golden/area/flags.toml"], "this command also reads or writes"),
         (&["test", "--flowchart", "golden/area/x.snap"], "found the name of an input: .snap"),

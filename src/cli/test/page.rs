@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use super::work::{Ran, Work, sum};
 use crate::golden::Outcome;
+use crate::source::printable;
 
 const HEAD: &str = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>OpenNCK scenarios</title>\n<style>\n\
     body { font: 15px/1.5 system-ui, sans-serif; margin: 2em auto; max-width: 80em; padding: 0 1em; color: #222; background: #fff }\n\
@@ -63,6 +64,7 @@ fn row(text: &mut String, index: usize, work: &Work, Ran { outcome, time, .. }: 
     let _ = writeln!(text, "<tr><td>{name}</td><td>{result}</td><td>{seconds:.3} s</td><td>{rules}</td></tr>");
 }
 
+/// Characters that control a terminal are shown by their codes, as in the output on a terminal.
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    printable(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

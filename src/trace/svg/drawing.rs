@@ -25,7 +25,7 @@ pub(super) fn px(tenths: Tenths) -> String {
     }
 }
 
-/// A text with XML escapes; characters that XML does not allow become the replacement character.
+/// A text with XML escapes; characters that XML does not allow, and those that reverse the direction of a text, become the replacement character.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -35,7 +35,10 @@ pub(super) fn escaped(text: &str) -> String {
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
             '\n' | '\r' | '\t' => escaped.push(' '),
-            letter if letter.is_control() || matches!(letter, '\u{FFFE}' | '\u{FFFF}') => escaped.push('\u{FFFD}'),
+            '\u{FFFE}' | '\u{FFFF}' => escaped.push('\u{FFFD}'),
+            // These reverse the direction of the text after them.
+            '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}' => escaped.push('\u{FFFD}'),
+            letter if letter.is_control() => escaped.push('\u{FFFD}'),
             letter => escaped.push(letter),
         }
     }

@@ -152,7 +152,7 @@ fn a_closed_terminal_ends_the_server_with_its_trace_and_a_long_trace_has_an_end(
     program.wait_for_log("the scenario passed");
     assert_eq!(program.end("-HUP"), Some(0));
     assert!(fs::read_to_string(folder.join("t.jsonl")).unwrap().contains("\"signal\":\"M0.0\""));
-    let counts = "machine = \"g1_example\"\nlimit = \"1h\"\nwatch = [\"X.position\", \"Y.position\"]\n[[step]]\nset = { \"M0.0\" = 1 }\n\
+    let counts = "machine = \"g1_example\"\nlimit = \"1h\"\nwatch = [\"X.position\", \"M0.2\"]\n[[step]]\nset = { \"M0.0\" = 1 }\n\
         [[step]]\npulse = [\"M0.1\"]\nfor = \"1cycles\"\n[[step]]\ninclude = \"more.toml\"\ntimes = 80000\n";
     fs::write(
         folder.join("more.toml"),
