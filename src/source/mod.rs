@@ -222,9 +222,9 @@ fn reason(path: &Path, error: &io::Error) -> String {
     let folders = || path.ancestors().skip(1).filter(|folder| !folder.as_os_str().is_empty());
     let named = match error.kind() {
         ErrorKind::NotADirectory if path.exists() => Some("it is neither a folder nor a plain file".to_owned()),
-        ErrorKind::NotADirectory => folders().find(|folder| folder.is_file()).map(|file| {
-            format!("{} is a file, not a folder", file.display())
-        }),
+        ErrorKind::NotADirectory => {
+            folders().find(|folder| folder.is_file()).map(|file| format!("{} is a file, not a folder", file.display()))
+        }
         ErrorKind::NotFound => folders()
             .take_while(|folder| !folder.exists())
             .last()

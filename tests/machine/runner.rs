@@ -172,7 +172,10 @@ fn no_output_is_an_input_or_another_output() {
     for (arguments, words) in [
         (&["run", "own.toml", "--trace", "machine/plant.toml"][..], "this command also reads or writes, in "),
         (&["run", "own.toml", "--svg", "new.snap"], "found the name of an input: .snap"),
-        (&["run", "own.toml", "--trace", "own.toml/x.jsonl"], "cannot be written: own.toml is a file, not a folder, for --trace"),
+        (
+            &["run", "own.toml", "--trace", "own.toml/x.jsonl"],
+            "cannot be written: own.toml is a file, not a folder, for --trace",
+        ),
         (&["run", "own.toml", "--trace", "f", "--vcd", "./f"], "found the file of --trace"),
         (&["test", "--junit", "golden/area/flags.toml"], "this command also reads or writes"),
         (&["test", "--flowchart", "golden/area/x.snap"], "found the name of an input: .snap"),

@@ -71,7 +71,12 @@ impl State {
     }
 
     /// The selected measuring system. Selecting a second one that does not exist has no effect.
-    pub(in crate::sinumerik) fn selected(&self, number: AxisNumber, parameters: &Parameters, to_nck: &ToNck) -> Option<u8> {
+    pub(in crate::sinumerik) fn selected(
+        &self,
+        number: AxisNumber,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> Option<u8> {
         let (signals, count) = (&to_nck.axes[number], parameters.axes[number].encoders);
         if signals.position_measuring_system_1() && count >= 1 {
             Some(0)

@@ -142,8 +142,9 @@ impl State {
         let reference = &parameters.axes[number].reference;
         let signals = &to_nck.axes[number];
         let key = key_direction(signals);
-        let has_zero_mark =
-            self.axes[number].measuring_system.is_some_and(|active| reference.mode[usize::from(active)] == BY_ZERO_MARK);
+        let has_zero_mark = self.axes[number]
+            .measuring_system
+            .is_some_and(|active| reference.mode[usize::from(active)] == BY_ZERO_MARK);
         let hindered = reference.is_spindle || signals.axis_spindle_disable();
         if !self.mode_group(unit).is_referencing() || !has_zero_mark || hindered {
             return None;
