@@ -252,6 +252,7 @@ impl Case {
 
     fn finished_on(&self, programs: &Programs, update: Update, read: Read) -> (Outcome, Option<Box<Finished>>) {
         let finished = match self.scenario.prepare_on(self.profile, programs, read) {
+            Ok(prepared) if self.check_causes => prepared.measure_causes().run(),
             Ok(prepared) => prepared.run(),
             Err(problem) => return (Outcome::Unusable(problem), None),
         };

@@ -30,7 +30,12 @@ impl Delay {
 
     /// What the reader has; `now` without a delay.
     pub(super) fn seen<'a>(&'a self, now: &'a PartBytes) -> &'a PartBytes {
-        self.states.get(self.seen).unwrap_or(now)
+        self.late().unwrap_or(now)
+    }
+
+    /// What the reader has; `None` without a delay.
+    pub(super) fn late(&self) -> Option<&PartBytes> {
+        self.states.get(self.seen)
     }
 
     /// What the reader had in the last cycle; `None` without a delay.

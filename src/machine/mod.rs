@@ -41,7 +41,7 @@ pub use saved::Snapshot;
 use std::sync::Arc;
 
 use crate::control::{Control, Finding};
-use crate::image::{Memory, Names, OverrideCoding};
+use crate::image::{Memory, Names, OverrideCoding, PartBytes};
 use crate::plc::PlcProgram;
 use crate::source::Problem;
 use crate::trace::Recorder;
@@ -152,6 +152,12 @@ impl Machine {
     #[must_use]
     pub fn has_channel(&self, channel: ChannelNumber) -> bool {
         self.control.has_channel(channel)
+    }
+
+    /// The PLC's half of the interface as the control reads it, if it reads it later than it is written (`to_nck_delay`).
+    #[must_use]
+    pub fn read_late(&self) -> Option<&PartBytes> {
+        self.state.to_nck.late()
     }
 
     /// The control. `downcast` gives access to a specific type.

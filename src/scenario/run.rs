@@ -283,6 +283,14 @@ impl Prepared {
         self
     }
 
+    /// Measures what causes name, too, for [`Trace::check_causes`](crate::trace::Trace::check_causes). This is slower and gives the same
+    /// trace.
+    #[must_use]
+    pub fn measure_causes(mut self) -> Self {
+        self.session.measure_causes();
+        self
+    }
+
     /// Moves, monitors and publishes every axis in every cycle, also an axis at rest. This is slower and gives the same trace.
     #[must_use]
     pub fn never_rest(mut self) -> Self {

@@ -382,6 +382,11 @@ impl Session {
         self.trace.note(self.machine.cycle() + 1, text);
     }
 
+    /// Also measures what causes name, for [`Trace::check_causes`]: call it before the first cycle. This is slower and gives the same trace.
+    pub fn measure_causes(&mut self) {
+        self.trace.measure_causes(self.machine.variables(), self.machine.read_late());
+    }
+
     /// A second session that continues independently from this state.
     ///
     /// # Errors
@@ -421,7 +426,9 @@ impl Session {
         self.trace.extend(self.machine.recorder());
         self.book.note_changes(&self.machine);
         self.machine.drain();
-        self.trace.end_cycle(self.machine.cycle(), self.machine.time(), self.machine.variables());
+        let (machine, cycle) = (&self.machine, self.machine.cycle());
+        self.trace.end_cycle(cycle, machine.time(), machine.variables());
+        self.trace.measure(cycle, machine.variables(), machine.read_late());
     }
 
     /// An expression; its `since` and `count` begin now unless their conditions are followed already.

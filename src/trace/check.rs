@@ -2,22 +2,29 @@
 //!
 //! The cause of an edge of a signal, and of an alarm that is raised or cleared, is an event. It is correct if the event happened in the
 //! cycle of the edge, if it has an input or a parent event, and if each signal among its inputs had the value in the event. For a signal of
-//! the PLC, this is the value at the end of the cycle, after inputs, scan and forces. For a signal of the control, it is the value decided
-//! in the cycle or the value published in the cycle before. An alarm among the inputs must be pending, or be raised or cleared in the cycle.
-//! A machine datum that became active in the trace must have that value. Faults and lengths among the inputs are not compared.
+//! the PLC, this is the value at the end of the cycle, after inputs, scan and forces; with `to_nck_delay` (O-28) it is the value that the
+//! control read. For a signal of the control, it is the value decided in the cycle or the value published in the cycle before. An alarm
+//! among the inputs must be pending, or be raised or cleared in the cycle. A machine datum that became active in the trace must have that
+//! value. A position, a deviation, a synchronism difference or a velocity must be one that the axis had in the cycle or in the one before,
+//! to the last digit that a cause shows. Faults, distances, and velocities that were only commanded are not compared.
+//!
+//! What no row of a trace shows is measured during the run: call [`Trace::measure_causes`] before it. Without this, lengths and velocities are
+//! not compared, and with a delay the bytes of the PLC are taken as they were written.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::because::because;
+use super::because::{because, input_name};
 use super::bits::Bits;
+use super::measured::{byte, possible};
 use super::places::Places;
 use super::printable::{mask_in_byte, signal_at, signal_name};
 use super::{By, Change, Trace, Watch};
-use crate::image::{Format, Interface, Location, Memory, Part};
-use crate::units::{AxisNumber, Time};
+use crate::image::{Interface, Memory, Part};
+use crate::units::{AxisNumber, Position, Time};
 use crate::variables::{
-    AlarmNumber, Describe, Event, EventId, Happening, Input, Place, RaisedAlarm, SignalBit, place_name,
+    AlarmNumber, Describe, Event, EventId, Happening, Input, Place, Quantity, RaisedAlarm, SignalBit, axis_name,
+    place_name, six_decimals,
 };
 
 /// A wrong or missing cause.
@@ -46,6 +53,8 @@ pub enum CauseFault {
     Untrue(String, u64, u64),
     /// The event contains this machine datum with the first value, but the second value is active.
     OtherDatum(String, f64, f64),
+    /// The event contains this length or velocity with the first value, but the axis had the second value.
+    OtherLength(String, f64, f64),
     /// The event contains these bits, which are no signal.
     Unknown(String),
     /// The event contains this alarm, which was not pending.
@@ -62,6 +71,9 @@ impl fmt::Display for CauseFinding {
             CauseFault::Untrue(signal, named, found) => write!(f, "the cause names {signal} = {named}, found {found}")?,
             CauseFault::OtherDatum(datum, named, active) => {
                 write!(f, "the cause names {datum} = {named}, active is {active}")?;
+            }
+            CauseFault::OtherLength(name, named, found) => {
+                write!(f, "the cause names {name} = {}, found {}", six_decimals(*named), six_decimals(*found))?;
             }
             CauseFault::Unknown(bits) => write!(f, "the cause names {bits}, which is no signal")?,
             CauseFault::NotPending(alarm) => write!(f, "the cause names alarm {alarm}, which is not pending")?,
@@ -81,6 +93,7 @@ impl Trace {
         let mut pending: Vec<RaisedAlarm> = Vec::new();
         let mut data = BTreeMap::new();
         let mut findings = Vec::new();
+        let mut late = self.measured.as_ref().and_then(|measured| measured.read_late(&self.start));
         for (cycle, bits, rows) in self.cycles() {
             for bits in bits {
                 memory.write(byte(bits.part, bits.offset), bits.new.into());
@@ -97,7 +110,9 @@ impl Trace {
                     | Change::Overwritten { .. } => {}
                 }
             }
-            let seen = Seen { memory: &memory, pending: &pending, data: &data, bits, interface: names.interface() };
+            let read = late.as_mut().map(|late| late.at(cycle));
+            let seen =
+                Seen { memory: &memory, read, pending: &pending, data: &data, bits, interface: names.interface() };
             let mut check = |cause: EventId, what: String| {
                 let event = self.event(cause, cycle);
                 findings.extend(self.faults(event, cycle, &seen, describe).into_iter().map(|fault| CauseFinding {
@@ -155,6 +170,9 @@ impl Trace {
             {
                 faults.push(CauseFault::OtherDatum(describe.datum_name(number), named, active));
             }
+            if let Input::Length(quantity, axis, length) = input {
+                faults.extend(self.other_length(event, quantity, axis, length, describe));
+            }
             let Some((bit, named)) = input.signal() else { continue };
             let (name, named) = (signal_name(bit, describe.names()), u64::from(named));
             match seen.values(bit) {
@@ -165,11 +183,33 @@ impl Trace {
         }
         faults
     }
+
+    /// The fault of a length or a velocity that the axis had neither in the cycle of the event nor in the one before.
+    fn other_length(
+        &self,
+        event: &Event,
+        quantity: Quantity,
+        axis: AxisNumber,
+        length: Position,
+        describe: &dyn Describe,
+    ) -> Option<CauseFault> {
+        let values = self.measured.as_ref()?.values(event.id, event.cycle, axis)?;
+        let per_turn = if describe.is_rotary(axis) { 360.0 } else { 1.0 };
+        let cycle = self.time(event.cycle) - self.time(event.cycle.saturating_sub(1));
+        let possible = possible(quantity, values, per_turn, cycle)?;
+        let (name, named) = input_name(quantity, length);
+        let found = possible.first()?.value;
+        let is_true = possible.into_iter().any(|possible| possible.is(named));
+        let name = format!("{}.{name}", axis_name(axis, describe.names()));
+        (!is_true).then_some(CauseFault::OtherLength(name, named, found))
+    }
 }
 
 /// The memory and the alarms at the end of a cycle, and the changes in this cycle.
 struct Seen<'a> {
     memory: &'a Memory,
+    /// The memory with the PLC's half as the control reads it, if it reads it late.
+    read: Option<&'a Memory>,
     /// Also alarms that are cleared in this cycle.
     pending: &'a [RaisedAlarm],
     /// The machine data that became active so far, by number and axis.
@@ -185,7 +225,8 @@ impl Seen<'_> {
         let (_, number) = bit.place.block();
         let signal = signal_at(bit, self.interface)?;
         let location = self.interface.location(signal, number)?;
-        let now = self.memory.read(location);
+        let memory = self.read.filter(|_| location.part == Part::ToNck).unwrap_or(self.memory);
+        let now = memory.read(location);
         if !matches!(location.part, Part::FromNck | Part::Hmi) {
             return Some([now; 2]);
         }
@@ -200,10 +241,6 @@ fn axis_of(place: Place) -> Option<AxisNumber> {
         Place::Axis(axis) => Some(axis),
         Place::Nck | Place::ModeGroup(_) | Place::Channel(_) => None,
     }
-}
-
-const fn byte(part: Part, offset: u32) -> Location {
-    Location { part, offset, bit: 0, width: 8, format: Format::Unsigned }
 }
 
 #[cfg(test)]

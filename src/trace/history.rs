@@ -2,11 +2,12 @@
 
 use super::bits::Bits;
 use super::calendar::Calendar;
+use super::measured::Measured;
 use super::record::by_in_words;
 use super::value::millionths;
 use super::watch::WatchedItem;
 use super::{Change, Recorder, Row, Watch};
-use crate::image::{Location, Memory};
+use crate::image::{Location, Memory, PartBytes};
 use crate::units::{AxisNumber, Time};
 use crate::variables::{AxisValue, Event, EventId, RuleNumber, Variables};
 
@@ -28,6 +29,8 @@ pub struct Trace {
     pub(super) notes: Vec<(u64, String)>,
     pub(super) watched: Vec<WatchedValue>,
     pub(super) values: Vec<ValueRow>,
+    /// What a check of causes needs in addition, if it was asked for.
+    pub(super) measured: Option<Box<Measured>>,
     pub(super) lost: u64,
     /// The last recorded cycle.
     pub(super) last_cycle: u64,
@@ -67,6 +70,7 @@ impl Trace {
             notes: Vec::new(),
             watched: Vec::new(),
             values: Vec::new(),
+            measured: None,
             lost: 0,
             last_cycle: cycle,
         }
@@ -98,6 +102,19 @@ impl Trace {
     pub fn end_cycle(&mut self, cycle: u64, time: Time, variables: &Variables) {
         self.calendar.note(cycle.saturating_sub(self.first_cycle), time - self.first_time);
         self.note_values(cycle, variables);
+    }
+
+    /// Measures from now on, for [`Trace::check_causes`], the lengths and velocities that causes name, and `read`: the PLC's half as the
+    /// control reads it, if it reads it later than it is written. Call it before the first cycle, and [`Trace::measure`] after each cycle.
+    pub fn measure_causes(&mut self, variables: &Variables, read: Option<&PartBytes>) {
+        self.measured = Some(Box::new(Measured::begin(self.events.len(), variables, read)));
+    }
+
+    /// Measures after a cycle, if [`Trace::measure_causes`] was called; its events must be in the trace.
+    pub fn measure(&mut self, cycle: u64, variables: &Variables, read: Option<&PartBytes>) {
+        if let Some(measured) = &mut self.measured {
+            measured.measure(cycle, &self.events, variables, read);
+        }
     }
 
     fn note_values(&mut self, cycle: u64, variables: &Variables) {

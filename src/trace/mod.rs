@@ -54,6 +54,7 @@ mod happened;
 mod history;
 mod json;
 mod lines;
+mod measured;
 mod past;
 mod places;
 mod printable;

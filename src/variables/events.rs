@@ -65,6 +65,12 @@ pub enum Quantity {
     Velocity,
     /// Velocity that position control commands, in the same unit.
     VelocityCommand,
+    /// Deviation of the actual value from the model of the axis, as contour monitoring calculates it.
+    ModelDeviation,
+    /// Position of a zero mark that the encoder has passed.
+    ZeroMark,
+    /// Deviation of the distance of two zero marks from a multiple of their spacing.
+    ZeroMarkDeviation,
 }
 
 /// An input of a decision, with its value at that time.

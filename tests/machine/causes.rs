@@ -1,5 +1,5 @@
 //! In every golden scenario, the causes of all signals of the control and of all alarms are correct, without exceptions: each input had the
-//! value in the cause, in the cycle of the edge.
+//! value in the cause, in the cycle of the edge, and each length and velocity was that of the axis.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use opennck::golden::{cases, scenario_files};
 use opennck::machine::FaultKind;
 use opennck::plc::{Programs, program};
 use opennck::scenario::Session;
-use opennck::trace::{CauseFinding, Watch};
+use opennck::trace::{CauseFault, CauseFinding, Watch};
 
 fn findings(session: &Session) -> Vec<CauseFinding> {
     session.trace().check_causes(session.machine(), &Watch::default())
@@ -20,7 +20,7 @@ fn every_cause_in_the_golden_scenarios_is_correct() {
     let mut wrong = Vec::new();
     for file in scenario_files(&[root.join("golden")]).unwrap() {
         for case in cases(&file).unwrap() {
-            let finished = case.scenario.prepare(case.profile, &programs).unwrap().run();
+            let finished = case.scenario.prepare(case.profile, &programs).unwrap().measure_causes().run();
             let name = file.strip_prefix(root).unwrap_or(&file).display();
             wrong.extend(findings(finished.session()).iter().map(|finding| format!("{name}: {finding}")));
         }
@@ -77,4 +77,24 @@ fn edges_name_the_machine_data_the_fault_and_the_power_on_that_they_follow_from(
     for row in ["MD36060 = 100000", "set MD active", "fault drive_fault", "power "] {
         assert!(text.contains(row), "{row}\n{text}");
     }
+}
+
+/// O-28: with `to_nck_delay` a key that the PLC has already released is still pressed for the control, and its cause is true.
+#[test]
+fn causes_are_compared_with_what_the_control_read() {
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("causes_delay.toml");
+    let scenario = "title = \"t\"\nmachine = \"g1_example\"\nplc = \"enable_all\"\n[plant.machine]\nto_nck_delay = \"20ms\"\n\
+        [[step]]\nrun = \"300ms\"\n[[step]]\npulse = [\"Y.traversing_key_plus\"]\nfor = \"10ms\"\n\
+        [[step]]\nexpect = [\"!Y.traversing_key_plus\", \"!Y.traverse_command_plus\"]\n\
+        [[step]]\nwait = \"Y.traverse_command_plus\"\nwithin = \"20ms\"\n[[step]]\nrun = \"300ms\"\n";
+    std::fs::write(&file, scenario).unwrap();
+    let [case] = &cases(&file).unwrap()[..] else { panic!("one case") };
+    let prepared = case.scenario.prepare(case.profile, &Programs::ready()).unwrap();
+    let finished = prepared.measure_causes().run();
+    assert_eq!(finished.failure, None);
+    assert_eq!(findings(finished.session()), []);
+    // The same trace without what the control read: the cause seems to name a key that is not pressed.
+    let unmeasured = case.scenario.prepare(case.profile, &Programs::ready()).unwrap().run();
+    let [finding, ..] = &findings(unmeasured.session())[..] else { panic!("a finding") };
+    assert_eq!(finding.fault, CauseFault::Untrue("Y.traversing_key_plus".to_owned(), 1, 0), "{finding}");
 }

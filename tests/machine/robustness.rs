@@ -206,6 +206,13 @@ struct Before {
     systems: (bool, bool),
 }
 
+/// A trace that measures what causes name.
+fn measuring(machine: &Machine) -> Trace {
+    let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), machine.time());
+    trace.measure_causes(machine.variables(), machine.read_late());
+    trace
+}
+
 impl Bench {
     fn open(name: &str, with_twin: bool) -> Self {
         let machine = Machine::open(format!("machine_data/{name}")).unwrap();
@@ -252,7 +259,7 @@ impl Bench {
             steps: 0,
             hash: 0xcbf2_9ce4_8422_2325,
             twin: with_twin.then(|| machine.fork().unwrap()),
-            trace: Trace::begin(machine.memory(), machine.cycle_time(), machine.cycle(), machine.time()),
+            trace: measuring(&machine),
             machine,
         };
         if let Some(twin) = &mut bench.twin {
@@ -564,6 +571,7 @@ impl Bench {
             ensure(same, self, || "the machine with resting axes differs".to_owned())?;
         }
         self.trace.extend(self.machine.recorder());
+        self.trace.measure(self.machine.cycle(), self.machine.variables(), self.machine.read_late());
         self.machine.drain();
         self.steps += 1;
         let memory = self.machine.memory();

@@ -15,7 +15,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     pub(super) accept: bool,
     /// Also checks the cause of every edge of the control and of every alarm: its event happened in this cycle, has an input or a
-    /// parent, and the inputs had the values that it names.
+    /// parent, and the inputs had the values that it names, lengths and velocities included.
     #[arg(long)]
     pub(super) check_causes: bool,
     /// Runs only the cases whose name contains this text, or that cite this rule in `covers`; may be given several times.

@@ -161,7 +161,7 @@ impl Grouping {
                 wants.push(Want::RaiseOfAxis { alarm: alarms::APPROACH_ABORTED, axis, cause: self.cause });
             }
             Progress::Waiting(..) => {}
-            Progress::Done(target) => self.close_synchronised(target, view, log, &mut wants),
+            Progress::Done(_) => self.close_synchronised(view, log, &mut wants),
         }
         wants
     }
@@ -173,9 +173,10 @@ impl Grouping {
     }
 
     /// All axes are at their target: the grouping is synchronised, and the coupling acts again (REF-10).
-    fn close_synchronised(&mut self, target: Position, view: &View<'_>, log: &mut Log, wants: &mut Wants) {
-        let target = Input::Length(Quantity::Position, self.coupling.leader(), target);
-        self.step(log, Rule::Synchronised, [target, Input::None, Input::None], self.cause);
+    fn close_synchronised(&mut self, view: &View<'_>, log: &mut Log, wants: &mut Wants) {
+        let leader = self.coupling.leader();
+        let reached = Input::Length(Quantity::Position, leader, view.axes[leader].actual);
+        self.step(log, Rule::Synchronised, [reached, Input::None, Input::None], self.cause);
         let cause = self.cause;
         wants.extend(self.coupling.members().map(|axis| {
             let motion = Motion::Brake { deceleration: view.parameters.axes[axis].maximum_acceleration };

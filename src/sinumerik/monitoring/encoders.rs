@@ -120,7 +120,7 @@ impl State {
             return;
         }
         monitor.errors = 0;
-        let measured = Input::Length(Quantity::Deviation, number, slipped);
+        let measured = Input::Length(Quantity::ZeroMarkDeviation, number, slipped);
         let inputs = [measured, Input::Datum(36310, Some(number), f64::from(tolerated)), Input::None];
         if self.is_active(number, encoder) {
             self.raise_monitoring(alarms::ACTIVE_ZERO_MARK, number, Rule::ZeroMarkMonitoring, inputs);

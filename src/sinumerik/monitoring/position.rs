@@ -90,7 +90,8 @@ impl State {
         let (difference, tolerance) =
             ((axis.monitor.model() - axis.actual).abs(), parameters.monitoring.contour_tolerance);
         if difference > tolerance && matches!(axis.enabling.control, ControllerState::On) {
-            let inputs = deviates(number, difference, 36400, tolerance);
+            let measured = Input::Length(Quantity::ModelDeviation, number, difference);
+            let inputs = [measured, Input::Datum(36400, Some(number), tolerance.user()), Input::None];
             self.raise_monitoring(alarms::CONTOUR, number, Rule::ContourMonitoring, inputs);
         }
     }

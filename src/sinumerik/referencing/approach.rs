@@ -171,7 +171,7 @@ impl Approach {
                     return self.too_far(log, view, maximum, alarms::REFERENCE_MARK_NOT_FOUND, 34060);
                 };
                 self.target = mark + reference.move_distance[view.encoder];
-                let inputs = [Input::Length(Quantity::Position, view.number, mark), Input::None, Input::None];
+                let inputs = [Input::Length(Quantity::ZeroMark, view.number, mark), Input::None, Input::None];
                 self.step(log, view.number, Rule::ZeroMark, inputs);
             }
             Phase::GoToReferencePoint if axis.arrived => {

@@ -4,7 +4,9 @@ use super::*;
 use crate::image::Names;
 use crate::trace::{Recorder, Row};
 use crate::units::AxisNumber;
-use crate::variables::{AlarmNumber, DatumValue, EventId, Parameter, Place, RaisedAlarm, Rule, RuleNumber};
+use crate::variables::{
+    AlarmNumber, AxisValues, DatumValue, EventId, Parameter, Place, RaisedAlarm, Rule, RuleNumber, Variables,
+};
 
 struct Control(Names);
 
@@ -165,6 +167,64 @@ fn another_value_of_a_machine_datum_than_the_active_one_is_found() {
     };
     assert_eq!(run(5.0), []);
     assert_eq!(run(4.0), [CauseFault::OtherDatum("MD36060".to_owned(), 4.0, 5.0)]);
+}
+
+/// The lengths and velocities of an axis in cycle 12 and in cycle 13, whose event names `input`.
+fn lengths(input: Input, values: [AxisValues; 2]) -> Vec<CauseFault> {
+    let [before, now] = values.map(|values| {
+        let mut variables = Variables::default();
+        variables.axes[AxisNumber::FIRST] = values;
+        variables
+    });
+    let mut run = Run::new();
+    let event = Event {
+        id: EventId(1),
+        cycle: 13,
+        place: Place::Nck,
+        rule: RuleNumber(0),
+        inputs: [input, Input::None, Input::None],
+        parent: EventId::NONE,
+    };
+    run.recorder.events([event].iter());
+    let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 12, Time::ZERO);
+    trace.measure_causes(&before, None);
+    trace.extend(&run.recorder);
+    trace.end_cycle(13, Time::from_millis(2), &now);
+    trace.measure(13, &now, None);
+    let watch = Watch::parse(&["X.traverse_command_plus"], &run.control.0, &Memory::new()).unwrap();
+    trace.check_causes(&run.control, &watch).into_iter().map(|finding| finding.fault).collect()
+}
+
+#[test]
+fn a_length_that_the_axis_did_not_have_is_found_to_the_last_digit() {
+    let length = |quantity, value| Input::Length(quantity, AxisNumber::FIRST, Position::from_user(value));
+    let mut before = AxisValues { position: Position::from_user(2.0), ..AxisValues::default() };
+    let mut now = before;
+    (before.synchronism_difference, now.synchronism_difference) =
+        (Position::from_user(0.049), Position::from_user(0.052));
+    // MD37120 compares with 0.05 mm.
+    let found = |quantity, value| lengths(length(quantity, value), [before, now]);
+    assert_eq!(found(Quantity::SynchronismDifference, 0.052), []);
+    assert_eq!(found(Quantity::SynchronismDifference, 0.049), []);
+    let wrong = CauseFault::OtherLength("X.synchronism_difference".to_owned(), 0.052_001, 0.052);
+    assert_eq!(found(Quantity::SynchronismDifference, 0.052_001), [wrong]);
+    assert_eq!(found(Quantity::Position, 2.0), []);
+    assert_eq!(found(Quantity::Position, 2.1), [CauseFault::OtherLength("X.position".to_owned(), 2.1, 2.0)]);
+    // The axis shows no distance since the cam.
+    assert_eq!(found(Quantity::Distance, 17.0), []);
+}
+
+#[test]
+fn a_velocity_that_the_axis_did_not_have_is_found() {
+    // MD36060 in mm/min; causes contain whole increments per second, and show mm/min: 50,000 of them are 3 mm/min.
+    let velocity = |increments| Input::Length(Quantity::Velocity, AxisNumber::FIRST, Position::new(increments));
+    let now = AxisValues { velocity: 3.000_04, ..AxisValues::default() };
+    assert_eq!(lengths(velocity(50_000), [AxisValues::default(), now]), []);
+    assert_eq!(lengths(velocity(0), [AxisValues::default(), now]), []);
+    let [CauseFault::OtherLength(name, named, found)] = &lengths(velocity(-50_000), [now, now])[..] else {
+        panic!("one finding")
+    };
+    assert_eq!((name.as_str(), *named, *found), ("X.velocity", -3.0, 3.000_04));
 }
 
 #[test]
