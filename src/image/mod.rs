@@ -69,4 +69,4 @@ pub use sinumerik::{
     channel_from_nck, channel_hmi, channel_to_nck, mode_group_from_nck, mode_group_hmi, mode_group_to_nck,
     nck_from_nck, nck_hmi, nck_to_nck,
 };
-pub use value::raw_value;
+pub use value::{is_no_code, raw_value, signal_value};

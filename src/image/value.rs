@@ -73,6 +73,37 @@ fn real(number: f64, node: &Node) -> Result<u64, Problem> {
     }
 }
 
+/// The bits of a value for the signal with this name, as a person writes it: a number that no switch with a Gray code has is refused at the
+/// symbol of an override, because a percentage without quotes and sign is meant. At its address, and with a base, every number is possible.
+///
+/// # Errors
+/// The value does not fit the location.
+pub fn signal_value(name: &str, node: &Node, location: Location, coding: OverrideCoding) -> Result<u64, Problem> {
+    if let Value::Integer(number) = node.value
+        && is_no_code(name, number, location, coding)
+    {
+        return Err(node.place.problem(
+            format!("expected a percentage or a Gray code from 0 to {LARGEST_GRAY_CODE} for `{name}`, found {number}"),
+            format!(
+                "write \"{name}\" = \"100%\", or any bits as \"16#{number:X}\"; its percentages are {}",
+                OverrideCoding::known(true)
+            ),
+        ));
+    }
+    raw_value(node, location, coding)
+}
+
+/// Whether a name is the symbol of an override with Gray code, and a number is no code of its switch.
+#[must_use]
+pub fn is_no_code(name: &str, number: i64, location: Location, coding: OverrideCoding) -> bool {
+    let is_symbol =
+        name.split_once('.').is_some_and(|(_, signal)| signal.starts_with(|c: char| c.is_ascii_lowercase()));
+    is_symbol && number > i64::from(LARGEST_GRAY_CODE) && coding.at(location) == Some(true)
+}
+
+/// The largest code of an override switch with Gray code, which has five bits.
+const LARGEST_GRAY_CODE: u8 = 31;
+
 fn per_cent(text: &str, node: &Node, location: Location, coding: OverrideCoding) -> Result<u64, Problem> {
     let Some(gray) = coding.at(location) else {
         let mut takers: Vec<_> = coding.interface.tables().overrides.iter().map(|(signal, _)| signal.name).collect();

@@ -6,7 +6,7 @@ use super::{Machine, Switch};
 use crate::control::{Activated, Changes};
 use crate::image::{Interface, Location, Memory, Part};
 use crate::plant::Input;
-use crate::trace::{By, Change, Row};
+use crate::trace::{By, Change, NoEffect, Row};
 use crate::units::{AxisNumber, AxisSet};
 use crate::variables::{EventId, Happening, Place};
 
@@ -49,6 +49,11 @@ impl Machine {
             let change = Change::Overwritten { part: location.part, offset: location.offset, bits };
             self.recorder.push(Row { cycle: self.state.cycle, change });
         }
+    }
+
+    /// Records a command that had no effect.
+    pub(super) fn record_no_effect(&mut self, what: NoEffect) {
+        self.recorder.push(Row { cycle: self.state.cycle, change: Change::NoEffect(what) });
     }
 
     /// Records something that is not a change of the memory.

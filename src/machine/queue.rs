@@ -7,7 +7,7 @@ use super::{Command, Fault, FaultKind, Machine};
 use crate::control::ControlCommand;
 use crate::image::{Location, Part};
 use crate::source::Problem;
-use crate::trace::By;
+use crate::trace::{By, NoEffect};
 use crate::units::{AxisSet, Position};
 use crate::variables::{EventId, FaultName, Happening, RParameters};
 
@@ -100,7 +100,13 @@ impl Machine {
                 self.state.forces.retain(|force| force.location != location);
                 self.state.forces.push(Force { location, value });
             }
-            Command::Release { location } => self.state.forces.retain(|force| !force.location.overlaps(location)),
+            Command::Release { location } => {
+                let before = self.state.forces.len();
+                self.state.forces.retain(|force| !force.location.overlaps(location));
+                if self.state.forces.len() == before {
+                    self.record_no_effect(NoEffect::Release(location));
+                }
+            }
             Command::RParameter { channel, number, value } => {
                 self.state.r_parameters.set(channel, number, value);
             }
@@ -139,7 +145,11 @@ impl Machine {
                 self.report_fault(fault, true);
             }
             Command::ClearFault(fault) => {
-                self.state.plant.clear_fault(fault);
+                if !self.state.plant.clear_fault(fault) {
+                    let (name, _) = named(fault.kind);
+                    self.record_no_effect(NoEffect::ClearFault { axis: fault.axis, name });
+                    return;
+                }
                 self.state.plant.press_switches(&self.definition.layout, AxisSet::of(fault.axis));
                 self.report_fault(fault, false);
             }

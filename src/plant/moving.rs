@@ -107,11 +107,12 @@ impl Plant {
         }
     }
 
-    /// A fault ends. A single displacement stays.
-    pub fn clear_fault(&mut self, fault: Fault) {
+    /// A fault ends. A single displacement stays. Returns whether there was such a fault.
+    pub fn clear_fault(&mut self, fault: Fault) -> bool {
         let Some(slide) = &mut self.slides[fault.axis] else {
-            return;
+            return false;
         };
+        let before = *slide;
         self.changed.set(fault.axis, true);
         match fault.kind {
             FaultKind::Block => slide.blocked = false,
@@ -127,6 +128,7 @@ impl Plant {
             FaultKind::Drift { .. } => slide.drift = 0.0,
             FaultKind::SwitchStuck { which, .. } => slide.stuck[which as usize] = None,
         }
+        *slide != before
     }
 
     /// One position-control cycle: each drive responds to its command, slides move, bridges pull.

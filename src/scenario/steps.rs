@@ -9,7 +9,7 @@ use super::fields::{Named, duration, not_available, texts};
 use super::naming::{Known, check_captured_name, missing_owner, place_named, written_by_others};
 use super::written::WrittenSteps;
 use crate::expression::{Expression, Followed};
-use crate::image::{Location, raw_value};
+use crate::image::{Location, raw_value, signal_value};
 use crate::machine::{Command, DatumValue, Machine};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
 use crate::units::{ChannelNumber, Time};
@@ -374,8 +374,15 @@ impl<'a> Reader<'a> {
             node.refuse_unquoted_key(&name)?;
             let found = if of_the_nck { place_named(self.machine, &name) } else { self.writable(&name) };
             let location = found.map_err(|problem| problem.at(&place))?;
-            let bits = raw_value(&node, location, self.machine.override_coding())?;
-            commands.push(command(location, bits));
+            let coding = self.machine.override_coding();
+            // Stored machine data may change the code of the switches.
+            let is_plain = of_the_nck || self.reconfigured[0];
+            let value = if is_plain {
+                raw_value(&node, location, coding)
+            } else {
+                signal_value(&name, &node, location, coding)
+            };
+            commands.push(command(location, value?));
         }
         Ok(commands.into())
     }

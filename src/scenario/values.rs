@@ -1,6 +1,6 @@
 //! Values that a scenario or a test writes: `1`, `true`, `1.5`, `"100%"`, `"2#1101_0000"`.
 
-use crate::image::{Location, OverrideCoding, raw_value};
+use crate::image::{Location, OverrideCoding, signal_value};
 use crate::source::{Node, Place, Problem, Value};
 
 /// A value to write.
@@ -56,6 +56,6 @@ impl Setting {
             Self::Text(text) => Value::Text(text),
         };
         let node = Node { place: Place::file(name), value };
-        raw_value(&node, location, coding)
+        signal_value(name, &node, location, coding)
     }
 }

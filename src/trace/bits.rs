@@ -30,7 +30,7 @@ impl Bits {
         let cycle = row.cycle;
         let byte = match row.change {
             Change::Byte { part, offset, old, new, by, causes } => Some((part, offset, old, new, by, causes)),
-            Change::Alarm { .. } | Change::Happened { .. } | Change::Overwritten { .. } => None,
+            Change::Alarm { .. } | Change::Happened { .. } | Change::Overwritten { .. } | Change::NoEffect(_) => None,
         };
         byte.into_iter().flat_map(move |(part, offset, mut old, new, by, causes)| {
             std::iter::from_fn(move || {

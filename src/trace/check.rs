@@ -107,7 +107,8 @@ impl Trace {
                     Change::Byte { .. }
                     | Change::Alarm { raised: false, .. }
                     | Change::Happened { .. }
-                    | Change::Overwritten { .. } => {}
+                    | Change::Overwritten { .. }
+                    | Change::NoEffect(_) => {}
                 }
             }
             let read = late.as_mut().map(|late| late.at(cycle));

@@ -23,7 +23,7 @@ pub struct Trace {
     first_time: Time,
     /// The changed bytes.
     pub(super) bits: Vec<Bits>,
-    /// All other rows: alarms, happenings, overwritten bits.
+    /// All other rows: alarms, happenings, overwritten bits, commands without effect.
     pub(super) others: Vec<Row>,
     pub(super) events: Vec<Event>,
     pub(super) notes: Vec<(u64, String)>,
@@ -91,7 +91,9 @@ impl Trace {
         for row in recorder.rows() {
             match row.change {
                 Change::Byte { .. } => self.bits.extend(Bits::of(row)),
-                Change::Alarm { .. } | Change::Happened { .. } | Change::Overwritten { .. } => self.others.push(*row),
+                Change::Alarm { .. } | Change::Happened { .. } | Change::Overwritten { .. } | Change::NoEffect(_) => {
+                    self.others.push(*row);
+                }
             }
         }
         self.events.extend_from_slice(recorder.new_events());

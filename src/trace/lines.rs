@@ -8,12 +8,14 @@ use super::because::because;
 use super::bits::Bits;
 use super::happened::{HappeningLine, happened};
 use super::places::Places;
-use super::printable::{Order, Printable, Shown, shown};
+use super::printable::{Order, Printable, Shown, printable, shown};
 use super::value::decimals;
-use super::{By, Change, Trace, Watch};
-use crate::image::{Format, Location, Memory};
+use super::{By, Change, NoEffect, Trace, Watch};
+use crate::image::{Format, Location, Memory, Names};
 use crate::units::Time;
-use crate::variables::{AlarmNumber, Describe, EventId, Parameter, Place, RaisedAlarm, place_name};
+use crate::variables::{
+    AlarmNumber, Describe, EventId, FaultName, Parameter, Place, RaisedAlarm, axis_name, place_name,
+};
 
 /// One line of a trace.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,6 +83,31 @@ pub struct AlarmLine {
     pub event: u32,
 }
 
+/// Says that a command had no effect, and why.
+fn without_effect(what: NoEffect, names: &Names) -> String {
+    match what {
+        NoEffect::Release(location) => {
+            let what = printable(names, location).called();
+            format!("`release` without effect: {what} was not forced; a value that was set stays until it is set again")
+        }
+        NoEffect::ClearFault { axis, name } => {
+            let (axis, kind) = (axis_name(axis, names), name.name());
+            match name {
+                FaultName::Push | FaultName::EncoderSlip => {
+                    format!("`clear_fault` without effect: a {kind} displaces {axis} once, and the displacement stays")
+                }
+                FaultName::Block
+                | FaultName::ZeroMarkMissing
+                | FaultName::DriveFault
+                | FaultName::EncoderFault
+                | FaultName::Friction
+                | FaultName::Drift
+                | FaultName::SwitchStuck => format!("`clear_fault` without effect: {axis} had no fault {kind}"),
+            }
+        }
+    }
+}
+
 /// A signal that changes in the current cycle.
 struct Draft {
     printable: Printable,
@@ -125,6 +152,9 @@ impl Trace {
                         LineKind::Note(format!("the PLC program overwrote what was set: {what}; force wins over it")),
                     );
                 }
+                if let Change::NoEffect(what) = row.change {
+                    push(cycle, 0, LineKind::Note(without_effect(what, names)));
+                }
             }
             for &Bits { part, offset, new, .. } in bits {
                 let byte = Location { part, offset, bit: 0, width: 8, format: Format::Unsigned };
@@ -145,7 +175,10 @@ impl Trace {
                 .iter()
                 .filter_map(|row| match row.change {
                     Change::Alarm { alarm, raised, cause } => Some((alarm, raised, cause)),
-                    Change::Byte { .. } | Change::Happened { .. } | Change::Overwritten { .. } => None,
+                    Change::Byte { .. }
+                    | Change::Happened { .. }
+                    | Change::Overwritten { .. }
+                    | Change::NoEffect(_) => None,
                 })
                 .collect();
             alarms.sort_by_key(|(alarm, ..)| (alarm.number, alarm.place));

@@ -75,7 +75,7 @@ pub use history::Trace;
 pub use lines::{AlarmLine, Line, LineKind, SignalLine};
 pub use past::Past;
 pub use printable::Shown;
-pub use record::{By, Change, Recorder, Row};
+pub use record::{By, Change, NoEffect, Recorder, Row};
 pub use text::{Head, difference, difference_in_sequence};
 pub use watch::Watch;
 pub use why::Story;

@@ -75,7 +75,7 @@ impl Past {
         for row in recorder.rows().iter().rev().take_while(|row| row.cycle == cycle) {
             match row.change {
                 Change::Byte { part, offset, new, .. } => self.changed.push((part, offset, new)),
-                Change::Alarm { .. } | Change::Happened { .. } | Change::Overwritten { .. } => {}
+                Change::Alarm { .. } | Change::Happened { .. } | Change::Overwritten { .. } | Change::NoEffect(_) => {}
             }
         }
         self.is_complete = cycle == self.cycle + 1 && recorder.lost() == self.lost;

@@ -3,8 +3,9 @@
 //! A row consists of numbers only: no text, no allocation. The machine fills a chunk of fixed size; the owner of the machine drains it
 //! between two steps.
 
-use crate::image::Part;
-use crate::variables::{DatumValue, Event, EventId, Events, Happening, RaisedAlarm};
+use crate::image::{Location, Part};
+use crate::units::AxisNumber;
+use crate::variables::{DatumValue, Event, EventId, Events, FaultName, Happening, RaisedAlarm};
 
 /// The writer of a bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -67,6 +68,22 @@ pub enum Change {
         offset: u32,
         /// The overwritten bits.
         bits: u8,
+    },
+    /// A command from outside had no effect.
+    NoEffect(NoEffect),
+}
+
+/// A command from outside that had no effect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoEffect {
+    /// Bits were released that were not forced.
+    Release(Location),
+    /// A fault was cleared that did not act.
+    ClearFault {
+        /// The axis.
+        axis: AxisNumber,
+        /// The kind of the fault.
+        name: FaultName,
     },
 }
 
@@ -136,7 +153,11 @@ impl Recorder {
             Change::Happened { what: Happening::DatumStored(stored), .. } => {
                 (stored.number, stored.place, stored.index) == (active.number, active.place, active.index)
             }
-            Change::Happened { .. } | Change::Byte { .. } | Change::Alarm { .. } | Change::Overwritten { .. } => false,
+            Change::Happened { .. }
+            | Change::Byte { .. }
+            | Change::Alarm { .. }
+            | Change::Overwritten { .. }
+            | Change::NoEffect(_) => false,
         };
         let mut index = 0;
         self.rows.retain(|row| {

@@ -110,6 +110,13 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
         ("set = 5", 4, "signals with their values", "table"),
         ("set = { \"X.traversing_key_pls\" = 1 }", 4, "X.traversing_key_pls", "traversing_key_plus"),
         ("set = { \"Z.traversing_key_plus\" = 1 }", 4, "found `Z`", "did you mean"),
+        (
+            "set = { \"X.feed_override\" = 100 }",
+            4,
+            "a Gray code from 0 to 31 for `X.feed_override`, found 100",
+            "= \"100%\"",
+        ),
+        ("force = { \"CHAN1.feed_override\" = 32 }", 4, "for `CHAN1.feed_override`, found 32", "percentages are 0, 1"),
         ("set = { \"DB31.DBX101.7\" = 1 }", 4, "found X.gantry_axis (DB31.DBX101.7), which the NCK writes", "expect"),
         ("set = { \"X.gantry_axis\" = 1 }", 4, "found X.gantry_axis (DB31.DBX101.7), which the NCK writes", "expect"),
         ("set = { \"DB31.DBB101\" = 1 }", 4, "which the NCK writes", "expect"),
@@ -410,6 +417,60 @@ fn an_overwrite_by_the_plc_program_is_reported() {
     );
     let notice = "# the PLC program overwrote what was set: X.controller_enable (DB31.DBX2.1)";
     assert!(finished.golden().contains(notice), "{}", finished.golden());
+}
+
+/// The code of a switch, its address and a code with a base are what a test of a PLC program needs; `write` does what a client could.
+#[test]
+fn any_bits_can_be_written_to_an_override_by_its_address() {
+    held(
+        r#"[[step]]
+        set = { "X.feed_override" = 31, "DB32.DBB0" = 100, "XF.feed_override" = "2#1110_0001" }
+        [[step]]
+        write = { "CHAN1.feed_override" = 100 }
+        [[step]]
+        run = "10ms"
+        [[step]]
+        expect = ["X.feed_override == 31", "Y.feed_override == 100", "XF.feed_override == 225", "CHAN1.feed_override == 100"]
+        "#,
+    );
+}
+
+#[test]
+fn verbs_without_effect_are_reported() {
+    let finished = held(
+        r#"[[step]]
+        set = { "X.traversing_key_plus" = 1 }
+        [[step]]
+        force = { "X.controller_enable" = 1 }
+        [[step]]
+        fault = { axis = "XF", kind = "block" }
+        [[step]]
+        run = "10ms"
+        [[step]]
+        release = ["X.traversing_key_plus", "X.controller_enable"]
+        [[step]]
+        clear_fault = { axis = "XF", kind = "block" }
+        [[step]]
+        clear_fault = { axis = "XF", kind = "drive_fault" }
+        [[step]]
+        clear_fault = { axis = "Y", kind = "push" }
+        [[step]]
+        run = "10ms"
+        "#,
+    );
+    let text = finished.golden();
+    let notes: Vec<&str> = text.lines().filter_map(|line| line.split_once("  # ").map(|(_, note)| note)).collect();
+    assert_eq!(
+        notes,
+        [
+            "`release` without effect: X.traversing_key_plus (DB31.DBX4.7) was not forced; a value that was set stays until it is \
+             set again",
+            "`clear_fault` without effect: XF had no fault drive_fault",
+            "`clear_fault` without effect: a push displaces Y once, and the displacement stays",
+        ],
+        "{text}"
+    );
+    assert!(text.contains("fault block") && text.contains("cleared") && !text.contains("drive_fault  "), "{text}");
 }
 
 #[test]

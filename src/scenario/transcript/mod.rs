@@ -8,7 +8,7 @@
 use std::fmt::Write;
 
 use super::naming::missing_owner;
-use crate::image::{Address, Format, Location, Profile, Writer};
+use crate::image::{Address, Format, Location, Profile, Writer, is_no_code};
 use crate::machine::{Command, DatumValue, Fault, Machine};
 use crate::scenario::faults::written;
 use crate::source::{Table, Value as SourceValue};
@@ -240,8 +240,12 @@ fn entry(location: Location, raw: u64, machine: &Machine) -> (String, String) {
     let usual = [place_text(location, machine), plain.to_string()];
     let said = usual.iter().find_map(|name| {
         let found = machine.names().resolve(machine.memory(), name).ok()?;
-        let number =
-            (Location { format: location.format, ..found } == location).then(|| number(raw & location.mask(), found));
+        let raw = raw & location.mask();
+        if is_no_code(name, raw.cast_signed(), location, machine.override_coding()) {
+            // A client may write any bits.
+            return Some((quoted(name), quoted(&format!("16#{raw:X}"))));
+        }
+        let number = (Location { format: location.format, ..found } == location).then(|| number(raw, found));
         Some((quoted(name), number??))
     });
     said.unwrap_or_else(|| (quoted(&plain.to_string()), (raw & location.mask()).to_string()))
