@@ -104,7 +104,9 @@ impl Names {
     fn lookup(&self, owner: &str, name: &str) -> Result<Location, Problem> {
         let Some((_, block, number)) = self.owners().find(|(other, ..)| *other == owner) else {
             let known: Vec<&str> = self.owners().map(|(name, ..)| name).collect();
-            let cure = did_you_mean(owner, known.iter().copied(), "names are case-sensitive");
+            let cure = self
+                .renamed(owner)
+                .unwrap_or_else(|| did_you_mean(owner, known.iter().copied(), "names are case-sensitive"));
             return Err(Problem::new(format!("expected one of `{}`, found `{owner}`", known.join("`, `")), cure));
         };
         let of_block = || self.interface().signals().filter(|signal| signal.block == block);
@@ -123,6 +125,16 @@ impl Names {
                 cure,
             )
         })
+    }
+
+    /// The name of an axis or a channel that is named by its number, as `AX1` or `CHAN1`, while the machine has another name for it.
+    fn renamed(&self, owner: &str) -> Option<String> {
+        let numbered = [("CHAN", Block::Channel), ("AX", Block::Axis)];
+        let (block, number) =
+            numbered.into_iter().find_map(|(start, block)| Some((block, owner.strip_prefix(start)?.parse().ok()?)))?;
+        let name = self.owner(block, number)?;
+        let (what, named_in) = (self.interface().described(block, number), self.interface().tables().named_in);
+        Some(format!("{what} is called `{name}` on this machine ({named_in})"))
     }
 
     /// Improves the message for a text such as `X` or `x.CONTROLLER_ENABLE`, which is meant as a symbol.

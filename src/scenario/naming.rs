@@ -4,6 +4,7 @@ use crate::expression::Scope;
 use crate::image::{Block, Location};
 use crate::machine::Machine;
 use crate::source::{Problem, did_you_mean};
+use crate::trace::value_as_signal;
 use crate::units::{AxisNumber, ChannelNumber};
 use crate::variables::Describe;
 
@@ -56,7 +57,16 @@ pub(super) fn check_captured_name(name: &str) -> Result<(), Problem> {
 
 /// The location of any signal. A client of the control can write every signal; the NCK then overwrites its own signals.
 pub(super) fn place_named(machine: &Machine, name: &str) -> Result<Location, Problem> {
-    machine.names().resolve(machine.memory(), name)
+    signal_named(machine, name)
+}
+
+/// The location of a signal. A value of an axis is none.
+pub(super) fn signal_named(machine: &Machine, name: &str) -> Result<Location, Problem> {
+    let names = machine.names();
+    names.resolve(machine.memory(), name).map_err(|problem| match name.split_once('.') {
+        Some((axis, _)) if names.axis(axis).is_some() => value_as_signal(problem, name),
+        Some(_) | None => problem,
+    })
 }
 
 /// The location of a signal that the NCK does not write, of an axis or channel that exists.
@@ -68,7 +78,7 @@ pub(super) fn writable(machine: &Machine, name: &str) -> Result<Location, Proble
 /// The location of a signal that the NCK does not write.
 pub(super) fn written_by_others(machine: &Machine, name: &str) -> Result<Location, Problem> {
     let names = machine.names();
-    let location = names.resolve(machine.memory(), name)?;
+    let location = signal_named(machine, name)?;
     names.check_writer(location)?;
     Ok(location)
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
+use super::naming::signal_named;
 use super::session::Session;
 use crate::image::{Location, Writer};
 use crate::machine::{Subject, Tested};
@@ -17,7 +18,7 @@ impl Session {
     pub fn why_not(&self, signal: &str, complete: bool) -> Result<String, Problem> {
         let machine = self.machine();
         let names = machine.names();
-        let location = names.resolve(machine.memory(), signal)?;
+        let location = signal_named(machine, signal)?;
         let shown = self.shown(location);
         if location.width != 1 {
             let cure = "ask for one bit: `X.position_controller_active@0.3`, `DB31.DBX61.5@0.3`";
@@ -125,7 +126,7 @@ impl Tree<'_> {
     fn first(&mut self, fact: &Tested, depth: usize) {
         for part in &fact.parts {
             if part.holds && !fact.holds {
-                self.line(depth, true, "everything that is tested for the next step holds; it follows");
+                self.line(depth, true, "all conditions of the next step hold: it follows within some cycles");
             }
             self.node(part, depth);
         }

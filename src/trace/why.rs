@@ -8,6 +8,7 @@ use std::fmt::Write as _;
 use serde_json::Value;
 
 use super::causes::{Cause, CauseInput};
+use super::misplaced::value_as_signal;
 use super::printable::is_bit;
 use super::record::by_in_words;
 use super::{Line, LineKind, Trace, Watch};
@@ -216,10 +217,11 @@ impl Story {
             let names = names.chain(happened.iter().map(String::as_str));
             let fallback =
                 "it did not change, or the trace does not watch it; write a symbol, an address or a happening";
-            return Err(Problem::new(
+            let problem = Problem::new(
                 format!("expected a signal or a happening of the trace, found `{what}`"),
                 did_you_mean(what, names, fallback),
-            ));
+            );
+            return Err(value_as_signal(problem, what));
         };
         let first = first.time;
         let Some((index, _)) = all.take_while(|(_, edge)| edge.time <= time).last() else {

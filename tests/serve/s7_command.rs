@@ -178,6 +178,22 @@ fn nc_variables_are_shown_as_they_were_written() {
     assert_eq!(shown, [asked[0], asked[1], "nck:C/Parameter/rpa[6]", "nck:A1/M/32000:DOUBLE"]);
     served.text("write", &["nck:C/Parameter/rpa[6]=1.5"]);
     assert_eq!(rows(&served.text("read", &["nck:C/RP/1:DOUBLE[6]"]))[0][2], "1.5");
+    // The type is the user's: the server did nothing wrong.
+    let wrong = served.s7("read", &["A1/M/32000:WORD"]);
+    let text = String::from_utf8_lossy(&wrong.stderr).into_owned();
+    assert!(text.contains("nck:A1/M/32000:WORD: the type has 2 bytes, the value has 8\n"), "{text}");
+    assert!(text.contains("write a type of 8 bytes (DOUBLE, DATE, TEXT8), or omit the type"), "{text}");
+    assert_ne!(wrong.status.code(), Some(0));
+}
+
+#[test]
+fn a_value_of_a_scenario_is_no_address() {
+    let served = Served::start();
+    let wrong = served.s7("read", &["X.position"]);
+    let text = String::from_utf8_lossy(&wrong.stderr).into_owned();
+    assert_eq!(wrong.status.code(), Some(2), "{text}");
+    assert!(text.contains("found `X.position`, which is a value of the simulator"), "{text}");
+    assert!(text.contains("`opennck s7 nck` lists"), "{text}");
 }
 
 #[test]

@@ -10,7 +10,9 @@ use crate::machine::Machine;
 use crate::s7::client::{Client, Error, Memory as Place, NcVariable, Value, Variable};
 use crate::scenario::profile_named;
 use crate::source::{Node, Problem, Table};
+use crate::trace::nearest_signal;
 use crate::units::{AxisNumber, ChannelNumber};
+use crate::variables::AxisValue;
 
 /// An address or symbol of the command line.
 #[derive(Clone, Debug)]
@@ -116,7 +118,8 @@ impl Dictionary {
 
     fn target(&self, text: &str) -> Result<Target, Problem> {
         let place = self.memory.as_ref().filter(|_| !text.contains('/') && !text.starts_with("nck:"));
-        let resolved = place.map(|memory| self.names.resolve(memory, text));
+        let resolved =
+            place.map(|memory| self.names.resolve(memory, text).map_err(|problem| self.of_a_value(problem, text)));
         match resolved {
             Some(Ok(location)) => self.of_location(text, location),
             // The host may have a block or a byte that a control does not have.
@@ -132,6 +135,24 @@ impl Dictionary {
                 (Err(error), _) => Err(problem(&error)),
             },
         }
+    }
+
+    /// The problem of a value of an axis: clients read it from the NCK.
+    fn of_a_value(&self, problem: Problem, text: &str) -> Problem {
+        let is_value =
+            |(axis, value): &(&str, &str)| self.names.axis(axis).is_some() && AxisValue::named(value).is_some();
+        let Some((_, value)) = text.split_once('.').filter(is_value) else {
+            return problem;
+        };
+        let what =
+            format!("expected a signal, found `{text}`, which is a value of the simulator and not in the interface");
+        let cure = match value {
+            "position" | "setpoint" | "velocity" | "following_error" | "distance_to_go" => {
+                "a client reads such values from the NCK: `opennck s7 nck` lists its variables"
+            }
+            _ => "values stand in the expressions and in `watch` of a scenario",
+        };
+        Problem { what, cure: format!("{cure}{}", nearest_signal(&problem)), ..problem }
     }
 
     fn of_location(&self, text: &str, location: Location) -> Result<Target, Problem> {

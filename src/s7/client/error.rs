@@ -9,7 +9,7 @@ use crate::s7::wire::header::ErrorCode;
 /// The reason why a request failed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
-    /// An invalid address or value; nothing was sent.
+    /// An invalid address, value or type. Nothing was sent, or what was read has another type.
     Input {
         /// What was expected and what was found.
         what: String,

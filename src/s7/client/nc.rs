@@ -63,6 +63,21 @@ impl NcKind {
         }
     }
 
+    /// The types of this length as users write them: `DOUBLE, DATE, TEXT8`.
+    pub(super) fn of_length(bytes: usize) -> String {
+        let types = [
+            ("BYTE", Self::Byte),
+            ("WORD", Self::Word),
+            ("LONG", Self::Long),
+            ("ULONG", Self::UnsignedLong),
+            ("REAL", Self::Real),
+            ("DOUBLE", Self::Double),
+            ("DATE", Self::Date),
+        ];
+        let fitting = types.into_iter().filter(|(_, kind)| kind.bytes() == bytes).map(|(name, _)| name.to_owned());
+        fitting.chain([format!("TEXT{bytes}")]).collect::<Vec<_>>().join(", ")
+    }
+
     /// The type in the server's catalogue.
     #[must_use]
     pub const fn of(kind: Kind) -> Self {

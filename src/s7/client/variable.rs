@@ -13,7 +13,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::Error;
-use super::nc::NcVariable;
+use super::nc::{NcKind, NcVariable};
 use crate::image::{Address, Area, Format, Width};
 use crate::s7::wire::data::Type;
 use crate::s7::wire::items::AnyItem;
@@ -119,6 +119,29 @@ impl Variable {
                 wrong("expected rows from 1 on", "the first row is 1")
             }
             Self::Nc(_) => Ok(()),
+        }
+    }
+
+    /// The error of a value with `found` bytes where `expected` were asked for. The type of an NC variable is the user's word where it is
+    /// written behind the column; then it is wrong, and not the server.
+    pub(super) fn another_length(&self, expected: usize, found: usize) -> Error {
+        let what = self.to_string();
+        let rows = match self {
+            Self::Nc(NcVariable { kind: Some(kind), item }) => {
+                Some(usize::from(item.count)).filter(|rows| kind.bytes() * rows == expected)
+            }
+            Self::Nc(_) | Self::Memory(_) => None,
+        };
+        match rows {
+            Some(rows) if what.trim_start_matches("nck:").contains(':') && found.is_multiple_of(rows) => {
+                let (expected, found) = (expected / rows, found / rows);
+                let fitting = NcKind::of_length(found);
+                Error::Input {
+                    what: format!("{what}: the type has {expected} bytes, the value has {found}"),
+                    cure: format!("write a type of {found} bytes ({fitting}), or omit the type to see the bytes"),
+                }
+            }
+            Some(_) | None => Error::Unexpected { what, found: format!("{found} bytes instead of {expected}") },
         }
     }
 }

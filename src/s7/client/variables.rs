@@ -220,8 +220,8 @@ fn take_values(request: &[Part], data: &[u8], progress: &mut Progress<'_>) -> us
                 bytes[part.offset..end].copy_from_slice(value);
             }
             Ok(value) => {
-                let found = format!("{} bytes instead of {}", value.len(), part.length);
-                progress.fail(part, Error::Unexpected { what: String::new(), found });
+                let error = progress.variables[part.of].another_length(part.length, value.len());
+                progress.fail(part, error);
             }
             Err(code) => progress.fail(part, Error::Refused { what: String::new(), code }),
         }

@@ -110,6 +110,11 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
         ("set = 5", 4, "signals with their values", "table"),
         ("set = { \"X.traversing_key_pls\" = 1 }", 4, "X.traversing_key_pls", "traversing_key_plus"),
         ("set = { \"Z.traversing_key_plus\" = 1 }", 4, "found `Z`", "did you mean"),
+        ("set = { \"X.position\" = 1 }", 4, "found `X.position`, which is a value and not a signal", "in `watch`"),
+        ("force = { \"X.velocity\" = 1 }", 4, "found `X.velocity`, which is a value and not a signal", "`expect`"),
+        ("write = { \"XF.slide\" = 1 }", 4, "found `XF.slide`, which is a value and not a signal", "`capture`"),
+        ("set = { \"Z.position\" = 1 }", 4, "found `Z`", "did you mean"),
+        ("set = { \"AX3.controller_enable\" = 1 }", 4, "found `AX3`", "axis 3 is called `XF` on this machine (MD10000"),
         (
             "set = { \"X.feed_override\" = 100 }",
             4,
