@@ -115,6 +115,12 @@ pub fn examine(path: &Path) -> Result<Examined, Problem> {
 
 /// The file itself, or the files of a directory.
 fn files_at(path: &Path) -> Result<Vec<PathBuf>, Problem> {
+    if path.exists() && !path.is_dir() && !path.is_file() {
+        return Err(Place::file(&path.display().to_string()).problem(
+            "expected a directory or an archive file, found a device, a pipe or a socket",
+            "name a directory with machine data, an archive file, or a built-in machine",
+        ));
+    }
     if !path.is_dir() {
         return Ok(vec![path.to_owned()]);
     }

@@ -13,21 +13,57 @@ use crate::sinumerik::parameters::groupings::Fault;
 use crate::units::{AxisNumber, ModeGroupNumber};
 use crate::variables::{Parameter, Place};
 
-/// Data of the catalogue that have no effect in the model, and what a control does with them. A PLC program can see it.
-const ACTS_OTHERWISE: &[(u32, &str)] = &[
-    (10735, "the extended functions of JOG are not modelled"),
-    (11410, "no alarm is suppressed"),
-    (11411, "no further alarm is enabled"),
-    (30242, "the corrections of the active encoder always affect the other one"),
-    (30320, "the position is not shown modulo"),
-    (32450, "backlash is not compensated"),
-    (32700, "the encoder error is not compensated"),
-    (32710, "sag is not compensated"),
-    (32750, "the temperature error is not compensated"),
-    (34102, "a reference point approach references one encoder"),
-    (34104, "an axis in follow-up is not referenced"),
-    (36052, "clamping has no special functions"),
-    (36730, "the signals of the drive are those of the plant"),
+/// Data of the catalogue that have no effect in the model, what a control does with them, and what to do about it. A PLC program can see it.
+const ACTS_OTHERWISE: &[(u32, &str, &str)] = &[
+    (
+        10735,
+        "the extended functions of JOG are not modelled",
+        "test without them: what the datum switches on does nothing here",
+    ),
+    (11410, "no alarm is suppressed", "expect the alarms that the datum suppresses on a control"),
+    (11411, "no further alarm is enabled", "do not wait for the alarms that the datum enables on a control"),
+    (
+        30242,
+        "the corrections of the active encoder always affect the other one",
+        "reference each encoder before you compare the two",
+    ),
+    (30320, "the position is not shown modulo", "compare positions from 0 to 360 degrees only"),
+    (
+        32450,
+        "backlash is not compensated",
+        "expect positions without backlash; MD32450 = 0 makes a control do the same",
+    ),
+    (
+        32700,
+        "the encoder error is not compensated",
+        "expect positions without this compensation; MD32700 = 0 makes a control do the same",
+    ),
+    (
+        32710,
+        "sag is not compensated",
+        "expect positions without this compensation; MD32710 = 0 makes a control do the same",
+    ),
+    (
+        32750,
+        "the temperature error is not compensated",
+        "expect positions without this compensation; MD32750 = 0 makes a control do the same",
+    ),
+    (
+        34102,
+        "a reference point approach references one encoder",
+        "select the other measuring system (DBX1.5, DBX1.6), and reference it as well",
+    ),
+    (
+        34104,
+        "an axis in follow-up is not referenced",
+        "give the axis its controller enable (DBX2.1) before the approach",
+    ),
+    (36052, "clamping has no special functions", "expect DBX2.3 to act as with MD36052 = 0"),
+    (
+        36730,
+        "the signals of the drive are those of the plant",
+        "let a scenario give faults of the drive: fault = { axis = \"X\", kind = \"drive_fault\" }",
+    ),
 ];
 
 /// Data of the catalogue that have no effect in the model and no effect on the interface.
@@ -36,20 +72,45 @@ const WITHOUT_EFFECT: &[u32] = &[
     41100,
 ];
 
-/// Data beside the catalogue with which a control shows a PLC program something that is not modelled, and their default.
-const SEEN_BY_THE_PLC: &[(u32, f64, &str)] = &[
-    (10450, 0.0, "software cams are not modelled"),
-    (24100, 0.0, "transformations are not modelled"),
-    (30460, 0.0, "PLC axes and their exchange are not modelled"),
-    (30500, 0.0, "indexing axes are not modelled"),
-    (33050, 1e8, "the lubrication pulse is not modelled"),
-    (36901, 0.0, "Safety Integrated is not modelled"),
-    (37000, 0.0, "travel to fixed stop is not modelled"),
+/// Data beside the catalogue with which a control shows a PLC program something that is not modelled, their default, and what to do.
+const SEEN_BY_THE_PLC: &[(u32, f64, &str, &str)] = &[
+    (
+        10450,
+        0.0,
+        "software cams are not modelled",
+        "the signals of the cams stay 0: test what follows from them at the machine",
+    ),
+    (24100, 0.0, "transformations are not modelled", "the signals of the transformation stay 0: test in machine axes"),
+    (
+        30460,
+        0.0,
+        "PLC axes and their exchange are not modelled",
+        "the axis stays with its channel: test its exchange at the machine",
+    ),
+    (30500, 0.0, "indexing axes are not modelled", "traverse with keys, increments and handwheels in mm or degrees"),
+    (
+        33050,
+        1e8,
+        "the lubrication pulse is not modelled",
+        "DBX76.0 does not change: test the lubrication at the machine",
+    ),
+    (
+        36901,
+        0.0,
+        "Safety Integrated is not modelled",
+        "the safety signals stay 0: test what follows from them at the machine",
+    ),
+    (
+        37000,
+        0.0,
+        "travel to fixed stop is not modelled",
+        "the signals of travel to fixed stop stay 0: test what follows from them at the machine",
+    ),
 ];
 
 /// Whether a datum of the catalogue has an effect in the model.
 pub(super) fn has_effect(number: u32) -> bool {
-    !WITHOUT_EFFECT.contains(&number) && !ACTS_OTHERWISE.iter().any(|(other, _)| *other == number)
+    !WITHOUT_EFFECT.contains(&number) && !ACTS_OTHERWISE.iter().any(|(other, ..)| *other == number)
 }
 
 /// All findings about a machine, the heaviest first.
@@ -180,7 +241,8 @@ fn mode_groups(archive: &Archive, findings: &mut Vec<Finding>) {
     for (index, group) in (0..).zip(archive.data.general.assign_chan_to_mode_group) {
         if group > i32::from(ModeGroupNumber::MAX) {
             let what = format!("channel {} is not modelled; the model has mode groups 1 and 2", index + 1);
-            findings.push(archive.about(10010, Owner::Nck, index, Finding::new(Class::ActsOtherwise, what, "")));
+            let cure = "assign the channel to mode group 1 or 2 for the test";
+            findings.push(archive.about(10010, Owner::Nck, index, Finding::new(Class::ActsOtherwise, what, cure)));
         }
     }
 }
@@ -196,8 +258,8 @@ fn unused_cam(archive: &Archive, number: AxisNumber, control: &Nck, site: &Site<
 
 /// The reference point approach of the encoders that an axis has.
 fn references(archive: &Archive, number: AxisNumber, axis: &Axis, findings: &mut Vec<Finding>) {
-    let mut add = |datum: u32, index: u8, what: &str| {
-        findings.push(archive.about(datum, Owner::Axis(number), index, Finding::new(Class::ActsOtherwise, what, "")));
+    let mut add = |datum: u32, index: u8, what: &str, cure: &str| {
+        findings.push(archive.about(datum, Owner::Axis(number), index, Finding::new(Class::ActsOtherwise, what, cure)));
     };
     if axis.spind_assign_to_machax != 0 {
         return;
@@ -207,24 +269,26 @@ fn references(archive: &Archive, number: AxisNumber, axis: &Axis, findings: &mut
         if mode != 1 {
             let what = "this kind of reference point approach is not modelled, and the encoder is never referenced; the model \
                 references incremental encoders with zero marks (1)";
-            add(34200, encoder, what);
+            add(34200, encoder, what, "set MD34200 = 1 for the test; `plant.toml` gives the zero marks");
         } else if state != 0 {
-            add(34210, encoder, "the position of an incremental encoder is not restored at power on");
+            let what = "the position of an incremental encoder is not restored at power on";
+            add(34210, encoder, what, "reference the axis after power on");
         }
     }
 }
 
 fn functions(archive: &Archive, number: AxisNumber, axis: &Axis, findings: &mut Vec<Finding>) {
-    let mut add = |datum: u32, what: &str| {
-        findings.push(archive.about(datum, Owner::Axis(number), 0, Finding::new(Class::ActsOtherwise, what, "")));
+    let mut add = |datum: u32, what: &str, cure: &str| {
+        findings.push(archive.about(datum, Owner::Axis(number), 0, Finding::new(Class::ActsOtherwise, what, cure)));
     };
     if axis.spind_assign_to_machax != 0 {
         let what = "spindles are not modelled: the axis moves in JOG like a rotary axis, is never referenced, and its spindle signals \
             stay 0";
-        add(35000, what);
+        add(35000, what, "test the signals of the spindle at the machine");
     }
     if axis.is_rot_ax && axis.rot_is_modulo {
-        add(30310, "modulo only disables the software limits in the model; positions are not reset");
+        let what = "modulo only disables the software limits in the model; positions are not reset";
+        add(30310, what, "compare positions from 0 to 360 degrees only");
     }
 }
 
@@ -234,7 +298,8 @@ fn encoders(archive: &Archive, number: AxisNumber, site: &Site<'_>, findings: &m
             let encoder = index + 1;
             let what = format!("the type of encoder {encoder} is not modelled; an incremental encoder is used");
             let owner = archive.data.owner_in_words(Owner::Axis(number));
-            findings.push(Finding { owner, ..Finding::new(Class::ActsOtherwise, what, "") });
+            let cure = "write kind = \"incremental\" in plant.toml";
+            findings.push(Finding { owner, ..Finding::new(Class::ActsOtherwise, what, cure) });
         }
     }
 }
@@ -250,7 +315,7 @@ fn without_effect(archive: &Archive, control: &Nck, findings: &mut Vec<Finding>)
     };
     for target in archive.given.keys() {
         let (datum, owner, index) = (target.datum(), target.owner(), target.index());
-        let seen = ACTS_OTHERWISE.iter().find(|(number, _)| *number == datum.number).map(|(_, what)| *what);
+        let seen = ACTS_OTHERWISE.iter().find(|(number, ..)| *number == datum.number);
         if seen.is_none() && !WITHOUT_EFFECT.contains(&datum.number) {
             continue;
         }
@@ -258,7 +323,7 @@ fn without_effect(archive: &Archive, control: &Nck, findings: &mut Vec<Finding>)
             continue;
         }
         let finding = match seen {
-            Some(what) => Finding::new(Class::ActsOtherwise, what, ""),
+            Some(&(_, what, cure)) => Finding::new(Class::ActsOtherwise, what, cure),
             None => Finding {
                 group: "read, without effect in the model",
                 ..Finding::new(Class::NotModelled, "kept, no effect", "")
@@ -273,7 +338,7 @@ fn seen_by_the_plc(archive: &Archive, control: &Nck, findings: &mut Vec<Finding>
     let mut named: Vec<(u32, String)> = Vec::new();
     for unknown in &archive.unknown {
         let row = SEEN_BY_THE_PLC.iter().find(|(number, ..)| unknown.number == Some(*number));
-        let Some((number, default, what)) = row else { continue };
+        let Some((number, default, what, cure)) = row else { continue };
         let value = Value::parse(&unknown.value).and_then(|value| value.number());
         if value.is_none_or(|value| (value - default).abs() < f64::EPSILON) {
             continue;
@@ -299,7 +364,7 @@ fn seen_by_the_plc(archive: &Archive, control: &Nck, findings: &mut Vec<Finding>
             datum: format!("MD{number} {}", unknown.name),
             value: unknown.value.clone(),
             owner: key.1,
-            ..Finding::new(Class::ActsOtherwise, *what, "")
+            ..Finding::new(Class::ActsOtherwise, *what, *cure)
         });
     }
 }
@@ -311,7 +376,7 @@ mod tests {
 
     #[test]
     fn every_listed_datum_is_in_the_catalogue_or_beside_it() {
-        let read = ACTS_OTHERWISE.iter().map(|(number, _)| number).chain(WITHOUT_EFFECT);
+        let read = ACTS_OTHERWISE.iter().map(|(number, ..)| number).chain(WITHOUT_EFFECT);
         for number in read {
             assert!(by_number(*number).is_some(), "{number}");
         }

@@ -337,7 +337,7 @@ fn machine_data_are_checked_with_file_line_and_identifier() {
     fs::write(directory.join("empty.arc"), "").unwrap();
     let output = opennck(&["machine-data", "check", "empty.arc"], &directory);
     assert_eq!(output.status.code(), Some(2), "{}{}", out(&output), err(&output));
-    assert!(err(&output).contains("empty.arc: expected members, found an empty file at offset 0"), "{}", err(&output));
+    assert!(err(&output).contains("empty.arc: expected members, found an empty file\n"), "{}", err(&output));
     fs::write(directory.join("good.tea"), "N37100 $MA_GANTRY_AXIS_TYPE[AX2]=1\nN37100 $MA_GANTRY_AXIS_TYPE[AX5]=11\n")
         .unwrap();
     let output = opennck(&["machine-data", "check", "good.tea"], &directory);

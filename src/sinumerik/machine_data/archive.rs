@@ -98,7 +98,9 @@ impl Archive {
         let mut reading = Reading::default();
         for (number, (name, bytes)) in files.into_iter().enumerate() {
             reading.file = number;
-            if binary::is_binary(name, bytes) {
+            if let Some(order) = utf_16(bytes) {
+                reading.findings.push(in_utf_16(name, order));
+            } else if binary::is_binary(name, bytes) {
                 if let Err(problem) = binary::read(name, bytes, &mut reading) {
                     reading.findings.push(problem.into());
                 }
@@ -154,6 +156,32 @@ pub fn files_of(machine: &Path) -> Result<Vec<PathBuf>, Problem> {
     }
     archives.extend(texts);
     Ok(archives)
+}
+
+/// The byte order of a text in UTF-16, by its byte order mark or by the zeros of its first letters; `None` for any other file.
+fn utf_16(bytes: &[u8]) -> Option<&'static str> {
+    let (little, big) = ("little-endian", "big-endian");
+    let zeros = |first: usize| bytes.iter().skip(first).step_by(2).take(16).filter(|byte| **byte == 0).count();
+    match bytes {
+        [0xFF, 0xFE, ..] => Some(little),
+        [0xFE, 0xFF, ..] => Some(big),
+        [_, ..] if bytes.len() >= 32 && bytes[..32].is_ascii() => match (zeros(0), zeros(1)) {
+            (0, 16) => Some(little),
+            (16, 0) => Some(big),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+fn in_utf_16(name: &str, order: &str) -> Finding {
+    let file = Path::new(name).file_name().map_or_else(|| name.into(), std::ffi::OsStr::to_string_lossy);
+    Place::file(name)
+        .problem(
+            format!("expected a text in UTF-8 or Latin-1, or a binary archive, found a text in UTF-16 ({order})"),
+            format!("save it as UTF-8 in an editor, or convert it: `iconv -f UTF-16 -t UTF-8 {file} > NEW_FILE`"),
+        )
+        .into()
 }
 
 /// Whether the name of a file is that of an archive: `*.tea`, `*.ini`, `*.mpf` or `*.arc`, in upper or lower case.

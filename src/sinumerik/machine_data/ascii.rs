@@ -14,7 +14,15 @@ use super::scaling::System;
 
 /// Reads a file.
 pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) {
+    let (lines, findings) = (reading.lines.len(), reading.findings.len());
     read_text(name, &decode(bytes), Author::Person, reading);
+    if (reading.lines.len(), reading.findings.len()) == (lines, findings) {
+        let what = if bytes.is_empty() { "found an empty file" } else { "found no assignment" };
+        let what = format!("expected machine data, {what}; the defaults of the control act");
+        let cure = "export the machine data of the control again, or delete the file";
+        let finding = Finding::new(Class::Implausible, what, cure);
+        reading.findings.push(Finding { place: Some(Place::file(name)), ..finding });
+    }
 }
 
 /// Reads a text; findings name `name` and the line.

@@ -31,14 +31,23 @@ pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<()
             "the archive is damaged; copy it again from the control, in binary mode",
         )
     };
+    let truncated = |offset: usize, what: String| {
+        file.problem(
+            format!("{what} at offset {offset}: the file ends too early, at {} bytes", bytes.len()),
+            "the archive is truncated; copy it again from the control, in binary mode, and compare the sizes",
+        )
+    };
     if bytes.is_empty() {
-        return Err(damage(0, "expected members, found an empty file".to_owned()));
+        return Err(file.problem(
+            "expected members, found an empty file",
+            "the copy is empty; copy the archive again from the control, in binary mode",
+        ));
     }
     let mut offset = 0;
     while offset < bytes.len() {
         let rest = &bytes[offset..];
         let header = rest.first_chunk::<BLOCK>().ok_or_else(|| {
-            damage(offset, format!("expected a member header of {BLOCK} bytes, found {} bytes", rest.len()))
+            truncated(offset, format!("expected a member header of {BLOCK} bytes, found {} bytes", rest.len()))
         })?;
         let expected = decimal(&header[148..156]).ok_or_else(|| {
             damage(offset + 148, "expected a checksum in decimal digits, found something else".to_owned())
@@ -56,7 +65,7 @@ pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<()
         let Some(member) = member else {
             let name = text(&header[..50]);
             let found = bytes.len() - start;
-            return Err(damage(
+            return Err(truncated(
                 start,
                 format!("expected {size} bytes of {name} and their padding, found {found} bytes"),
             ));

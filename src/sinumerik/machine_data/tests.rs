@@ -618,13 +618,41 @@ mod binary_archives {
     fn a_truncated_archive_is_named_with_its_offset() {
         let bytes = small();
         let cut = read(&bytes[..2_700]).unwrap_err();
-        assert!(cut[0].what.ends_with("at offset 2560"), "{}", cut[0]);
+        assert!(cut[0].what.contains("at offset 2560: the file ends too early, at 2700 bytes"), "{}", cut[0]);
         let cut = read(&bytes[..1_540]).unwrap_err();
         assert!(
             cut[0].what.contains("of _N_CFG_GLOBAL_INI and their padding, found 4 bytes at offset 1536"),
             "{}",
             cut[0]
         );
+    }
+
+    #[test]
+    fn a_text_in_utf_16_is_named_with_the_way_to_convert_it() {
+        let text = "N37100 $MA_GANTRY_AXIS_TYPE[AX1]=1\r\n";
+        let little: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+        let big: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
+        let marked = [&[0xFF, 0xFE][..], &little].concat();
+        for (name, bytes, order) in [
+            ("a.tea", &little, "little-endian"),
+            ("a.tea", &big, "big-endian"),
+            ("a.arc", &marked, "little-endian"),
+            ("a.tea", &marked, "little-endian"),
+        ] {
+            let refused = Archive::read([(name, &bytes[..])]).unwrap_err();
+            let [finding] = &refused[..] else { panic!("one finding: {refused:?}") };
+            assert!(finding.what.contains(&format!("found a text in UTF-16 ({order})")), "{finding}");
+            assert!(finding.cure.contains(&format!("iconv -f UTF-16 -t UTF-8 {name} > NEW_FILE")), "{finding}");
+        }
+    }
+
+    #[test]
+    fn a_file_without_machine_data_is_a_finding() {
+        for (text, found) in [("", "found an empty file"), ("; nothing\nM17\n", "found no assignment")] {
+            let archive = Archive::read([("a.tea", text.as_bytes())]).unwrap();
+            let [finding] = &archive.findings[..] else { panic!("one finding: {:?}", archive.findings) };
+            assert!(finding.what.contains(found) && finding.class == Class::Implausible, "{finding}");
+        }
     }
 
     #[test]
