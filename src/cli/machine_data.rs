@@ -36,10 +36,11 @@ impl Deny {
     }
 }
 
-/// A summary of what was read, and the findings.
+/// A summary of what was read, the members that were ignored, and the findings.
 #[derive(PartialEq)]
 struct Checked {
     summary: Vec<String>,
+    ignored: Vec<String>,
     findings: Vec<Finding>,
 }
 
@@ -122,11 +123,15 @@ fn of_scenario(path: &Path, case: Option<&str>) -> Result<Reports, Problem> {
     Ok(reports)
 }
 
-/// Prints a summary of what was read and the findings, and returns the exit code.
+/// Prints how many findings there are, what was read, and the findings, and returns the exit code.
 fn report(checked: Checked, all: bool, deny: &[Deny], output: &mut Output) -> u8 {
-    let Checked { summary: read, findings } = checked;
+    let Checked { summary: read, ignored, findings } = checked;
+    output.line(summary(&findings).map_or_else(|| "no findings".to_owned(), |counts| format!("findings: {counts}")));
     for line in read {
         output.line(line);
+    }
+    if all {
+        ignored.iter().for_each(|member| output.line(format!("  ignored: {member}")));
     }
     for class in Class::ALL {
         let of_class: Vec<&Finding> = findings.iter().filter(|finding| finding.class == class).collect();
@@ -142,7 +147,9 @@ fn report(checked: Checked, all: bool, deny: &[Deny], output: &mut Output) -> u8
             }
         }
     }
-    output.line(summary(&findings).map_or_else(|| "no findings".to_owned(), |counts| format!("\nfindings: {counts}")));
+    if !all && (!ignored.is_empty() || findings.iter().any(|finding| finding.class == Class::NotModelled)) {
+        output.line("\n--all lists each datum that is not modelled, and each member that is ignored");
+    }
     code(&findings, deny)
 }
 
@@ -174,18 +181,15 @@ fn groups(findings: &[&Finding], all: bool, output: &mut Output) {
             group.into_iter().for_each(|finding| item("    ", finding, output));
         }
     }
-    if !all {
-        output.line("  (--all lists each datum)");
-    }
 }
 
 /// The findings in the files of a machine. A reason to reject the machine is a finding as well. `open` opens the machine.
 fn checked(path: &Path, open: impl FnOnce() -> Result<Machine, Problem>) -> Result<Checked, Problem> {
     if !path.exists() {
         // The name of a built-in machine, or an unknown name.
-        return Ok(opened(open()?, Vec::new()));
+        return Ok(opened(open()?, Vec::new(), Vec::new()));
     }
-    let Examined { is_refused, is_empty, summary, findings } = controls::examine(path)?;
+    let Examined { is_refused, is_empty, summary, ignored, findings } = controls::examine(path)?;
     if is_refused {
         let findings: Vec<_> = findings.into_iter().filter(|finding| finding.class == Class::Unreadable).collect();
         return match findings.as_slice() {
@@ -193,21 +197,21 @@ fn checked(path: &Path, open: impl FnOnce() -> Result<Machine, Problem>) -> Resu
             [Finding { number: None, place, what, cure, .. }] => {
                 Err(Problem { place: place.clone(), what: what.clone(), cure: cure.clone() })
             }
-            _ => Ok(Checked { summary, findings }),
+            _ => Ok(Checked { summary, ignored, findings }),
         };
     }
     match open() {
-        Ok(machine) => Ok(opened(machine, summary)),
+        Ok(machine) => Ok(opened(machine, summary, ignored)),
         Err(problem) if is_empty => Err(problem),
         // A run rejects this although each machine datum is valid, for example names that clash.
         Err(problem) => {
             let problem = problem.at(&Place::file(&path.display().to_string()));
-            Ok(Checked { summary, findings: vec![problem.into()] })
+            Ok(Checked { summary, ignored, findings: vec![problem.into()] })
         }
     }
 }
 
-fn opened(machine: Machine, mut summary: Vec<String>) -> Checked {
+fn opened(machine: Machine, mut summary: Vec<String>, ignored: Vec<String>) -> Checked {
     summary.extend(configuration(&machine));
     let mut findings = machine.findings().to_vec();
     let mut trial = machine;
@@ -218,7 +222,7 @@ fn opened(machine: Machine, mut summary: Vec<String>) -> Checked {
             findings.push(Finding::new(Class::AlarmAtPowerOn, what, ""));
         }
     }
-    Checked { summary, findings }
+    Checked { summary, ignored, findings }
 }
 
 /// The axes of the machine with their numbers, and its gantry groupings.

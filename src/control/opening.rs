@@ -122,6 +122,8 @@ pub struct Examined {
     pub is_empty: bool,
     /// A summary of what was read, as lines of text.
     pub summary: Vec<String>,
+    /// The names of its members without machine data, which are ignored.
+    pub ignored: Vec<String>,
     /// The reasons of a refusal.
     pub findings: Vec<Finding>,
 }

@@ -154,6 +154,7 @@ pub fn examine(path: &Path) -> Result<Examined, Problem> {
         Ok(archive) => Examined {
             is_empty: files.is_empty(),
             summary: archive.summary.to_string().lines().map(str::to_owned).collect(),
+            ignored: archive.summary.ignored().map(str::to_owned).collect(),
             ..Examined::default()
         },
         Err(findings) => Examined { is_refused: true, findings, ..Examined::default() },

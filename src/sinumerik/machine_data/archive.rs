@@ -27,7 +27,7 @@ pub struct Summary {
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let read = |member: &&Member| member.assignments.is_some();
-        let left = self.members.iter().filter(|member| !read(member)).count();
+        let left = self.ignored().count();
         write!(f, "{} machine data taken, {} unknown kept", self.taken, self.unknown)?;
         if left > 0 {
             write!(f, ", {left} members without machine data ignored")?;
@@ -36,10 +36,14 @@ impl fmt::Display for Summary {
         for member in self.members.iter().filter(read) {
             writeln!(f, "  {}: {} assignments", member.name, member.assignments.unwrap_or_default())?;
         }
-        for member in self.members.iter().filter(|member| !read(member)) {
-            writeln!(f, "  ignored: {}", member.name)?;
-        }
         Ok(())
+    }
+}
+
+impl Summary {
+    /// The names of the members that contain no machine data.
+    pub fn ignored(&self) -> impl Iterator<Item = &str> {
+        self.members.iter().filter(|member| member.assignments.is_none()).map(|member| member.name.as_str())
     }
 }
 
