@@ -2,8 +2,11 @@
 #![cfg(feature = "cli")]
 
 use std::fs;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
 
 /// A scenario of four cases, of which one fails.
 const FLAGS: &str = "title = \"Flags & <more>\"\nmachine = \"g1_example\"\ncovers = [\"REF-04\", \"REF-11\"]\nwatch = [\"M0.*\"]\n\
@@ -65,6 +68,76 @@ fn a_case_of_a_matrix_is_the_unit_of_list_filter_and_shard() {
     assert_eq!((none.status.code(), err(&none).contains("found none of 5")), (Some(2), true), "{}", err(&none));
     let empty = opennck(&["test", "--shard", "9/9"], &directory);
     assert_eq!((empty.status.code(), out(&empty).as_str()), (Some(0), "0 cases: none in this shard\n"));
+}
+
+/// A program with its lines of output as they come, which ends with the test.
+struct Watching {
+    child: std::process::Child,
+    lines: std::sync::mpsc::Receiver<String>,
+}
+
+impl Watching {
+    fn start(arguments: &[&str], directory: &Path) -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
+        command.args(arguments).current_dir(directory).stdout(Stdio::piped()).stderr(Stdio::null());
+        let mut child = command.spawn().expect("the program was built");
+        let output = BufReader::new(child.stdout.take().expect("it is piped"));
+        let (sender, lines) = std::sync::mpsc::channel();
+        std::thread::spawn(move || {
+            output.lines().map_while(Result::ok).take_while(|line| sender.send(line.clone()).is_ok()).for_each(drop);
+        });
+        Self { child, lines }
+    }
+
+    /// Waits for a line with this text. The time-out is only for a program that hangs.
+    fn wait_for(&self, text: &str) -> String {
+        let mut seen = Vec::new();
+        loop {
+            match self.lines.recv_timeout(Duration::from_secs(300)) {
+                Ok(line) if line.contains(text) => return line,
+                Ok(line) => seen.push(line),
+                Err(error) => panic!("{error}: expected `{text}` after {seen:#?}"),
+            }
+        }
+    }
+}
+
+impl Drop for Watching {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// `--watch`: cases run again when a file of theirs has changed, others rest, and a closed output ends the program. A changed file is
+/// renamed to its name, so that it is never seen half written.
+#[test]
+fn a_changed_file_runs_its_cases_again_until_the_output_is_closed() {
+    let directory = directory("watch");
+    let replace = |text: &str| {
+        fs::write(directory.join("new"), text).unwrap();
+        fs::rename(directory.join("new"), directory.join("golden/failing.toml")).unwrap();
+    };
+    let mut watching = Watching::start(&["test", "--watch"], &directory);
+    watching.wait_for("5 cases: 4 passed, 1 failed");
+    watching.wait_for("; press Ctrl-C to stop");
+    // A file of another length counts as changed whatever the clock of the file system does.
+    let passes = "machine = \"g1_example\"\n[[step]]\nset = { \"M0.0\" = 1 }\n[[step]]\nexpect = \"M0.0\"\n# passes\n";
+    replace(passes);
+    watching.wait_for("changed: golden/failing.toml");
+    // Its golden file is missing; the four other cases do not run.
+    watching.wait_for("1 case: ");
+    replace(&passes.replace("expect = \"M0.0\"", "expect = \"M0.1 && M0.2\""));
+    watching.wait_for("changed: golden/failing.toml");
+    watching.wait_for("1 case: 1 failed");
+    // Nobody reads any more. The thread that reads ends with the first line that it cannot pass on; an output after that finds it closed.
+    watching.lines = std::sync::mpsc::channel().1;
+    let ended = (0..600).find_map(|round| {
+        replace(&format!("{passes}# {round}\n"));
+        std::thread::sleep(Duration::from_millis(500));
+        watching.child.try_wait().unwrap()
+    });
+    assert_eq!(ended.and_then(|status| status.code()), Some(0));
 }
 
 #[test]
