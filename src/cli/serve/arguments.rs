@@ -72,7 +72,7 @@ pub(crate) struct Arguments {
     #[arg(long, requires = "scenario")]
     pub(super) exit: bool,
     /// Writes the trace as JSON lines at the end: after Ctrl-C, SIGTERM or SIGHUP. It is kept in memory until then, and the file keeps its
-    /// old content; so a kill or a crash leaves no trace.
+    /// old content; so a kill or a crash leaves no trace. What --record writes survives them.
     #[arg(long, value_name = "F.jsonl")]
     pub(super) trace: Option<PathBuf>,
     /// With --trace: the memory for the trace, in MiB. The trace ends there with a note; the machine keeps running.
