@@ -137,7 +137,9 @@ fn real(file: &Path) -> PathBuf {
 /// The files without a machine that these files include.
 fn parts_of(files: &[PathBuf]) -> BTreeSet<PathBuf> {
     let included = files.iter().flat_map(|file| included_by(file).unwrap_or_default());
-    included.filter(|file| !names_machine(file)).map(|file| real(&file)).collect()
+    // A file that many others include is read once.
+    let included: BTreeSet<PathBuf> = included.map(|file| real(&file)).collect();
+    included.into_iter().filter(|file| !names_machine(file)).collect()
 }
 
 /// A link to a folder above itself is not followed: it would show the same scenarios again, without end.
