@@ -8,7 +8,8 @@
 //! ```
 //!
 //! Exit codes: 0 success; 1 an expectation failed, a limit was reached, a trace differs, a golden file is missing, findings in machine data
-//! change the behaviour, an NC program has an alarm (`nc check`), two traces differ (`diff`); 2 unusable input, or an output that cannot be written.
+//! change the behaviour, an NC program has an alarm (`nc check`), two traces differ (`diff`); 2 unusable input, or an output that cannot be
+//! written.
 
 mod alarms;
 mod completions;
@@ -50,7 +51,8 @@ use output::Output;
 
 /// The exit codes, as printed below the help.
 const EXIT_CODES: &str = "Exit codes: 0 success; 1 an expectation failed, a limit was reached, a trace differs, a golden \
-    file is missing, findings in machine data change the behaviour, an NC program has an alarm; 2 unusable input, or an output that cannot be written.";
+    file is missing, findings in machine data change the behaviour, an NC program has an alarm; 2 unusable input, or an output that \
+    cannot be written.";
 
 /// An open simulator of the NC/PLC interface of SINUMERIK-style controls.
 ///
@@ -68,7 +70,9 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Runs scenarios as fast as possible and prints their signal sequences with causes.
-    #[command(after_long_help = format!("Inputs and outputs of the built-in program machine_control_panel (OpenNCK's own layout):\n\n{MACHINE_CONTROL_PANEL_LAYOUT}"))]
+    #[command(after_long_help = format!(
+        "Inputs and outputs of the built-in program machine_control_panel (OpenNCK's own layout):\n\n{MACHINE_CONTROL_PANEL_LAYOUT}"
+    ))]
     Run {
         /// Scenario files.
         #[arg(required = true, value_name = "SCENARIO")]
@@ -241,8 +245,8 @@ enum MachineData {
     /// Lists the catalogue of machine data: number, name, unit, range, default, the action with which it takes effect, whether it is
     /// modelled, meaning.
     ///
-    /// Modelled: `yes`: the datum has an effect. `no`: it is read, checked and kept, without effect. A control has further data; they are kept
-    /// as well.
+    /// Modelled: `yes`: the datum has an effect. `no`: it is read, checked and kept, without effect. A control has further data; they are
+    /// kept as well.
     List {
         /// A number, or a text: only data with this text in their row.
         #[arg(value_name = "TEXT|NUMBER")]

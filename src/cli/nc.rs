@@ -21,8 +21,8 @@ pub(super) enum Command {
     /// warns of comparisons beside AND, OR, XOR and NOT without parentheses: comparisons bind weakest. What needs a machine is not checked:
     /// limits, circles, owners of axes, system variables.
     ///
-    /// Subprograms (*.spf) are searched beside the file, then in --program-path. Without --machine, the usual letters of axes (X, Y1, AX1) are
-    /// axes.
+    /// Subprograms (*.spf) are searched beside the file, then in --program-path. Without --machine, the usual letters of axes (X, Y1, AX1)
+    /// are axes.
     ///
     /// Exit codes: 0 no alarm (warnings are possible); 1 an alarm; 2 a file cannot be read.
     Check {

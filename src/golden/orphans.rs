@@ -40,8 +40,8 @@ pub fn is_of(snap: &Path, file: &Path) -> bool {
     scenario_of(snap).is_some_and(|owner| real(&owner) == real(file))
 }
 
-/// The scenario file beside a golden file that has its name: `a.toml` for `a.snap`, `a.828d.snap` and `a@1.snap`. Of several, the one with the
-/// longest name.
+/// The scenario file beside a golden file that has its name: `a.toml` for `a.snap`, `a.828d.snap` and `a@1.snap`. Of several, the one with
+/// the longest name.
 fn scenario_of(snap: &Path) -> Option<PathBuf> {
     let name = snap.file_name()?.to_str()?;
     let ends = name.char_indices().filter(|(_, letter)| matches!(letter, '.' | '@'));

@@ -2,8 +2,8 @@
 //!
 //! A [`Rule`] contains expressions ([`Claim`]). A [`Monitor`] owns the rules of a run and their progress. The caller shows it the state
 //! before the first cycle ([`Monitor::begin`]) and after every cycle ([`Monitor::observe`]), and tells it about power on
-//! ([`Monitor::power_on`]). A limit is a number of cycles or a time ([`Span`]); power on can change the length of a cycle, so a time is compared
-//! with the time of the machine. The monitor steps nothing and stops nothing: it reports each [`Breach`].
+//! ([`Monitor::power_on`]). A limit is a number of cycles or a time ([`Span`]); power on can change the length of a cycle, so a time is
+//! compared with the time of the machine. The monitor steps nothing and stops nothing: it reports each [`Breach`].
 //!
 //! The semantics of a consequence:
 //!

@@ -108,7 +108,8 @@ impl Monitor {
         self.measures = true;
     }
 
-    /// Starts the rules from `first` on with the state before the next cycle, which has this length, after cycle `cycle`. Reports each breach.
+    /// Starts the rules from `first` on with the state before the next cycle, which has this length, after cycle `cycle`. Reports each
+    /// breach.
     pub fn begin(
         &mut self,
         first: usize,

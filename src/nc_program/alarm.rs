@@ -1,7 +1,7 @@
 //! The alarms that block preparation raises, with their parameters. The caller adds the channel (%1).
 //!
-//! Inside the module an error is a [`Fault`]: a number, the columns that caused it, and a reason in words. The interpreter and the check turn it
-//! into a [`ProgramAlarm`] with the block (%2) and the source text (%3).
+//! Inside the module an error is a [`Fault`]: a number, the columns that caused it, and a reason in words. The interpreter and the check
+//! turn it into a [`ProgramAlarm`] with the block (%2) and the source text (%3).
 
 use serde::{Deserialize, Serialize};
 

@@ -1,8 +1,8 @@
-//! The static check of a program: every alarm that preparation could give, without running it. Values that only a run knows are replaced by their
-//! types, so only errors of types are found in them.
+//! The static check of a program: every alarm that preparation could give, without running it. Values that only a run knows are replaced by
+//! their types, so only errors of types are found in them.
 //!
-//! What depends on the way that the program takes (the modal G1 of a circle parameter, a missing F, MSG after MSG) is only judged up to the first
-//! label, jump, call or control structure: behind it the way is not known.
+//! What depends on the way that the program takes (the modal G1 of a circle parameter, a missing F, MSG after MSG) is only judged up to the
+//! first label, jump, call or control structure: behind it the way is not known.
 
 use super::alarm::{Fault, ProgramAlarm, Span};
 use super::block::parse;

@@ -1,5 +1,5 @@
-//! Expressions of synchronised actions, which the channel evaluates in its cycles. What preparation knew is a constant in them; `$A…`, `$V…` and
-//! `$R[n]` are read when they are evaluated.
+//! Expressions of synchronised actions, which the channel evaluates in its cycles. What preparation knew is a constant in them; `$A…`,
+//! `$V…` and `$R[n]` are read when they are evaluated.
 
 use serde::{Deserialize, Serialize};
 

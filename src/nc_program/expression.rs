@@ -66,8 +66,8 @@ impl Expression {
     }
 }
 
-/// Whether a system variable is of the interpreter's time or of the movement's: `$A…`, `$V…` and `$R…`. Reading one makes preparation wait until
-/// everything before has been executed.
+/// Whether a system variable is of the interpreter's time or of the movement's: `$A…`, `$V…` and `$R…`. Reading one makes preparation wait
+/// until everything before has been executed.
 pub(super) fn is_main_run(name: &str) -> bool {
     name.starts_with("$A") || name.starts_with("$V") || name.starts_with("$R") || name.starts_with("$$")
 }

@@ -1,10 +1,10 @@
-//! NC programs as a language: text, words, expressions, blocks (nc_programs.md 1). The module knows the names of axes, and no axis: it does not
-//! know where an axis is, what it may do, or what moves it.
+//! NC programs as a language: text, words, expressions, blocks (nc_programs.md 1). The module knows the names of axes, and no axis: it does
+//! not know where an axis is, what it may do, or what moves it.
 //!
 //! # The boundary
 //!
-//! A channel owns an [`Interpreter`], which is plain data, and implements [`Environment`]: R parameters, system variables, axis names, programs,
-//! skip levels. It calls [`Interpreter::next`] whenever its buffer of prepared blocks has room:
+//! A channel owns an [`Interpreter`], which is plain data, and implements [`Environment`]: R parameters, system variables, axis names,
+//! programs, skip levels. It calls [`Interpreter::next`] whenever its buffer of prepared blocks has room:
 //!
 //! | result | what the channel does |
 //! |---|---|
@@ -20,14 +20,15 @@
 //!
 //! # How a program is read
 //!
-//! A [`Program`] is its text and the beginnings of its lines. Nothing is parsed before it is reached, and nothing is kept afterwards: a program of
-//! a million blocks needs its text and four bytes for each line. Jumps and the ends of control structures are searches in the text at the moment of
-//! execution, so an error in a block that is jumped over is never noticed. [`check`] reads a whole program statically instead.
+//! A [`Program`] is its text and the beginnings of its lines. Nothing is parsed before it is reached, and nothing is kept afterwards: a
+//! program of a million blocks needs its text and four bytes for each line. Jumps and the ends of control structures are searches in the
+//! text at the moment of execution, so an error in a block that is jumped over is never noticed. [`check`] reads a whole program statically
+//! instead.
 //!
 //! # The same result everywhere
 //!
-//! Numbers are `f64` with `+ − × ÷ sqrt`. Sine, logarithm and the like are those of the crate `libm`, which is software in Rust, behind an exact
-//! reduction of angles in degrees.
+//! Numbers are `f64` with `+ − × ÷ sqrt`. Sine, logarithm and the like are those of the crate `libm`, which is software in Rust, behind an
+//! exact reduction of angles in degrees.
 //!
 //! # What differs between controls
 //!

@@ -30,8 +30,8 @@ pub enum AxisKind {
     Any,
 }
 
-/// All names of axes of a channel: geometry axes, other channel axes and machine axes. An index in it is an axis *name*; the caller knows which
-/// axis it means.
+/// All names of axes of a channel: geometry axes, other channel axes and machine axes. An index in it is an axis *name*; the caller knows
+/// which axis it means.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AxisNames {
     rows: Vec<AxisName>,

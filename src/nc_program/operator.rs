@@ -1,7 +1,7 @@
 //! Operators of expressions (nc_programs.md 1.2).
 //!
-//! `+ - *` of two INT give INT, else REAL; `/` always gives REAL; DIV cuts to a whole number; MOD and the bit operators only take whole types.
-//! REALs are equal if they differ by at most 1E-12 of the larger one.
+//! `+ - *` of two INT give INT, else REAL; `/` always gives REAL; DIV cuts to a whole number; MOD and the bit operators only take whole
+//! types. REALs are equal if they differ by at most 1E-12 of the larger one.
 
 use serde::{Deserialize, Serialize};
 

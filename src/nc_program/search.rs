@@ -1,5 +1,5 @@
-//! Searches in the text of a program: the end of a control structure, and jump targets. A search reads only the beginning of each line, so a wrong
-//! block that is jumped over is never noticed.
+//! Searches in the text of a program: the end of a control structure, and jump targets. A search reads only the beginning of each line, so
+//! a wrong block that is jumped over is never noticed.
 
 use serde::{Deserialize, Serialize};
 

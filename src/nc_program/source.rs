@@ -1,5 +1,5 @@
-//! Programs as text: files and ASCII archives (nc_programs.md 1.1). A program keeps its text and where its lines begin; a block is read when it
-//! is reached.
+//! Programs as text: files and ASCII archives (nc_programs.md 1.1). A program keeps its text and where its lines begin; a block is read
+//! when it is reached.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -54,8 +54,8 @@ impl Program {
         Self { name: normalised(name), kind, folder: folder.to_owned(), text, lines, lines_before }
     }
 
-    /// All programs of a file. In an ASCII archive each begins with `%_N_NAME_MPF` or `_SPF` alone on a line and, after it, `;$PATH=…`; neither
-    /// belongs to the program. A file without such a line is one program with the name of the file.
+    /// All programs of a file. In an ASCII archive each begins with `%_N_NAME_MPF` or `_SPF` alone on a line and, after it, `;$PATH=…`;
+    /// neither belongs to the program. A file without such a line is one program with the name of the file.
     #[must_use]
     pub fn read(file: &str, folder: &str, bytes: &[u8]) -> Vec<Self> {
         let kind = if file.to_ascii_uppercase().ends_with("SPF") { ProgramKind::Sub } else { ProgramKind::Main };
@@ -194,8 +194,8 @@ pub struct Request<'a> {
     pub caller: &'a str,
 }
 
-/// Programs in memory. Without a folder in the call a program is searched beside the caller, then in the search path in its order; a subprogram
-/// comes before a main program of the same name.
+/// Programs in memory. Without a folder in the call a program is searched beside the caller, then in the search path in its order; a
+/// subprogram comes before a main program of the same name.
 #[derive(Clone, Debug, Default)]
 pub struct Library {
     programs: BTreeMap<String, Arc<Program>>,

@@ -103,8 +103,8 @@ impl Level {
 impl Interpreter {
     /// A program at its first block.
     ///
-    /// `path` is the [`Program::path`](super::Program::path), `modal` and `feed` are what holds at the start (MD20150, MD20152, SD42110). With
-    /// `ends_with_text` the program needs no M30, as the blocks of MDA.
+    /// `path` is the [`Program::path`](super::Program::path), `modal` and `feed` are what holds at the start (MD20150, MD20152, SD42110).
+    /// With `ends_with_text` the program needs no M30, as the blocks of MDA.
     #[must_use]
     pub fn new(path: &str, modal: Modal, feed: Option<f64>, ends_with_text: bool) -> Self {
         Self {

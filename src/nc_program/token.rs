@@ -1,5 +1,5 @@
-//! The words of a block as tokens. A name that begins with one letter and digits (`X10`, `M2`, `R1`) is one token; the parser decides whether the
-//! digits are a value or a part of the name.
+//! The words of a block as tokens. A name that begins with one letter and digits (`X10`, `M2`, `R1`) is one token; the parser decides
+//! whether the digits are a value or a part of the name.
 
 use super::alarm::{Fault, Span};
 use super::dialect::Dialect;

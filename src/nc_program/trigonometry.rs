@@ -1,7 +1,7 @@
 //! Functions of angles in degrees, and logarithms, with the same result on every computer.
 //!
-//! They use the crate `libm`: software in Rust, `+ − × ÷ sqrt` only, no function of the platform. An angle is first brought into 0 to 45 degrees
-//! by exact steps, so that multiples of 30 and 90 degrees have their exact values: SIN(30) is 0.5, COS(90) is 0.
+//! They use the crate `libm`: software in Rust, `+ − × ÷ sqrt` only, no function of the platform. An angle is first brought into 0 to 45
+//! degrees by exact steps, so that multiples of 30 and 90 degrees have their exact values: SIN(30) is 0.5, COS(90) is 0.
 
 use std::f64::consts::PI;
 

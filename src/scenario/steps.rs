@@ -41,8 +41,8 @@ pub(super) struct Included {
     pub(super) times: u64,
 }
 
-/// The action of a step. What is large is boxed, because a step takes the memory of its largest variant. Lists have exactly their length: what
-/// a vector keeps in reserve, or returns of it, is lost between steps.
+/// The action of a step. What is large is boxed, because a step takes the memory of its largest variant. Lists have exactly their length:
+/// what a vector keeps in reserve, or returns of it, is lost between steps.
 #[derive(Debug)]
 pub(super) enum Action {
     /// Queues commands for the next cycle.

@@ -15,8 +15,8 @@ pub(super) struct Strobe {
 }
 
 impl Strobe {
-    /// Takes `db11_5_2` of `[machine]` or of `[compatibility]` in `plant.toml`: `mirror` or `hmi_strobe`. Without it, the control mirrors until
-    /// the HMI writes.
+    /// Takes `db11_5_2` of `[machine]` or of `[compatibility]` in `plant.toml`: `mirror` or `hmi_strobe`. Without it, the control mirrors
+    /// until the HMI writes.
     ///
     /// # Errors
     /// Another value, or different values in the two tables.

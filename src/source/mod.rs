@@ -1,8 +1,8 @@
 //! Source files: places with lines, and error messages that name the place, the expectation, the finding and the remedy.
 //!
 //! Every reader of a file in this project (machine data, `plant.toml`, PLC images, scenarios) reports with [`Problem`], so that all
-//! messages have one form. TOML files are read into a tree of [`Node`]s in which each value knows its place; merged files keep the places of both.
-//! Outputs are written with [`Replacement`]: a file is complete, or it is not changed.
+//! messages have one form. TOML files are read into a tree of [`Node`]s in which each value knows its place; merged files keep the places
+//! of both. Outputs are written with [`Replacement`]: a file is complete, or it is not changed.
 
 mod node;
 mod replacement;
@@ -129,8 +129,8 @@ pub fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a str>, fa
     nearest(name, known).map_or_else(|| fallback.to_owned(), |near| format!("did you mean `{near}`?"))
 }
 
-/// A text without characters that control a terminal, which texts from files may contain: each is shown by its code, as `\u{1b}`. Line feeds and
-/// tabs stay.
+/// A text without characters that control a terminal, which texts from files may contain: each is shown by its code, as `\u{1b}`. Line
+/// feeds and tabs stay.
 #[must_use]
 pub fn printable(text: &str) -> Cow<'_, str> {
     // The direction of the text after them can be reversed by the latter ones.

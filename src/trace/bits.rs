@@ -1,7 +1,7 @@
 //! The changes of bytes as a trace keeps them: 24 bytes for the bits of a byte that changed for one reason.
 //!
-//! A row of the record has a writer and a cause for each bit, so that the machine writes it without looking for equal ones. Almost always all bits
-//! that change in a byte have the same writer and the same cause, and a long run has hundreds of thousands of rows.
+//! A row of the record has a writer and a cause for each bit, so that the machine writes it without looking for equal ones. Almost always
+//! all bits that change in a byte have the same writer and the same cause, and a long run has hundreds of thousands of rows.
 
 use super::printable::mask_in_byte;
 use super::{By, Change, Recorder, Row};
@@ -24,8 +24,8 @@ pub(super) struct Bits {
 }
 
 impl Bits {
-    /// The changed bits of a row in ascending order, nothing for a row without a byte. Bits with the same writer and cause stay together if no
-    /// changed bit with another one is between them, so that the first of these that touches a signal has its lowest changed bit.
+    /// The changed bits of a row in ascending order, nothing for a row without a byte. Bits with the same writer and cause stay together if
+    /// no changed bit with another one is between them, so that the first of these that touches a signal has its lowest changed bit.
     pub(super) fn of(row: &Row) -> impl Iterator<Item = Self> + use<> {
         let cycle = row.cycle;
         let byte = match row.change {

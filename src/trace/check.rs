@@ -8,8 +8,8 @@
 //! value. A position, a deviation, a synchronism difference or a velocity must be one that the axis had in the cycle or in the one before,
 //! to the last digit that a cause shows. Faults, distances, and velocities that were only commanded are not compared.
 //!
-//! What no row of a trace shows is measured during the run: call [`Trace::measure_causes`] before it. Without this, lengths and velocities are
-//! not compared, and with a delay the bytes of the PLC are taken as they were written.
+//! What no row of a trace shows is measured during the run: call [`Trace::measure_causes`] before it. Without this, lengths and velocities
+//! are not compared, and with a delay the bytes of the PLC are taken as they were written.
 
 use std::collections::BTreeMap;
 use std::fmt;

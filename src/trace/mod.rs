@@ -104,8 +104,8 @@ impl Trace {
     /// Each owner of signals (`nck`, `mode_group_1`, a channel, an axis) is a scope; signals without an owner are in `memory`. Bits are
     /// wires, numbers are vectors, REALs and watched values are reals. An alarm is a wire, `alarm_10654`, in the scope of its axis or
     /// channel; `note` in scope `scenario` is a string. The time unit is the largest decimal unit of which the cycles are multiples. Time 0
-    /// shows the memory before the first cycle. `watch` selects the contents: its signals and values, even those that never change. Of a pattern
-    /// for a whole owner or block (`X.*`), and without a selection, only the signals that changed have rows.
+    /// shows the memory before the first cycle. `watch` selects the contents: its signals and values, even those that never change. Of a
+    /// pattern for a whole owner or block (`X.*`), and without a selection, only the signals that changed have rows.
     #[must_use]
     pub fn vcd(&self, describe: &dyn Describe, watch: &Watch, window: Window) -> String {
         vcd::text(&self.waves(describe, watch).within(window))

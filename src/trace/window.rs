@@ -13,8 +13,8 @@ pub struct Window {
 }
 
 impl Waves {
-    /// The rows in a window: each begins with its value before the window. What changes only outside it has no row, except what is watched and
-    /// alarms that are pending.
+    /// The rows in a window: each begins with its value before the window. What changes only outside it has no row, except what is watched
+    /// and alarms that are pending.
     pub(super) fn within(mut self, window: Window) -> Self {
         if window == Window::default() {
             return self;

@@ -582,8 +582,8 @@ impl Bench {
         self.check_synchronism()
     }
 
-    /// Checks that no axis has both directions, that no setpoint accelerates without the enables of all axes of a unit, and that no slide moves
-    /// without power, except as its faults may move it.
+    /// Checks that no axis has both directions, that no setpoint accelerates without the enables of all axes of a unit, and that no slide
+    /// moves without power, except as its faults may move it.
     fn check_axes(&mut self) -> Result<(), TestCaseError> {
         let memory = self.machine.memory();
         let enabled = |axis: AxisNumber| {

@@ -9,8 +9,8 @@ use crate::controls;
 use crate::controls::documented::{Decision, RuleRow, contains, decisions, rules, without_row};
 use crate::source::{Problem, did_you_mean};
 
-/// A rule and a scenario that cites it in `covers`, or an alarm and a scenario whose golden trace has it; one pair a line. A test compares this
-/// file with the scenarios.
+/// A rule and a scenario that cites it in `covers`, or an alarm and a scenario whose golden trace has it; one pair a line. A test compares
+/// this file with the scenarios.
 const SCENARIOS: &str = include_str!("scenarios.txt");
 
 /// Everything about one ID.

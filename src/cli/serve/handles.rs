@@ -12,6 +12,9 @@ pub(super) fn allow(clients: usize) -> Option<impl Display> {
     let given = rlimit::increase_nofile_limit(wanted).ok()?;
     (given < wanted).then(|| {
         let clients = given.saturating_sub(BESIDE);
-        format!("--clients needs {wanted} open files, the system allows {given}: about {clients} clients can connect; `ulimit -Hn` shows the limit")
+        format!(
+            "--clients needs {wanted} open files, the system allows {given}: about {clients} clients can connect; `ulimit -Hn` shows \
+             the limit"
+        )
     })
 }

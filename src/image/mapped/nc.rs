@@ -316,8 +316,8 @@ impl MappedImage {
         }
     }
 
-    /// The bytes of the answer in the slot at this position up to the end of its list of changes; `None` if it has images. The number of entries is stored plus
-    /// one.
+    /// The bytes of the answer in the slot at this position up to the end of its list of changes; `None` if it has images. The number of
+    /// entries is stored plus one.
     fn changed(&self, at: usize) -> Option<usize> {
         let count = self.words.load(at + answer::CHANGES).checked_sub(1)?;
         let bytes = usize::try_from(count).ok().and_then(|count| count.checked_mul(answer::CHANGE_BYTES));

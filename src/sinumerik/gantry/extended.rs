@@ -5,9 +5,10 @@
 //! model is incremental).
 //!
 //! A trip in extended monitoring writes the difference into MD37135, in the next cycle. 10653 then stays, also without the difference,
-//! until a RESET at which MD37150 bit 0 = 0 and MD37135 = 0 are in effect (MON-11; both become active by this RESET). After power off and on,
-//! 10657 is raised instead if MD37150 bit 0 = 1 and MD37135 is not 0; either of bit 0 = 0 and MD37135 = 0 lets a RESET cancel it. This RESET also
-//! ends extended monitoring: with bit 0 = 1 again it acts only after the next referencing or synchronisation of the grouping (MON-11).
+//! until a RESET at which MD37150 bit 0 = 0 and MD37135 = 0 are in effect (MON-11; both become active by this RESET). After power off and
+//! on, 10657 is raised instead if MD37150 bit 0 = 1 and MD37135 is not 0; either of bit 0 = 0 and MD37135 = 0 lets a RESET cancel it. This
+//! RESET also ends extended monitoring: with bit 0 = 1 again it acts only after the next referencing or synchronisation of the grouping
+//! (MON-11).
 //!
 //! Choices where the manuals leave one: MD37135 keeps the largest of the differences that tripped since it was 0. While an axis is not
 //! referenced, its difference counts from the return to position control in both settings (O-12). MD37135 is a length in the basic system

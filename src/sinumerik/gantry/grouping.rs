@@ -5,10 +5,10 @@
 //! 29.4 and 29.5 of the leading axis; writes the motions of all its axes. The stage calls the grouping in the order of the cycle
 //! and executes its requests. Section 3 is in `synchronisation.rs`, monitoring in `synchronism.rs`.
 //!
-//! Choices where the manuals leave one: 29.4 acts by its rising edge while the grouping waits (O-01), and not while an axis of
-//! the grouping is not in position control. The key is held through sections 1 and 2 but not 3 (O-02). The override acts in
-//! section 3, and 0 % holds (O-03). 101.4 stays until 101.5 (O-07). Where no axis has to move, 10655 is shown for two cycles (O-32). RESET clears the display of 10654 and keeps 101.4 (O-09). A
-//! synchronising motion that does not reach exact stop fine within MD36020 ends with 20005.
+//! Choices where the manuals leave one: 29.4 acts by its rising edge while the grouping waits (O-01), and not while an axis of the grouping
+//! is not in position control. The key is held through sections 1 and 2 but not 3 (O-02). The override acts in section 3, and 0 % holds
+//! (O-03). 101.4 stays until 101.5 (O-07). Where no axis has to move, 10655 is shown for two cycles (O-32). RESET clears the display of
+//! 10654 and keeps 101.4 (O-09). A synchronising motion that does not reach exact stop fine within MD36020 ends with 20005.
 
 use crate::control::Log;
 use crate::image::{ToNck, mode_group_from_nck};

@@ -11,10 +11,11 @@
 //! | has lost it, in extended monitoring (`extended.rs`) | MD37110 | MD37130 |
 //!
 //! The base is the difference, with its sign, when position control came back without synchronism, or when the opened grouping was closed
-//! (E-14, G1 2.7.4: both limits are then additional tolerances). It counts in both directions. During a synchronising motion it follows the difference towards 0; otherwise
-//! the motion itself would trip. It ends when the grouping is synchronised or opened, or when the reference of one of its axes is set anew. A grouping that has not been synchronised since it was referenced has no
-//! base. The base concerns monitoring alone: the comparison of section 3, readiness (E-13), the return of synchronism (SYN-06) and the
-//! displayed difference do not count from it.
+//! (E-14, G1 2.7.4: both limits are then additional tolerances). It counts in both directions. During a synchronising motion it follows the
+//! difference towards 0; otherwise the motion itself would trip. It ends when the grouping is synchronised or opened, or when the reference
+//! of one of its axes is set anew. A grouping that has not been synchronised since it was referenced has no base. The base concerns
+//! monitoring alone: the comparison of section 3, readiness (E-13), the return of synchronism (SYN-06) and the displayed difference do not
+//! count from it.
 
 use crate::control::Log;
 use crate::motion::coupling::{CouplingEvent, Events, Limit, TwoStage, What};

@@ -93,7 +93,8 @@ pub fn nearest_identifier(identifier: &str) -> Option<&'static str> {
     source::nearest(name, BY_IDENTIFIER.keys().copied())
 }
 
-/// The cure for an identifier that is not in the catalogue: the nearest one. The name with its prefix is shown where only the prefix is wrong.
+/// The cure for an identifier that is not in the catalogue: the nearest one. The name with its prefix is shown where only the prefix is
+/// wrong.
 #[must_use]
 pub(super) fn meant(identifier: &str) -> Option<String> {
     let near = nearest_identifier(identifier)?;

@@ -1,8 +1,8 @@
-//! Which text files a control exported. In such a file, data outside of the catalogue are data that the control knows (O-30); in a file that a
-//! person wrote, they are perhaps mistyped.
+//! Which text files a control exported. In such a file, data outside of the catalogue are data that the control knows (O-30); in a file
+//! that a person wrote, they are perhaps mistyped.
 //!
-//! The header (`%_N_INITIAL_INI`, `CHANDATA(1)`) is no sign: the examples of this project have it, and people copy them. A control exports all
-//! its data, so its file is long and has many data outside of the catalogue, or it has checksums of its lines.
+//! The header (`%_N_INITIAL_INI`, `CHANDATA(1)`) is no sign: the examples of this project have it, and people copy them. A control exports
+//! all its data, so its file is long and has many data outside of the catalogue, or it has checksums of its lines.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,13 +1,13 @@
 //! From the lines of all files to the values of an archive.
 //!
-//! Two passes, because a file may use the name of an axis before MD10000 defines it. The first pass sets names of axes and channels and
-//! the types of axes (MD30300), the second everything else in the order of the files; a later assignment replaces an earlier one. A text
-//! file that replaces a value of an earlier file is reported, value by value; in a file that a person wrote, also one that replaces a value of
+//! Two passes, because a file may use the name of an axis before MD10000 defines it. The first pass sets names of axes and channels and the
+//! types of axes (MD30300), the second everything else in the order of the files; a later assignment replaces an earlier one. A text file
+//! that replaces a value of an earlier file is reported, value by value; in a file that a person wrote, also one that replaces a value of
 //! its own. The system of units (MD10240) and the types of axes are known before any length is taken.
 //!
 //! A value outside of its range that has the type of its datum is kept, with a finding: a control accepted it (O-30). In a binary archive,
-//! which only a control writes, a line that does not fit the catalogue at all (another index, another type) is kept like unknown data. A datum
-//! outside of the catalogue is perhaps mistyped in a file that a person wrote, and known to the control in one that it exported.
+//! which only a control writes, a line that does not fit the catalogue at all (another index, another type) is kept like unknown data. A
+//! datum outside of the catalogue is perhaps mistyped in a file that a person wrote, and known to the control in one that it exported.
 
 use std::collections::{BTreeMap, BTreeSet};
 

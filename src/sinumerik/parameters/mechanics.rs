@@ -12,8 +12,8 @@
 //! MD32100 = −1 reverses the traversing direction, for motor and encoder, so position control does not change. MD32110 = −1 reverses the
 //! encoder alone: if the mechanics do not need it, the loop is unstable and the axis runs away.
 //!
-//! Choices: the mechanics have the load gear of the first parameter set. A factor or a length of 0 counts as 1. The smallest step of an encoder is
-//! `resolution` of the plant, not MD31020 with a multiplication.
+//! Choices: the mechanics have the load gear of the first parameter set. A factor or a length of 0 counts as 1. The smallest step of an
+//! encoder is `resolution` of the plant, not MD31020 with a multiplication.
 
 use crate::motion::Feedback;
 use crate::sinumerik::machine_data::Axis;

@@ -1,7 +1,7 @@
 //! S5 timers and counters: plain data, and what the operations do with them.
 //!
-//! A timer is over when start + n × base is reached; the value that is read is the rest, rounded up to whole bases. Time stands still during a
-//! scan, so every read in a scan agrees.
+//! A timer is over when start + n × base is reached; the value that is read is the rest, rounded up to whole bases. Time stands still
+//! during a scan, so every read in a scan agrees.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,5 @@
-//! What conditions are computed from: the state after a cycle, what the control read from the PLC and the HMI in it, and names; and parts of many conditions.
+//! What conditions are computed from: the state after a cycle, what the control read from the PLC and the HMI in it, and names; and parts
+//! of many conditions.
 
 use crate::control::{Condition, Fact, Question};
 use crate::image::{Names, NckHmi, Signal, ToNck};
