@@ -4,7 +4,6 @@
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
@@ -223,7 +222,7 @@ fn a_signal_during_the_run_leaves_no_file_beside_the_outputs() {
             .current_dir(&directory)
             .spawn()
             .unwrap();
-        std::thread::sleep(std::time::Duration::from_millis(500));
+        std::thread::sleep(Duration::from_millis(500));
         assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
         assert_eq!(child.wait().unwrap().code(), None, "the signal ends it");
     }
