@@ -162,39 +162,70 @@ impl Term {
         }
     }
 
+    /// The same terms as those of `children`.
+    fn children_mut(&mut self) -> [Option<&mut Self>; 2] {
+        match self {
+            Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) => [Some(of), None],
+            Self::Followed(term) => [Some(&mut term.of), None],
+            Self::Pair(_, sides) => sides.each_mut().map(Some),
+            Self::Number(_)
+            | Self::Signal(_)
+            | Self::Value(..)
+            | Self::Time
+            | Self::Named(..)
+            | Self::Alarm(..)
+            | Self::AlarmParameter(..)
+            | Self::Alarms
+            | Self::Cause(_) => [None, None],
+        }
+    }
+
     pub(super) fn any(&self, test: &dyn Fn(&Self) -> bool) -> bool {
         test(self) || self.children().into_iter().flatten().any(|child| child.any(test))
     }
 
     /// The distance to the other truth: positive if true, negative if false; infinite if no comparison decides.
     pub(super) fn distance(&self, view: &View<'_>) -> f64 {
-        use Operator as O;
-        let not_compared = || if truth(self.value(view)) { f64::INFINITY } else { f64::NEG_INFINITY };
-        if let Self::Not(of) = self {
-            return -of.distance(view);
+        match self {
+            Self::Not(of) => -of.distance(view),
+            Self::Pair(operator, sides) => self.distance_of_pair(*operator, sides, view),
+            Self::Number(_)
+            | Self::Signal(_)
+            | Self::Value(..)
+            | Self::Time
+            | Self::Named(..)
+            | Self::Alarm(..)
+            | Self::AlarmParameter(..)
+            | Self::Alarms
+            | Self::Edge { .. }
+            | Self::Followed(_)
+            | Self::Cause(_)
+            | Self::Negative(_)
+            | Self::Absolute(_) => self.not_compared(view),
         }
-        let Self::Pair(operator, sides) = self else { return not_compared() };
-        let [left, right] = &**sides;
+    }
+
+    fn distance_of_pair(&self, operator: Operator, [left, right]: &[Self; 2], view: &View<'_>) -> f64 {
+        use Operator as O;
         match operator {
             O::And => left.distance(view).min(right.distance(view)),
             O::Or => left.distance(view).max(right.distance(view)),
             O::Less | O::LessOrEqual => right.value(view) - left.value(view),
             O::Greater | O::GreaterOrEqual => left.value(view) - right.value(view),
-            O::Equal | O::NotEqual => not_compared(),
-            O::Add | O::Subtract | O::Multiply | O::Divide | O::Minimum | O::Maximum => not_compared(),
+            O::Equal | O::NotEqual | O::Add | O::Subtract | O::Multiply | O::Divide | O::Minimum | O::Maximum => {
+                self.not_compared(view)
+            }
         }
+    }
+
+    /// The distance of a term that compares nothing.
+    fn not_compared(&self, view: &View<'_>) -> f64 {
+        if truth(self.value(view)) { f64::INFINITY } else { f64::NEG_INFINITY }
     }
 
     /// Visits every term, the inner ones before the outer ones.
     pub(super) fn each(&mut self, visit: &mut dyn FnMut(&mut Self)) {
-        // The inner terms are those of `children`.
-        if let Self::Followed(term) = self {
-            term.of.each(visit);
-        } else if let Self::Edge { of, .. } | Self::Not(of) | Self::Negative(of) | Self::Absolute(of) = self {
-            of.each(visit);
-        } else if let Self::Pair(_, sides) = self {
-            sides.iter_mut().for_each(|side| side.each(visit));
-        }
+        self.children_mut().into_iter().flatten().for_each(|child| child.each(visit));
         visit(self);
     }
 
