@@ -37,8 +37,13 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
 pub(super) fn input_name(quantity: Quantity, length: Position) -> (&'static str, f64) {
     match quantity {
         Quantity::SynchronismDifference => (AxisValue::SynchronismDifference.name(), length.user()),
-        Quantity::Position | Quantity::ZeroMark => (AxisValue::Position.name(), length.user()),
-        Quantity::Deviation | Quantity::ModelDeviation | Quantity::ZeroMarkDeviation => ("deviation", length.user()),
+        Quantity::Position => (AxisValue::Position.name(), length.user()),
+        Quantity::Setpoint => (AxisValue::Setpoint.name(), length.user()),
+        Quantity::Target => ("target", length.user()),
+        Quantity::ZeroMark => ("zero_mark", length.user()),
+        Quantity::Deviation => ("deviation", length.user()),
+        Quantity::ModelDeviation => ("contour_deviation", length.user()),
+        Quantity::ZeroMarkDeviation => ("zero_mark_deviation", length.user()),
         Quantity::Base => ("base", length.user()),
         Quantity::Distance => ("distance", length.user()),
         // Events contain user units per second; all texts show user units per minute.

@@ -5,8 +5,22 @@
 //! the PLC, this is the value at the end of the cycle, after inputs, scan and forces; with `to_nck_delay` (O-28) it is the value that the
 //! control read. For a signal of the control, it is the value decided in the cycle or the value published in the cycle before. An alarm
 //! among the inputs must be pending, or be raised or cleared in the cycle. A machine datum that became active in the trace must have that
-//! value. A position, a deviation, a synchronism difference or a velocity must be one that the axis had in the cycle or in the one before,
-//! to the last digit that a cause shows. Faults, distances, and velocities that were only commanded are not compared.
+//! value.
+//!
+//! Values of an axis are compared with those after the cycle and after the one before:
+//!
+//! | a cause names | compared with | within |
+//! |---|---|---|
+//! | `position`, `setpoint` | the same value | half an increment |
+//! | `target` | setpoint + distance-to-go | half an increment |
+//! | `synchronism_difference` | the same value | half an increment |
+//! | `deviation` | ± following error, or the difference of the two encoders | half an increment |
+//! | `zero_mark` | the middle of the way of the cycle | 1.5 times this way, and an increment |
+//! | `velocity` | actual velocity | 60 increments/min |
+//! | | way of the setpoint in the cycle / cycle time T | 60 (1 + 1 s/T) increments/min, because its ends are whole increments |
+//!
+//! An increment is a millionth of a mm or degree. `base`, `distance` (travelled), `velocity_command`, `contour_deviation`,
+//! `zero_mark_deviation` and faults are not compared: no value of the axis shows them.
 //!
 //! What no row of a trace shows is measured during the run: call [`Trace::measure_causes`] before it. Without this, lengths and velocities
 //! are not compared, and with a delay the bytes of the PLC are taken as they were written.

@@ -141,13 +141,9 @@ pub(super) fn possible(
     let both = [now, before];
     Some(match quantity {
         Quantity::SynchronismDifference => both.map(|values| length(values.synchronism_difference.user())).to_vec(),
-        Quantity::Position => {
-            let of = |values: AxisValues| {
-                let target = values.setpoint + values.distance_to_go;
-                [values.position, values.setpoint, target].map(|position| length(position.user()))
-            };
-            both.into_iter().flat_map(of).collect()
-        }
+        Quantity::Position => both.map(|values| length(values.position.user())).to_vec(),
+        Quantity::Setpoint => both.map(|values| length(values.setpoint.user())).to_vec(),
+        Quantity::Target => both.map(|values| length((values.setpoint + values.distance_to_go).user())).to_vec(),
         Quantity::ZeroMark => {
             // On the way of the cycle, of the one before, or of the next one.
             let (from, to) = (before.position.user(), now.position.user());

@@ -55,6 +55,10 @@ pub enum Quantity {
     SynchronismDifference,
     /// Actual value.
     Position,
+    /// Setpoint.
+    Setpoint,
+    /// Target of a movement.
+    Target,
     /// Following error, or deviation from the setpoint.
     Deviation,
     /// The difference from which the limits of a grouping count.

@@ -137,7 +137,7 @@ impl State {
                 let (second, signal) = selects_second(&to_nck.axes[number], direction);
                 let datum = [[36100, 36120], [36110, 36130]][usize::from(direction > 0)][usize::from(second)];
                 [
-                    Input::Length(Quantity::Position, number, axis.setpoint.position),
+                    Input::Length(Quantity::Setpoint, number, axis.setpoint.position),
                     Input::Datum(datum, Some(number), limit.user()),
                     axis_signal(number, signal, second),
                 ]

@@ -115,7 +115,7 @@ impl State {
         }
         let (rule, input) = match travel {
             Travel::None | Travel::Blocked(_) | Travel::LedMoving(_) | Travel::LedWaiting(_) => {
-                (Rule::TargetReached, Input::Length(Quantity::Position, number, target))
+                (Rule::TargetReached, Input::Length(Quantity::Target, number, target))
             }
             Travel::Moving(_) | Travel::Waiting(_) if before.request() != travel.request() => begins,
             Travel::Moving(_) => axis.released(number),

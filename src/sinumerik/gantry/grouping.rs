@@ -173,7 +173,7 @@ impl State {
                 Want::Move { axis, motion, travel, cause } => {
                     self.axes[axis].motion = motion;
                     if let Motion::GoTo { target, .. } = motion {
-                        let begins = (Rule::SynchronisingMotion, Input::Length(Quantity::Position, axis, target));
+                        let begins = (Rule::SynchronisingMotion, Input::Length(Quantity::Target, axis, target));
                         self.travel_on(axis, travel, cause, begins, target);
                     } else {
                         self.travel(axis, travel, cause);

@@ -154,10 +154,7 @@ impl Grouping {
         match progress {
             Progress::Running => {}
             Progress::Waiting(axis, cycles) if cycles > view.parameters.axes[axis].positioning_cycles => {
-                let set = view.axes[axis].active_set(&view.parameters.axes[axis]);
-                let measured = Input::Length(Quantity::Deviation, axis, view.axes[axis].deviation().abs());
-                let limit = Input::Datum(36010, Some(axis), set.exact_stop_fine.user());
-                self.abort_synchronising([measured, limit, Input::None], self.cause, log, &mut wants);
+                self.abort_synchronising(exact_stop(view, axis), self.cause, log, &mut wants);
                 wants.push(Want::RaiseOfAxis { alarm: alarms::APPROACH_ABORTED, axis, cause: self.cause });
             }
             Progress::Waiting(..) => {}
@@ -175,8 +172,7 @@ impl Grouping {
     /// All axes are at their target: the grouping is synchronised, and the coupling acts again (REF-10).
     fn close_synchronised(&mut self, view: &View<'_>, log: &mut Log, wants: &mut Wants) {
         let leader = self.coupling.leader();
-        let reached = Input::Length(Quantity::Position, leader, view.axes[leader].actual);
-        self.step(log, Rule::Synchronised, [reached, Input::None, Input::None], self.cause);
+        self.step(log, Rule::Synchronised, exact_stop(view, leader), self.cause);
         let cause = self.cause;
         wants.extend(self.coupling.members().map(|axis| {
             let motion = Motion::Brake { deceleration: view.parameters.axes[axis].maximum_acceleration };
@@ -345,6 +341,14 @@ impl Grouping {
         let shown = [Parameter::Channel(axis.channel), number, Parameter::None, Parameter::None];
         Some(Want::Raise { alarm, place: Place::Axis(leader), shown, cause: self.cause })
     }
+}
+
+/// The deviation of an axis and its window for exact stop fine (MD36010).
+fn exact_stop(view: &View<'_>, number: AxisNumber) -> [Input; 3] {
+    let axis = &view.axes[number];
+    let window = axis.active_set(&view.parameters.axes[number]).exact_stop_fine;
+    let measured = Input::Length(Quantity::Deviation, number, axis.deviation().abs());
+    [measured, Input::Datum(36010, Some(number), window.user()), Input::None]
 }
 
 /// MD34040 of the active measuring system with the override, and the acceleration; feed stop holds.

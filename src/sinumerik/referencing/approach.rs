@@ -175,7 +175,7 @@ impl Approach {
                 self.step(log, view.number, Rule::ZeroMark, inputs);
             }
             Phase::GoToReferencePoint if axis.arrived => {
-                let inputs = [Input::Length(Quantity::Position, view.number, self.target), Input::None, Input::None];
+                let inputs = [Input::Length(Quantity::Target, view.number, self.target), Input::None, Input::None];
                 self.step(log, view.number, Rule::ReferencePointReached, inputs);
             }
             Phase::GoToReferencePoint => {}

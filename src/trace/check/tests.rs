@@ -198,7 +198,8 @@ fn lengths(input: Input, values: [AxisValues; 2]) -> Vec<CauseFault> {
 #[test]
 fn a_length_that_the_axis_did_not_have_is_found_to_the_last_digit() {
     let length = |quantity, value| Input::Length(quantity, AxisNumber::FIRST, Position::from_user(value));
-    let mut before = AxisValues { position: Position::from_user(2.0), ..AxisValues::default() };
+    let [position, setpoint, distance_to_go] = [2.0, 3.0, 4.0].map(Position::from_user);
+    let mut before = AxisValues { position, setpoint, distance_to_go, ..AxisValues::default() };
     let mut now = before;
     (before.synchronism_difference, now.synchronism_difference) =
         (Position::from_user(0.049), Position::from_user(0.052));
@@ -210,6 +211,14 @@ fn a_length_that_the_axis_did_not_have_is_found_to_the_last_digit() {
     assert_eq!(found(Quantity::SynchronismDifference, 0.052_001), [wrong]);
     assert_eq!(found(Quantity::Position, 2.0), []);
     assert_eq!(found(Quantity::Position, 2.1), [CauseFault::OtherLength("X.position".to_owned(), 2.1, 2.0)]);
+    assert_eq!(found(Quantity::Setpoint, 3.0), []);
+    assert_eq!(found(Quantity::Target, 3.0 + 4.0), []);
+    // Neither the setpoint nor the target is the actual value, and the reverse.
+    let other = |name: &str, named, is| [CauseFault::OtherLength(format!("X.{name}"), named, is)];
+    assert_eq!(found(Quantity::Position, 3.0), other("position", 3.0, 2.0));
+    assert_eq!(found(Quantity::Position, 7.0), other("position", 7.0, 2.0));
+    assert_eq!(found(Quantity::Setpoint, 2.0), other("setpoint", 2.0, 3.0));
+    assert_eq!(found(Quantity::Target, 3.0), other("target", 3.0, 7.0));
     // The axis shows no distance since the cam.
     assert_eq!(found(Quantity::Distance, 17.0), []);
 }
