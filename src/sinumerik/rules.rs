@@ -122,6 +122,7 @@ rules! {
     ReferencePointReached "REF-31" "at the reference point";
     Referenced "REF-03" "reference point reached";
     ApproachAborted "REF-12" "reference point approach aborted";
+    ApproachCannotStart "C-46" "the approach of an axis that has its turn cannot start";
     NewApproach "REF-32" "a new approach of this measuring system began";
     // Gantry.
     GroupingDefined "DEF-10" "MD37100 defines the grouping";

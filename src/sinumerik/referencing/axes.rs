@@ -18,7 +18,7 @@ use crate::sinumerik::referencing::approach::Outcome;
 use crate::sinumerik::referencing::state::ChannelReferencing;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
-use crate::units::{AxisNumber, ChannelNumber, Position};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position};
 use crate::variables::{AlarmNumber, EventId, Input, Place};
 
 /// The source of a request for an approach.
@@ -28,6 +28,15 @@ enum RequestedBy {
     Key,
     /// Channel-specific referencing.
     Channel,
+}
+
+/// The progress of the axes of an order number.
+#[derive(Clone, Copy, Debug)]
+struct Progress {
+    /// All have finished.
+    finished: bool,
+    /// An axis whose approach was aborted.
+    failed: Option<AxisNumber>,
 }
 
 impl State {
@@ -353,12 +362,15 @@ impl State {
             if !self.log.is_of_this_cycle(self.channels[channel].referencing.cause) {
                 self.refuse_hindered_axes(channel, parameters, to_nck);
             }
-            let (finished, failed) = self.channel_referencing_progress(channel, parameters);
-            if failed || self.stop(channel, parameters).is_some() || !self.mode_groups[group].is_referencing() {
-                self.end_channel_referencing(channel, 0);
+            let Progress { finished, failed } = self.channel_referencing_progress(channel, parameters);
+            if let Some((input, cause)) = self.channel_referencing_stopped(channel, group, failed, parameters) {
+                self.end_channel_referencing(channel, input, cause);
             } else if finished {
-                let number = self.channels[channel].referencing.number;
-                self.end_channel_referencing(channel, self.next_cycle_number(channel, number, parameters));
+                let number = self.next_cycle_number(channel, self.channels[channel].referencing.number, parameters);
+                self.channels[channel].referencing.number = number;
+                if number == 0 {
+                    self.end_channel_referencing(channel, Input::None, self.channels[channel].referencing.cause);
+                }
             }
         }
     }
@@ -376,7 +388,7 @@ impl State {
             .filter_map(|unit| Some((unit.leader(), self.approach_refused(unit, parameters, to_nck)?)))
             .collect();
         for (axis, inputs) in refused {
-            let event = self.log.note(Place::Axis(axis), Rule::ApproachAborted, inputs, referencing.cause);
+            let event = self.log.note(Place::Axis(axis), Rule::ApproachCannotStart, inputs, referencing.cause);
             self.raise_axis_alarm(alarms::APPROACH_ABORTED, axis, event);
         }
     }
@@ -398,13 +410,30 @@ impl State {
         disabled.then(|| [axis_signal(leader, axis_to_nck::axis_spindle_disable, true), Input::None, Input::None])
     }
 
-    fn end_channel_referencing(&mut self, channel: ChannelNumber, next: i32) {
-        let referencing = &mut self.channels[channel].referencing;
-        referencing.number = next;
-        if next == 0 {
-            let place = Place::Channel(channel);
-            referencing.cause = self.log.note_plain(place, Rule::ChannelReferencingEnds, referencing.cause);
+    /// What ends it before the last axis: 20005 or another alarm that stops, RESET, a failed approach, another machine function; with the
+    /// event behind it.
+    fn channel_referencing_stopped(
+        &self,
+        channel: ChannelNumber,
+        group: ModeGroupNumber,
+        failed: Option<AxisNumber>,
+        parameters: &Parameters,
+    ) -> Option<(Input, EventId)> {
+        if let Some(stop) = self.stop(channel, parameters) {
+            return Some((stop.tested().1, stop.cause()));
         }
+        let active = &self.mode_groups[group];
+        if !active.is_referencing() {
+            let referencing = mode_group_from_nck::active_machine_function_ref;
+            return Some((mode_group_signal(group, referencing, false), active.cause()));
+        }
+        failed.map(|axis| (Input::None, self.axes[axis].approach.cause()))
+    }
+
+    fn end_channel_referencing(&mut self, channel: ChannelNumber, input: Input, cause: EventId) {
+        let event = self.log.note_one(Place::Channel(channel), Rule::ChannelReferencingEnds, input, cause);
+        let referencing = &mut self.channels[channel].referencing;
+        (referencing.number, referencing.cause) = (0, event);
     }
 
     /// The units that a channel can reference.
@@ -435,9 +464,8 @@ impl State {
             .unwrap_or(0)
     }
 
-    /// Whether all axes of an order number have finished, and whether one was aborted.
-    fn channel_referencing_progress(&self, channel: ChannelNumber, parameters: &Parameters) -> (bool, bool) {
-        let (mut finished, mut failed) = (true, false);
+    fn channel_referencing_progress(&self, channel: ChannelNumber, parameters: &Parameters) -> Progress {
+        let (mut finished, mut failed) = (true, None);
         let number = self.channels[channel].referencing.number;
         for unit in self.referenced_by(channel, parameters) {
             let axis = unit.leader();
@@ -449,8 +477,10 @@ impl State {
             let started = self.channels[channel].started(axis);
             let referenced = unit.members().all(|member| self.axes[member].is_referenced());
             finished &= started && !running && referenced;
-            failed |= started && !running && !referenced;
+            if started && !running && !referenced {
+                failed = failed.or(Some(axis));
+            }
         }
-        (finished, failed)
+        Progress { finished, failed }
     }
 }
