@@ -88,6 +88,7 @@ impl Condition {
                     "yes" => "no".to_owned(),
                     "no" => "yes".to_owned(),
                     "none" => "one".to_owned(),
+                    "one" => "none".to_owned(),
                     _ => wanted.strip_prefix("not ").map_or_else(|| format!("not {wanted}"), str::to_owned),
                 };
                 Self::Fact(Fact::new(what, found, wanted, !holds))

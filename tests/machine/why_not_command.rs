@@ -154,3 +154,81 @@ fn why_not_names_the_override_that_holds_an_approach() {
     assert!(out(&output).contains("✗ approach of Y: "), "{}{}", out(&output), err(&output));
     assert!(out(&output).contains("✗ effective override of Y: 0 %, wanted above 0 %\n"), "{}", out(&output));
 }
+
+/// A key is held and the axis stands: what new setpoints wait for, and what ends the traverse command (O-26).
+#[test]
+fn why_not_names_what_a_standing_axis_waits_for_and_what_ends_its_command() {
+    let directory = directory("why_not_standing");
+    let ask = |step: &str, signal: &str| {
+        let scenario = format!(
+            "title = \"t\"\nmachine = \"g1_example\"\nplc = \"enable_all\"\n[[step]]\nrun = \"100ms\"\n\
+             [[step]]\n{step}\n[[step]]\nset = {{ \"X.traversing_key_plus\" = 1 }}\n[[step]]\nrun = \"100ms\"\n"
+        );
+        fs::write(directory.join("s.toml"), scenario).unwrap();
+        let output = opennck(&["why-not", "s.toml", signal], &directory);
+        assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+        out(&output)
+    };
+    let setpoints = "✗ new setpoints are output to the drive of X: no, wanted yes\n";
+    for (step, words) in [
+        ("set = { \"XF.feed_stop\" = 1 }", "✗ XF.feed_stop (DB33.DBX4.3) = 1, wanted 0: changed last at"),
+        ("set = { \"CHAN1.feed_disable\" = 1 }", "✗ CHAN1.feed_disable (DB21.DBX6.0) = 1, wanted 0: changed last at"),
+        (
+            "set = { \"X.override_active\" = 1, \"X.feed_override\" = \"0%\" }",
+            "✗ effective override of X: 0 %, wanted above 0 %",
+        ),
+        (
+            "force = { \"XF.controller_enable\" = 0 }",
+            "✗ XF.controller_enable (DB33.DBX2.1) = 0, wanted 1: changed last at",
+        ),
+    ] {
+        let tree = ask(step, "X.axis_stationary");
+        assert!(tree.contains("X.axis_stationary (DB31.DBX61.4) is 1; it becomes 0 with\n"), "{step}\n{tree}");
+        assert!(tree.contains(setpoints) && tree.contains(words), "{step}\n{tree}");
+    }
+    let command = ["X.traverse_command_plus", "XF.traverse_command_plus"].map(|signal| ask("run = \"2ms\"", signal));
+    for words in [
+        "is 1 (plus); it becomes 0 with\n",
+        "✗ mode_group_1.active_mode_jog (DB11.DBX6.2) = 1, wanted 0\n",
+        "✗ mode_group_1.active_machine_function_ref (DB11.DBX7.2) = 0, wanted 1\n",
+        "✗ X.machine_function_increment_1 (DB31.DBX5.0) = 0, wanted 1: never changed\n",
+        "✗ X.controller_enable (DB31.DBX2.1) = 1, wanted 0: changed last at",
+        "✗ XF.controller_enable (DB33.DBX2.1) = 1, wanted 0: changed last at",
+        "✗ XF.pulses_enabled (DB33.DBX93.7) = 1, wanted 0\n",
+        "✗ X.traversing_key_plus (DB31.DBX4.7) = 1, wanted 0: changed last at",
+    ] {
+        assert!(command.iter().all(|tree| tree.contains(words)), "{words}\n{}{}", command[0], command[1]);
+    }
+    assert!(!command[0].contains("wanted not plus"), "{}", command[0]);
+    // An enable that is missing from the beginning is waited for: its loss cannot end the command.
+    let waiting = ask("force = { \"XF.controller_enable\" = 0 }", "X.traverse_command_plus");
+    assert!(waiting.contains("is 1 (plus)") && !waiting.contains("controller_enable"), "{waiting}");
+}
+
+/// The grouping of the page for commissioning engineers: an alarm that RESET clears stands before parking, which loses the reference.
+#[test]
+fn why_not_names_a_pending_alarm_before_what_contradicts_the_goal() {
+    let directory = directory("why_not_order");
+    let page = include_str!("../../docs/commissioning_engineer.md");
+    let (_, scenario) = page.split_once("```toml\n# jammed.toml\n").unwrap();
+    fs::write(directory.join("jammed.toml"), scenario.split_once("```").unwrap().0).unwrap();
+    let output = opennck(&["why-not", "jammed.toml", "X.gantry_grouping_is_synchronized"], &directory);
+    let tree = out(&output);
+    let at = |words: &str| tree.find(words).unwrap_or_else(|| panic!("{words} in {tree}"));
+    let alarm = at("alarm of XF with the reaction follow-up: 25050 [XF], cleared by mode group RESET, wanted none\n");
+    assert!(alarm < at("X.position_measuring_system_1 (DB31.DBX1.5) = 1, wanted 0"), "{tree}");
+}
+
+/// REF-14: a signal that was set too early must rise again.
+#[test]
+fn why_not_names_the_signal_that_must_rise() {
+    let directory = directory("why_not_rises");
+    let scenario = "title = \"t\"\nmachine = \"g1_example\"\nplc = \"enable_all\"\n\
+        [[step]]\nset = { \"DB11.DBX0.2\" = 1, \"DB11.DBX1.2\" = 1, \"X.start_gantry_synchronization\" = 1 }\n\
+        [[step]]\nwait = \"X.position_controller_active\"\n[[step]]\npulse = [\"X.traversing_key_plus\"]\n\
+        [[step]]\nwait = \"alarm(10654)\"\n";
+    fs::write(directory.join("s.toml"), scenario).unwrap();
+    let tree = out(&opennck(&["why-not", "s.toml", "X.gantry_grouping_is_synchronized"], &directory));
+    let words = "✗ X.start_gantry_synchronization (DB31.DBX29.4) rises: it was 0 before: no, wanted yes\n";
+    assert!(tree.contains(words), "{tree}");
+}

@@ -4,7 +4,7 @@ use crate::control::{Condition, Fact};
 use crate::image::{axis_from_nck, axis_to_nck, nck_from_nck};
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::axis::state::{ControllerState, STEP};
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length};
+use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
 use crate::sinumerik::state::Unit;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{Place, six_decimals};
@@ -22,7 +22,11 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
         |look, axis| look.follow_up(axis, true),
         |look, axis| look.follow_up(axis, false),
     ),
-    Row::new(axis_from_nck::axis_stationary, |look, owner| look.stationary(owner)),
+    Row::with(
+        axis_from_nck::axis_stationary,
+        |look, owner| look.stationary(owner),
+        |look, owner| look.stationary_no_more(owner),
+    ),
     Row::with(
         axis_from_nck::position_controller_active,
         |look, axis| look.controllers(axis, 2),
@@ -71,7 +75,8 @@ impl Look<'_> {
         let (datum, window) =
             if coarse { ("MD36000", set.exact_stop_coarse) } else { ("MD36010", set.exact_stop_fine) };
         let pending = self.state.axes[number].travel.is_pending();
-        let at_rest = fact(format!("no movement of {} is pending", self.axis_name(number)), !pending);
+        let at_rest =
+            Fact::new(format!("a movement of {} is pending", self.axis_name(number)), yes(pending), "no", !pending);
         Condition::All(vec![
             self.axis(number, axis_from_nck::position_controller_active, true),
             at_rest.into(),
@@ -94,9 +99,33 @@ impl Look<'_> {
 
     /// O-29: no new setpoints, and the velocity below MD36060.
     pub(super) fn stationary(self, number: AxisNumber) -> Condition {
+        Condition::All(vec![self.outputs_setpoints(number, false).into(), self.slow(number)])
+    }
+
+    fn stationary_no_more(self, number: AxisNumber) -> Condition {
+        let outputs = self.outputs_setpoints(number, true).after(|| self.setpoints_begin(number));
+        Condition::Any(vec![outputs, self.slow(number).opposite()])
+    }
+
+    fn outputs_setpoints(self, number: AxisNumber, wanted: bool) -> Fact {
         let outputs = self.state.axes[number].outputs_setpoints();
-        let quiet = fact(format!("no new setpoints are output to the drive of {}", self.axis_name(number)), !outputs);
-        Condition::All(vec![quiet.into(), self.slow(number)])
+        let what = format!("new setpoints are output to the drive of {}", self.axis_name(number));
+        Fact::new(what, yes(outputs), yes(wanted), outputs == wanted)
+    }
+
+    /// What a movement that waits needs; without one, a traverse command.
+    fn setpoints_begin(self, number: AxisNumber) -> Condition {
+        let unit = self.unit(number);
+        if !self.state.axes[number].travel.is_pending() {
+            let commands = [axis_from_nck::traverse_command_minus, axis_from_nck::traverse_command_plus];
+            return Condition::Any(commands.map(|command| self.axis(number, command, true)).into());
+        }
+        let mut all = vec![self.may_move(&unit), self.not_held(&unit)];
+        all.extend(unit.members().flat_map(|axis| {
+            let enable = self.axis(axis, axis_to_nck::controller_enable, true);
+            [enable, self.selects_one(axis), self.pulses_enabled(axis), self.no_follow_up_alarm(axis)]
+        }));
+        Condition::All(all)
     }
 
     fn slow(self, number: AxisNumber) -> Condition {
@@ -202,15 +231,19 @@ impl Look<'_> {
 
     /// What switches position control of a unit on: the enables of each of its axes, and nothing that forbids it (SIG-01).
     pub(super) fn enables(self, unit: &Unit) -> Condition {
-        let mut all = Vec::new();
-        for axis in unit.members() {
-            all.push(self.axis(axis, axis_to_nck::controller_enable, true));
-            all.push(self.not_parked(axis));
-            all.push(self.axis(axis, axis_from_nck::pulses_enabled, true));
-        }
+        let mut all = self.enables_of_axes(unit);
         all.push(self.nck(nck_from_nck::emergency_stop_active, false));
         all.extend(unit.members().map(|axis| self.no_follow_up_alarm(axis)));
         Condition::All(all)
+    }
+
+    /// The enables of each axis of a unit.
+    pub(super) fn enables_of_axes(self, unit: &Unit) -> Vec<Condition> {
+        let of_axis = |axis| {
+            let enable = self.axis(axis, axis_to_nck::controller_enable, true);
+            [enable, self.not_parked(axis), self.axis(axis, axis_from_nck::pulses_enabled, true)]
+        };
+        unit.members().flat_map(of_axis).collect()
     }
 
     fn no_follow_up_alarm(self, axis: AxisNumber) -> Condition {
@@ -272,7 +305,8 @@ impl Look<'_> {
             }
         });
         let active = self.not_parked(number);
-        if wanted { Condition::All(vec![active, state]) } else { Condition::Any(vec![active.opposite(), state]) }
+        // Parking ends the display, but loses the reference: it comes last.
+        if wanted { Condition::All(vec![active, state]) } else { Condition::Any(vec![state, active.opposite()]) }
     }
 
     fn selected_fact(self, number: AxisNumber, encoder: u8, wanted: bool) -> Fact {

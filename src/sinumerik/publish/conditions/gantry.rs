@@ -3,9 +3,10 @@
 use crate::control::{Condition, Fact};
 use crate::image::{axis_from_nck, axis_to_nck, channel_from_nck, mode_group_from_nck};
 use crate::sinumerik::gantry::state::{Grouping, Phase};
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length};
+use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
 use crate::sinumerik::state::Unit;
 use crate::units::AxisNumber;
+use crate::variables::Place;
 
 /// The signals.
 pub(super) const ROWS: &[Row<AxisNumber>] = &[
@@ -131,7 +132,8 @@ impl<'a> Look<'a> {
         let datum = Fact::new("MD37140 of the grouping", found, "0", open.is_none());
         Condition::All(vec![
             datum.into(),
-            fact("no movement was pending at closing (10658)", !grouping.kept_open).into(),
+            Fact::new("a movement was pending at closing (10658)", yes(grouping.kept_open), "no", !grouping.kept_open)
+                .into(),
         ])
     }
 
@@ -154,9 +156,9 @@ impl<'a> Look<'a> {
         let leader = grouping.coupling.leader();
         let unit = self.unit(leader);
         let start = self.axis(leader, axis_to_nck::start_gantry_synchronization, true);
-        let rises = fact("DBX29.4 rises: it was 0 before", !grouping.start_was);
+        let rises = self.rises(Place::Axis(leader), axis_to_nck::start_gantry_synchronization, grouping.start_was);
         let channel = self.channel(unit.channel, channel_from_nck::referencing_active, false);
-        Condition::All(vec![start, rises.into(), channel, self.permit(&unit)])
+        Condition::All(vec![start, rises, channel, self.permit(&unit)])
     }
 
     /// REF is active, every axis is in position control, nothing stops, no limit switch is pressed.

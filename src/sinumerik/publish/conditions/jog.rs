@@ -4,7 +4,7 @@
 use crate::control::{Condition, Fact};
 use crate::image::{Signal, axis_from_nck, axis_to_nck, mode_group_from_nck, nck_hmi, nck_to_nck};
 use crate::sinumerik::jog::state::Function;
-use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::sinumerik::publish::conditions::look::{Look, Row};
 use crate::units::{AxisNumber, ModeGroupNumber};
 
 /// The signals of an axis.
@@ -88,7 +88,7 @@ const ASSIGNED: [[Signal; 3]; 3] = [
 
 impl Look<'_> {
     /// JOG without REF and REPOS.
-    fn only_jog(self, group: ModeGroupNumber) -> Condition {
+    pub(super) fn only_jog(self, group: ModeGroupNumber) -> Condition {
         Condition::All(vec![
             self.mode_group(group, mode_group_from_nck::active_mode_jog, true),
             self.mode_group(group, mode_group_from_nck::active_machine_function_ref, false),
@@ -109,8 +109,8 @@ impl Look<'_> {
             all.extend((0..handwheel).map(|other| self.assigned(number, other).opposite()));
             if unit.leader() != number {
                 // MIS-01.
-                let what = format!("{} is no synchronous axis of a closed gantry grouping", self.axis_name(number));
-                all.push(fact(what, false).into());
+                let what = format!("{} is a synchronous axis of a closed gantry grouping", self.axis_name(number));
+                all.push(Fact::new(what, "yes", "no", false).into());
             }
             if wanted { Condition::All(all) } else { Condition::All(all).opposite() }
         })
@@ -154,6 +154,16 @@ impl Look<'_> {
         let smaller = FUNCTIONS[..bit.min(6)].iter().map(|&other| request(of(other), false));
         let own = (bit < 6).then(|| request(of(FUNCTIONS[bit]), true));
         Condition::All(own.into_iter().chain(smaller).collect())
+    }
+
+    /// The active machine function of JOG of an axis stays requested: another one ends the movement of a key (C-04).
+    pub(super) fn function_stays(self, number: AxisNumber, group: ModeGroupNumber) -> Condition {
+        let bit = usize::from(self.state.axes[number].jogging.function.bit());
+        if self.state.group_functions[group].function.is_some() {
+            Self::requested(bit, |signal, value| self.mode_group(group, signal, value), Function::of_mode_group)
+        } else {
+            Self::requested(bit, |signal, value| self.axis(number, signal, value), Function::of_axis)
+        }
     }
 
     fn function_of_axis(self, number: AxisNumber, bit: usize) -> Condition {

@@ -95,6 +95,20 @@ impl<'a> Look<'a> {
         required(Place::Nck, signal, wanted)
     }
 
+    /// A signal of the PLC rises in this cycle; `was` is its value before.
+    pub(super) fn rises(self, place: Place, signal: Signal, was: bool) -> Condition {
+        let location = self.names.interface().location(&signal, place.block().1);
+        let shown = location.map_or_else(
+            || format!("{} of {}", signal.name, place_name(place, self.names)),
+            |location| {
+                let address = self.names.address(location).to_string();
+                let symbol = self.names.symbol(location);
+                symbol.map_or_else(|| address.clone(), |symbol| format!("{symbol} ({address})"))
+            },
+        );
+        fact(format!("{shown} rises: it was 0 before"), !was).into()
+    }
+
     pub(super) fn axis_name(self, axis: AxisNumber) -> String {
         axis_name(axis, self.names)
     }

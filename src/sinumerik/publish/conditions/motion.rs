@@ -12,6 +12,7 @@ use crate::sinumerik::jog::state::{By, Movement};
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
 use crate::sinumerik::state::Unit;
 use crate::units::{AxisNumber, ChannelNumber};
+use crate::variables::Place;
 
 /// The signals.
 pub(super) const ROWS: &[Row<AxisNumber>] = &[
@@ -54,9 +55,43 @@ impl Look<'_> {
         let what = format!("traverse {word} of {}", self.axis_name(number));
         let expected = if wanted { sign(direction).to_owned() } else { format!("not {}", sign(direction)) };
         Fact::new(what, sign(shown), expected, (shown == direction) == wanted).after(|| {
-            let moves = self.movement(number, direction, command);
-            if wanted { moves } else { moves.opposite() }
+            if wanted { self.movement(number, direction, command) } else { self.ends(number, direction, command) }
         })
+    }
+
+    /// What ends a request or a command: the opposite of what it needs, and what ends a movement only in its course.
+    fn ends(self, number: AxisNumber, direction: i8, command: bool) -> Condition {
+        let unit = self.unit(number);
+        if let Some(leader) = self.led_by_another(number).filter(|_| command) {
+            // SIG-09.
+            return self.ends(leader, direction, command);
+        }
+        let mut any = vec![self.movement(number, direction, command).opposite()];
+        let axis = &self.state.axes[number];
+        let jogs = !axis.approach.is_running() && !self.synchronises(number) && self.state.is_jogging(&unit);
+        if jogs {
+            any.push(self.only_jog(unit.mode_group).opposite());
+        }
+        if jogs && axis.jogging.movement.is_by_key() {
+            any.push(self.function_stays(unit.leader(), unit.mode_group).opposite());
+        }
+        // O-26: an enable that is missing from the beginning is waited for.
+        if axis.approach.is_running() || jogs && axis.jogging.movement.is_by_key() && axis.enabling.is_on() {
+            any.push(Condition::All(self.enables_of_axes(&unit)).opposite());
+        }
+        Condition::Any(any)
+    }
+
+    /// Whether the closed grouping of an axis makes its synchronising motion.
+    fn synchronises(self, number: AxisNumber) -> bool {
+        self.closed_grouping(number).is_some_and(|grouping| grouping.phase == Phase::Synchronising)
+    }
+
+    /// The leading axis whose movement a synchronous axis follows, if it does not move for itself.
+    fn led_by_another(self, number: AxisNumber) -> Option<AxisNumber> {
+        let leader = self.closed_grouping(number)?.coupling.leader();
+        let itself = self.state.axes[number].approach.is_running() || self.synchronises(number);
+        (leader != number && !itself).then_some(leader)
     }
 
     /// What must hold so that an axis is to move in a direction (request), or moves (command). With MD17900 bit 0 = 1 a command also needs
@@ -69,7 +104,6 @@ impl Look<'_> {
             all.push(self.not_held(&unit));
             all.extend(unit.members().map(|axis| self.in_control(axis)));
         }
-        let grouping = self.closed_grouping(number);
         if axis.approach.is_running() {
             let goes = axis.approach.direction(axis, self.parameters.axes[number].reference.cam_is_active);
             let what = format!("reference point approach of {}", self.axis_name(number));
@@ -78,7 +112,7 @@ impl Look<'_> {
             all.push(self.not_stopped(unit.channel));
             all.push(self.mode_group(unit.mode_group, mode_group_from_nck::active_machine_function_ref, true));
             all.extend(unit.members().map(|axis| self.in_control(axis)));
-        } else if grouping.is_some_and(|grouping| grouping.phase == Phase::Synchronising) {
+        } else if self.synchronises(number) {
             let goes = match axis.motion {
                 Motion::GoTo { target, .. } => (target - axis.setpoint.position).increments().signum(),
                 Motion::Brake { .. } | Motion::Run { .. } | Motion::Track | Motion::Hold => 0,
@@ -87,9 +121,7 @@ impl Look<'_> {
             let what = format!("synchronising motion of {}", self.axis_name(number));
             let wanted = format!("direction {}", sign(direction));
             all.push(Fact::new(what, format!("direction {}", sign(goes)), wanted, goes == direction).into());
-        } else if let Some(leader) =
-            grouping.map(|grouping| grouping.coupling.leader()).filter(|&leader| leader != number)
-        {
+        } else if let Some(leader) = self.led_by_another(number) {
             // SIG-09: the command of the leading axis is also displayed here, its request is not.
             if command {
                 return self.axis(leader, command_signal(direction), true);
@@ -115,7 +147,7 @@ impl Look<'_> {
             Movement::None => {
                 // O-26: only a rising edge starts a movement.
                 let pressed = key_direction(&self.to_nck.axes[number]) == direction;
-                all.push(fact("the key rises: it was 0 before", !pressed).into());
+                all.push(self.rises(Place::Axis(number), key_signal(direction), pressed));
                 true
             }
             Movement::Continuous(_) => modes.continuous_held,
@@ -125,8 +157,10 @@ impl Look<'_> {
         if needs_key {
             all.push(self.key(number, direction));
         }
-        if jogging.movement != Movement::None {
-            let moves = jogging.movement.direction(axis.setpoint.position);
+        let moves = jogging.movement.direction(axis.setpoint.position);
+        // A continuous movement keeps its direction.
+        let keeps = matches!(jogging.movement, Movement::Continuous(_)) && moves == direction;
+        if jogging.movement != Movement::None && !keeps {
             let what = format!("movement of {name} in JOG");
             all.push(Fact::new(what, sign(moves), sign(direction), moves == direction).into());
         }

@@ -7,6 +7,7 @@ use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
 use crate::sinumerik::referencing::state::Phase;
 use crate::sinumerik::state::Unit;
 use crate::units::{AxisNumber, ChannelNumber};
+use crate::variables::Place;
 
 /// The signals.
 pub(super) const ROWS: &[Row<AxisNumber>] = &[
@@ -228,7 +229,7 @@ impl Look<'_> {
             let what = format!("an axis of {name} with MD34110 above 0, an encoder and MD34200 = 1");
             Condition::All(vec![
                 self.channel(channel, channel_to_nck::activate_referencing, true),
-                fact("DBX1.0 rises: it was 0 before", !referencing.was).into(),
+                self.rises(Place::Channel(channel), channel_to_nck::activate_referencing, referencing.was),
                 self.mode_group(group, mode_group_from_nck::active_machine_function_ref, true),
                 self.not_stopped(channel),
                 fact(what, ordered).into(),
