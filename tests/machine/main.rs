@@ -14,6 +14,9 @@ mod foreign_readers;
 mod machine_data_command;
 mod own_interface;
 mod plc_process;
+#[cfg(feature = "cli")]
+#[path = "../processes/mod.rs"]
+mod processes;
 mod referencing;
 mod robustness;
 mod rules;

@@ -158,6 +158,7 @@ fn a_process_whose_nc_was_killed_ends_by_itself() {
     let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/python_plc");
     command.env("PYTHONPATH", module).env("PYTHONDONTWRITEBYTECODE", "1").args(["test", "orphan.toml"]);
     let mut child = command.current_dir(&directory).spawn().unwrap();
+    let _ends = crate::processes::EndsWithTest::new(&child);
     let wait = |is_over: &dyn Fn() -> bool, what: &str| {
         let begin = Instant::now();
         while !is_over() {

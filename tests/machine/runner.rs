@@ -4,8 +4,11 @@
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
+
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
+
+use crate::processes::{self, EndsWithTest};
 
 /// A scenario of four cases, of which one fails.
 const FLAGS: &str = "title = \"Flags & <more>\"\nmachine = \"g1_example\"\ncovers = [\"REF-04\", \"REF-11\"]\nwatch = [\"M0.*\"]\n\
@@ -72,6 +75,7 @@ fn a_case_of_a_matrix_is_the_unit_of_list_filter_and_shard() {
 /// A program with its lines of output as they come, which ends with the test.
 struct Watching {
     child: std::process::Child,
+    _ends: EndsWithTest,
     lines: std::sync::mpsc::Receiver<String>,
 }
 
@@ -80,12 +84,13 @@ impl Watching {
         let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
         command.args(arguments).current_dir(directory).stdout(Stdio::piped()).stderr(Stdio::null());
         let mut child = command.spawn().expect("the program was built");
+        let ends = EndsWithTest::new(&child);
         let output = BufReader::new(child.stdout.take().expect("it is piped"));
         let (sender, lines) = std::sync::mpsc::channel();
         std::thread::spawn(move || {
             output.lines().map_while(Result::ok).take_while(|line| sender.send(line.clone()).is_ok()).for_each(drop);
         });
-        Self { child, lines }
+        Self { child, _ends: ends, lines }
     }
 
     /// Waits for a line with this text. The time-out is only for a program that hangs.
@@ -208,27 +213,31 @@ fn characters_that_control_a_terminal_are_shown_by_their_codes_in_a_page_too() {
     assert!(!html.contains(controls), "{html:?}");
 }
 
-/// A scenario of an hour and more, which is interrupted while it runs.
+/// A scenario of 900 hours, which does not end by itself. The warning about its machine is printed when the outputs are open and the run begins.
 #[cfg(unix)]
 #[test]
 fn a_signal_during_the_run_leaves_no_file_beside_the_outputs() {
     let directory = directory("interrupted");
-    let long = "machine = \"g1_example\"\nlimit = \"1000h\"\n[[step]]\nrun = \"900h\"\n";
+    let machine = directory.join("machine");
+    fs::create_dir_all(&machine).unwrap();
+    fs::write(machine.join("plant.toml"), "[machine]\n").unwrap();
+    let data = "N10000 $MN_AXCONF_MACHAX_NAME_TAB[0]=\"X\"\nN32000 $MA_MAX_AX_VELO[AX1]=-5\n";
+    fs::write(machine.join("data.tea"), data).unwrap();
+    let long = "machine = \"machine\"\nlimit = \"1000h\"\n[[step]]\nrun = \"900h\"\n";
     fs::write(directory.join("long.toml"), long).unwrap();
     fs::write(directory.join("t.jsonl"), "old").unwrap();
     for signal in ["-INT", "-TERM"] {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_opennck"))
-            .args(["run", "long.toml", "--trace", "t.jsonl", "--svg", "t.svg"])
-            .current_dir(&directory)
-            .spawn()
-            .unwrap();
-        std::thread::sleep(Duration::from_millis(500));
-        assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
-        assert_eq!(child.wait().unwrap().code(), None, "the signal ends it");
+        let mut command = processes::opennck();
+        command.args(["run", "long.toml", "--trace", "t.jsonl", "--svg", "t.svg"]).current_dir(&directory);
+        let mut child = command.stderr(Stdio::piped()).spawn().unwrap();
+        let _ends = EndsWithTest::new(&child);
+        let errors = BufReader::new(child.stderr.take().unwrap()).lines();
+        assert!(errors.map_while(Result::ok).any(|line| line.contains("1 implausible")), "the run does not begin");
+        assert_eq!(processes::end(&mut child, signal).code(), None, "the signal ends it");
     }
     let mut names: Vec<_> = fs::read_dir(&directory).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names, ["golden", "long.toml", "t.jsonl"]);
+    assert_eq!(names, ["golden", "long.toml", "machine", "t.jsonl"]);
     assert_eq!(fs::read_to_string(directory.join("t.jsonl")).unwrap(), "old");
 }
 

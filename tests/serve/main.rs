@@ -7,6 +7,8 @@ mod another_server;
 mod clients;
 mod lying_proxy;
 mod mapped_image;
+#[path = "../processes/mod.rs"]
+mod processes;
 mod program;
 mod record;
 mod s7_client;

@@ -22,6 +22,8 @@ use opennck::units::Time;
 use opennck::variables::AlarmNumber;
 use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE, S7Client};
 
+use crate::processes::EndsWithTest;
+
 /// Longer than a computer is ever suspended during a test.
 const LONG: Duration = Duration::from_secs(60);
 
@@ -252,6 +254,7 @@ for line in sys.stdin:
 /// `opennck serve` until it is dropped.
 struct Served {
     child: Child,
+    _ends: EndsWithTest,
     head: Vec<String>,
 }
 
@@ -260,12 +263,13 @@ impl Served {
         let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
         command.arg("serve").args(arguments).args(["--s7", "127.0.0.1:0"]);
         let mut child = command.stdout(Stdio::piped()).spawn().expect("the program was built");
+        let ends = EndsWithTest::new(&child);
         let mut lines = BufReader::new(child.stdout.take().expect("it is piped")).lines();
         let mut head = Vec::new();
         while !head.iter().any(|line: &String| line.contains("Ctrl-C")) {
             head.push(lines.next().expect("it serves").expect("text"));
         }
-        Self { child, head }
+        Self { child, _ends: ends, head }
     }
 
     /// The port in a line of the banner.
@@ -487,12 +491,14 @@ with Image(sys.argv[1], wait=60) as image:
         command.args(lock_step.then_some("--lock-step")).stdout(Stdio::null()).stderr(Stdio::piped());
         let Some(first) = plc() else { return };
         let mut processes = vec![first, command.spawn().unwrap()];
+        let mut ends: Vec<_> = processes.iter().map(EndsWithTest::new).collect();
         let mut log = BufReader::new(processes[1].stderr.take().unwrap()).lines().map_while(Result::ok);
         assert!(log.any(|line| line.ends_with("a PLC process has opened the image")));
         // The first process answers before the second one comes.
         let answers = || fs::read(&file.0).is_ok_and(|bytes| bytes[520] > 3);
         wait("the first process answers", answers);
         processes.extend(plc());
+        ends.extend(processes.last().map(EndsWithTest::new));
         let [one, other] = [processes[0].id(), processes[2].id()];
         let said = log.find(|line| line.contains("two PLC processes answer") || line.contains("answers instead of"));
         for process in &mut processes {

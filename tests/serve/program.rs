@@ -7,6 +7,8 @@ use std::process::{Child, Command, Output, Stdio};
 
 use rust7::{S7_AREA_DB, S7_AREA_MK, S7_WL_BYTE, S7Client};
 
+use crate::processes::EndsWithTest;
+
 fn serve(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
     command.arg("serve").args(arguments).current_dir(Path::new(env!("CARGO_MANIFEST_DIR")));
@@ -16,6 +18,7 @@ fn serve(arguments: &[&str]) -> Command {
 /// A server on any free port, and the port.
 struct Served {
     child: Child,
+    _ends: EndsWithTest,
     head: Vec<String>,
     port: u16,
 }
@@ -25,13 +28,14 @@ impl Served {
         let mut command = serve(arguments);
         let command = command.args(["--s7", "127.0.0.1:0"]).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("the program was built");
+        let ends = EndsWithTest::new(&child);
         let mut lines = BufReader::new(child.stdout.take().expect("it is piped")).lines();
         let mut head = Vec::new();
         while !head.iter().any(|line: &String| line.contains("Ctrl-C")) {
             head.push(lines.next().expect("the banner ends with Ctrl-C").expect("text"));
         }
         let port = head.iter().find_map(|line| line.split_once("127.0.0.1:")?.1.split(':').next()?.parse().ok());
-        Self { child, head, port: port.expect("the output has the port") }
+        Self { child, _ends: ends, head, port: port.expect("the output has the port") }
     }
 
     fn client(&self) -> S7Client {

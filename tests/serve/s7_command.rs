@@ -6,6 +6,8 @@ use std::net::TcpListener;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 
+use crate::processes::{self, EndsWithTest};
+
 pub(crate) fn program(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
     command.args(arguments).current_dir(Path::new(env!("CARGO_MANIFEST_DIR")));
@@ -15,6 +17,7 @@ pub(crate) fn program(arguments: &[&str]) -> Command {
 /// A server on any free port.
 pub(crate) struct Served {
     child: Child,
+    _ends: EndsWithTest,
     pub(crate) host: String,
 }
 
@@ -27,12 +30,13 @@ impl Served {
         let arguments = ["serve", "g1_example", "--plc-image", "recipes", "--s7", "127.0.0.1:0"];
         let mut child =
             program(&arguments).args(more).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it was built");
+        let ends = EndsWithTest::new(&child);
         let lines = BufReader::new(child.stdout.take().expect("it is piped")).lines();
         let mut ports = lines
             .map_while(Result::ok)
             .filter_map(|line| Some(line.split_once("127.0.0.1:")?.1.split(':').next()?.to_owned()));
         let port = ports.next().expect("the output has the port");
-        Self { child, host: format!("127.0.0.1:{port}") }
+        Self { child, _ends: ends, host: format!("127.0.0.1:{port}") }
     }
 
     /// `opennck s7 COMMAND HOST …`.
@@ -272,13 +276,13 @@ fn watching_prints_a_line_for_each_change_and_ends_with_0() {
         served.text("write", &["MB1=1"]);
         let mut command = program(&["s7", "watch", &served.host, "MB1"]);
         let mut child = command.args(how).stdout(Stdio::piped()).spawn().unwrap();
+        let _ends = EndsWithTest::new(&child);
         let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
         let mut next = || lines.next().unwrap().unwrap().split_whitespace().skip(1).collect::<Vec<_>>().join(" ");
         assert_eq!(next(), "MB1 1");
         served.text("write", &["MB1=2"]);
         assert_eq!(next(), "MB1 1 -> 2");
-        assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
-        assert_eq!(child.wait().unwrap().code(), Some(0));
+        assert_eq!(processes::end(&mut child, "-INT").code(), Some(0));
     }
 }
 
@@ -288,6 +292,7 @@ fn watching_prints_a_line_for_each_change_and_ends_with_0() {
 fn watching_ends_when_its_output_is_closed() {
     let served = Served::start();
     let mut child = program(&["s7", "watch", &served.host, "MB1"]).stdout(Stdio::piped()).spawn().unwrap();
+    let _ends = EndsWithTest::new(&child);
     let mut first = String::new();
     let mut lines = BufReader::new(child.stdout.take().unwrap());
     lines.read_line(&mut first).unwrap();
@@ -392,6 +397,7 @@ fn the_server_commands_of_the_pages_start() {
             let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
             let command = command.args(arguments).args(["--s7", "127.0.0.1:0"]).current_dir(&folder);
             let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+            let _ends = EndsWithTest::new(&child);
             let lines = BufReader::new(child.stdout.take().unwrap()).lines();
             let started = lines.map_while(Result::ok).any(|line| line.contains("S7 on 127.0.0.1:"));
             let _ = child.kill();

@@ -10,10 +10,12 @@ use std::time::{Duration, Instant};
 use opennck::scenario::Scenario;
 
 use super::panel::{Bare, DB, FLAGS, Item};
+use crate::processes::{self, EndsWithTest};
 
 /// `opennck serve` on any free port.
 struct Program {
     child: Child,
+    _ends: EndsWithTest,
     log: Lines<BufReader<ChildStderr>>,
     port: u16,
 }
@@ -21,7 +23,7 @@ struct Program {
 impl Program {
     /// Starts it in a new, empty folder.
     fn start(folder: &Path, arguments: &[&str]) -> Self {
-        let mut program = Command::new(env!("CARGO_BIN_EXE_opennck"));
+        let mut program = processes::opennck();
         program.arg("serve").args(arguments).current_dir(folder);
         Self::started(program)
     }
@@ -29,11 +31,12 @@ impl Program {
     fn started(mut program: Command) -> Self {
         program.args(["--s7", "127.0.0.1:0"]).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = program.spawn().expect("the program was built");
+        let ends = EndsWithTest::new(&child);
         let mut head = BufReader::new(child.stdout.take().expect("it is piped")).lines();
         let port = head.find_map(|line| line.ok()?.split_once("S7 on 127.0.0.1:")?.1.split(':').next()?.parse().ok());
         // Its output has no reader from here on.
         let log = BufReader::new(child.stderr.take().expect("it is piped")).lines();
-        Self { child, log, port: port.expect("the output has the port") }
+        Self { child, _ends: ends, log, port: port.expect("the output has the port") }
     }
 
     fn address(&self) -> SocketAddr {
@@ -48,9 +51,14 @@ impl Program {
     }
 
     fn end(&mut self, signal: &str) -> Option<i32> {
-        let id = self.child.id().to_string();
-        assert!(Command::new("kill").args([signal, &id]).status().expect("there is a kill").success());
-        self.child.wait().expect("it ends").code()
+        processes::end(&mut self.child, signal).code()
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
     }
 }
 
