@@ -28,9 +28,13 @@ impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let read = |member: &&Member| member.assignments.is_some();
         let left = self.ignored().count();
+        let members = if left == 1 { "member" } else { "members" };
         write!(f, "{} machine data taken, {} unknown kept", self.taken, self.unknown)?;
+        if self.unknown > 0 {
+            write!(f, " (not in the catalogue: written back, no effect)")?;
+        }
         if left > 0 {
-            write!(f, ", {left} members without machine data ignored")?;
+            write!(f, ", {left} {members} without machine data ignored")?;
         }
         writeln!(f)?;
         for member in self.members.iter().filter(read) {
@@ -102,8 +106,8 @@ impl Archive {
         let mut reading = Reading::default();
         for (number, (name, bytes)) in files.into_iter().enumerate() {
             reading.file = number;
-            if let Some(order) = utf_16(bytes) {
-                reading.findings.push(in_utf_16(name, order));
+            if let Some(encoding) = utf_16(bytes) {
+                reading.findings.push(in_utf_16(name, encoding));
             } else if binary::is_binary(name, bytes) {
                 if let Err(problem) = binary::read(name, bytes, &mut reading) {
                     reading.findings.push(problem.into());
@@ -162,13 +166,24 @@ pub fn files_of(machine: &Path) -> Result<Vec<PathBuf>, Problem> {
     Ok(archives)
 }
 
-/// The byte order of a text in UTF-16, by its byte order mark or by the zeros of its first letters; `None` for any other file.
-fn utf_16(bytes: &[u8]) -> Option<&'static str> {
-    let (little, big) = ("little-endian", "big-endian");
+/// How a text is encoded in UTF-16.
+#[derive(Clone, Copy)]
+struct Utf16 {
+    order: &'static str,
+    /// The name for `iconv`. With a byte order mark it is without the order, so that the mark is removed.
+    iconv: &'static str,
+    /// The name for PowerShell, which also follows a byte order mark.
+    power_shell: &'static str,
+}
+
+/// The encoding of a text in UTF-16, by its byte order mark or by the zeros of its first letters; `None` for any other file.
+fn utf_16(bytes: &[u8]) -> Option<Utf16> {
+    let little = Utf16 { order: "little-endian", iconv: "UTF-16LE", power_shell: "Unicode" };
+    let big = Utf16 { order: "big-endian", iconv: "UTF-16BE", power_shell: "BigEndianUnicode" };
     let zeros = |first: usize| bytes.iter().skip(first).step_by(2).take(16).filter(|byte| **byte == 0).count();
     match bytes {
-        [0xFF, 0xFE, ..] => Some(little),
-        [0xFE, 0xFF, ..] => Some(big),
+        [0xFF, 0xFE, ..] => Some(Utf16 { iconv: "UTF-16", ..little }),
+        [0xFE, 0xFF, ..] => Some(Utf16 { iconv: "UTF-16", ..big }),
         [_, ..] if bytes.len() >= 32 && bytes[..32].is_ascii() => match (zeros(0), zeros(1)) {
             (0, 16) => Some(little),
             (16, 0) => Some(big),
@@ -178,12 +193,16 @@ fn utf_16(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-fn in_utf_16(name: &str, order: &str) -> Finding {
-    let file = Path::new(name).file_name().map_or_else(|| name.into(), std::ffi::OsStr::to_string_lossy);
+fn in_utf_16(name: &str, Utf16 { order, iconv, power_shell }: Utf16) -> Finding {
+    // A quote inside quotes: each shell has its own form.
+    let (shell, windows) = (name.replace('\'', r"'\''"), name.replace('\'', "''"));
     Place::file(name)
         .problem(
             format!("expected a text in UTF-8 or Latin-1, or a binary archive, found a text in UTF-16 ({order})"),
-            format!("save it as UTF-8 in an editor, or convert it: `iconv -f UTF-16 -t UTF-8 {file} > NEW_FILE`"),
+            format!(
+                "save it as UTF-8 in an editor, or convert it: `iconv -f {iconv} -t UTF-8 '{shell}' > NEW_FILE`; in PowerShell: \
+                `Get-Content -Encoding {power_shell} '{windows}' | Set-Content -Encoding utf8 NEW_FILE`"
+            ),
         )
         .into()
 }

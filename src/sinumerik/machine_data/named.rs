@@ -1,6 +1,6 @@
 //! Parses the name of a machine datum value.
 //!
-//! Accepted forms are `34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `$MA_REFP_SET_POS[2,AX3]` and
+//! Accepted forms are `34090[XF]`, `MD34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `SD41110`, `$MA_REFP_SET_POS[2,AX3]` and
 //! `REFP_SET_POS[2,XF]`. An axis is given by its machine axis name (MD10000, exact case) or by `AXn`, a channel by its
 //! name (MD20000) or by `CHANn`. The default channel is channel 1, the default index is 0.
 
@@ -13,7 +13,7 @@ use crate::source::{Problem, did_you_mean};
 use crate::units::ChannelNumber;
 
 impl MachineData {
-    /// Parses the name of a value: `34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `$MA_REFP_SET_POS[2,AX3]`,
+    /// Parses the name of a value: `34090[XF]`, `MD34090[XF]`, `34100[2,XF]`, `20700[CHAN1]`, `11300`, `$MA_REFP_SET_POS[2,AX3]`,
     /// `REFP_SET_POS[2,XF]`. The default index is 0, the default channel is channel 1.
     ///
     /// # Errors
@@ -32,11 +32,17 @@ fn parse(text: &str, data: &MachineData) -> Result<Target, Problem> {
             "write the number or identifier, then the index and axis in brackets",
         )
     })?;
-    let datum = match name.parse() {
+    let datum = match without_letters(name).parse() {
         Ok(number) => by_number(number).ok_or_else(|| unknown_number(number))?,
         Err(_) => by_identifier(name).ok_or_else(|| unknown_identifier(name))?,
     };
     resolve(datum, &indices, ChannelNumber::FIRST, data)
+}
+
+/// A number without the letters that manuals write before it: `MD34090`, `SD41110`.
+fn without_letters(name: &str) -> &str {
+    let number = name.strip_prefix("MD").or_else(|| name.strip_prefix("SD"));
+    number.filter(|number| number.starts_with(|c: char| c.is_ascii_digit())).unwrap_or(name)
 }
 
 /// Splits `NAME[a,b]`; `None` if the brackets are not closed or contain more than two items.

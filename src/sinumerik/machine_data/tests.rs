@@ -118,6 +118,8 @@ mod targets {
         assert_eq!(data.parse_target("11300").unwrap().owner(), Owner::Nck);
         assert_eq!(data.parse_target("20700").unwrap(), data.parse_target("20700[CHAN1]").unwrap());
         assert_eq!(data.parse_target("41110").unwrap().to_string(), "$SN_JOG_SET_VELO");
+        assert_eq!(data.parse_target("SD41110"), data.parse_target("41110"));
+        assert_eq!(data.parse_target("MD34100[2,XF]"), data.parse_target("34100[2,XF]"));
     }
 
     #[test]
@@ -634,17 +636,26 @@ mod binary_archives {
         let little: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
         let big: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
         let marked = [&[0xFF, 0xFE][..], &little].concat();
-        for (name, bytes, order) in [
-            ("a.tea", &little, "little-endian"),
-            ("a.tea", &big, "big-endian"),
-            ("a.arc", &marked, "little-endian"),
-            ("a.tea", &marked, "little-endian"),
+        let marked_big = [&[0xFE, 0xFF][..], &big].concat();
+        // Without a byte order mark, `iconv -f UTF-16` takes the order of the computer.
+        for (name, bytes, order, iconv, power_shell) in [
+            ("a.tea", &little, "little-endian", "UTF-16LE", "Unicode"),
+            ("my data/b.tea", &big, "big-endian", "UTF-16BE", "BigEndianUnicode"),
+            ("a.arc", &marked, "little-endian", "UTF-16", "Unicode"),
+            ("a.tea", &marked_big, "big-endian", "UTF-16", "BigEndianUnicode"),
         ] {
             let refused = Archive::read([(name, &bytes[..])]).unwrap_err();
             let [finding] = &refused[..] else { panic!("one finding: {refused:?}") };
             assert!(finding.what.contains(&format!("found a text in UTF-16 ({order})")), "{finding}");
-            assert!(finding.cure.contains(&format!("iconv -f UTF-16 -t UTF-8 {name} > NEW_FILE")), "{finding}");
+            for command in [
+                format!("`iconv -f {iconv} -t UTF-8 '{name}' > NEW_FILE`"),
+                format!("`Get-Content -Encoding {power_shell} '{name}' | Set-Content -Encoding utf8 NEW_FILE`"),
+            ] {
+                assert!(finding.cure.contains(&command), "{finding}");
+            }
         }
+        let quoted = Archive::read([("it's.tea", &little[..])]).unwrap_err();
+        assert!(quoted[0].cure.contains(r"'it'\''s.tea' > "), "{}", quoted[0]);
     }
 
     #[test]
