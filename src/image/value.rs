@@ -82,10 +82,11 @@ pub fn signal_value(name: &str, node: &Node, location: Location, coding: Overrid
     if let Value::Integer(number) = node.value
         && is_no_code(name, number, location, coding)
     {
+        let bits = number.cast_unsigned() & location.mask();
         return Err(node.place.problem(
             format!("expected a percentage or a Gray code from 0 to {LARGEST_GRAY_CODE} for `{name}`, found {number}"),
             format!(
-                "write \"{name}\" = \"100%\", or any bits as \"16#{number:X}\"; its percentages are {}",
+                "write \"{name}\" = \"100%\", or any bits as \"16#{bits:X}\"; its percentages are {}",
                 OverrideCoding::known(true)
             ),
         ));
@@ -98,7 +99,7 @@ pub fn signal_value(name: &str, node: &Node, location: Location, coding: Overrid
 pub fn is_no_code(name: &str, number: i64, location: Location, coding: OverrideCoding) -> bool {
     let is_symbol =
         name.split_once('.').is_some_and(|(_, signal)| signal.starts_with(|c: char| c.is_ascii_lowercase()));
-    is_symbol && number > i64::from(LARGEST_GRAY_CODE) && coding.at(location) == Some(true)
+    is_symbol && !(0..=i64::from(LARGEST_GRAY_CODE)).contains(&number) && coding.at(location) == Some(true)
 }
 
 /// The largest code of an override switch with Gray code, which has five bits.

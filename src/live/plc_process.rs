@@ -268,9 +268,15 @@ fn last_lines(printed: Option<&File>) -> String {
     let end = printed.and_then(|file| end_of(file).ok()).unwrap_or_default();
     let text = decode(&end);
     let lines: Vec<&str> = text.lines().map(str::trim_end).filter(|line| !line.is_empty()).collect();
-    let last = lines[lines.len().saturating_sub(LINES)..].iter();
-    last.map(|line| format!("\n  it printed: {}", line.replace(char::is_control, " "))).collect()
+    let last = &lines[lines.len().saturating_sub(LINES)..];
+    let hint = last.iter().any(|line| line.contains("ModuleNotFoundError"));
+    let printed = last.iter().map(|line| format!("\n  it printed: {}", line.replace(char::is_control, " ")));
+    printed.chain(hint.then(|| MODULE_NOT_FOUND.to_owned())).collect()
 }
+
+/// What to do when Python does not find a module.
+const MODULE_NOT_FOUND: &str = "\n  Python looks for modules beside the program and in PYTHONPATH: set it to absolute paths, for example \
+    PYTHONPATH=$PWD/examples/python_plc (a process of a scenario runs in the folder of the scenario)";
 
 fn end_of(mut file: &File) -> io::Result<Vec<u8>> {
     let length = file.seek(SeekFrom::End(0))?;
@@ -338,6 +344,8 @@ mod tests {
         let lines = last_lines(Some(&printed));
         assert_eq!(lines.lines().filter(|line| line.starts_with("  it printed: ")).count(), LINES);
         assert!(lines.ends_with("  it printed: last"), "{lines}");
+        log.write_all(b"ModuleNotFoundError: No module named 'opennck_image'\n").unwrap();
+        assert!(last_lines(Some(&printed)).contains("PYTHONPATH=$PWD/"));
         drop((files, log, printed));
         assert!(!path.exists());
     }
