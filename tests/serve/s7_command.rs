@@ -213,6 +213,21 @@ fn it_writes_as_scenarios_do() {
     assert_eq!(rows[1][3..7], ["26", "1A", "100", "%."]);
 }
 
+/// The second value replaces the first one, so that the first one reads back differently.
+#[test]
+fn a_write_that_the_nck_overwrites_or_that_reads_back_differently_has_a_warning() {
+    let served = Served::start();
+    let output = served.s7("write", &["MB5=1", "MB5=2", "MB6=3", "DB31.DBX101.7=0"]);
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{error}");
+    assert_eq!(error.matches("warning: ").count(), 2, "{error}");
+    assert!(error.contains("warning: MB5 was written and reads back as 2: "), "{error}");
+    assert!(
+        error.contains("gantry_axis (DB31.DBX101.7) was written, but the NCK overwrites it in the same cycle"),
+        "{error}"
+    );
+}
+
 #[test]
 fn unusable_input_ends_with_2_and_writes_nothing() {
     let served = Served::start();

@@ -19,8 +19,6 @@ const PORT: u16 = 102;
 const OPTIONAL_TIMEOUT: Duration = Duration::from_secs(1);
 /// Time for all optional requests together.
 const OPTIONAL_TOTAL: Duration = Duration::from_secs(2);
-/// The least time for an answer after others failed to arrive.
-const LEAST: Duration = Duration::from_millis(500);
 /// The longest allowed time: one day.
 const LONGEST: Time = Time::from_millis(86_400_000);
 
@@ -51,13 +49,13 @@ pub(in crate::cli) struct Host {
     /// Maximum number of items per request, for servers that accept fewer than fit in a PDU.
     #[arg(long, value_name = "N", default_value_t = 255, value_parser = clap::value_parser!(u8).range(1..))]
     items: u8,
-    /// Timeout for an answer.
+    /// Timeout for an answer; a host that answers nothing ends the command after this time, whatever it sends.
     #[arg(long, value_name = "TIME", default_value = "5s", value_parser = duration)]
     timeout: Duration,
     /// Password of the PLC, one to eight ASCII characters; use the environment variable to hide it from other users.
     #[arg(long, value_name = "TEXT", env = "OPENNCK_S7_PASSWORD", hide_env_values = true)]
     password: Option<String>,
-    /// The time in which the host did not answer other requests. It counts for the next one: a silent host ends the command after `timeout`.
+    /// The time in which the host did not answer other requests. It counts for the next ones: a silent host ends the command after `timeout`.
     #[arg(skip)]
     waited: Cell<Duration>,
 }
@@ -114,18 +112,28 @@ impl Host {
 
     /// Connects to the NCK for optional requests, with a short timeout.
     pub(super) async fn nck_soon(&self) -> Result<Client, Failure> {
-        let timeout = self.timeout.min(OPTIONAL_TIMEOUT);
+        let timeout = self.half().min(OPTIONAL_TIMEOUT);
         self.connect(Options { tsaps: self.nck_tsap, timeout, ..self.options() }).await
     }
 
     /// Work that the command can do without: `None` if it fails or takes too long.
     pub(super) async fn optional<T>(&self, work: impl Future<Output = Option<T>>) -> Option<T> {
-        self.within(self.timeout.min(OPTIONAL_TOTAL), work).await
+        self.within(self.half().min(OPTIONAL_TOTAL), work).await
     }
 
-    /// Work that takes as long as an answer at most.
+    /// Work without which the command fails with a better message from another request: it leaves time for that one.
     pub(super) async fn answered<T>(&self, work: impl Future<Output = Option<T>>) -> Option<T> {
-        self.within(self.timeout, work).await
+        self.within(self.half(), work).await
+    }
+
+    /// The rest of the time limit.
+    fn left(&self) -> Duration {
+        self.timeout.saturating_sub(self.waited.get())
+    }
+
+    /// Half of it, so that the other half is left.
+    fn half(&self) -> Duration {
+        self.left() / 2
     }
 
     async fn within<T>(&self, limit: Duration, work: impl Future<Output = Option<T>>) -> Option<T> {
@@ -138,15 +146,13 @@ impl Host {
     }
 
     fn options(&self) -> Options {
-        let &Self { pdu, items, timeout, ref waited, .. } = self;
-        let waited = waited.get();
+        let (&Self { pdu, items, .. }, timeout) = (self, self.left());
         // The time limit is that of the whole request, whatever happens to its connections.
-        let timeout = timeout.saturating_sub(waited).max(LEAST.min(timeout));
-        Options { pdu, items, timeout, waited, patience: timeout, ..Options::default() }
+        Options { pdu, items, timeout, patience: timeout, ..Options::default() }
     }
 
     async fn connect(&self, options: Options) -> Result<Client, Failure> {
-        Ok(Client::connect(&self.address()?, options).await?)
+        Ok(Client::connect_after(self.waited.get(), &self.address()?, options).await?)
     }
 }
 
@@ -208,6 +214,29 @@ mod tests {
         }
         for host in ["127.0.0.1:99999", "127.0.0.1:0", "plc:s7", "[::1]:-1"] {
             assert!(with_port(host).is_err(), "{host}");
+        }
+    }
+
+    /// A silent host: each request that the command can do without takes at most half of the rest, and the last one has what is left.
+    #[tokio::test(start_paused = true)]
+    async fn all_requests_in_vain_together_take_no_longer_than_the_time_limit() {
+        #[derive(clap::Parser)]
+        struct Arguments {
+            #[command(flatten)]
+            host: Host,
+        }
+        let limits = [("5s", [2000, 1500, 750]), ("300ms", [150, 75, 37])];
+        for (timeout, wanted) in limits {
+            let Arguments { host } = clap::Parser::parse_from(["read", "plc", "--timeout", timeout]);
+            for (number, wanted) in wanted.into_iter().enumerate() {
+                let begin = Instant::now();
+                let silent = std::future::pending::<Option<()>>();
+                let done = if number == 0 { host.optional(silent).await } else { host.answered(silent).await };
+                assert!(done.is_none());
+                let took = begin.elapsed().as_millis();
+                assert!((wanted..wanted + 3).contains(&took), "{timeout}: {took} ms, wanted {wanted} ms");
+            }
+            assert!(host.waited.get() + host.options().timeout <= host.timeout);
         }
     }
 

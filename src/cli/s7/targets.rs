@@ -5,7 +5,7 @@
 
 use super::arguments::{Host, Names as Arguments};
 use super::failure::{Failure, problem};
-use crate::image::{Address, Block, Location, Memory, Names, OverrideCoding, Part, Width};
+use crate::image::{Address, Block, Location, Memory, Names, OverrideCoding, Part, Width, Writer};
 use crate::machine::Machine;
 use crate::s7::client::{Client, Error, Memory as Place, NcVariable, Value, Variable};
 use crate::scenario::profile_named;
@@ -32,6 +32,11 @@ impl Target {
     /// The address as shown in the list.
     pub(super) fn address(&self) -> String {
         self.shown.clone()
+    }
+
+    /// The symbol with its address, or the address alone.
+    pub(super) fn name(&self) -> String {
+        if self.symbol.is_empty() { self.shown.clone() } else { format!("{} ({})", self.symbol, self.shown) }
     }
 
     /// The reason why it has no value, without its name.
@@ -199,6 +204,11 @@ impl Dictionary {
         }
         let has_names = names.axes.iter().any(|(_, name)| name.is_some());
         has_names.then_some(names)
+    }
+
+    /// Whether the NCK writes the signal, so that it overwrites what a client has written.
+    pub(super) fn is_overwritten(&self, target: &Target) -> bool {
+        target.location.is_some_and(|location| self.names.writer(location) == Some(Writer::Nck))
     }
 
     /// Parses a value as scenarios do.

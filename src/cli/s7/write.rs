@@ -34,9 +34,30 @@ pub(super) async fn write(
     if let Some(error) = lost {
         return Err(error.into());
     }
+    let read_back = host.optional(async { sources::read(&sources, targets.len()).await.ok() }).await;
+    for (at, target) in targets.iter().enumerate().filter(|(at, _)| results[*at].is_ok()) {
+        if dictionary.is_overwritten(target) {
+            output.warning(format!("{} was written, but the NCK overwrites it in the same cycle", target.name()));
+        } else if let Some(Ok(found)) = read_back.as_ref().and_then(|found| found.get(at))
+            && differ(target, &values[at], found)
+        {
+            let name = target.name();
+            output.warning(format!(
+                "{name} was written and reads back as {found}: the PLC program, or another client, writes it"
+            ));
+        }
+    }
     let shown: Vec<_> = values.into_iter().zip(results).map(|(value, result)| result.map(|()| value)).collect();
     let cures = rows::cures(&sources, &targets, &shown).await;
     Ok(read::show(&targets, &shown, &cures, format, output))
+}
+
+/// Whether two values of a target differ, as bytes. Types may differ: a number without a type is sent as the module's type.
+fn differ(target: &Target, one: &Value, other: &Value) -> bool {
+    match (one.encode(&target.variable), other.encode(&target.variable)) {
+        (Ok(one), Ok(other)) => one.len() == other.len() && one != other,
+        (Err(_), _) | (_, Err(_)) => false,
+    }
 }
 
 async fn send(sources: &[Source], targets: &[Target], values: &[Value]) -> Vec<Result<(), Error>> {

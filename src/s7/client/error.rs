@@ -6,6 +6,17 @@ use std::time::Duration;
 use crate::s7::wire::codes;
 use crate::s7::wire::header::ErrorCode;
 
+/// Whether a request without an answer may have been executed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Execution {
+    /// It was not sent.
+    NotSent,
+    /// It was sent and only reads: nothing was changed.
+    Read,
+    /// It was sent and changes something: read the value before you repeat it.
+    PerhapsExecuted,
+}
+
 /// The reason why a request failed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
@@ -52,19 +63,15 @@ pub enum Error {
         what: String,
         /// The time limit.
         after: Duration,
-        /// Whether it was sent; a write that was sent may have been executed.
-        sent: bool,
-        /// Whether it only reads, so that nothing can have been executed.
-        only_reads: bool,
+        /// Whether it may have been executed.
+        execution: Execution,
     },
     /// The connection was lost, and the request was not repeated.
     Lost {
         /// The request.
         what: String,
-        /// Whether it was sent; a write that was sent may have been executed.
-        sent: bool,
-        /// Whether it only reads, so that nothing can have been executed.
-        only_reads: bool,
+        /// Whether it may have been executed.
+        execution: Execution,
         /// The reason.
         cause: String,
     },
@@ -108,16 +115,16 @@ impl Error {
                     .to_owned()
             }
             Self::Rejected { error, .. } => cure_of_error(*error).to_owned(),
-            Self::TimedOut { sent: true, only_reads: true, .. } => {
+            Self::TimedOut { execution: Execution::Read, .. } => {
                 "the module is connected and does not answer: check whether it is overloaded, or increase the timeout".to_owned()
             }
-            Self::Lost { sent: true, only_reads: true, .. } => "nothing was changed: repeat it".to_owned(),
-            Self::TimedOut { sent: true, .. } => {
+            Self::Lost { execution: Execution::Read, .. } => "nothing was changed: repeat it".to_owned(),
+            Self::TimedOut { execution: Execution::PerhapsExecuted, .. } => {
                 "the request may have been executed: read the value before you repeat it, or increase the timeout".to_owned()
             }
-            Self::TimedOut { sent: false, .. } => "the request was not sent: check the connection, then repeat it".to_owned(),
-            Self::Lost { sent: true, .. } => "the request was sent and may have been executed: read the value before you repeat it".to_owned(),
-            Self::Lost { sent: false, .. } => {
+            Self::TimedOut { execution: Execution::NotSent, .. } => "the request was not sent: check the connection, then repeat it".to_owned(),
+            Self::Lost { execution: Execution::PerhapsExecuted, .. } => "the request was sent and may have been executed: read the value before you repeat it".to_owned(),
+            Self::Lost { execution: Execution::NotSent, .. } => {
                 "the request was not sent: repeat it after the reconnect".to_owned()
             }
             Self::Unexpected { .. } => "the server violates the protocol: report it to its manufacturer".to_owned(),
@@ -131,8 +138,8 @@ impl Error {
         match self {
             Self::Refused { code, .. } => Self::Refused { what, code },
             Self::Rejected { error, .. } => Self::Rejected { what, error },
-            Self::TimedOut { after, sent, only_reads, .. } => Self::TimedOut { what, after, sent, only_reads },
-            Self::Lost { sent, only_reads, cause, .. } => Self::Lost { what, sent, only_reads, cause },
+            Self::TimedOut { after, execution, .. } => Self::TimedOut { what, after, execution },
+            Self::Lost { execution, cause, .. } => Self::Lost { what, execution, cause },
             Self::Unexpected { found, .. } => Self::Unexpected { what, found },
             other @ (Self::Input { .. } | Self::Unreachable { .. } | Self::NotAccepted { .. }) => other,
         }
@@ -149,12 +156,18 @@ impl fmt::Display for Error {
             Self::Rejected { what, error } => {
                 write!(f, "{what}: {} (error {:04X})", codes::of_request(*error), error.0)
             }
-            Self::TimedOut { what, after, sent, .. } => {
-                let sent = if *sent { "" } else { "; the request was not sent" };
+            Self::TimedOut { what, after, execution } => {
+                let sent = match execution {
+                    Execution::NotSent => "; the request was not sent",
+                    Execution::Read | Execution::PerhapsExecuted => "",
+                };
                 write!(f, "{what}: no answer within {} s{sent}", after.as_secs_f64())
             }
-            Self::Lost { what, sent, cause, .. } => {
-                let sent = if *sent { "the request was sent" } else { "the request was not sent" };
+            Self::Lost { what, execution, cause } => {
+                let sent = match execution {
+                    Execution::NotSent => "the request was not sent",
+                    Execution::Read | Execution::PerhapsExecuted => "the request was sent",
+                };
                 write!(f, "{what}: connection lost ({cause}); {sent}")
             }
             Self::Unexpected { what, found } => write!(f, "{what}: invalid answer: {found}"),

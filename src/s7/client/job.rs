@@ -5,7 +5,7 @@ use std::future::Future;
 use tokio::sync::{mpsc, oneshot};
 use tokio::time::{Instant, timeout_at};
 
-use super::error::Error;
+use super::error::{Error, Execution};
 use crate::s7::wire::header::ErrorCode;
 
 /// The values negotiated with a module.
@@ -41,6 +41,18 @@ pub(super) struct Job {
     /// Whether it was sent on an earlier connection.
     pub(super) was_sent: bool,
     pub(super) reply: ReplyTo,
+}
+
+impl Job {
+    /// Whether it may have been executed, after it was sent on this connection.
+    pub(super) fn execution(&self) -> Execution {
+        if self.repeat { Execution::Read } else { Execution::PerhapsExecuted }
+    }
+
+    /// Whether it may have been executed on an earlier connection, before it was sent on this one.
+    pub(super) fn execution_before(&self) -> Execution {
+        if self.was_sent { self.execution() } else { Execution::NotSent }
+    }
 }
 
 /// The receiver of an answer.

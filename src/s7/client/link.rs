@@ -61,6 +61,8 @@ pub enum State {
 pub(super) struct Link {
     address: Arc<str>,
     options: Arc<Options>,
+    /// How long the caller had waited for the module before, in vain.
+    waited: Duration,
     commands: mpsc::Receiver<LinkCommand>,
     state: watch::Sender<State>,
     pub(super) queue: VecDeque<Job>,
@@ -87,6 +89,7 @@ impl Link {
     pub(super) fn new(
         address: Arc<str>,
         options: Arc<Options>,
+        waited: Duration,
         commands: mpsc::Receiver<LinkCommand>,
         state: watch::Sender<State>,
     ) -> Self {
@@ -97,6 +100,7 @@ impl Link {
         Self {
             address,
             options,
+            waited,
             commands,
             state,
             queue,
@@ -299,7 +303,8 @@ impl Link {
     /// Ends requests that exceeded their time limit.
     fn expire(&mut self) {
         let now = Instant::now();
-        let Options { timeout, patience, waited, .. } = *self.options;
+        let Options { timeout, patience, .. } = *self.options;
+        let waited = self.waited;
         let heard = self.heard;
         let ends: Vec<u16> =
             self.in_flight.iter().filter(|(_, waiting)| self.end_of(waiting) <= now).map(|(at, _)| *at).collect();
@@ -307,15 +312,15 @@ impl Link {
         for InFlight { job, sent } in late {
             self.silences += u32::from(sent >= heard);
             let after = if job.was_sent { now - job.asked } else { timeout };
-            let (what, after, only_reads) = (job.what.to_owned(), rounded(waited + after), job.repeat);
-            let error = Error::TimedOut { what, after, sent: true, only_reads };
+            let (what, after, execution) = (job.what.to_owned(), rounded(waited + after), job.execution());
+            let error = Error::TimedOut { what, after, execution };
             self.answer(job, Err(Failure::Error(error)));
         }
         let (late, queue) = std::mem::take(&mut self.queue).into_iter().partition(|job| job.asked + patience <= now);
         self.queue = queue;
         for job in Vec::from(late) {
-            let (what, sent, only_reads) = (job.what.to_owned(), job.was_sent, job.repeat);
-            let error = Error::TimedOut { what, after: waited + patience, sent, only_reads };
+            let (what, execution) = (job.what.to_owned(), job.execution_before());
+            let error = Error::TimedOut { what, after: waited + patience, execution };
             self.answer(job, Err(Failure::Error(error)));
         }
     }
@@ -329,8 +334,8 @@ impl Link {
                 job.was_sent = true;
                 self.queue.push_front(job);
             } else {
-                let (what, cause, only_reads) = (job.what.to_owned(), cause.to_owned(), job.repeat);
-                let error = Error::Lost { what, sent: true, only_reads, cause };
+                let (what, cause, execution) = (job.what.to_owned(), cause.to_owned(), job.execution());
+                let error = Error::Lost { what, execution, cause };
                 self.answer(job, Err(Failure::Error(error)));
             }
         }
@@ -347,13 +352,13 @@ impl Link {
                 self.accept(command);
             }
             for job in std::mem::take(&mut self.queue) {
-                let (what, cause, only_reads) = (job.what.to_owned(), cause.to_owned(), job.repeat);
-                let error = Error::Lost { what, sent: job.was_sent, only_reads, cause };
+                let (what, cause, execution) = (job.what.to_owned(), cause.to_owned(), job.execution_before());
+                let error = Error::Lost { what, execution, cause };
                 self.answer(job, Err(Failure::Error(error)));
             }
             return None;
         };
-        let (address, options) = (Arc::clone(&self.address), Arc::clone(&self.options));
+        let (address, options, waited) = (Arc::clone(&self.address), Arc::clone(&self.options), self.waited);
         let (address, options) = (&*address, &*options);
         let (mut attempts, mut cause) = (0, cause.to_owned());
         loop {
@@ -362,7 +367,7 @@ impl Link {
             self.wait = if wait.is_zero() { backoff.first } else { (wait * 2).min(backoff.most) };
             let mut attempt = pin!(async move {
                 sleep(wait).await;
-                open(address, options).await
+                open(address, options, waited).await
             });
             let opened = loop {
                 let deadline = self.deadline();

@@ -54,7 +54,7 @@ mod variables;
 mod tests;
 
 pub use blocks::{BlockCount, BlockDescription, BlockEntry, BlockKind};
-pub use error::Error;
+pub use error::{Error, Execution};
 pub use job::Negotiated;
 pub use link::State;
 pub use nc::{NcKind, NcVariable};
@@ -66,6 +66,7 @@ pub use variable::{Memory, Variable};
 
 use std::fmt::Debug;
 use std::sync::Arc;
+use std::time::Duration;
 
 use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::sync::{Mutex, mpsc, oneshot, watch};
@@ -106,8 +107,13 @@ impl Client {
     /// # Errors
     /// The host cannot be reached, or does not accept the connection or the password.
     pub async fn connect(address: &str, options: Options) -> Result<Self, Error> {
-        let opened = opening::open(address, &options).await?;
-        Ok(Self::with_link(opened, address, options))
+        Self::connect_after(Duration::ZERO, address, options).await
+    }
+
+    /// Connects to a module for which the caller has already waited in vain, on other connections. Error messages add that time to the time limit.
+    pub(crate) async fn connect_after(waited: Duration, address: &str, options: Options) -> Result<Self, Error> {
+        let opened = opening::open(address, &options, waited).await?;
+        Ok(Self::with_link(opened, address, options, waited))
     }
 
     /// Connects over a stream that is already open: a tunnel, or a test's stream. It is not reopened when it is lost, whatever the options
@@ -120,15 +126,16 @@ impl Client {
         options: Options,
     ) -> Result<Self, Error> {
         let (options, name) = (Options { reconnect: None, ..options }, "the other end");
-        let opened = opening::greet(Box::new(stream), name, &options, Instant::now() + options.timeout).await?;
-        Ok(Self::with_link(opened, name, options))
+        let (deadline, waited) = (Instant::now() + options.timeout, Duration::ZERO);
+        let opened = opening::greet(Box::new(stream), name, &options, deadline, waited).await?;
+        Ok(Self::with_link(opened, name, options, waited))
     }
 
-    fn with_link(opened: opening::Opened, address: &str, options: Options) -> Self {
+    fn with_link(opened: opening::Opened, address: &str, options: Options, waited: Duration) -> Self {
         let (commands, receiver) = mpsc::channel(COMMANDS);
         let (sender, state) = watch::channel(State::Connected(opened.negotiated));
         let options = Arc::new(options);
-        let link = Link::new(address.into(), Arc::clone(&options), receiver, sender);
+        let link = Link::new(address.into(), Arc::clone(&options), waited, receiver, sender);
         tokio::spawn(link.run(opened));
         Self { commands, state, options, long: Arc::default() }
     }
@@ -157,12 +164,8 @@ impl Client {
     /// Waits for a connection, at most as long as for a request.
     async fn connected(&self, what: &str) -> Result<Negotiated, Error> {
         let mut state = self.state.clone();
-        let lost = |cause: &str| Error::Lost {
-            what: what.to_owned(),
-            sent: false,
-            only_reads: false,
-            cause: cause.to_owned(),
-        };
+        let lost =
+            |cause: &str| Error::Lost { what: what.to_owned(), execution: Execution::NotSent, cause: cause.to_owned() };
         let deadline = Instant::now() + self.options.patience;
         loop {
             let last = match &*state.borrow_and_update() {
@@ -209,7 +212,7 @@ impl Client {
             State::Ended { cause } | State::Lost { cause, .. } => cause.clone(),
             State::Connected(_) => "the client ends".to_owned(),
         };
-        Error::Lost { what: what.to_owned(), sent: false, only_reads: false, cause }
+        Error::Lost { what: what.to_owned(), execution: Execution::NotSent, cause }
     }
 }
 

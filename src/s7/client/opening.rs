@@ -47,17 +47,17 @@ enum Received {
     Pdu(Vec<u8>),
 }
 
-pub(super) async fn open(address: &str, options: &Options) -> Result<Opened, Error> {
+pub(super) async fn open(address: &str, options: &Options, waited: Duration) -> Result<Opened, Error> {
     let deadline = Instant::now() + options.timeout;
     let unreachable = |cause: String| Error::Unreachable { host: address.to_owned(), cause };
-    let none = || unreachable(no_answer(options));
+    let none = || unreachable(no_answer(options, waited));
     let stream = by(deadline, TcpStream::connect(address)).await.ok_or_else(none)?;
     let stream = stream.map_err(|error| unreachable(error.to_string()))?;
     // The connection also works without these options, only more slowly.
     let _ = stream.set_nodelay(true);
     let keep_alive = TcpKeepalive::new().with_time(Duration::from_secs(30));
     let _ = SockRef::from(&stream).set_tcp_keepalive(&keep_alive);
-    greet(Box::new(stream), address, options, deadline).await
+    greet(Box::new(stream), address, options, deadline, waited).await
 }
 
 /// Opens the layers above TCP.
@@ -66,9 +66,10 @@ pub(super) async fn greet(
     address: &str,
     options: &Options,
     deadline: Instant,
+    waited: Duration,
 ) -> Result<Opened, Error> {
     let conversation = Conversation::default();
-    let mut opening = Opening { stream, conversation, address, options, deadline };
+    let mut opening = Opening { stream, conversation, address, options, deadline, waited };
     let confirm = opening.connect().await?;
     let piece = confirm.piece(TPDU);
     let setup = opening.set_up(piece).await?;
@@ -80,8 +81,9 @@ pub(super) async fn greet(
     Ok(Opened { stream, conversation, negotiated, piece })
 }
 
-fn no_answer(options: &Options) -> String {
-    format!("no answer within {} s", (options.waited + options.timeout).as_secs_f64())
+/// Names the time limit with the time that the caller had waited before.
+fn no_answer(options: &Options, waited: Duration) -> String {
+    format!("no answer within {} s", (waited + options.timeout).as_secs_f64())
 }
 
 struct Opening<'a> {
@@ -90,6 +92,7 @@ struct Opening<'a> {
     address: &'a str,
     options: &'a Options,
     deadline: Instant,
+    waited: Duration,
 }
 
 impl Opening<'_> {
@@ -171,7 +174,7 @@ impl Opening<'_> {
 
     /// Sends bytes and waits for a message.
     async fn exchange(&mut self, bytes: &[u8]) -> Result<Received, Error> {
-        let late = || no_answer(self.options);
+        let late = || no_answer(self.options, self.waited);
         match by(self.deadline, self.stream.write_all(bytes)).await {
             Some(Ok(())) => {}
             Some(Err(error)) => return Err(self.refused(error.to_string())),

@@ -79,8 +79,6 @@ pub struct Options {
     pub items: u8,
     /// Time limit for connecting, and for the answer to a request.
     pub timeout: Duration,
-    /// How long the caller has already waited for this module in vain, on other connections; error messages add it to the time limit.
-    pub waited: Duration,
     /// How long a request waits for the reconnect after a lost connection.
     pub patience: Duration,
     /// How a lost connection is reopened; `None`: not at all.
@@ -97,7 +95,6 @@ impl Default for Options {
             jobs: 8,
             items: u8::MAX,
             timeout: Duration::from_secs(5),
-            waited: Duration::ZERO,
             patience: Duration::from_secs(30),
             reconnect: Some(Backoff { first: Duration::from_millis(100), most: Duration::from_secs(5) }),
             password: None,

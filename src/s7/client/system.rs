@@ -1,6 +1,6 @@
 //! The CPU: system state lists, identification, RUN and STOP, clock, passwords.
 
-use super::error::Error;
+use super::error::{Error, Execution};
 use super::{Client, Question};
 use crate::s7::station::{CpuState, Restart};
 use crate::s7::wire::data::SUCCESS;
@@ -243,9 +243,10 @@ impl Client {
         loop {
             match self.parts(what, group, function, payload).await {
                 // The rest of a long answer is lost with its connection.
-                Err(Error::Lost { sent: true, .. } | Error::Rejected { error: ErrorCode::WRONG_SEQUENCE, .. })
-                    if attempt < ATTEMPTS && self.options.reconnect.is_some() =>
-                {
+                Err(
+                    Error::Lost { execution: Execution::Read | Execution::PerhapsExecuted, .. }
+                    | Error::Rejected { error: ErrorCode::WRONG_SEQUENCE, .. },
+                ) if attempt < ATTEMPTS && self.options.reconnect.is_some() => {
                     attempt += 1;
                 }
                 result => return result,

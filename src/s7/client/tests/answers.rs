@@ -1,7 +1,7 @@
 //! Requests and their answers: which request gets which answer, and the behaviour of unusual servers.
 
 use super::*;
-use crate::s7::client::{Error, Mode, Value};
+use crate::s7::client::{Error, Execution, Mode, Value};
 use crate::s7::wire::header::ErrorCode;
 
 #[tokio::test]
@@ -16,7 +16,7 @@ async fn a_late_answer_is_dropped() {
     };
     let client_side = async {
         let late = client.read(&variable("MB1")).await;
-        assert!(matches!(late, Err(Error::TimedOut { sent: true, .. })), "{late:?}");
+        assert!(matches!(late, Err(Error::TimedOut { execution: Execution::Read, .. })), "{late:?}");
         assert_eq!(client.read(&variable("MB2")).await, Ok(Value::Byte(2)));
     };
     tokio::join!(client_side, script);

@@ -1,7 +1,7 @@
 //! Lost connections, and the requests in flight.
 
 use super::*;
-use crate::s7::client::{BlockKind, Client, Error, Mode, State, Value};
+use crate::s7::client::{BlockKind, Client, Error, Execution, Mode, State, Value};
 
 /// The first three pushed values of a flag byte, across lost connections.
 async fn first_three(client: &Client) -> Vec<Result<Value, Error>> {
@@ -47,7 +47,10 @@ async fn writes_are_never_repeated() {
     let memory = variable("MB1");
     let client_side = async {
         let error = client.write(&memory, &Value::Byte(1)).await.unwrap_err();
-        assert!(matches!(&error, Error::Lost { what, sent: true, .. } if what == "MB1"), "{error:?}");
+        assert!(
+            matches!(&error, Error::Lost { what, execution: Execution::PerhapsExecuted, .. } if what == "MB1"),
+            "{error:?}"
+        );
         assert!(error.cure().contains("may have been executed"));
         assert_eq!(client.read(&memory).await, Ok(Value::Byte(0)));
     };
@@ -80,7 +83,7 @@ async fn a_request_that_waits_too_long_reports_that_it_was_not_sent() {
     drop((peer, place));
     client.changes().wait_for(|state| matches!(state, State::Lost { .. })).await.unwrap();
     let error = client.write(&variable("MB1"), &Value::Byte(1)).await.unwrap_err();
-    assert!(matches!(error, Error::Lost { sent: false, .. }), "{error:?}");
+    assert!(matches!(error, Error::Lost { execution: Execution::NotSent, .. }), "{error:?}");
 }
 
 #[tokio::test]
@@ -93,9 +96,9 @@ async fn without_reconnection_a_lost_connection_stays_lost() {
     };
     let memory = variable("MB1");
     let (value, ()) = tokio::join!(client.read(&memory), script);
-    assert!(matches!(value, Err(Error::Lost { sent: true, .. })), "{value:?}");
+    assert!(matches!(value, Err(Error::Lost { execution: Execution::Read, .. })), "{value:?}");
     let later = client.read(&memory).await;
-    assert!(matches!(later, Err(Error::Lost { sent: false, .. })), "{later:?}");
+    assert!(matches!(later, Err(Error::Lost { execution: Execution::NotSent, .. })), "{later:?}");
     assert!(matches!(client.state(), State::Ended { .. }));
 }
 
@@ -217,7 +220,7 @@ async fn a_flood_does_not_block_time_limits() {
     let memory = variable("MB1");
     let value = tokio::time::timeout(Duration::from_secs(10), client.read(&memory)).await;
     flood.abort();
-    assert!(matches!(value, Ok(Err(Error::TimedOut { sent: true, .. }))), "{value:?}");
+    assert!(matches!(value, Ok(Err(Error::TimedOut { execution: Execution::Read, .. }))), "{value:?}");
 }
 
 #[tokio::test]
