@@ -38,7 +38,7 @@ use std::fmt::Debug;
 use crate::image::{Interface, Location, Names, OverrideCoding, Signal};
 use crate::motion::Feedback;
 use crate::source::Problem;
-use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position, Time};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, Position, Time};
 use crate::variables::{AlarmNumber, DatumValue, EventId, Events, FaultName, Place, Rule, RuleNumber, Variables};
 
 /// A command to a control from outside, taken at the edge of a cycle.
@@ -192,6 +192,12 @@ pub trait Control: Send + Sync + Debug {
     /// Whether the machine has this channel, according to its stored data. The default is every channel.
     fn has_channel(&self, channel: ChannelNumber) -> bool {
         let _ = channel;
+        true
+    }
+
+    /// Whether the machine has this mode group, according to its stored data. The default is every mode group.
+    fn has_mode_group(&self, mode_group: ModeGroupNumber) -> bool {
+        let _ = mode_group;
         true
     }
 

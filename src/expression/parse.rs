@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::scope::Scope;
 use super::term::{CauseTerm, FollowedTerm, Operator, Question, Term};
-use super::tokens::{Token, excerpt, mistake, tokens};
+use super::tokens::{MACHINE_DATA, Token, excerpt, mistake, tokens};
 use crate::image::Location;
 use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber};
@@ -321,6 +321,7 @@ impl Parser<'_> {
         }
         match self.scope.signal(name) {
             Ok(location) => Ok(Term::Signal(location)),
+            Err(_) if is_machine_datum(name) => Err(Problem { cure: MACHINE_DATA.to_owned(), ..problem }),
             Err(unknown) => Err(self.unknown(name, column, unknown)),
         }
     }
@@ -384,6 +385,12 @@ fn near_rules(wanted: &str, known: impl Iterator<Item = &'static str>) -> String
     }
     let all: Vec<_> = known.iter().copied().collect();
     did_you_mean(wanted, known, &format!("causes name {}", all.join(", ")))
+}
+
+/// Whether a name is `MD10000` or `SD41110`: `MD20` is a double word of flags.
+fn is_machine_datum(name: &str) -> bool {
+    let number = name.strip_prefix("MD").or_else(|| name.strip_prefix("SD"));
+    number.is_some_and(|number| number.len() == 5 && number.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 /// The remedy for a word that is an operator or a constant in other languages.

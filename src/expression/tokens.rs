@@ -35,6 +35,10 @@ impl Token {
 /// The operators and punctuation; a longer one precedes its own prefix.
 const SIGNS: [&str; 15] = ["==", "!=", "<=", ">=", "&&", "||", "<", ">", "!", "+", "-", "*", "/", "(", ")"];
 
+/// What to do about the name of a machine datum.
+pub(super) const MACHINE_DATA: &str =
+    "machine data cannot be read in expressions: write the number; `machine_data` and `[machine_data]` store them";
+
 /// The maximum number of tokens. Terms are nested, and a deeper nesting would need more stack than a thread has.
 const TOKENS: usize = 2_000;
 
@@ -89,6 +93,7 @@ pub(super) fn tokens(source: &str) -> Result<Vec<(usize, Token)>, Problem> {
                 '&' => problem.cure = "write `&&` for `and`".to_owned(),
                 '|' => problem.cure = "write `||` for `or`".to_owned(),
                 '=' => problem.cure = "write `==` for `equal`".to_owned(),
+                '[' => problem.cure = MACHINE_DATA.to_owned(),
                 '"' => problem.cure = "the name of an alarm is in single quotes: alarm('name')".to_owned(),
                 _ => {}
             }

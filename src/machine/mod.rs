@@ -45,7 +45,7 @@ use crate::image::{Memory, Names, OverrideCoding, PartBytes};
 use crate::plc::PlcProgram;
 use crate::source::Problem;
 use crate::trace::Recorder;
-use crate::units::{AxisNumber, ChannelNumber, Time};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Time};
 use crate::variables::{RParameters, RaisedAlarm, Variables};
 
 use before::Before;
@@ -152,6 +152,12 @@ impl Machine {
     #[must_use]
     pub fn has_channel(&self, channel: ChannelNumber) -> bool {
         self.control.has_channel(channel)
+    }
+
+    /// Whether the machine has this mode group, according to the stored data of its control: one with a channel.
+    #[must_use]
+    pub fn has_mode_group(&self, mode_group: ModeGroupNumber) -> bool {
+        self.control.has_mode_group(mode_group)
     }
 
     /// The PLC's half of the interface as the control reads it, if it reads it later than it is written (`to_nck_delay`).

@@ -5,13 +5,15 @@ use crate::image::{Block, Location};
 use crate::machine::Machine;
 use crate::source::{Problem, did_you_mean};
 use crate::trace::value_as_signal;
-use crate::units::{AxisNumber, ChannelNumber};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 use crate::variables::Describe;
 
 /// The names of a machine and of the values captured so far.
 pub(super) struct Known<'a> {
     pub(super) machine: &'a Machine,
     pub(super) captured: &'a [String],
+    /// Stored machine data may have given the machine other mode groups.
+    pub(super) is_reconfigured: bool,
 }
 
 impl Scope for Known<'_> {
@@ -20,7 +22,13 @@ impl Scope for Known<'_> {
     }
 
     fn signal(&self, name: &str) -> Result<Location, Problem> {
-        self.machine.signal(name)
+        let location = self.machine.signal(name)?;
+        // The symbols of axes and channels that do not exist are unknown; those of mode groups are not.
+        let is_symbol_of_a_mode_group = name.starts_with(|c: char| c.is_ascii_lowercase());
+        if is_symbol_of_a_mode_group && !self.is_reconfigured {
+            return missing_owner(self.machine, location).map_or(Ok(location), Err);
+        }
+        Ok(location)
     }
 
     fn named_values(&self) -> &[String] {
@@ -83,14 +91,15 @@ pub(super) fn written_by_others(machine: &Machine, name: &str) -> Result<Locatio
     Ok(location)
 }
 
-/// The problem of a signal whose axis or channel this machine does not have: nothing would read what is written there.
+/// The problem of a signal whose axis, channel or mode group this machine does not have: nothing would read what is written there.
 pub(super) fn missing_owner(machine: &Machine, location: Location) -> Option<Problem> {
     let names = machine.names();
     let (number, signal) = names.interface().touching(location).next()?;
     let exists = match signal.block {
         Block::Axis => AxisNumber::new(number).is_some_and(|axis| names.axes[axis].is_some()),
         Block::Channel => ChannelNumber::new(number).is_some_and(|channel| machine.has_channel(channel)),
-        Block::Nck | Block::ModeGroup => true,
+        Block::ModeGroup => ModeGroupNumber::new(number).is_some_and(|group| machine.has_mode_group(group)),
+        Block::Nck => true,
     };
     let (kind, known): (_, Vec<&str>) = match signal.block {
         Block::Axis => ("axis", AxisNumber::all().filter_map(|axis| names.axes[axis].as_deref()).collect()),
@@ -98,7 +107,11 @@ pub(super) fn missing_owner(machine: &Machine, location: Location) -> Option<Pro
             let existing = ChannelNumber::all().filter(|channel| machine.has_channel(*channel));
             ("channel", existing.filter_map(|channel| names.channels[channel].as_deref()).collect())
         }
-        Block::Nck | Block::ModeGroup => return None,
+        Block::ModeGroup => {
+            let existing = ModeGroupNumber::all().filter(|group| machine.has_mode_group(*group));
+            ("mode group", existing.filter_map(|group| names.owner(Block::ModeGroup, group.number())).collect())
+        }
+        Block::Nck => return None,
     };
     (!exists).then(|| {
         let (address, known) = (names.address(location), known.join(", "));

@@ -456,7 +456,8 @@ impl Session {
     }
 
     fn parsed(&self, source: &str, followed: &mut Followed) -> Result<Expression, Problem> {
-        let known = Known { machine: &self.machine, captured: &self.book.captured_names };
+        let captured = &self.book.captured_names;
+        let known = Known { machine: &self.machine, captured, is_reconfigured: false };
         let mut expression = Expression::parse(source, &known)?;
         expression.follow(followed);
         Ok(expression)

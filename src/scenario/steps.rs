@@ -150,7 +150,8 @@ impl<'a> Reader<'a> {
 
     /// An expression with all names known so far.
     pub(super) fn expression(&mut self, source: &str, place: &Place) -> Result<Expression, Problem> {
-        let known = Known { machine: self.machine, captured: &self.captured };
+        let [is_reconfigured, _] = self.reconfigured;
+        let known = Known { machine: self.machine, captured: &self.captured, is_reconfigured };
         let mut expression = Expression::parse(source, &known).map_err(|problem| problem.at(place))?;
         expression.follow(&mut self.followed);
         Ok(expression)

@@ -13,7 +13,7 @@ use crate::sinumerik::machine_data::Target;
 use crate::sinumerik::nck::{Nck, shown};
 use crate::sinumerik::texts::TEXTS;
 use crate::source::Problem;
-use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, Position};
 use crate::variables::{AlarmNumber, DatumValue, EventId, Events, Place, Variables};
 
 /// The parts have the lengths of this control's interface, because the memory was created for it.
@@ -129,6 +129,10 @@ impl Control for Nck {
         self.stored().mode_group(channel).is_some()
     }
 
+    fn has_mode_group(&self, mode_group: ModeGroupNumber) -> bool {
+        ChannelNumber::all().any(|channel| self.stored().mode_group(channel) == Some(mode_group))
+    }
+
     fn measuring_system(&self, axis: AxisNumber) -> Option<u8> {
         Self::measuring_system(self, axis)
     }
@@ -186,7 +190,8 @@ impl Control for Nck {
     }
 
     fn configuration(&self, names: &Names) -> Vec<String> {
-        (1..=8).filter_map(|grouping| self.grouping_in_words(grouping, names)).collect()
+        let groupings: Vec<String> = (1..=8).filter_map(|grouping| self.grouping_in_words(grouping, names)).collect();
+        if groupings.is_empty() { vec!["gantry groupings: none".to_owned()] } else { groupings }
     }
 
     fn taken(&self) -> Taken {

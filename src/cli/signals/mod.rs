@@ -8,11 +8,11 @@ use super::list::{Format, List};
 use super::output::Output;
 use crate::control::Texts;
 use crate::controls;
-use crate::image::{Memory, Names, Profile, Signal, Writer};
+use crate::image::{Block, Memory, Names, Profile, Signal, Writer};
 use crate::machine::{Machine, OpenOptions};
 use crate::scenario::profile_named;
 use crate::source::Problem;
-use crate::units::{AxisNumber, ChannelNumber};
+use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
 use crate::variables::AxisValue;
 use aliases::means;
 
@@ -30,13 +30,20 @@ struct Row {
     cells: [String; 5],
 }
 
+impl Row {
+    fn symbol(&self) -> &str {
+        let [_, symbol, ..] = &self.cells;
+        symbol
+    }
+}
+
 /// The names and the memory that give addresses and symbols, and what the control models.
 struct Catalogue {
     names: Names,
     memory: Memory,
     texts: &'static dyn Texts,
-    /// The names are those of a machine: all its axes and channels are listed.
-    of_a_machine: bool,
+    /// The machine that gave the names: all its axes, channels and mode groups are listed.
+    machine: Option<Machine>,
 }
 
 pub(super) fn signals(
@@ -61,7 +68,7 @@ fn catalogue(machine: Option<&Path>, profile: &str) -> Result<Catalogue, Problem
     if let Some(path) = machine {
         let machine = Machine::open_with(path, OpenOptions { profile, ..OpenOptions::default() })?;
         let (names, memory) = (machine.names().clone(), machine.memory().clone());
-        return Ok(Catalogue { names, memory, texts: machine.control().texts(), of_a_machine: true });
+        return Ok(Catalogue { names, memory, texts: machine.control().texts(), machine: Some(machine) });
     }
     let mut names = Names { profile, ..Names::default() };
     names.axes[AxisNumber::FIRST] = Some("AX1".to_owned());
@@ -69,7 +76,7 @@ fn catalogue(machine: Option<&Path>, profile: &str) -> Result<Catalogue, Problem
     let memory = Memory::of(profile.interface());
     let is_of_profile = |texts: &&'static dyn Texts| std::ptr::eq(texts.interface(), profile.interface());
     let texts = controls::texts().find(is_of_profile).expect("a profile belongs to a control");
-    Ok(Catalogue { names, memory, texts, of_a_machine: false })
+    Ok(Catalogue { names, memory, texts, machine: None })
 }
 
 impl Catalogue {
@@ -83,7 +90,10 @@ impl Catalogue {
             rows = self.filtered(rows, filter);
             if rows.is_empty() {
                 found = 1;
-                output.warning(format!("no signal contains `{filter}`; omit the filter to list all signals"));
+                output.warning(format!(
+                    "no signal contains `{filter}`; omit the filter to list all signals{}",
+                    self.hint()
+                ));
             }
         }
         let rows = rows.into_iter().map(|row| {
@@ -99,25 +109,45 @@ impl Catalogue {
 
     /// The rows that contain a text or are meant by an everyday word; without such a row, those with all words of the text.
     fn filtered(&self, rows: Vec<Row>, filter: &str) -> Vec<Row> {
-        let filter = if self.of_a_machine { filter.to_owned() } else { of_the_first(filter, self.names.profile) };
+        let filter = match self.machine {
+            Some(_) => filter.to_owned(),
+            None => of_the_first(filter, self.names.profile),
+        };
         let wanted = filter.to_lowercase();
         let contains = |row: &Row, text: &str| row.cells.iter().any(|cell| cell.to_lowercase().contains(text));
         let is_meant = |row: &Row| contains(row, &wanted) || means(&wanted, row.name);
         if rows.iter().any(is_meant) {
             return rows.into_iter().filter(is_meant).collect();
         }
+        // `X.feed_stop`: without a machine, the list has no axis of this name.
+        let signal = wanted.split_once('.').map(|(_, signal)| format!(".{signal}"));
+        if let Some(signal) = signal.filter(|_| self.machine.is_none())
+            && rows.iter().any(|row| row.symbol().contains(&signal))
+        {
+            return rows.into_iter().filter(|row| row.symbol().contains(&signal)).collect();
+        }
         rows.into_iter().filter(|row| wanted.split_whitespace().all(|word| contains(row, word))).collect()
     }
 
+    /// What else to do about a name that is not found.
+    fn hint(&self) -> &'static str {
+        if self.machine.is_some() { "" } else { ", or add --machine for the names of a machine" }
+    }
+
     fn signals(&self) -> Vec<Row> {
-        if !self.of_a_machine {
+        let Some(machine) = &self.machine else {
             return self.names.interface().signals().filter_map(|signal| self.row(signal, 1)).collect();
-        }
+        };
+        let exists = |(_, block, number): &(&str, Block, u8)| match block {
+            Block::Channel => ChannelNumber::new(*number).is_some_and(|channel| machine.has_channel(channel)),
+            Block::ModeGroup => ModeGroupNumber::new(*number).is_some_and(|group| machine.has_mode_group(group)),
+            Block::Nck | Block::Axis => true,
+        };
         let of_owner = |(_, block, number)| {
             let of_block = self.names.interface().signals().filter(move |signal| signal.block == block);
             of_block.filter_map(move |signal| self.row(signal, number))
         };
-        self.names.owners().flat_map(of_owner).collect()
+        self.names.owners().filter(exists).flat_map(of_owner).collect()
     }
 
     /// Returns nothing for a signal that the profile does not show.

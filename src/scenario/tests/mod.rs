@@ -122,6 +122,17 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
             "= \"100%\"",
         ),
         ("force = { \"CHAN1.feed_override\" = 32 }", 4, "for `CHAN1.feed_override`, found 32", "percentages are 0, 1"),
+        ("set = { \"X.feed_override\" = -1 }", 4, "for `X.feed_override`, found -1", "any bits as \"16#FF\""),
+        // g1_example has one mode group.
+        (
+            "set = { \"mode_group_2.mode_jog\" = 1 }",
+            4,
+            "signal of an existing mode group, found DB11.DBX20.2 of mode group 2",
+            "the machine has mode_group_1",
+        ),
+        ("expect = \"mode_group_2.mode_jog\"", 4, "signal of an existing mode group", "the machine has mode_group_1"),
+        ("expect = \"MD32000[X] > 1\"", 4, "found `[`", "machine data cannot be read in expressions"),
+        ("expect = \"SD41110 > 1\"", 4, "found `SD41110`", "machine data cannot be read in expressions"),
         ("set = { \"DB31.DBX101.7\" = 1 }", 4, "found X.gantry_axis (DB31.DBX101.7), which the NCK writes", "expect"),
         ("set = { \"X.gantry_axis\" = 1 }", 4, "found X.gantry_axis (DB31.DBX101.7), which the NCK writes", "expect"),
         ("set = { \"DB31.DBB101\" = 1 }", 4, "which the NCK writes", "expect"),
