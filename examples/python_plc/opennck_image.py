@@ -18,6 +18,7 @@ The page `docs/plc_in_another_process.md` describes the file byte by byte. Two r
 """
 
 import mmap
+import operator
 import os
 import platform
 import re
@@ -64,6 +65,8 @@ CHANGE = struct.Struct("<IBBxx")
 STEP, ANSWER = struct.Struct("<6Q"), struct.Struct("<4Q")
 # How long to look for the next step without a pause, in seconds; and between looks whether the NC still exists.
 SPIN, LOOK = 0.0002, 0.5
+# After how many seconds without an NC to report it.
+REPORT = 1.0
 
 WRITERS = {1: "PLC", 2: "NCK", 3: "HMI", 4: "machine"}
 
@@ -96,7 +99,7 @@ class Step:
         self.first_scan = False
         self._slot = slot
         self._bytes = image.image_bytes
-        self._places = image.places
+        self._places, self._of_others = image.places, image.of_others
         self._image = None
         self._written = {}  # the written bytes by offset
 
@@ -130,13 +133,24 @@ class Step:
 
     def __setitem__(self, address, value):
         offset, width, bit = self._places[address]
+        if offset in self._of_others or offset + width - 1 in self._of_others:
+            writer = self._of_others.get(offset) or self._of_others[offset + width - 1]
+            raise ValueError(f"{address}: the {writer} writes this byte, and the NC takes no change of the PLC there")
+        try:
+            number = operator.index(value)
+        except TypeError:
+            kind = "a number or a truth value" if bit is not None else "a whole number"
+            raise TypeError(f"{address}: expected {kind}, found {value!r}") from None
         written = self._written
         if bit is None:
-            for at, byte in enumerate(int(value).to_bytes(width, "big", signed=value < 0), offset):
+            least, most = -(1 << 8 * width - 1), (1 << 8 * width) - 1
+            if not least <= number <= most:
+                raise ValueError(f"{address}: expected a number from {least} to {most}, found {number}")
+            for at, byte in enumerate(number.to_bytes(width, "big", signed=number < 0), offset):
                 written[at] = byte
             return
         byte = written[offset] if self._image is not None else written.get(offset, self._slot[HEAD + offset])
-        written[offset] = byte | 1 << bit if value else byte & ~(1 << bit) & 0xFF
+        written[offset] = byte | 1 << bit if number else byte & ~(1 << bit) & 0xFF
 
     def changes(self):
         """The changed bytes: offset, before, after; None if the program has taken the whole image."""
@@ -163,7 +177,8 @@ def following(number):
 
 
 class Image:
-    """The file. `wait` is the time in seconds to wait for an NC that serves it.
+    """The file. `wait` is the time in seconds to wait for an NC that serves it; its folder must exist. A wait of more than a second is
+    reported once, on standard error.
 
     Create it when the program is ready: from then on an NC in lock-step waits for the first answer, with the same time-out as for any other.
     """
@@ -172,17 +187,26 @@ class Image:
         if sys.byteorder != "little":
             raise OSError("the words of the file are little-endian; this computer's are not")
         self._path, self._wait = path, wait
+        folder = os.path.dirname(os.path.abspath(path))
+        if not os.path.isdir(folder):
+            raise FileNotFoundError(f"no NC can serve {path}: the folder {folder} does not exist")
         self._open_soon()
 
     def _open_soon(self):
-        end = time.monotonic() + self._wait
+        begin = time.monotonic()
+        end, is_reported = begin + self._wait, "OPENNCK_STARTED" in os.environ
         while True:
             try:
                 self._open(self._path)
                 return
             except NotYet as reason:
-                if time.monotonic() > end:
+                now = time.monotonic()
+                if now > end:
                     raise TimeoutError(f"no NC serves {self._path}: {reason}") from None
+                if now - begin > REPORT and not is_reported:
+                    is_reported = True
+                    serve = f"opennck serve MACHINE --image {self._path}"
+                    print(f"waiting for an NC that serves {self._path} ({reason}); start it with: {serve}", file=sys.stderr, flush=True)
             time.sleep(0.01)
 
     def _open(self, path):
@@ -234,6 +258,13 @@ class Image:
         if any(section.offset + section.length > self.image_bytes for section in self.sections):
             raise NotYet("its section table is invalid: a section ends beyond the image")
         self.places = Places(self._look_up)
+        # The writer of each byte that the PLC does not write.
+        self.of_others = {
+            offset: section.writer
+            for section in self.sections
+            if section.writer != "PLC"
+            for offset in range(section.offset, section.offset + section.length)
+        }
         self._lock_step = self.word(LOCK_STEP) != 0
         self._process, self._own = self.word(PROCESS), os.getpid()
         # `opennck` starts a process for one NC; any other process may wait for the next NC.

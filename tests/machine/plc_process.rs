@@ -114,6 +114,11 @@ fn a_process_that_does_not_start_or_attach_is_unusable_and_one_that_ends_or_hang
     write(&directory, "dies", &process("dies"), "if step.cycle == 20: print('nothing to do'); sys.exit(3)");
     write(&directory, "hangs", &process("hangs"), "if step.cycle == 20: time.sleep(1000)");
     write(&directory, "wrong", &process("wrong"), "step['DB99.DBX0.0'] = 1");
+    for (name, statement) in
+        [("nck", "step['DB31.DBX101.4'] = 1"), ("text", "step['DB31.DBX4.7'] = '0'"), ("large", "step['MB0'] = 300")]
+    {
+        write(&directory, name, &process(name), statement);
+    }
     write(&directory, "unstarted", "plc = { process = \"no_such_program {image}\" }", "");
     write(&directory, "unattached", "plc = { process = \"sleep {image} 1000\", timeout = \"2s\" }", "");
     write(&directory, "imageless", "plc = { process = \"python3 dies.py\" }", "");
@@ -123,6 +128,9 @@ fn a_process_that_does_not_start_or_attach_is_unusable_and_one_that_ends_or_hang
         ("dies", 1, "it printed: nothing to do"),
         ("hangs", 1, "hangs.toml:2: no answer from the PLC process for 2s"),
         ("wrong", 1, "it printed: LookupError: DB99.DBX0.0: the image does not have this byte"),
+        ("nck", 1, "it printed: ValueError: DB31.DBX101.4: the NCK writes this byte"),
+        ("text", 1, "it printed: TypeError: DB31.DBX4.7: expected a number or a truth value, found '0'"),
+        ("large", 1, "it printed: ValueError: MB0: expected a number from -128 to 255, found 300"),
         ("unstarted", 2, "unstarted.toml:2: the PLC process `no_such_program {image}` cannot be started"),
         ("unattached", 2, "unattached.toml:2: the PLC process `sleep {image} 1000` ended before it opened the image"),
         (
