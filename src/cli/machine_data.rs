@@ -51,13 +51,19 @@ pub(super) fn list(filter: Option<&str>, format: Format, output: &mut Output) ->
     let mut list = List { heads, rows };
     let found = match filter {
         // A number is that of a datum, not a part of a range or of a default.
-        Some(number) if list.rows.iter().any(|row| row[0] == number) => {
-            list.rows.retain(|row| row[0] == number);
+        Some(name) if list.rows.iter().any(|row| row[0] == number_of(name)) => {
+            list.rows.retain(|row| row[0] == number_of(name));
             0
         }
         filter => list.retain_with(filter, output),
     };
     list.print(format, output).max(found)
+}
+
+/// The number in `32000`, `MD32000`, `SD41110` and `34080[0,XF]`.
+fn number_of(name: &str) -> &str {
+    let datum = name.split('[').next().unwrap_or_default().trim();
+    datum.strip_prefix("MD").or_else(|| datum.strip_prefix("SD")).unwrap_or(datum)
 }
 
 fn row(datum: DatumRow) -> Vec<String> {
@@ -113,7 +119,13 @@ fn of_scenario(path: &Path, case: Option<&str>) -> Result<Reports, Problem> {
     for scenario in scenarios {
         let machine = scenario.directory().join(&scenario.machine.text);
         let profile = scenario.profiles.first().copied().unwrap_or_default();
-        let checked = checked(&machine, || scenario.machine(profile))?;
+        let mut checked = checked(&machine, || scenario.machine(profile))?;
+        // A machine that is refused has no steps.
+        if !checked.findings.iter().any(|finding| finding.class == Class::Unreadable)
+            && let Err(problem) = scenario.check_steps(profile)
+        {
+            checked.findings.push(problem.into());
+        }
         let name = scenario.variant.as_ref().map(ToString::to_string);
         match reports.iter_mut().find(|(_, known)| *known == checked) {
             Some((names, _)) => names.extend(name),
@@ -141,6 +153,8 @@ fn report(checked: Checked, all: bool, deny: &[Deny], output: &mut Output) -> u8
         output.line(format!("\n{}: {}", class.title(), of_class.len()));
         if class == Class::NotModelled {
             groups(&of_class, all, output);
+        } else if class == Class::ActsOtherwise && !all {
+            by_datum(&of_class, output);
         } else {
             for finding in of_class {
                 item("  ", finding, output);
@@ -148,7 +162,9 @@ fn report(checked: Checked, all: bool, deny: &[Deny], output: &mut Output) -> u8
         }
     }
     if !all && (!ignored.is_empty() || findings.iter().any(|finding| finding.class == Class::NotModelled)) {
-        output.line("\n--all lists each datum that is not modelled, and each member that is ignored");
+        output.line(
+            "\n--all lists each datum of each axis, each one that is not modelled, and each member that is ignored",
+        );
     }
     code(&findings, deny)
 }
@@ -164,6 +180,43 @@ fn code(findings: &[Finding], deny: &[Deny]) -> u8 {
 
 fn item(indent: &str, finding: &Finding, output: &mut Output) {
     output.line(format!("{indent}{}", finding.to_string().replace('\n', &format!("\n{indent}"))));
+}
+
+/// Findings about one datum of several axes are one entry: with the line of the first one, its value if all have the same, and the axes.
+fn by_datum(findings: &[&Finding], output: &mut Output) {
+    // The remedy may name the axis.
+    let is_same = |one: &Finding, other: &Finding| {
+        one.number.is_some() && one.number == other.number && one.what == other.what && !one.owner.is_empty()
+    };
+    let mut groups: Vec<Vec<&Finding>> = Vec::new();
+    for &finding in findings {
+        match groups.iter_mut().find(|group| is_same(group[0], finding)) {
+            Some(group) => group.push(finding),
+            None => groups.push(vec![finding]),
+        }
+    }
+    for group in groups {
+        let first = group[0];
+        let [_, _, ..] = &group[..] else {
+            item("  ", first, output);
+            continue;
+        };
+        let mut owners: Vec<&str> = group.iter().map(|finding| finding.owner.as_str()).collect();
+        owners.dedup();
+        let datum = first.datum.split('[').next().unwrap_or_default().to_owned();
+        let is_one_value = group.iter().all(|finding| finding.value == first.value);
+        let value = if is_one_value { first.value.clone() } else { String::new() };
+        item("  ", &Finding { datum, value, owner: listed(&owners), ..first.clone() }, output);
+    }
+}
+
+/// `axes X1, Y1` for `axis X1` and `axis Y1`; others as they are.
+fn listed(owners: &[&str]) -> String {
+    let axes: Option<Vec<&str>> = owners.iter().map(|owner| owner.strip_prefix("axis ")).collect();
+    match axes {
+        Some(axes) if axes.len() > 1 => format!("axes {}", axes.join(", ")),
+        Some(_) | None => owners.join(", "),
+    }
 }
 
 /// Data that are not modelled, by function: the largest group first.

@@ -155,8 +155,8 @@ enum Command {
         /// A trace (JSON lines, from `run --trace`), or a scenario (*.toml) to run.
         trace: PathBuf,
         /// A symbol, an address, `alarm(NUMBER)` or a happening (`power_on`, `fault drive_fault[XF]`, `MD37110[XF]`), and a time in seconds:
-        /// the last one at or before this time is explained.
-        #[arg(value_name = "ADDRESS@TIME")]
+        /// the last one at or before this time is explained; without a time, the last one.
+        #[arg(value_name = "ADDRESS[@TIME]")]
         edge: String,
         #[command(flatten)]
         run: why::Run,

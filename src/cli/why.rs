@@ -77,12 +77,17 @@ fn explanation(
     programs: &Programs,
     output: &mut Output,
 ) -> Result<String, Problem> {
-    let (what, time) = parse_edge(edge).ok_or_else(|| {
-        Problem::new(
-            format!("expected SIGNAL@TIME or alarm(NUMBER)@TIME, found `{edge}`"),
-            "write `X.gantry_grouping_is_synchronized@8.068`, `DB31.DBX101.5@9s`, `alarm(10654)@7.6`, `power_on@2` or `fault drive_fault[XF]@3`",
-        )
-    })?;
+    let (what, time) = if edge.contains('@') {
+        parse_edge(edge).ok_or_else(|| {
+            Problem::new(
+                format!("expected SIGNAL, SIGNAL@TIME or alarm(NUMBER)@TIME, found `{edge}`"),
+                "write `X.gantry_grouping_is_synchronized@8.068`, `DB31.DBX101.5@9s`, `alarm(10654)@7.6`, `power_on@2` or \
+                 `fault drive_fault[XF]@3`; without a time it is the end",
+            )
+        })?
+    } else {
+        (edge, Time::from_nanos(i64::MAX))
+    };
     let is_scenario = trace.extension().is_some_and(|extension| extension == "toml");
     let story = match (is_scenario, &run.case, &run.profile) {
         (true, _, _) => {

@@ -560,7 +560,7 @@ fn what_the_files_ask_for_and_nobody_does_is_said() {
     let machine = example_with("[XF.encoder1]\nkind = \"absolute\"\n");
     let [finding] = machine.findings() else { panic!("{:?}", machine.findings()) };
     let expected = "acts otherwise: axis XF: the type of encoder 1 is not modelled; an incremental encoder is used\n  \
-        write kind = \"incremental\" in plant.toml";
+        write kind = \"incremental\" in [XF.encoder1] of plant.toml";
     assert_eq!(finding.to_string(), expected);
     assert!(machine.warnings()[0].contains("1 acts otherwise than on a control"), "{:?}", machine.warnings());
     assert!(example().warnings().is_empty(), "{:?}", example().warnings());

@@ -107,7 +107,7 @@ impl Plant {
         }
     }
 
-    /// A fault ends. A single displacement stays. Returns whether there was such a fault.
+    /// A fault ends. A single displacement stays. Returns whether this changes the slide: not if the fault did not act.
     pub fn clear_fault(&mut self, fault: Fault) -> bool {
         let Some(slide) = &mut self.slides[fault.axis] else {
             return false;

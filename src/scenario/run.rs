@@ -110,6 +110,20 @@ impl Scenario {
         self.open(profile, controls::read).map_err(|problem| in_the_case(problem, self.case().as_deref()))
     }
 
+    /// Checks the signals to watch, the steps and the rules against the machine, without a PLC program.
+    ///
+    /// # Errors
+    /// The first one that is invalid; the problem names file and line.
+    pub fn check_steps(&self, profile: Profile) -> Result<(), Problem> {
+        let checked = self.open(profile, controls::read).and_then(|machine| {
+            self.watch(&machine)?;
+            let mut reader = Reader::new(&machine, &self.path);
+            reader.steps(&self.steps, &mut Steps::default())?;
+            self.rules(&mut reader, machine.cycle_time()).map(drop)
+        });
+        checked.map_err(|problem| in_the_case(problem, self.case().as_deref()))
+    }
+
     fn open(&self, profile: Profile, read: Read) -> Result<Machine, Problem> {
         let image = |image: &Named| {
             let file = self.file_of(image)?;
@@ -135,7 +149,8 @@ impl Scenario {
         self.plc_image.as_ref().map(|image| self.file_of(image)).transpose()
     }
 
-    /// The files and folders that it reads: the file itself, those that it includes, its machine, its PLC image.
+    /// The files and folders that it reads: the file itself, those that it includes, its machine, its PLC image, and files that the command of
+    /// its PLC process names.
     #[must_use]
     pub fn inputs(&self) -> Vec<PathBuf> {
         let mut inputs = vec![self.path.clone()];
@@ -148,6 +163,7 @@ impl Scenario {
         }
         inputs.push(self.directory().join(&self.machine.text));
         inputs.extend(self.image_file().ok().flatten());
+        inputs.extend(self.plc_process.iter().flat_map(|(process, _)| process.files()));
         inputs
     }
 

@@ -51,18 +51,14 @@ const ACTS_OTHERWISE: &[(u32, &str, &str)] = &[
     (
         34102,
         "a reference point approach references one encoder",
-        "select the other measuring system (DBX1.5, DBX1.6), and reference it as well",
+        "select the other measuring system (position_measuring_system_1, position_measuring_system_2), and reference it as well",
     ),
-    (
-        34104,
-        "an axis in follow-up is not referenced",
-        "give the axis its controller enable (DBX2.1) before the approach",
-    ),
-    (36052, "clamping has no special functions", "expect DBX2.3 to act as with MD36052 = 0"),
+    (34104, "an axis in follow-up is not referenced", "give the axis its controller_enable before the approach"),
+    (36052, "clamping has no special functions", "expect clamping_in_progress to act as with MD36052 = 0"),
     (
         36730,
         "the signals of the drive are those of the plant",
-        "let a scenario give faults of the drive: fault = { axis = \"X\", kind = \"drive_fault\" }",
+        "let a scenario give faults of the drive: fault = { axis = \"AXIS\", kind = \"drive_fault\" }",
     ),
 ];
 
@@ -92,7 +88,7 @@ const SEEN_BY_THE_PLC: &[(u32, f64, &str, &str)] = &[
         33050,
         1e8,
         "the lubrication pulse is not modelled",
-        "DBX76.0 does not change: test the lubrication at the machine",
+        "lubrication_pulse does not change: test the lubrication at the machine",
     ),
     (
         36901,
@@ -252,7 +248,8 @@ fn unused_cam(archive: &Archive, number: AxisNumber, control: &Nck, site: &Site<
     let place = (site.cam)(archive.data.axis_name(number));
     let Some(place) = place.filter(|_| !control.parameters().axes[number].reference.cam_is_active) else { return };
     let what = format!("the reference point approach does not use the cam of {place}");
-    let cure = "set MD34000 to 1, or write cam = false";
+    let name = archive.data.axis_name(number);
+    let cure = format!("set MD34000 to 1, or write cam = false in [{name}]");
     findings.push(archive.about(34000, Owner::Axis(number), 0, Finding::new(Class::Implausible, what, cure)));
 }
 
@@ -298,7 +295,8 @@ fn encoders(archive: &Archive, number: AxisNumber, site: &Site<'_>, findings: &m
             let encoder = index + 1;
             let what = format!("the type of encoder {encoder} is not modelled; an incremental encoder is used");
             let owner = archive.data.owner_in_words(Owner::Axis(number));
-            let cure = "write kind = \"incremental\" in plant.toml";
+            let name = archive.data.axis_name(number);
+            let cure = format!("write kind = \"incremental\" in [{name}.encoder{encoder}] of plant.toml");
             findings.push(Finding { owner, ..Finding::new(Class::ActsOtherwise, what, cure) });
         }
     }
@@ -323,13 +321,21 @@ fn without_effect(archive: &Archive, control: &Nck, findings: &mut Vec<Finding>)
             continue;
         }
         let finding = match seen {
-            Some(&(_, what, cure)) => Finding::new(Class::ActsOtherwise, what, cure),
+            Some(&(_, what, cure)) => Finding::new(Class::ActsOtherwise, what, of_the_axis(cure, archive, owner)),
             None => Finding {
                 group: "read, without effect in the model",
                 ..Finding::new(Class::NotModelled, "kept, no effect", "")
             },
         };
         findings.push(archive.about(datum.number, owner, index, finding));
+    }
+}
+
+/// A remedy with the name of its axis in place of `AXIS`.
+fn of_the_axis(cure: &str, archive: &Archive, owner: Owner) -> String {
+    match owner {
+        Owner::Axis(axis) => cure.replace("AXIS", archive.data.axis_name(axis)),
+        Owner::Nck | Owner::Channel(_) => cure.to_owned(),
     }
 }
 

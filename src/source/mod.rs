@@ -174,7 +174,8 @@ pub fn read_bytes(path: &Path, most_mib: u64) -> Result<Vec<u8>, Problem> {
     file.take(most + 1).read_to_end(&mut bytes).map_err(failed)?;
     if bytes.len() as u64 > most {
         let what = format!("expected at most {most_mib} MiB, found more");
-        return Err(place().problem(what, "check the path: no input of this kind is so large"));
+        let cure = "check the path; of a long trace, a shorter scenario or fewer signals in `watch` make a smaller one";
+        return Err(place().problem(what, cure));
     }
     Ok(bytes)
 }

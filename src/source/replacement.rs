@@ -25,12 +25,12 @@ pub struct Replacement {
     target: PathBuf,
     /// Those of the file that it replaces.
     permissions: Option<Permissions>,
-    to: To,
+    destination: Destination,
 }
 
 /// Where the text goes.
 #[derive(Debug)]
-enum To {
+enum Destination {
     /// A device or a pipe.
     Direct(File),
     /// A file beside the target, which does not exist yet.
@@ -47,10 +47,10 @@ impl Replacement {
     /// # Errors
     /// The folder of the target does not exist or cannot be written, or the target is a folder.
     pub fn begin(path: &Path) -> Result<Self, Problem> {
-        Self::create(path).map_err(|error| unwritable(path, &error))
+        Self::open(path).map_err(|error| unwritable(path, &error))
     }
 
-    fn create(path: &Path) -> io::Result<Self> {
+    fn open(path: &Path) -> io::Result<Self> {
         let target = target(path);
         let named = path.to_owned();
         let old = std::fs::metadata(&target).ok();
@@ -59,7 +59,7 @@ impl Replacement {
         }
         if old.as_ref().is_some_and(|old| !old.is_file()) {
             let file = OpenOptions::new().write(true).open(&target)?;
-            return Ok(Self { named, target, permissions: None, to: To::Direct(file) });
+            return Ok(Self { named, target, permissions: None, destination: Destination::Direct(file) });
         }
         if old.is_some() {
             // A file that its owner has protected is not replaced, although the folder would permit it.
@@ -68,24 +68,24 @@ impl Replacement {
         let (beside, file) = create_beside(&target)?;
         drop(file);
         std::fs::remove_file(beside)?;
-        Ok(Self { named, target, permissions: old.map(|old| old.permissions()), to: To::NewFile })
+        Ok(Self { named, target, permissions: old.map(|old| old.permissions()), destination: Destination::NewFile })
     }
 
     /// The file to which the text goes.
     fn file(&mut self) -> io::Result<&mut File> {
-        if matches!(self.to, To::NewFile) {
+        if matches!(self.destination, Destination::NewFile) {
             let (beside, file) = create_beside(&self.target)?;
-            self.to = To::Beside(beside, file);
+            self.destination = Destination::Beside(beside, file);
         }
-        match &mut self.to {
-            To::Direct(file) => Ok(file),
-            To::Beside(_, file) => {
+        match &mut self.destination {
+            Destination::Direct(file) => Ok(file),
+            Destination::Beside(_, file) => {
                 if let Some(permissions) = self.permissions.take() {
                     file.set_permissions(permissions)?;
                 }
                 Ok(file)
             }
-            To::NewFile | To::Placed => Err(io::ErrorKind::NotFound.into()),
+            Destination::NewFile | Destination::Placed => Err(io::ErrorKind::NotFound.into()),
         }
     }
 
@@ -104,12 +104,12 @@ impl Replacement {
     /// The target cannot be replaced.
     pub fn finish(mut self) -> Result<(), Problem> {
         let flushed = self.file().and_then(File::flush);
-        let placed = flushed.and_then(|()| match &self.to {
-            To::Beside(new, _) => std::fs::rename(new, &self.target),
-            To::Direct(_) | To::NewFile | To::Placed => Ok(()),
+        let placed = flushed.and_then(|()| match &self.destination {
+            Destination::Beside(new, _) => std::fs::rename(new, &self.target),
+            Destination::Direct(_) | Destination::NewFile | Destination::Placed => Ok(()),
         });
         placed.map_err(|error| unwritable(&self.named, &error))?;
-        self.to = To::Placed;
+        self.destination = Destination::Placed;
         Ok(())
     }
 }
@@ -117,7 +117,7 @@ impl Replacement {
 impl Drop for Replacement {
     /// Removes a file that is not complete.
     fn drop(&mut self) {
-        if let To::Beside(beside, _) = &self.to {
+        if let Destination::Beside(beside, _) = &self.destination {
             let _ = std::fs::remove_file(beside);
         }
     }

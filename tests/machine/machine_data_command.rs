@@ -76,6 +76,67 @@ fn a_machine_is_checked_as_a_scenario_changes_it() {
 }
 
 #[test]
+fn an_unusable_step_of_the_scenario_ends_with_2() {
+    let directory = directory("steps_of_a_scenario");
+    let scenario = "machine = \"g1_example\"\n[[step]]\nset = { \"X.controler_enable\" = 1 }\n";
+    fs::write(directory.join("s.toml"), scenario).unwrap();
+    let output = opennck(&["machine-data", "check", "s.toml"], &directory);
+    assert_eq!(output.status.code(), Some(2), "{}{}", out(&output), err(&output));
+    assert!(out(&output).starts_with("findings: 1 error\n"), "{}", out(&output));
+    assert_eq!(lines(&out(&output), "  s.toml:3: error: ").len(), 1, "{}", out(&output));
+}
+
+#[test]
+fn one_datum_of_several_axes_that_acts_otherwise_is_one_entry() {
+    let directory = directory("several_axes");
+    let data =
+        "N32450 $MA_BACKLASH[0,AX1]=0.01\nN32450 $MA_BACKLASH[0,AX2]=0.01\nN36730 $MA_DRIVE_SIGNAL_TRACKING[AX2]=1\n";
+    fs::write(directory.join("a.tea"), data).unwrap();
+    let output = opennck(&["machine-data", "check", "a.tea"], &directory);
+    let text = out(&output);
+    let expected = [
+        "  a.tea:1: acts otherwise: MD32450 $MA_BACKLASH = 0.01, axes X1, Y1: backlash is not compensated",
+        "  a.tea:3: acts otherwise: MD36730 $MA_DRIVE_SIGNAL_TRACKING[AX2] = 1, axis Y1: the signals of the drive are those of the plant",
+    ];
+    assert_eq!(lines(&text, "  a.tea:"), [&["  a.tea: 3 assignments"][..], &expected].concat(), "{text}");
+    assert!(text.contains("fault = { axis = \"Y1\", kind = \"drive_fault\" }"), "{text}");
+    assert!(text.contains("\ngantry groupings: none\n"), "{text}");
+    let all = out(&opennck(&["machine-data", "check", "a.tea", "--all"], &directory));
+    assert_eq!(lines(&all, "  a.tea:").len(), 4, "{all}");
+}
+
+#[test]
+fn the_list_finds_a_datum_as_manuals_and_scenarios_name_it() {
+    let directory = directory("list_of_a_datum");
+    for (name, number) in [("MD32000", "32000"), ("32000", "32000"), ("MD34080[0,XF]", "34080"), ("SD41110", "41110")] {
+        let output = opennck(&["machine-data", "list", name], &directory);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", err(&output));
+        // The head and one row.
+        assert_eq!(
+            (out(&output).lines().count(), lines(&out(&output), number).len()),
+            (2, 1),
+            "{name}: {}",
+            out(&output)
+        );
+    }
+}
+
+#[test]
+fn signals_of_a_machine_are_those_of_its_channels_and_mode_groups() {
+    let directory = directory("signals_that_exist");
+    let signals = |arguments: &[&str]| {
+        let output = opennck(&[&["signals"], arguments].concat(), &directory);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", err(&output));
+        out(&output)
+    };
+    let all = signals(&["--machine", "g1_example"]);
+    assert!(all.contains("CHAN1.") && all.contains("mode_group_1."), "{all}");
+    assert!(!all.contains("CHAN2.") && !all.contains("mode_group_2."), "{all}");
+    // Without a machine there is no axis X: the signal of the first axis is shown.
+    assert!(signals(&["X.controller_enable"]).contains("AX1.controller_enable"));
+}
+
+#[test]
 fn a_plant_that_a_scenario_spoils_is_refused_at_the_line_of_the_scenario() {
     let directory = directory("plant_of_a_scenario");
     let refused = |plant: &str| {

@@ -16,9 +16,9 @@ const HEAD: &str = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\
     .passed { color: #060 } .bad { color: #c00; font-weight: bold }\n</style>\n</head>\n<body>\n";
 
 /// The page of all cases that ran.
-pub(super) fn text(done: &[(&Work, Ran)], left: usize, took: Duration) -> String {
+pub(super) fn text(done: &[(&Work, Ran)], left: usize, has_shard: bool, took: Duration) -> String {
     let mut text = HEAD.to_owned();
-    let _ = writeln!(text, "<h1>{}</h1>\n<p>{:.1} s</p>", sum(done, left), took.as_secs_f64());
+    let _ = writeln!(text, "<h1>{}</h1>\n<p>{:.1} s</p>", sum(done, left, has_shard), took.as_secs_f64());
     for (index, (work, ran)) in done.iter().enumerate() {
         if !ran.outcome.is_good() {
             failure(&mut text, index, work, ran);

@@ -76,7 +76,7 @@ pub(super) fn once(
     // With --fail-fast, cases may not have run.
     let left = ran.iter().filter(|ran| ran.is_none()).count();
     let done: Vec<(&Work, Ran)> = work.iter().zip(ran).filter_map(|(work, ran)| Some((work, ran?))).collect();
-    let mut code = report(&done, left, arguments.format, output);
+    let mut code = report(&done, left, arguments, output);
     code = code.max(orphans(&found.orphans, &done, arguments.accept, output));
     let Some(reports) = reports else { return code };
     let written = |file: Option<Replacement>, text: &mut dyn FnMut() -> Result<String, Problem>| {
@@ -92,7 +92,7 @@ pub(super) fn once(
             flowchart::summary(&chart).for_each(|line| output.line(line));
             Ok(chart)
         }),
-        written(reports.html, &mut || Ok(page::text(&done, left, took))),
+        written(reports.html, &mut || Ok(page::text(&done, left, arguments.shard.is_some(), took))),
     ];
     for problem in written.into_iter().filter_map(Result::err) {
         output.error(problem);
@@ -208,7 +208,7 @@ fn bar(length: usize) -> ProgressBar {
 }
 
 /// Prints every case that did not pass, then the counts; returns the highest exit code.
-fn report(done: &[(&Work, Ran)], left: usize, format: Format, output: &mut Output) -> u8 {
+fn report(done: &[(&Work, Ran)], left: usize, arguments: &Arguments, output: &mut Output) -> u8 {
     let mut code = 0;
     for (work, Ran { outcome, .. }) in done {
         code = code.max(outcome.exit_code());
@@ -220,10 +220,10 @@ fn report(done: &[(&Work, Ran)], left: usize, format: Format, output: &mut Outpu
                 output.error(format!("{}: {outcome}", work.name));
             }
         }
-        if format == Format::Github && !outcome.is_good() {
+        if arguments.format == Format::Github && !outcome.is_good() {
             output.line(annotations::annotation(work, outcome));
         }
     }
-    output.line(sum(done, left));
+    output.line(sum(done, left, arguments.shard.is_some()));
     code
 }

@@ -49,14 +49,19 @@ pub(super) struct Ran {
 }
 
 /// The number of cases, and how many ended how.
-pub(super) fn sum(done: &[(&Work, Ran)], left: usize) -> String {
+pub(super) fn sum(done: &[(&Work, Ran)], left: usize, has_shard: bool) -> String {
     let count = done.len() + left;
     let noun = if count == 1 { "case" } else { "cases" };
-    format!("{count} {noun}: {}", counts(done, left))
+    let counts = counts(done, left);
+    match (counts.is_empty(), has_shard) {
+        (false, _) => format!("{count} {noun}: {counts}"),
+        (true, true) => format!("{count} {noun}: none in this shard"),
+        (true, false) => format!("{count} {noun}"),
+    }
 }
 
-/// How many cases ended how.
-pub(super) fn counts(done: &[(&Work, Ran)], left: usize) -> String {
+/// How many cases ended how; empty without cases.
+fn counts(done: &[(&Work, Ran)], left: usize) -> String {
     let count = |test: fn(&Outcome) -> bool| done.iter().filter(|(_, ran)| test(&ran.outcome)).count();
     let counts = [
         (count(|outcome| matches!(outcome, Outcome::Held)), "passed"),
@@ -68,7 +73,6 @@ pub(super) fn counts(done: &[(&Work, Ran)], left: usize) -> String {
         (count(|outcome| matches!(outcome, Outcome::Unusable(_))), "unusable"),
         (left, "not run"),
     ];
-    let counts: Vec<_> =
-        counts.iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("{count} {word}")).collect();
-    if counts.is_empty() { "none in this shard".to_owned() } else { counts.join(", ") }
+    let counts = counts.iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("{count} {word}"));
+    counts.collect::<Vec<_>>().join(", ")
 }
