@@ -8,7 +8,7 @@
 //! Choices where the manuals leave one: the search direction after the cam is opposite to MD34010 (E-19). An approach that begins
 //! on the cam leaves it with MD34040 for MD34050 = 0 and with MD34020 for MD34050 = 1. If the cam is not left within MD34030,
 //! alarm 20000 ends the approach. A velocity of 0 that a control accepted (MD34020, MD34040, MD34070, MD32000, MD32300) ends it
-//! with 20005 when it starts (O-30), and so does MD34200 other than 1 of a synchronous axis in its turn (C-47); a distance of 0
+//! with 20005 when it starts (O-30), and so does MD34200 other than 1 of a synchronous axis when its turn comes (C-47); a distance of 0
 //! (MD34030, MD34060) ends it with the alarm of this distance. An axis whose setpoint rests on or off the cam and that does not
 //! stand (MD36060) within 10 s ends it with 20005. 20006 is raised when the axis passes the cam edge at the wrong speed for the
 //! second time. NC stop is not read. Contour monitoring (25050) stops an axis that is blocked.

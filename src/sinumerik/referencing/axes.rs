@@ -4,7 +4,7 @@
 //! one, also if it was pressed while the approach ran, before REF was selected, or during RESET, emergency stop or an alarm that
 //! stops (O-26). A key that is pressed before the axes are in position control stays pending until they are, and the traverse command
 //! is already output (O-27). Channel-specific referencing (33.0 = 1) waits for the enables of an axis. An axis that its machine data exclude
-//! from an approach (no encoder, MD34200 other than 1) is left out; an axis that is parked or has 1.3 = 1 in its turn ends it with 20005.
+//! from an approach (no encoder, MD34200 other than 1) is left out; an axis that is parked or has 1.3 = 1 when its turn comes ends it with 20005.
 //! A spindle (MD35000) has no approach: its key starts none, and channel-specific referencing and NC start leave it out.
 
 use crate::image::{ToNck, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck};
