@@ -49,7 +49,7 @@ pub(in crate::cli) struct Host {
     /// Maximum number of items per request, for servers that accept fewer than fit in a PDU.
     #[arg(long, value_name = "N", default_value_t = 255, value_parser = clap::value_parser!(u8).range(1..))]
     items: u8,
-    /// Timeout for an answer; a host that answers nothing ends the command after this time, whatever it sends.
+    /// Timeout for an answer. Requests without an answer count together: a silent host ends the command after this time.
     #[arg(long, value_name = "TIME", default_value = "5s", value_parser = duration)]
     timeout: Duration,
     /// Password of the PLC, one to eight ASCII characters; use the environment variable to hide it from other users.

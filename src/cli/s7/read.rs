@@ -19,7 +19,7 @@ pub(super) async fn read(
     let targets = Dictionary::open(names)?.targets(host, addresses).await?;
     let sources = sources::open(host, &targets).await?;
     let values = sources::read(&sources, targets.len()).await?;
-    let cures = rows::cures(&sources, &targets, &values).await;
+    let cures = rows::cures(host, &sources, &targets, &values).await;
     Ok(show(&targets, &values, &cures, format, output))
 }
 

@@ -1,5 +1,6 @@
 //! The number of rows, for a request beyond the last one. The NCK reports it for axes and alarms.
 
+use super::arguments::Host;
 use super::sources::Source;
 use super::targets::Target;
 use crate::s7::client::{Error, NcVariable, Value, Variable};
@@ -12,6 +13,7 @@ const COUNTED: &[(u8, &[u8], &str, &str)] = &[
 
 /// The remedy for each target that was out of range, if it is more specific than the general one.
 pub(super) async fn cures(
+    host: &Host,
     sources: &[Source],
     targets: &[Target],
     values: &[Result<Value, Error>],
@@ -19,7 +21,9 @@ pub(super) async fn cures(
     let mut all = Vec::new();
     for (target, value) in targets.iter().zip(values) {
         all.push(match (&target.variable, value, sources.iter().find(|source| source.is_nck())) {
-            (Variable::Nc(variable), Err(Error::Refused { code: 5, .. }), Some(nck)) => count(nck, variable).await,
+            (Variable::Nc(variable), Err(Error::Refused { code: 5, .. }), Some(nck)) => {
+                host.optional(count(nck, variable)).await
+            }
             _ => None,
         });
     }

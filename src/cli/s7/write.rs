@@ -48,7 +48,7 @@ pub(super) async fn write(
         }
     }
     let shown: Vec<_> = values.into_iter().zip(results).map(|(value, result)| result.map(|()| value)).collect();
-    let cures = rows::cures(&sources, &targets, &shown).await;
+    let cures = rows::cures(host, &sources, &targets, &shown).await;
     Ok(read::show(&targets, &shown, &cures, format, output))
 }
 
