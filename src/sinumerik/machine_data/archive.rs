@@ -38,7 +38,8 @@ impl fmt::Display for Summary {
         }
         writeln!(f)?;
         for member in self.members.iter().filter(read) {
-            writeln!(f, "  {}: {} assignments", member.name, member.assignments.unwrap_or_default())?;
+            let count = member.assignments.unwrap_or_default();
+            writeln!(f, "  {}: {count} {}", member.name, if count == 1 { "assignment" } else { "assignments" })?;
         }
         Ok(())
     }

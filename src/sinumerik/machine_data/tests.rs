@@ -612,7 +612,7 @@ mod binary_archives {
         assert_eq!((archive.summary.taken, archive.summary.unknown), (2, 1));
         let summary = archive.summary.to_string();
         assert!(summary.contains("m.arc(INITIAL.INI): 3 assignments"), "{summary}");
-        assert!(summary.contains("1 members without machine data ignored\n"), "{summary}");
+        assert!(summary.contains(", 1 member without machine data ignored\n"), "{summary}");
         assert_eq!(archive.summary.ignored().collect::<Vec<_>>(), [r"\ADRV.DIR\PS000001.TEA"]);
         assert!(archive.findings[0].to_string().starts_with("m.arc(INITIAL.INI):6: not modelled: "));
     }
