@@ -279,10 +279,11 @@ impl Grouping {
         }
     }
 
-    /// Back in position control after follow-up: synchronism is restored if every difference is within the standstill tolerance
-    /// (SYN-06) and 29.5 is 0 (E-18).
+    /// Back in position control after follow-up: synchronism that was lost in operation is restored if every difference is within the
+    /// standstill tolerance (SYN-06) and 29.5 is 0 (E-18). A grouping that has not been synchronised since its reference keeps waiting for
+    /// 29.4 (C-52).
     fn restore_synchronism(&mut self, view: &View<'_>, locked: bool, log: &mut Log, wants: &mut Wants) {
-        if self.phase != Phase::WaitingForStart || locked {
+        if self.phase != Phase::WaitingForStart || locked || !self.lost_in_operation {
             return;
         }
         let within = self.misalignments(view).all(|(axis, difference)| {
