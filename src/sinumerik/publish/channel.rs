@@ -14,9 +14,10 @@ use crate::variables::{EventId, Input, Place};
 
 impl State {
     /// "At least one axis is being traversed in JOG", or is being referenced; also while feed stop, an override of 0 % or a missing enable
-    /// holds the movement, and in the complete section 3 of a grouping while 10655 is pending (O-31).
+    /// holds the movement, in the complete section 3 of a grouping while 10655 is pending (O-31), and while 33.0 = 1.
     pub(super) fn is_channel_active(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
-        !self.summary.in_motion.and(parameters.channels[channel].axes).is_empty()
+        let moves = !self.summary.in_motion.and(parameters.channels[channel].axes).is_empty();
+        moves || self.channels[channel].is_referencing()
     }
 
     /// DB21 to DB30 of one channel.
@@ -53,7 +54,8 @@ impl State {
         rows.bit(channel_from_nck::nck_alarm_with_machining_stop_active, pending(stop), why(stop));
     }
 
-    /// The event that started or ended the activity of channels: the axis that began or ended to move in this cycle.
+    /// The event that started or ended the activity of channels: the axis that began or ended to move in this cycle, or channel-specific
+    /// referencing.
     pub(super) fn activity(
         &self,
         channels: impl Fn(ChannelNumber) -> bool + Copy,
@@ -67,7 +69,10 @@ impl State {
         let commanded = |axis: &AxisNumber| active && self.axes[*axis].travel.is_pending();
         let changed: AxisSet = changed.iter().filter(is_meant).collect();
         let Some(number) = changed.iter().find(commanded).or_else(|| changed.iter().next()) else {
-            return Why::Event(EventId::NONE);
+            let referencing = parameters.existing_channels().filter(|(channel, _)| channels(*channel));
+            let mut causes = referencing.map(|(channel, _)| self.channels[channel].referencing.cause);
+            let event = causes.find(|&cause| self.log.is_of_this_cycle(cause));
+            return Why::Event(event.unwrap_or(EventId::NONE));
         };
         let axis = &self.axes[number];
         // An axis without signals shows nothing.

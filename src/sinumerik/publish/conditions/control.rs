@@ -217,7 +217,8 @@ impl Look<'_> {
             moving.iter().map(|axis| self.axis_name(axis)).collect::<Vec<_>>().join(", ")
         };
         let what = format!("axes of {} that move, are to move or are referenced", self.channel_name(channel));
-        Fact::new(what, found, "none", moving.is_empty()).into()
+        let at_rest = Fact::new(what, found, "none", moving.is_empty()).into();
+        Condition::All(vec![at_rest, self.channel(channel, channel_from_nck::referencing_active, false)])
     }
 
     fn all_referenced(self, channel: ChannelNumber) -> Condition {
