@@ -4,7 +4,8 @@
 //! one, also if it was pressed while the approach ran, before REF was selected, or during RESET, emergency stop or an alarm that
 //! stops (O-26). A key that is pressed before the axes are in position control stays pending until they are, and the traverse command
 //! is already output (O-27). Channel-specific referencing (33.0 = 1) waits for the enables of an axis. An axis that its machine data exclude
-//! from an approach (no encoder, MD34200 other than 1) is left out; an axis that is parked or has 1.3 = 1 when its turn comes ends it with 20005.
+//! from an approach (no encoder, MD34200 other than 1) is left out, and so is an open grouping; an axis that is parked, has 1.3 = 1 or a
+//! velocity of 0 when its turn comes ends it with 20005.
 //! A spindle (MD35000) has no approach: its key starts none, and channel-specific referencing and NC start leave it out.
 
 use crate::image::{ToNck, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck};
@@ -180,6 +181,10 @@ impl State {
         }
         let (direction, by) = self.approach_requested(unit, parameters, to_nck)?;
         if by == RequestedBy::Channel {
+            if self.datum_against_approach(number, parameters).is_some() {
+                // Refused in the next cycle: the PLC first sees that its request was taken (C-46).
+                return None;
+            }
             let referencing = &mut self.channels[unit.channel].referencing;
             referencing.started |= 1 << number.index();
             let cause = referencing.cause;
@@ -375,7 +380,7 @@ impl State {
         }
     }
 
-    /// 20005 for the axes that have their turn and are parked or have 1.3 = 1: only the PLC can change this, so they would wait for ever.
+    /// 20005 for the axes that have their turn and cannot begin: only the PLC or an operator can change this, so they would wait for ever.
     fn refuse_hindered_axes(&mut self, channel: ChannelNumber, parameters: &Parameters, to_nck: &ToNck) {
         let referencing = self.channels[channel].referencing;
         let wanted = |unit: &&Unit| {
@@ -393,7 +398,14 @@ impl State {
         }
     }
 
-    /// The signals of the PLC with which a unit cannot begin an approach.
+    /// A machine datum with which an approach of an axis would end when it starts.
+    fn datum_against_approach(&self, number: AxisNumber, parameters: &Parameters) -> Option<Input> {
+        let encoder = usize::from(self.axes[number].measuring_system.unwrap_or(0));
+        let (datum, value) = parameters.axes[number].approach_hindered_by(encoder)?;
+        Some(Input::Datum(datum, Some(number), value))
+    }
+
+    /// The signals of the PLC (parked, 1.3 = 1) or the machine datum with which a unit cannot begin an approach.
     fn approach_refused(&self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) -> Option<[Input; 3]> {
         let leader = unit.leader();
         if self.axes[leader].measuring_system.is_none() {
@@ -407,7 +419,9 @@ impl State {
             ]);
         }
         let disabled = to_nck.axes[leader].axis_spindle_disable();
-        disabled.then(|| [axis_signal(leader, axis_to_nck::axis_spindle_disable, true), Input::None, Input::None])
+        let disabled = disabled.then(|| axis_signal(leader, axis_to_nck::axis_spindle_disable, true));
+        let input = disabled.or_else(|| self.datum_against_approach(leader, parameters))?;
+        Some([input, Input::None, Input::None])
     }
 
     /// What ends it before the last axis: 20005 or another alarm that stops, RESET, a failed approach, another machine function; with the
