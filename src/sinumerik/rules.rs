@@ -103,6 +103,7 @@ rules! {
     FastStop "SIG-07" "ramp-function generator fast stop in the unit";
     // Reference point approach.
     KeyStartsApproach "REF-02" "approach started";
+    NoApproachInOpenGrouping "E-15" "a synchronous axis of an open grouping is not referenced by itself";
     ApproachStarted "REF-31" "reference point approach begins";
     ApproachWaits "O-27" "reference point approach requested; it waits";
     ChannelReferencingEnds "REF-23" "channel-specific referencing ended";

@@ -49,7 +49,6 @@ alarms! {
     14092 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 has the wrong axis type";
     14790 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 currently controlled by the PLC";
     16772 [DISPLAY] ByItself "channel %1 block %2 axis %3 is a following axis, the coupling is opened";
-    16794 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 coupling does not permit referencing";
     16904 [DISPLAY] CancelKey "channel %1 action %2 not allowed in the present state";
     16905 [DISPLAY] CancelKey "channel %1 action %2 not allowed";
     16906 [DISPLAY] CancelKey "channel %1 action %2 aborted by an alarm";

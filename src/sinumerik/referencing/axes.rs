@@ -5,7 +5,7 @@
 //! stops (O-26). A key that is pressed before the axes are in position control stays pending until they are, and the traverse command
 //! is already output (O-27). Channel-specific referencing (33.0 = 1) waits for the enables of an axis. An axis that its machine data exclude
 //! from an approach (no encoder, MD34200 other than 1) is left out, and so is an open grouping; an axis that is parked, has 1.3 = 1 or a
-//! velocity of 0 when its turn comes ends it with 20005.
+//! velocity of 0 when its turn comes ends it with 20005. A key in REF of a synchronous axis of an open grouping raises 16794 (E-15).
 //! A spindle (MD35000) has no approach: its key starts none, and channel-specific referencing and NC start leave it out.
 
 use crate::image::{ToNck, axis_from_nck, axis_to_nck, channel_to_nck, mode_group_from_nck};
@@ -20,7 +20,7 @@ use crate::sinumerik::referencing::state::ChannelReferencing;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Position};
-use crate::variables::{AlarmNumber, EventId, Input, Place};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, RaisedAlarm};
 
 /// The source of a request for an approach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,6 +53,9 @@ impl State {
             self.jog(unit, parameters, to_nck);
         } else {
             let open = self.is_gantry_axis(number);
+            if open {
+                self.refuse_approach_in_open_grouping(unit, parameters, to_nck);
+            }
             if open || !self.wait_for_approach(unit, parameters, to_nck) {
                 self.rest_without_jog(unit, parameters, &to_nck.axes[number]);
             }
@@ -144,6 +147,26 @@ impl State {
             self.travel(number, travel, event);
         }
         true
+    }
+
+    /// A key in REF of an axis of an open grouping starts nothing; on a synchronous axis it raises 16794 (E-15).
+    fn refuse_approach_in_open_grouping(&mut self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) {
+        let number = unit.leader();
+        let Some((direction, RequestedBy::Key)) = self.approach_requested(unit, parameters, to_nck) else { return };
+        self.axes[number].key_used = true;
+        let grouping = self.groupings.iter().find(|grouping| grouping.coupling.followers().any(|axis| axis == number));
+        let Some(grouping) = grouping else { return };
+        let open = grouping.coupling.members().find(|&axis| parameters.axes[axis].gantry.broken_up);
+        let inputs = [
+            axis_signal(number, key_signal(direction), true),
+            mode_group_signal(unit.mode_group, mode_group_from_nck::active_machine_function_ref, true),
+            open.map_or(Input::None, |axis| Input::Datum(37140, Some(axis), 1.0)),
+        ];
+        let parent = self.mode_group(unit).function_cause;
+        // %2 is the block of a program.
+        let shown = [Parameter::Channel(unit.channel), Parameter::None, Parameter::Axis(number), Parameter::None];
+        let alarm = RaisedAlarm { number: alarms::REFERENCING_COUPLED, place: Place::Axis(number), parameters: shown };
+        self.raise_new(alarm, Rule::NoApproachInOpenGrouping, inputs, parent);
     }
 
     /// The request for an approach of the unit's first axis, by its key in the correct direction or by the channel.
