@@ -4,9 +4,11 @@
 //! messages have one form. TOML files are read into a tree of [`Node`]s in which each value knows its place; merged files keep the places
 //! of both. Outputs are written with [`Replacement`]: a file is complete, or it is not changed.
 
+mod encoding;
 mod node;
 mod replacement;
 
+pub use encoding::Wide;
 pub use node::{Node, Table, Value};
 pub use replacement::{Replacement, replace, target};
 
@@ -151,9 +153,13 @@ pub fn printable(text: &str) -> Cow<'_, str> {
 /// write.
 ///
 /// # Errors
-/// The file cannot be read or is too large; the problem names the file and the reason.
+/// The file cannot be read, is too large, or is a text in UTF-16 or UTF-32; the problem names the file and the reason.
 pub fn read_text(path: &Path) -> Result<String, Problem> {
-    read_bytes(path, INPUT_MIB).map(|bytes| decode(&bytes))
+    let bytes = read_bytes(path, INPUT_MIB)?;
+    match Wide::of(&bytes) {
+        Some(wide) => Err(wide.problem(&path.display().to_string(), "a text in UTF-8 or Latin-1")),
+        None => Ok(decode(&bytes)),
+    }
 }
 
 /// Reads a file of at most this many MiB. Pipes are read up to the same limit; devices are refused, because they may have no end.

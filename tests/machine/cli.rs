@@ -229,6 +229,18 @@ fn a_failed_expectation_ends_with_1_and_reports_the_value() {
 }
 
 #[test]
+fn a_text_in_utf_16_is_named_with_the_way_to_convert_it() {
+    let directory = directory("utf_16");
+    let bytes: Vec<u8> = GOOD.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    fs::write(directory.join("wide.toml"), [&[0xFF, 0xFE], &bytes[..]].concat()).unwrap();
+    let output = opennck(&["run", "wide.toml"], &directory);
+    assert_eq!(output.status.code(), Some(2));
+    let found = "wide.toml: expected a text in UTF-8 or Latin-1, found a text in UTF-16 (little-endian)";
+    assert!(err(&output).contains(found), "{}", err(&output));
+    assert!(err(&output).contains("iconv -f UTF-16 -t UTF-8 'wide.toml' > NEW_FILE"), "{}", err(&output));
+}
+
+#[test]
 fn with_one_invalid_file_nothing_runs() {
     let directory = directory("unusable");
     fs::write(directory.join("good.toml"), GOOD).unwrap();

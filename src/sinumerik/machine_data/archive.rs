@@ -7,7 +7,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::control::{Finding, Owner};
-use crate::source::{INPUT_MIB, Place, Problem, read_bytes, unreadable};
+use crate::source::{INPUT_MIB, Place, Problem, Wide, read_bytes, unreadable};
 use crate::units::AxisNumber;
 
 use super::reading::{Assignment, Member, Reading};
@@ -107,8 +107,9 @@ impl Archive {
         let mut reading = Reading::default();
         for (number, (name, bytes)) in files.into_iter().enumerate() {
             reading.file = number;
-            if let Some(encoding) = utf_16(bytes) {
-                reading.findings.push(in_utf_16(name, encoding));
+            if let Some(wide) = Wide::of(bytes) {
+                let expected = "a text in UTF-8 or Latin-1, or a binary archive";
+                reading.findings.push(wide.problem(name, expected).into());
             } else if binary::is_binary(name, bytes) {
                 if let Err(problem) = binary::read(name, bytes, &mut reading) {
                     reading.findings.push(problem.into());
@@ -165,47 +166,6 @@ pub fn files_of(machine: &Path) -> Result<Vec<PathBuf>, Problem> {
     }
     archives.extend(texts);
     Ok(archives)
-}
-
-/// How a text is encoded in UTF-16.
-#[derive(Clone, Copy)]
-struct Utf16 {
-    order: &'static str,
-    /// The name for `iconv`. With a byte order mark it is without the order, so that the mark is removed.
-    iconv: &'static str,
-    /// The name for PowerShell, which also follows a byte order mark.
-    power_shell: &'static str,
-}
-
-/// The encoding of a text in UTF-16, by its byte order mark or by the zeros of its first letters; `None` for any other file.
-fn utf_16(bytes: &[u8]) -> Option<Utf16> {
-    let little = Utf16 { order: "little-endian", iconv: "UTF-16LE", power_shell: "Unicode" };
-    let big = Utf16 { order: "big-endian", iconv: "UTF-16BE", power_shell: "BigEndianUnicode" };
-    let zeros = |first: usize| bytes.iter().skip(first).step_by(2).take(16).filter(|byte| **byte == 0).count();
-    match bytes {
-        [0xFF, 0xFE, ..] => Some(Utf16 { iconv: "UTF-16", ..little }),
-        [0xFE, 0xFF, ..] => Some(Utf16 { iconv: "UTF-16", ..big }),
-        [_, ..] if bytes.len() >= 32 && bytes[..32].is_ascii() => match (zeros(0), zeros(1)) {
-            (0, 16) => Some(little),
-            (16, 0) => Some(big),
-            _ => None,
-        },
-        _ => None,
-    }
-}
-
-fn in_utf_16(name: &str, Utf16 { order, iconv, power_shell }: Utf16) -> Finding {
-    // A quote inside quotes: each shell has its own form.
-    let (shell, windows) = (name.replace('\'', r"'\''"), name.replace('\'', "''"));
-    Place::file(name)
-        .problem(
-            format!("expected a text in UTF-8 or Latin-1, or a binary archive, found a text in UTF-16 ({order})"),
-            format!(
-                "save it as UTF-8 in an editor, or convert it: `iconv -f {iconv} -t UTF-8 '{shell}' > NEW_FILE`; in PowerShell: \
-                `Get-Content -Encoding {power_shell} '{windows}' | Set-Content -Encoding utf8 NEW_FILE`"
-            ),
-        )
-        .into()
 }
 
 /// Whether the name of a file is that of an archive: `*.tea`, `*.ini`, `*.mpf` or `*.arc`, in upper or lower case.
