@@ -3,7 +3,8 @@
 //! A [`Replacement`] is a new file beside its target, and takes its place when it is complete. It exists only while it is written, after the
 //! run, so a signal during the run leaves nothing behind. A full disk, a failed command or a kill leaves the old file; after a kill while the
 //! new file is written, it stays beside the old one (`.NAME.PROCESS-NUMBER.new`) and can be deleted. Devices and pipes have no old content:
-//! they are written directly.
+//! they are written directly. So are the streams that the shell opened (`/dev/stdout`, `/dev/stderr`, `/dev/fd/N`), also where a file is
+//! behind them: it belongs to the shell, and with `>>` it keeps its content.
 
 use std::ffi::OsString;
 use std::fs::{File, OpenOptions, Permissions};
@@ -31,7 +32,7 @@ pub struct Replacement {
 /// Where the text goes.
 #[derive(Debug)]
 enum Destination {
-    /// A device or a pipe.
+    /// A device, a pipe or an open stream.
     Direct(File),
     /// A file beside the target, which does not exist yet.
     NewFile,
@@ -51,8 +52,11 @@ impl Replacement {
     }
 
     fn open(path: &Path) -> io::Result<Self> {
-        let target = target(path);
         let named = path.to_owned();
+        if let Some(file) = stream(path) {
+            return Ok(Self { target: named.clone(), named, permissions: None, destination: Destination::Direct(file?) });
+        }
+        let target = target(path);
         let old = std::fs::metadata(&target).ok();
         if old.as_ref().is_some_and(std::fs::Metadata::is_dir) {
             return Err(io::ErrorKind::IsADirectory.into());
@@ -146,6 +150,28 @@ pub fn target(path: &Path) -> PathBuf {
     }
 }
 
+/// The stream that a path of the system names, for writing behind what it has; `None` for any other path.
+#[cfg(unix)]
+fn stream(path: &Path) -> Option<io::Result<File>> {
+    use std::os::fd::AsFd;
+    let number = match path.to_str()? {
+        "/dev/stdout" => 1,
+        "/dev/stderr" => 2,
+        name => name.strip_prefix("/dev/fd/").or_else(|| name.strip_prefix("/proc/self/fd/"))?.parse::<u32>().ok()?,
+    };
+    // Opened by its name, a file would be written from its beginning.
+    Some(match number {
+        1 => io::stdout().as_fd().try_clone_to_owned().map(File::from),
+        2 => io::stderr().as_fd().try_clone_to_owned().map(File::from),
+        _ => OpenOptions::new().append(true).open(path),
+    })
+}
+
+#[cfg(not(unix))]
+fn stream(_: &Path) -> Option<io::Result<File>> {
+    None
+}
+
 /// A new file in the folder of another one.
 fn create_beside(target: &Path) -> io::Result<(PathBuf, File)> {
     loop {
@@ -177,6 +203,22 @@ mod tests {
     fn names(folder: &Path) -> Vec<String> {
         let entries = std::fs::read_dir(folder).unwrap();
         entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect()
+    }
+
+    /// `>>` of a shell: what the file had stays.
+    #[cfg(unix)]
+    #[test]
+    fn a_stream_that_the_shell_opened_is_written_behind_what_it_has() {
+        use std::os::fd::AsRawFd;
+        let folder = folder("stream");
+        let path = folder.join("a.txt");
+        std::fs::write(&path, "old\n").unwrap();
+        let opened = OpenOptions::new().append(true).open(&path).unwrap();
+        replace(Path::new(&format!("/dev/fd/{}", opened.as_raw_fd())), "new\n").unwrap();
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "old\nnew\n");
+        assert_eq!(names(&folder), ["a.txt"]);
+        assert!(replace(Path::new("/dev/fd/987654"), "x").is_err());
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

@@ -228,6 +228,22 @@ fn a_failed_expectation_ends_with_1_and_reports_the_value() {
     assert!(out(&output).contains("failed, after 0.010 s"));
 }
 
+/// `>>` of a shell: the file behind the stream keeps its content, and the report stands in it too.
+#[cfg(unix)]
+#[test]
+fn a_trace_to_the_standard_output_keeps_the_file_behind_it() {
+    let directory = directory("stream");
+    fs::write(directory.join("good.toml"), GOOD).unwrap();
+    let file = directory.join("all.txt");
+    fs::write(&file, "before\n").unwrap();
+    let opened = fs::OpenOptions::new().append(true).open(&file).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_opennck"));
+    command.args(["run", "good.toml", "--trace", "/dev/stdout"]).current_dir(&directory).stdout(opened);
+    assert!(command.status().unwrap().success());
+    let text = fs::read_to_string(&file).unwrap();
+    assert!(text.starts_with("before\n") && text.contains("\n{\"t\":") && text.contains("passed"), "{text}");
+}
+
 #[test]
 fn a_text_in_utf_16_is_named_with_the_way_to_convert_it() {
     let directory = directory("utf_16");
