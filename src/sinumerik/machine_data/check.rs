@@ -154,24 +154,22 @@ fn gantry_dynamics(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Findi
     }
 }
 
-/// MON-16: MD37110 < MD37120 < MD37130; REF-28: MD36500 < MD37110 with two encoders. Both apply only if MD37110 is in
-/// use.
+/// MON-16: MD37110 < MD37120 < MD37130; REF-28: MD36500 < MD37110 with two encoders. Without the warning limit (MD37110 = 0), only an
+/// MD37120 above MD37130 is wrong: the limits of an axis that uses none of them are equal.
 fn gantry_limits(archive: &Archive, axis: AxisNumber, findings: &mut Vec<Finding>) {
     let data = &archive.data.axes[axis];
     let (warning, trip, reference) = (data.gantry_pos_tol_warning, data.gantry_pos_tol_error, data.gantry_pos_tol_ref);
-    if warning <= 0.0 {
-        return;
-    }
     let owner = Owner::Axis(axis);
-    if trip <= warning {
+    let warns = warning > 0.0;
+    if warns && trip <= warning {
         let what = format!("MON-16: expected more than MD37110 = {warning}");
         findings.push(finding(archive, 37120, owner, 0, what, "set the trip limit above the warning limit"));
     }
-    if reference <= trip {
+    if reference < trip || warns && reference <= trip {
         let what = format!("MON-16: expected more than MD37120 = {trip}");
         findings.push(finding(archive, 37130, owner, 0, what, "set the limit for referencing above the trip limit"));
     }
-    if data.num_encs == 2 && data.enc_change_tol >= warning {
+    if warns && data.num_encs == 2 && data.enc_change_tol >= warning {
         let what = format!("REF-28: expected less than MD37110 = {warning}");
         findings.push(finding(
             archive,

@@ -779,7 +779,7 @@ mod checking {
 
     /// MON-16
     #[test]
-    fn gantry_limits_out_of_order_are_found_where_the_warning_limit_is_in_use() {
+    fn gantry_limits_out_of_order_are_found_also_without_a_warning_limit() {
         let text = "$MA_GANTRY_AXIS_TYPE[AX1]=1\n$MA_GANTRY_POS_TOL_WARNING[AX1]=2\n\
             $MA_GANTRY_POS_TOL_ERROR[AX1]=1\n$MA_GANTRY_POS_TOL_REF[AX1]=1\n";
         let findings = found(text);
@@ -790,7 +790,12 @@ mod checking {
             "{findings:?}"
         );
         assert!(findings[1].starts_with("a.tea:4: implausible: MD37130 "));
-        assert_eq!(found(&text.replace("WARNING[AX1]=2", "WARNING[AX1]=0")), [""; 0]);
+        // Without the warning limit equal limits are in order, an MD37120 above MD37130 is not.
+        let without = text.replace("WARNING[AX1]=2", "WARNING[AX1]=0");
+        assert_eq!(found(&without), [""; 0]);
+        let findings = found(&without.replace("ERROR[AX1]=1", "ERROR[AX1]=1.5"));
+        assert_eq!(findings.len(), 1, "{findings:?}");
+        assert!(findings[0].contains("MD37130") && findings[0].contains("MON-16: expected more than MD37120 = 1.5"));
         assert_eq!(found(&text.replace("TYPE[AX1]=1", "TYPE[AX1]=0")), [""; 0]);
     }
 
