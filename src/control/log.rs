@@ -52,6 +52,7 @@ impl Log {
     pub fn is_new(&self, input: &Input) -> bool {
         match *input {
             Input::Datum(number, axis, _) => self.activated.0.contains(&(number, axis)),
+            Input::Element(number, _, axis, _) => self.activated.0.contains(&(number, Some(axis))),
             Input::None
             | Input::Bit(..)
             | Input::Number(..)

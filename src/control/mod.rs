@@ -251,7 +251,12 @@ pub trait Control: Send + Sync + Debug {
     /// Whether positions of the axis are in degrees.
     fn is_rotary(&self, axis: AxisNumber) -> bool;
 
-    /// The value of a machine datum in the units of causes: lengths in mm. The default is a control whose data have these units.
+    /// The active value of a machine datum; the index is `None` for a datum with one value. The default is a control that knows none.
+    fn active_datum(&self, _number: u32, _index: Option<u8>, _axis: Option<AxisNumber>) -> Option<f64> {
+        None
+    }
+
+    /// The value of a machine datum in the units of causes: lengths in mm, velocities of rotary axes in degrees/min. The default is a control whose data have these units.
     fn in_causes(&self, _number: u32, _axis: Option<AxisNumber>, value: f64) -> f64 {
         value
     }

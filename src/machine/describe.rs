@@ -51,6 +51,10 @@ impl Describe for Machine {
         self.control.is_rotary(axis)
     }
 
+    fn active_datum(&self, number: u32, index: Option<u8>, axis: Option<AxisNumber>) -> Option<f64> {
+        self.control.active_datum(number, index, axis)
+    }
+
     fn in_causes(&self, number: u32, axis: Option<AxisNumber>, value: f64) -> f64 {
         self.control.in_causes(number, axis, value)
     }

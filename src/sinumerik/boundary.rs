@@ -185,8 +185,22 @@ impl Control for Nck {
         self.active().axes[axis].is_rot_ax
     }
 
+    fn active_datum(&self, number: u32, index: Option<u8>, axis: Option<AxisNumber>) -> Option<f64> {
+        let target = Target::new(number, axis.map_or(Owner::Nck, Owner::Axis), index.unwrap_or(0)).ok()?;
+        if index.is_none() && target.datum().count > 1 {
+            return None;
+        }
+        self.active().get(&target)?.number()
+    }
+
     fn in_causes(&self, number: u32, axis: Option<AxisNumber>, value: f64) -> f64 {
-        self.active().metric(number, axis, value)
+        let data = self.active();
+        let is_rotary = axis.is_some_and(|axis| data.axes[axis].is_rot_ax);
+        let is_velocity = Target::new(number, axis.map_or(Owner::Nck, Owner::Axis), 0)
+            .is_ok_and(|target| target.datum().unit == "mm/min");
+        // Causes compare velocities of a rotary axis in degrees/min.
+        let turns = if is_rotary && is_velocity { 360.0 } else { 1.0 };
+        data.metric(number, axis, value) * turns
     }
 
     fn configuration(&self, names: &Names) -> Vec<String> {

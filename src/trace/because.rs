@@ -23,6 +23,9 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
         Input::Datum(number, Some(axis), value) => {
             Some(format!("{}[{}] = {value}", describe.datum_name(number), axis_name(axis, names)))
         }
+        Input::Element(number, index, axis, value) => {
+            Some(format!("{}[{index},{}] = {value}", describe.datum_name(number), axis_name(axis, names)))
+        }
         Input::Length(quantity, axis, length) => {
             let axis = axis_name(axis, names);
             let (name, value) = input_name(quantity, length);

@@ -32,7 +32,7 @@ pub(super) struct Cause {
 pub(super) enum CauseInput {
     /// A signal by address, and by symbol if it has one.
     Signal { address: String, symbol: Option<String>, value: u8 },
-    /// A machine datum, in the notation of scenarios: `37110[XF]`.
+    /// A machine datum, in the notation of scenarios: `37110[XF]`, `36012[0,XF]`.
     Datum(String, f64),
     /// A value that is not a signal, with six decimals.
     Value(String, String),
@@ -52,6 +52,9 @@ impl CauseInput {
             Input::Datum(number, axis, value) => {
                 let axis = axis.map(|axis| format!("[{}]", place_name(Place::Axis(axis), names)));
                 Self::Datum(format!("{number}{}", axis.unwrap_or_default()), value)
+            }
+            Input::Element(number, index, axis, value) => {
+                Self::Datum(format!("{number}[{index},{}]", place_name(Place::Axis(axis), names)), value)
             }
             Input::Length(quantity, axis, length) => {
                 let (name, value) = input_name(quantity, length);

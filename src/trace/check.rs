@@ -4,8 +4,8 @@
 //! cycle of the edge, if it has an input or a parent event, and if each signal among its inputs had the value in the event. For a signal of
 //! the PLC, this is the value at the end of the cycle, after inputs, scan and forces; with `to_nck_delay` (O-28) it is the value that the
 //! control read. For a signal of the control, it is the value decided in the cycle or the value published in the cycle before. An alarm
-//! among the inputs must be pending, or be raised or cleared in the cycle. A machine datum that became active in the trace must have that
-//! value.
+//! among the inputs must be pending, or be raised or cleared in the cycle. A machine datum must have the active value: the latest one in
+//! the trace, or the one from the start.
 //!
 //! Values of an axis are compared with those after the cycle and after the one before:
 //!
@@ -25,7 +25,7 @@
 //! What no row of a trace shows is measured during the run: call [`Trace::measure_causes`] before it. Without this, lengths and velocities
 //! are not compared, and with a delay the bytes of the PLC are taken as they were written.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use super::because::{because, input_name};
@@ -33,12 +33,12 @@ use super::bits::Bits;
 use super::measured::{byte, possible};
 use super::places::Places;
 use super::printable::{mask_in_byte, signal_at, signal_name};
-use super::{By, Change, Trace, Watch};
+use super::{By, Change, Row, Trace, Watch};
 use crate::image::{Interface, Memory, Part};
 use crate::units::{AxisNumber, Position, Time};
 use crate::variables::{
-    AlarmNumber, Describe, Event, EventId, Happening, Input, Place, Quantity, RaisedAlarm, SignalBit, axis_name,
-    place_name, six_decimals,
+    AlarmNumber, DatumValue, Describe, Event, EventId, Happening, Input, Place, Quantity, RaisedAlarm, SignalBit,
+    axis_name, place_name, six_decimals,
 };
 
 /// A wrong or missing cause.
@@ -106,6 +106,7 @@ impl Trace {
         let mut memory = self.start.clone();
         let mut pending: Vec<RaisedAlarm> = Vec::new();
         let mut data = BTreeMap::new();
+        let activated: BTreeSet<_> = self.cycles().flat_map(|(_, _, rows)| rows).filter_map(active_datum).collect();
         let mut findings = Vec::new();
         let mut late = self.measured.as_ref().and_then(|measured| measured.read_late(&self.start));
         for (cycle, bits, rows) in self.cycles() {
@@ -115,8 +116,8 @@ impl Trace {
             for row in rows {
                 match row.change {
                     Change::Alarm { alarm, raised: true, .. } => pending.push(alarm),
-                    Change::Happened { what: Happening::DatumActive(datum), .. } if datum.index.is_none() => {
-                        data.extend(datum.value.map(|value| ((datum.number, axis_of(datum.place)), value)));
+                    Change::Happened { what: Happening::DatumActive(datum), .. } => {
+                        data.extend(datum.value.map(|value| (key(&datum), value)));
                     }
                     Change::Byte { .. }
                     | Change::Alarm { raised: false, .. }
@@ -126,8 +127,9 @@ impl Trace {
                 }
             }
             let read = late.as_mut().map(|late| late.at(cycle));
+            let interface = names.interface();
             let seen =
-                Seen { memory: &memory, read, pending: &pending, data: &data, bits, interface: names.interface() };
+                Seen { memory: &memory, read, pending: &pending, data: &data, activated: &activated, bits, interface };
             let mut check = |cause: EventId, what: String| {
                 let event = self.event(cause, cycle);
                 findings.extend(self.faults(event, cycle, &seen, describe).into_iter().map(|fault| CauseFinding {
@@ -179,8 +181,18 @@ impl Trace {
                 // A datum that became active in mm, before the system was inch, is in mm.
                 [active, describe.in_causes(number, axis, active)].iter().all(|value| (value - named).abs() > 1e-6)
             };
-            if let Input::Datum(number, axis, named) = input
-                && let Some(&active) = seen.data.get(&(number, axis))
+            let datum = match input {
+                Input::Datum(number, axis, named) => Some(((number, None, axis), named)),
+                Input::Element(number, index, axis, named) => Some(((number, Some(index), Some(axis)), named)),
+                Input::None
+                | Input::Bit(..)
+                | Input::Number(..)
+                | Input::Length(..)
+                | Input::Alarm(_)
+                | Input::Fault(_) => None,
+            };
+            if let Some((key @ (number, _, axis), named)) = datum
+                && let Some(active) = seen.active(key, describe)
                 && differs(number, axis, active, named)
             {
                 faults.push(CauseFault::OtherDatum(describe.datum_name(number), named, active));
@@ -227,13 +239,24 @@ struct Seen<'a> {
     read: Option<&'a Memory>,
     /// Also alarms that are cleared in this cycle.
     pending: &'a [RaisedAlarm],
-    /// The machine data that became active so far, by number and axis.
-    data: &'a BTreeMap<(u32, Option<AxisNumber>), f64>,
+    /// The machine data that became active so far.
+    data: &'a BTreeMap<DatumKey, f64>,
+    /// The machine data that become active anywhere in the trace.
+    activated: &'a BTreeSet<DatumKey>,
     bits: &'a [Bits],
     interface: &'static Interface,
 }
 
 impl Seen<'_> {
+    /// The active value of a machine datum: the latest one in the trace; for a datum without a row, the one that was active from the start.
+    fn active(&self, key: DatumKey, describe: &dyn Describe) -> Option<f64> {
+        if self.activated.contains(&key) {
+            return self.data.get(&key).copied();
+        }
+        let (number, index, axis) = key;
+        describe.active_datum(number, index, axis)
+    }
+
     /// The values that a signal had when it could be tested: as it is now, and for a signal of the control also as it was before. `None`
     /// if no signal begins at this bit.
     fn values(&self, bit: SignalBit) -> Option<[u64; 2]> {
@@ -248,6 +271,24 @@ impl Seen<'_> {
         let is_here = |bits: &&Bits| (bits.part, bits.offset) == (location.part, location.offset);
         let before = self.bits.iter().find(is_here).map(|bits| bits.old & mask_in_byte(location, bits.offset));
         Some([now, before.map_or(now, |before| u64::from(before >> location.bit))])
+    }
+}
+
+/// The number, the index and the axis of a machine datum.
+type DatumKey = (u32, Option<u8>, Option<AxisNumber>);
+
+fn key(datum: &DatumValue) -> DatumKey {
+    (datum.number, datum.index, axis_of(datum.place))
+}
+
+fn active_datum(row: &Row) -> Option<DatumKey> {
+    match &row.change {
+        Change::Happened { what: Happening::DatumActive(datum), .. } => Some(key(datum)),
+        Change::Byte { .. }
+        | Change::Alarm { .. }
+        | Change::Happened { .. }
+        | Change::Overwritten { .. }
+        | Change::NoEffect(_) => None,
     }
 }
 

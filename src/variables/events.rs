@@ -87,6 +87,8 @@ pub enum Input {
     Bit(SignalBit, bool),
     /// A machine datum, of an axis if it is axial.
     Datum(u32, Option<AxisNumber>, f64),
+    /// An element of a machine datum of an axis, by its index.
+    Element(u32, u8, AxisNumber, f64),
     /// A length on an axis.
     Length(Quantity, AxisNumber, Position),
     /// An alarm.
@@ -104,7 +106,9 @@ impl Input {
         match *self {
             Self::Bit(bit, value) => Some((bit, value.into())),
             Self::Number(bit, value) => Some((bit, value)),
-            Self::None | Self::Datum(..) | Self::Length(..) | Self::Alarm(_) | Self::Fault(_) => None,
+            Self::None | Self::Datum(..) | Self::Element(..) | Self::Length(..) | Self::Alarm(_) | Self::Fault(_) => {
+                None
+            }
         }
     }
 }

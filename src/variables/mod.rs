@@ -78,7 +78,11 @@ pub trait Describe {
     fn is_rotary(&self, _axis: AxisNumber) -> bool {
         false
     }
-    /// The value of a machine datum in the units of causes: lengths in mm.
+    /// The active value of a machine datum; the index is `None` for a datum with one value. `None` if it does not exist or is a text.
+    fn active_datum(&self, _number: u32, _index: Option<u8>, _axis: Option<AxisNumber>) -> Option<f64> {
+        None
+    }
+    /// The value of a machine datum in the units of causes: lengths in mm, velocities of rotary axes in degrees/min.
     fn in_causes(&self, _number: u32, _axis: Option<AxisNumber>, value: f64) -> f64 {
         value
     }

@@ -12,6 +12,7 @@ use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::gantry::state::{Grouping, Phase};
 use crate::sinumerik::gantry::view::{Permit, View, Want, Wants};
 use crate::sinumerik::inputs::axis_signal;
+use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, Position};
 use crate::variables::{EventId, Input, Parameter, Place, Quantity};
@@ -344,12 +345,13 @@ impl Grouping {
     }
 }
 
-/// The deviation of an axis and its window for exact stop fine (MD36010).
+/// The deviation of an axis and its window for exact stop fine (MD36010 and MD36012).
 fn exact_stop(view: &View<'_>, number: AxisNumber) -> [Input; 3] {
     let axis = &view.axes[number];
-    let window = axis.active_set(&view.parameters.axes[number]).exact_stop_fine;
+    let limits = &axis.active_set(&view.parameters.axes[number]).stop_limits;
     let measured = Input::Length(Quantity::Deviation, number, axis.deviation().abs());
-    [measured, Input::Datum(36010, Some(number), window.user()), Input::None]
+    let [limit, factor] = limits.inputs(StopLimit::Fine, number);
+    [measured, limit, factor]
 }
 
 /// MD34040 of the active measuring system with the override, and the acceleration; feed stop holds.

@@ -16,6 +16,7 @@ use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::ControllerState;
 use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::parameters::axis::AxisParameters;
+use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
@@ -40,13 +41,16 @@ impl State {
         let (monitor, delay) = (&mut axis.monitor, parameters.monitoring.standstill_cycles);
         monitor.rest_cycles = (monitor.rest_cycles + 1).min(delay + 1);
         if monitor.rest_cycles > delay {
-            let (alarm, tolerance, datum, rule) = if monitor.clamped {
-                (alarms::CLAMPING, parameters.monitoring.clamping_tolerance, 36050, Rule::ClampingMonitoring)
+            let (alarm, tolerance, data, rule) = if monitor.clamped {
+                let tolerance = parameters.monitoring.clamping_tolerance;
+                let data = [Input::Datum(36050, Some(number), tolerance.user()), Input::None];
+                (alarms::CLAMPING, tolerance, data, Rule::ClampingMonitoring)
             } else {
-                (alarms::STANDSTILL, set.standstill_tolerance, 36030, Rule::StandstillMonitoring)
+                let data = set.stop_limits.inputs(StopLimit::Standstill, number);
+                (alarms::STANDSTILL, set.standstill_tolerance, data, Rule::StandstillMonitoring)
             };
             if deviation > tolerance {
-                self.raise_monitoring(alarm, number, rule, deviates(number, deviation, datum, tolerance));
+                self.raise_monitoring(alarm, number, rule, deviates(number, deviation, data));
             }
         }
         self.monitor_positioning(number, deviation, parameters);
@@ -54,7 +58,8 @@ impl State {
 
     fn monitor_positioning(&mut self, number: AxisNumber, deviation: Position, parameters: &AxisParameters) {
         let axis = &mut self.axes[number];
-        let fine = axis.active_set(parameters).exact_stop_fine;
+        let set = axis.active_set(parameters);
+        let (fine, data) = (set.exact_stop_fine, set.stop_limits.inputs(StopLimit::Fine, number));
         let (on, monitor) = (axis.enabling.is_on(), &mut axis.monitor);
         if !on {
             (monitor.positioning_cycles, monitor.in_position) = (0, false);
@@ -68,7 +73,7 @@ impl State {
         if deviation <= fine || self.watches_exact_stop_itself(number) {
             self.axes[number].monitor.in_position = true;
         } else if late {
-            let inputs = deviates(number, deviation, 36010, fine);
+            let inputs = deviates(number, deviation, data);
             self.raise_monitoring(alarms::POSITIONING, number, Rule::PositioningMonitoring, inputs);
         }
     }
@@ -97,7 +102,6 @@ impl State {
     }
 }
 
-fn deviates(number: AxisNumber, deviation: Position, datum: u32, tolerance: Position) -> [Input; 3] {
-    let measured = Input::Length(Quantity::Deviation, number, deviation);
-    [measured, Input::Datum(datum, Some(number), tolerance.user()), Input::None]
+fn deviates(number: AxisNumber, deviation: Position, [datum, factor]: [Input; 2]) -> [Input; 3] {
+    [Input::Length(Quantity::Deviation, number, deviation), datum, factor]
 }

@@ -6,7 +6,8 @@
 use crate::motion::LONGEST_WINDOW;
 use crate::sinumerik::machine_data::Axis;
 use crate::sinumerik::parameters::mechanics::{Mechanics, Misfit, PARAMETER_SETS};
-use crate::units::{Position, Time};
+use crate::units::{AxisNumber, Position, Time};
+use crate::variables::Input;
 
 /// The balancing of feedforward: how it delays the setpoint that is compared with the actual value (MD32620).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,10 +37,52 @@ pub struct ParameterSet {
     pub exact_stop_fine: Position,
     /// MD36030 × MD36012.
     pub standstill_tolerance: Position,
+    /// The data behind these three windows, for causes.
+    pub stop_limits: StopLimits,
     /// MD36200, in increments per second.
     pub velocity_limit: f64,
     /// The deviation of the control's mechanical data from the simulated mechanics.
     pub misfit: Option<Misfit>,
+}
+
+/// The data of the windows at rest of a parameter set, with their own values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StopLimits {
+    /// MD36000 in mm or degrees.
+    pub coarse: f64,
+    /// MD36010 in mm or degrees.
+    pub fine: f64,
+    /// MD36030 in mm or degrees.
+    pub standstill: f64,
+    /// MD36012, which multiplies them.
+    pub factor: f64,
+    /// The index of MD36012: the parameter set, the first one at 0.
+    pub set: u8,
+}
+
+impl StopLimits {
+    /// The inputs of a cause that tests a window: the datum, and MD36012 if it changes the window.
+    pub(in crate::sinumerik) fn inputs(self, limit: StopLimit, axis: AxisNumber) -> [Input; 2] {
+        let (number, value) = match limit {
+            StopLimit::Coarse => (36000, self.coarse),
+            StopLimit::Fine => (36010, self.fine),
+            StopLimit::Standstill => (36030, self.standstill),
+        };
+        let changed = (self.factor - 1.0).abs() > 0.0;
+        let factor = if changed { Input::Element(36012, self.set, axis, self.factor) } else { Input::None };
+        [Input::Datum(number, Some(axis), value), factor]
+    }
+}
+
+/// A window at rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::sinumerik) enum StopLimit {
+    /// MD36000.
+    Coarse,
+    /// MD36010.
+    Fine,
+    /// MD36030.
+    Standstill,
 }
 
 /// The jerk limits of an axis.
@@ -128,6 +171,7 @@ pub(in crate::sinumerik) fn dynamics(
     };
     let mechanics = Mechanics::new(md);
     let torque = matches!(md.ffw_mode, 2 | 4);
+    let own = |value: f64| Position::from_user(value).user();
     let sets = std::array::from_fn(|set| {
         let window = |value: f64| Position::from_user(value * md.stop_limit_factor[set]);
         ParameterSet {
@@ -138,6 +182,13 @@ pub(in crate::sinumerik) fn dynamics(
             exact_stop_coarse: window(md.stop_limit_coarse),
             exact_stop_fine: window(md.stop_limit_fine),
             standstill_tolerance: window(md.standstill_pos_tol),
+            stop_limits: StopLimits {
+                coarse: own(md.stop_limit_coarse),
+                fine: own(md.stop_limit_fine),
+                standstill: own(md.standstill_pos_tol),
+                factor: md.stop_limit_factor[set],
+                set: u8::try_from(set).unwrap_or(u8::MAX),
+            },
             velocity_limit: velocity(md.ax_velo_limit[set]),
             misfit: mechanics.misfit(actual, set),
         }

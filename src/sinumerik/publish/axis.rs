@@ -6,6 +6,7 @@ use crate::sinumerik::gantry::state::{Grouping, Monitored, Phase};
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
+use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::publish::rows::{Rows, Why};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
@@ -27,7 +28,7 @@ impl State {
         let [_, _, position] = axis.enabling.controllers();
         let at_rest = position && !axis.is_in_motion();
         let within = |window: Position| at_rest && axis.deviation().abs() <= window;
-        let exact_stop = |datum: u32, window: Position| {
+        let exact_stop = |limit: StopLimit| {
             if !position {
                 let control = axis_signal(number, axis_from_nck::position_controller_active, false);
                 return Why::Tested(
@@ -40,12 +41,12 @@ impl State {
                 return self.why_in_motion(number, Rule::ExactStopInMotion, all);
             }
             let measured = Input::Length(Quantity::Deviation, number, axis.deviation());
-            let limit = Input::Datum(datum, Some(number), window.user());
-            Why::Tested(Rule::ExactStop, [measured, limit, Input::None], causes.movement())
+            let [datum, factor] = set.stop_limits.inputs(limit, number);
+            Why::Tested(Rule::ExactStop, [measured, datum, factor], causes.movement())
         };
         let (coarse, fine) = (set.exact_stop_coarse, set.exact_stop_fine);
-        rows.bit(axis_from_nck::position_reached_exact_stop_coarse, within(coarse), || exact_stop(36000, coarse));
-        rows.bit(axis_from_nck::position_reached_exact_stop_fine, within(fine), || exact_stop(36010, fine));
+        rows.bit(axis_from_nck::position_reached_exact_stop_coarse, within(coarse), || exact_stop(StopLimit::Coarse));
+        rows.bit(axis_from_nck::position_reached_exact_stop_fine, within(fine), || exact_stop(StopLimit::Fine));
         rows.bit(axis_from_nck::axis_stationary, axis.is_stationary(parameters), || {
             if axis.outputs_setpoints() {
                 return self.why_in_motion(number, Rule::SetpointsOutput, all);

@@ -21,6 +21,7 @@ use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::inputs::{axis_signal, channel_signal};
 use crate::sinumerik::parameters::axis::AxisParameters;
+use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::referencing::state::{APPROACH_CHART, Approach, Phase, TRANSITIONS};
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, Position};
@@ -283,12 +284,10 @@ impl Approach {
 
     fn exact_stop(&mut self, log: &mut Log, view: &View<'_>) -> Outcome {
         let deviation = view.axis.deviation().abs();
-        let inputs = [
-            Input::Length(Quantity::Deviation, view.number, deviation),
-            Input::Datum(36010, Some(view.number), view.axis.active_set(view.parameters).exact_stop_fine.user()),
-            Input::None,
-        ];
-        if deviation <= view.axis.active_set(view.parameters).exact_stop_fine {
+        let set = view.axis.active_set(view.parameters);
+        let [limit, factor] = set.stop_limits.inputs(StopLimit::Fine, view.number);
+        let inputs = [Input::Length(Quantity::Deviation, view.number, deviation), limit, factor];
+        if deviation <= set.exact_stop_fine {
             self.step(log, view.number, Rule::Referenced, inputs);
             return Outcome::Referenced(self.set_position - self.target, self.cause);
         }

@@ -26,6 +26,13 @@ impl Describe for Control {
     fn alarm_number(&self, _: &str) -> Option<AlarmNumber> {
         None
     }
+    fn active_datum(&self, number: u32, index: Option<u8>, axis: Option<AxisNumber>) -> Option<f64> {
+        // From the start: MD36030[X] = 0.1 and MD36012[0,X] = 2.
+        let first = axis == Some(AxisNumber::FIRST);
+        [((36030, None), 0.1), ((36012, Some(0)), 2.0)]
+            .into_iter()
+            .find_map(|(datum, value)| (first && datum == (number, index)).then_some(value))
+    }
     fn rule(&self, _: RuleNumber) -> Rule {
         Rule { id: "JOG", text: "key" }
     }
@@ -167,6 +174,27 @@ fn another_value_of_a_machine_datum_than_the_active_one_is_found() {
     };
     assert_eq!(run(5.0), []);
     assert_eq!(run(4.0), [CauseFault::OtherDatum("MD36060".to_owned(), 4.0, 5.0)]);
+}
+
+#[test]
+fn another_value_of_a_machine_datum_than_from_the_start_is_found() {
+    let found = |input| Run::new().findings(13, input, 0);
+    let axis = AxisNumber::FIRST;
+    assert_eq!(found(Input::Datum(36030, Some(axis), 0.1)), []);
+    assert_eq!(found(Input::Element(36012, 0, axis, 2.0)), []);
+    // The product of both is neither.
+    let wrong = |number: &str, active| CauseFault::OtherDatum(number.to_owned(), 0.2, active);
+    assert_eq!(found(Input::Datum(36030, Some(axis), 0.2)), [wrong("MD36030", 0.1)]);
+    assert_eq!(found(Input::Element(36012, 0, axis, 0.2)), [wrong("MD36012", 2.0)]);
+}
+
+#[test]
+fn a_machine_datum_that_becomes_active_later_is_not_compared_before() {
+    let mut run = Run::new();
+    let datum = DatumValue { number: 36030, place: Place::Axis(AxisNumber::FIRST), index: None, value: Some(0.1) };
+    let change = Change::Happened { what: Happening::DatumActive(datum), by: By::Nck, cause: EventId::NONE };
+    run.recorder.push(Row { cycle: 14, change });
+    assert_eq!(run.findings(13, Input::Datum(36030, Some(AxisNumber::FIRST), 0.2), 0), []);
 }
 
 /// The lengths and velocities of an axis in cycle 12 and in cycle 13, whose event names `input`.
