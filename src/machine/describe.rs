@@ -3,8 +3,9 @@
 use super::Machine;
 use crate::expression::Scope;
 use crate::image::{Location, Names};
+use crate::motion::Encoder;
 use crate::source::Problem;
-use crate::units::AxisNumber;
+use crate::units::{AxisNumber, Position};
 use crate::variables::{AlarmNumber, Describe, Parameter, RaisedAlarm, Rule, RuleNumber};
 
 impl Describe for Machine {
@@ -49,6 +50,11 @@ impl Describe for Machine {
 
     fn is_rotary(&self, axis: AxisNumber) -> bool {
         self.control.is_rotary(axis)
+    }
+
+    fn half_count(&self, axis: AxisNumber) -> Position {
+        let encoders = self.definition.layout.axes[axis].iter().flat_map(|mechanics| &mechanics.encoders);
+        encoders.map(Encoder::half_count).max().unwrap_or(Position::ZERO)
     }
 
     fn active_datum(&self, number: u32, index: Option<u8>, axis: Option<AxisNumber>) -> Option<f64> {

@@ -223,7 +223,7 @@ impl Trace {
         let values = self.measured.as_ref()?.values(event.id, event.cycle, axis)?;
         let per_turn = if describe.is_rotary(axis) { 360.0 } else { 1.0 };
         let cycle = self.time(event.cycle) - self.time(event.cycle.saturating_sub(1));
-        let possible = possible(quantity, values, per_turn, cycle)?;
+        let possible = possible(quantity, values, per_turn, describe.half_count(axis), cycle)?;
         let (name, named) = input_name(quantity, length);
         let found = possible.first()?.value;
         let is_true = possible.into_iter().any(|possible| possible.is(named));

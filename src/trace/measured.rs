@@ -2,7 +2,7 @@
 //! PLC wrote (O-28), and the values of the axes that causes name. The owner of a trace asks for it, because it costs time in every cycle.
 
 use crate::image::{Format, Location, Memory, Part, PartBytes};
-use crate::units::{AxisNumber, PerAxis, Time};
+use crate::units::{AxisNumber, PerAxis, Position, Time};
 use crate::variables::{AxisValues, Event, EventId, Input, Quantity, Variables};
 
 /// The measured data of a trace.
@@ -128,11 +128,12 @@ impl Possible {
 
 /// The values that a cause of a cycle may name for a quantity, the likeliest first: the control decides with the values of the cycle before,
 /// and monitors and publishes with those of the cycle. `None` if no value of the axis shows the quantity. `per_turn` is the distance that a
-/// unit of the displayed velocity stands for (rev/min: 360 degrees), `cycle` the length of the cycle.
+/// unit of the displayed velocity stands for (rev/min: 360 degrees), `half_count` that of the coarsest encoder, `cycle` the length of the cycle.
 pub(super) fn possible(
     quantity: Quantity,
     values: [AxisValues; 2],
     per_turn: f64,
+    half_count: Position,
     cycle: Time,
 ) -> Option<Vec<Possible>> {
     // Lengths are whole increments, and causes show each of them.
@@ -145,9 +146,11 @@ pub(super) fn possible(
         Quantity::Setpoint => both.map(|values| length(values.setpoint.user())).to_vec(),
         Quantity::Target => both.map(|values| length((values.setpoint + values.distance_to_go).user())).to_vec(),
         Quantity::ZeroMark => {
-            // On the way of the cycle, of the one before, or of the next one.
+            // On the way of the cycle, of the one before, or of the next one. The mark is not a whole count, and each end of the way is off by
+            // up to half a count: the way by two halves, so 1.5 ways by three, and their middle by one.
             let (from, to) = (before.position.user(), now.position.user());
-            vec![Possible { value: f64::midpoint(from, to), tolerance: 1.5 * (to - from).abs() + INCREMENT }]
+            let tolerance = 1.5 * (to - from).abs() + 4.0 * half_count.user() + INCREMENT;
+            vec![Possible { value: f64::midpoint(from, to), tolerance }]
         }
         Quantity::Deviation => {
             let of = |values: AxisValues| {

@@ -78,6 +78,10 @@ pub trait Describe {
     fn is_rotary(&self, _axis: AxisNumber) -> bool {
         false
     }
+    /// Half a count of the coarsest encoder of an axis: how far an actual position can be from that of the slide.
+    fn half_count(&self, _axis: AxisNumber) -> Position {
+        Position::ZERO
+    }
     /// The active value of a machine datum; the index is `None` for a datum with one value. `None` if it does not exist or is a text.
     fn active_datum(&self, _number: u32, _index: Option<u8>, _axis: Option<AxisNumber>) -> Option<f64> {
         None

@@ -26,6 +26,9 @@ impl Describe for Control {
     fn alarm_number(&self, _: &str) -> Option<AlarmNumber> {
         None
     }
+    fn half_count(&self, _: AxisNumber) -> Position {
+        Position::from_user(0.002)
+    }
     fn active_datum(&self, number: u32, index: Option<u8>, axis: Option<AxisNumber>) -> Option<f64> {
         // From the start: MD36030[X] = 0.1 and MD36012[0,X] = 2.
         let first = axis == Some(AxisNumber::FIRST);
@@ -249,6 +252,18 @@ fn a_length_that_the_axis_did_not_have_is_found_to_the_last_digit() {
     assert_eq!(found(Quantity::Target, 3.0), other("target", 3.0, 7.0));
     // The axis shows no distance since the cam.
     assert_eq!(found(Quantity::Distance, 17.0), []);
+}
+
+/// The mark can be one way before or behind that of the cycle: 5.284 ± 1.5 · 0.008. A resolution of 0.004 adds two of it.
+#[test]
+fn a_zero_mark_is_compared_to_the_resolution_of_the_encoder() {
+    let at = |position| AxisValues { position: Position::from_user(position), ..AxisValues::default() };
+    let found = |mark| {
+        let input = Input::Length(Quantity::ZeroMark, AxisNumber::FIRST, Position::from_user(mark));
+        lengths(input, [at(5.280), at(5.288)])
+    };
+    assert_eq!(found(5.284 + 0.012 + 0.008), []);
+    assert_eq!(found(5.305).len(), 1);
 }
 
 #[test]
