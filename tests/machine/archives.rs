@@ -195,10 +195,10 @@ proptest! {
             let datum = datum.get(&data);
             let index = index % datum.count;
             let index = match (datum.scope, datum.count) {
-                (Scope::Axis, 1) => format!("[AX{axis}]"),
-                (Scope::Axis, _) => format!("[{index},AX{axis}]"),
-                (Scope::General | Scope::Setting | Scope::Channel, 1) => String::new(),
-                (Scope::General | Scope::Setting | Scope::Channel, _) => format!("[{index}]"),
+                (Scope::Axis | Scope::AxisSetting, 1) => format!("[AX{axis}]"),
+                (Scope::Axis | Scope::AxisSetting, _) => format!("[{index},AX{axis}]"),
+                (_, 1) => String::new(),
+                _ => format!("[{index}]"),
             };
             let _ = writeln!(text, "N{} {}{index}={}", datum.number, datum.full_identifier(), value(datum, pick, any));
         }

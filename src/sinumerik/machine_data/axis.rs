@@ -82,6 +82,8 @@ Axis {
     32300 MAX_AX_ACCEL max_ax_accel: [f64; 5] = [1.0; 5], rotary [2.77; 5]; "m/s2", Range::POSITIVE, NewConf;
     /// acceleration in JOG; 0 takes MD32300
     32301 JOG_MAX_ACCEL jog_max_accel: f64 = 0.0; "m/s2", Range::NOT_NEGATIVE, NewConf;
+    /// factor of the acceleration by which an axis may change its velocity in one cycle at a corner of the path
+    32310 MAX_ACCEL_OVL_FACTOR max_accel_ovl_factor: [f64; 5] = [1.2; 5]; "factor", Range::NOT_NEGATIVE, NewConf;
     /// axial jerk filter on, for every movement; a fast stop (enable lost, emergency stop, MD36600 = 1) bypasses it
     32400 AX_JERK_ENABLE ax_jerk_enable: bool = false; "", Range::ANY, NewConf;
     /// type of jerk filter; 2 is recommended; every type acts as 2, the moving average

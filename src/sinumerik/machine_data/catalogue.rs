@@ -7,10 +7,17 @@ use crate::control::Value;
 use crate::source;
 
 use super::table::{Datum, Row, Scope, Table};
-use super::{Axis, Channel, General, Setting};
+use super::{Axis, AxisSetting, Channel, ChannelSetting, General, Setting};
 
 /// The numbers of all tables.
-const NUMBERS: [&[u32]; 4] = [General::NUMBERS, Channel::NUMBERS, Axis::NUMBERS, Setting::NUMBERS];
+const NUMBERS: [&[u32]; 6] = [
+    General::NUMBERS,
+    Channel::NUMBERS,
+    Axis::NUMBERS,
+    Setting::NUMBERS,
+    ChannelSetting::NUMBERS,
+    AxisSetting::NUMBERS,
+];
 
 const _: () = check(&NUMBERS);
 
@@ -54,6 +61,8 @@ static BY_NUMBER: LazyLock<BTreeMap<u32, (&'static Datum, usize)>> = LazyLock::n
     collect(Channel::rows(), &mut all);
     collect(Axis::rows(), &mut all);
     collect(Setting::rows(), &mut all);
+    collect(ChannelSetting::rows(), &mut all);
+    collect(AxisSetting::rows(), &mut all);
     all
 });
 
@@ -111,7 +120,7 @@ pub(super) fn row(number: u32) -> Option<usize> {
 impl Scope {
     /// Splits an identifier into its scope and the rest.
     pub(super) fn split(identifier: &str) -> Option<(Self, &str)> {
-        [Self::General, Self::Setting, Self::Channel, Self::Axis]
+        [Self::General, Self::Setting, Self::Channel, Self::ChannelSetting, Self::Axis, Self::AxisSetting]
             .into_iter()
             .find_map(|scope| identifier.strip_prefix(scope.prefix()).map(|name| (scope, name)))
     }
@@ -129,6 +138,8 @@ impl Datum {
             Scope::General => value(row, &General::default(), index),
             Scope::Setting => value(row, &Setting::default(), index),
             Scope::Channel => value(row, &Channel::default(), index),
+            Scope::ChannelSetting => value(row, &ChannelSetting::default(), index),
+            Scope::AxisSetting => value(row, &AxisSetting::default(), index),
             Scope::Axis if is_rotary => value(row, &Axis::rotary(), index),
             Scope::Axis => value(row, &Axis::default(), index),
         }
@@ -160,7 +171,9 @@ mod tests {
 
     #[test]
     fn no_row_is_lost_and_every_identifier_is_unique() {
-        let rows = General::rows().len() + Channel::rows().len() + Axis::rows().len() + Setting::rows().len();
+        let machine_data = General::rows().len() + Channel::rows().len() + Axis::rows().len();
+        let settings = Setting::rows().len() + ChannelSetting::rows().len() + AxisSetting::rows().len();
+        let rows = machine_data + settings;
         assert_eq!((catalogue().count(), BY_IDENTIFIER.len()), (rows, rows));
     }
 

@@ -12,9 +12,11 @@
 mod archive;
 mod ascii;
 mod axis;
+mod axis_setting;
 mod binary;
 mod catalogue;
 mod channel;
+mod channel_setting;
 mod check;
 mod export;
 mod general;
@@ -31,8 +33,10 @@ mod write;
 
 pub use archive::{Archive, Summary, files_of, is_archive};
 pub use axis::Axis;
+pub use axis_setting::AxisSetting;
 pub use catalogue::{by_identifier, by_number, catalogue, nearest_identifier};
 pub use channel::Channel;
+pub use channel_setting::ChannelSetting;
 pub use check::check;
 pub(super) use check::unequal_data;
 pub use general::General;
@@ -60,8 +64,12 @@ pub struct MachineData {
     pub setting: Setting,
     /// Channel-specific machine data, `$MC_`.
     pub channels: PerChannel<Channel>,
+    /// Channel-specific setting data, `$SC_`.
+    pub channel_settings: PerChannel<ChannelSetting>,
     /// Axis-specific machine data, `$MA_`.
     pub axes: PerAxis<Axis>,
+    /// Axis-specific setting data, `$SA_`.
+    pub axis_settings: PerAxis<AxisSetting>,
 }
 
 /// The defaults of the control: linear axes, and channels CHAN1 to CHAN10, of which only the first has axes.
@@ -74,7 +82,14 @@ impl Default for MachineData {
                 channel.axconf_machax_used = [0; 20];
             }
         }
-        Self { general: General::default(), setting: Setting::default(), channels, axes: PerAxis::default() }
+        Self {
+            general: General::default(),
+            setting: Setting::default(),
+            channels,
+            channel_settings: PerChannel::default(),
+            axes: PerAxis::default(),
+            axis_settings: PerAxis::default(),
+        }
     }
 }
 
@@ -162,9 +177,11 @@ impl MachineData {
         match (target.datum().scope, target.owner()) {
             (Scope::General, _) => from(&self.general, target),
             (Scope::Setting, _) => from(&self.setting, target),
+            (Scope::ChannelSetting, Owner::Channel(channel)) => from(&self.channel_settings[channel], target),
+            (Scope::AxisSetting, Owner::Axis(axis)) => from(&self.axis_settings[axis], target),
             (_, Owner::Channel(channel)) => from(&self.channels[channel], target),
             (_, Owner::Axis(axis)) => from(&self.axes[axis], target),
-            (Scope::Channel | Scope::Axis, Owner::Nck) => None,
+            (_, Owner::Nck) => None,
         }
     }
 
@@ -188,9 +205,13 @@ impl MachineData {
         let stored = match (target.datum().scope, target.owner()) {
             (Scope::General, _) => store_in(&mut self.general.clone(), target, value),
             (Scope::Setting, _) => store_in(&mut self.setting.clone(), target, value),
+            (Scope::ChannelSetting, Owner::Channel(channel)) => {
+                store_in(&mut self.channel_settings[channel].clone(), target, value)
+            }
+            (Scope::AxisSetting, Owner::Axis(axis)) => store_in(&mut self.axis_settings[axis].clone(), target, value),
             (_, Owner::Channel(channel)) => store_in(&mut self.channels[channel].clone(), target, value),
             (_, Owner::Axis(axis)) => store_in(&mut self.axes[axis].clone(), target, value),
-            (Scope::Channel | Scope::Axis, Owner::Nck) => Err(NO_OWNER.to_owned()),
+            (_, Owner::Nck) => Err(NO_OWNER.to_owned()),
         };
         stored.map_err(|expected| refused(target, value, &expected))
     }
@@ -207,6 +228,10 @@ impl MachineData {
         let stored = match (target.datum().scope, target.owner()) {
             (Scope::General, _) => store_in(&mut self.general, target, value),
             (Scope::Setting, _) => store_in(&mut self.setting, target, value),
+            (Scope::ChannelSetting, Owner::Channel(channel)) => {
+                store_in(&mut self.channel_settings[channel], target, value)
+            }
+            (Scope::AxisSetting, Owner::Axis(axis)) => store_in(&mut self.axis_settings[axis], target, value),
             (_, Owner::Channel(channel)) => store_in(&mut self.channels[channel], target, value),
             (_, Owner::Axis(axis)) => {
                 let axis = &mut self.axes[axis];
@@ -222,7 +247,7 @@ impl MachineData {
                 }
                 stored
             }
-            (Scope::Channel | Scope::Axis, Owner::Nck) => Err(NO_OWNER.to_owned()),
+            (_, Owner::Nck) => Err(NO_OWNER.to_owned()),
         };
         stored.map_err(|expected| refused(target, value, &expected))
     }
@@ -230,8 +255,13 @@ impl MachineData {
     /// The values that differ from those of `before`.
     #[must_use]
     pub fn differences(&self, before: &Self) -> Vec<Target> {
-        let channels = ChannelNumber::all().filter(|&channel| self.channels[channel] != before.channels[channel]);
-        let axes = Self::axis_numbers().filter(|&axis| self.axes[axis] != before.axes[axis]);
+        let channels = ChannelNumber::all().filter(|&channel| {
+            self.channels[channel] != before.channels[channel]
+                || self.channel_settings[channel] != before.channel_settings[channel]
+        });
+        let axes = Self::axis_numbers().filter(|&axis| {
+            self.axes[axis] != before.axes[axis] || self.axis_settings[axis] != before.axis_settings[axis]
+        });
         let owners: Vec<_> =
             std::iter::once(Owner::Nck).chain(channels.map(Owner::Channel)).chain(axes.map(Owner::Axis)).collect();
         let of_owner = |owner| {
@@ -276,8 +306,14 @@ impl MachineData {
         for (number, channel) in self.channels.iter_mut() {
             channel.activate(&stored.channels[number], level);
         }
+        for (number, settings) in self.channel_settings.iter_mut() {
+            settings.activate(&stored.channel_settings[number], level);
+        }
         for (number, axis) in self.axes.iter_mut() {
             axis.activate(&stored.axes[number], level);
+        }
+        for (number, settings) in self.axis_settings.iter_mut() {
+            settings.activate(&stored.axis_settings[number], level);
         }
     }
 }

@@ -72,11 +72,15 @@ pub(super) fn resolve(
     };
     let owner = match (datum.scope, name) {
         (Scope::General | Scope::Setting, None) => Owner::Nck,
-        (Scope::Channel, None) => Owner::Channel(channel),
-        (Scope::Channel, Some(name)) => Owner::Channel(data.channel(name).ok_or_else(|| unknown_channel(datum, name))?),
-        (Scope::Axis, Some(name)) => Owner::Axis(data.axis(name).ok_or_else(|| unknown_axis(datum, name, data))?),
+        (Scope::Channel | Scope::ChannelSetting, None) => Owner::Channel(channel),
+        (Scope::Channel | Scope::ChannelSetting, Some(name)) => {
+            Owner::Channel(data.channel(name).ok_or_else(|| unknown_channel(datum, name))?)
+        }
+        (Scope::Axis | Scope::AxisSetting, Some(name)) => {
+            Owner::Axis(data.axis(name).ok_or_else(|| unknown_axis(datum, name, data))?)
+        }
         (Scope::General | Scope::Setting, Some(name)) => return Err(bad_index(datum, name)),
-        (Scope::Axis, None) => {
+        (Scope::Axis | Scope::AxisSetting, None) => {
             return Err(Problem::new(
                 format!("expected a machine axis in the brackets of {datum}, found none"),
                 format!("write `{}[AX1]`, or the name of the machine axis", datum.identifier),

@@ -45,6 +45,15 @@ impl MachineData {
             let is_rotary = axis.is_rot_ax;
             convert(axis, is_rotary, millimetres, to);
         }
+        for (number, settings) in self.axis_settings.iter_mut() {
+            convert(settings, self.axes[number].is_rot_ax, millimetres, to);
+        }
+        for (_, channel) in self.channels.iter_mut() {
+            convert(channel, false, millimetres, to);
+        }
+        for (_, settings) in self.channel_settings.iter_mut() {
+            convert(settings, false, millimetres, to);
+        }
     }
 
     /// The value of a datum of these data in metric units.

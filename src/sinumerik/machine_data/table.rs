@@ -1,7 +1,7 @@
 //! The macro for tables of machine data. Each row is one datum and generates the typed field, its default, the
 //! catalogue entry and the access by number.
 //!
-//! The tables are `general.rs`, `channel.rs`, `axis.rs` and `setting.rs`.
+//! The tables are `general.rs`, `channel.rs`, `axis.rs` and, for setting data, `setting.rs`, `channel_setting.rs`, `axis_setting.rs`.
 
 use std::fmt;
 
@@ -18,8 +18,12 @@ pub enum Scope {
     Setting,
     /// Channel-specific machine data, `$MC_`.
     Channel,
+    /// Channel-specific setting data, `$SC_`.
+    ChannelSetting,
     /// Axis-specific machine data, `$MA_`.
     Axis,
+    /// Axis-specific setting data, `$SA_`.
+    AxisSetting,
 }
 
 impl Scope {
@@ -30,7 +34,9 @@ impl Scope {
             Self::General => "$MN_",
             Self::Setting => "$SN_",
             Self::Channel => "$MC_",
+            Self::ChannelSetting => "$SC_",
             Self::Axis => "$MA_",
+            Self::AxisSetting => "$SA_",
         }
     }
 }

@@ -42,8 +42,10 @@ impl Target {
         let datum = by_number(number).ok_or_else(|| unknown_number(number))?;
         let fits = match datum.scope {
             Scope::General | Scope::Setting => owner == Owner::Nck,
-            Scope::Channel => matches!(owner, Owner::Channel(_)),
-            Scope::Axis => matches!(owner, Owner::Axis(axis) if axis.number() <= SINUMERIK.count(Block::Axis)),
+            Scope::Channel | Scope::ChannelSetting => matches!(owner, Owner::Channel(_)),
+            Scope::Axis | Scope::AxisSetting => {
+                matches!(owner, Owner::Axis(axis) if axis.number() <= SINUMERIK.count(Block::Axis))
+            }
         };
         if !fits {
             return Err(Problem::new(
@@ -92,8 +94,8 @@ impl fmt::Display for Target {
 fn owner_in_words(scope: Scope) -> &'static str {
     match scope {
         Scope::General | Scope::Setting => "no axis and no channel",
-        Scope::Channel => "a channel",
-        Scope::Axis => "a machine axis",
+        Scope::Channel | Scope::ChannelSetting => "a channel",
+        Scope::Axis | Scope::AxisSetting => "a machine axis",
     }
 }
 

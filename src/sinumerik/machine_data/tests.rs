@@ -44,7 +44,9 @@ mod values {
                 Scope::General => &data["general"],
                 Scope::Setting => &data["setting"],
                 Scope::Channel => &data["channels"][0],
+                Scope::ChannelSetting => &data["channel_settings"][0],
                 Scope::Axis => &data["axes"][0],
+                Scope::AxisSetting => &data["axis_settings"][0],
             };
             assert!(!table[datum.identifier.to_ascii_lowercase()].is_null(), "{datum}");
         }
@@ -56,8 +58,8 @@ mod values {
         for datum in catalogue() {
             let owner = match datum.scope {
                 Scope::General | Scope::Setting => Owner::Nck,
-                Scope::Channel => Owner::Channel(ChannelNumber::FIRST),
-                Scope::Axis => Owner::Axis(axis(31)),
+                Scope::Channel | Scope::ChannelSetting => Owner::Channel(ChannelNumber::FIRST),
+                Scope::Axis | Scope::AxisSetting => Owner::Axis(axis(31)),
             };
             for index in 0..datum.count {
                 let target = Target::new(datum.number, owner, index).unwrap();
@@ -541,8 +543,10 @@ mod writing {
                 let datum = data[row % data.len()];
                 let owner = match datum.scope {
                     Scope::General | Scope::Setting => Owner::Nck,
-                    Scope::Channel => Owner::Channel(ChannelNumber::new(owner % 10 + 1).unwrap()),
-                    Scope::Axis => Owner::Axis(axis(owner + 1)),
+                    Scope::Channel | Scope::ChannelSetting => {
+                        Owner::Channel(ChannelNumber::new(owner % 10 + 1).unwrap())
+                    }
+                    Scope::Axis | Scope::AxisSetting => Owner::Axis(axis(owner + 1)),
                 };
                 let target = Target::new(datum.number, owner, index % datum.count).unwrap();
                 let number = if small { (number / 1e7).round() } else { number / 1e7 };
