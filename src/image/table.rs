@@ -316,6 +316,16 @@ impl Raw for u8 {
 }
 
 #[cfg(test)]
+impl Raw for u32 {
+    fn raw(self) -> u64 {
+        self.into()
+    }
+    fn of(raw: u64) -> Self {
+        raw.try_into().unwrap()
+    }
+}
+
+#[cfg(test)]
 impl Raw for u16 {
     fn raw(self) -> u64 {
         self.into()

@@ -3,8 +3,8 @@
 use zerocopy::IntoBytes;
 
 use super::{
-    AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi,
-    ModeGroupToNck, NckFromNck, NckHmi, NckToNck, ToNck, axis_to_nck, channel_to_nck, places, profiles,
+    AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi, ModeGroupFromNck,
+    ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, ToNck, axis_to_nck, channel_to_nck, places, profiles,
 };
 use crate::image::{Interface, Layout, Memory, Override, Profile, SwitchSignals, Tables};
 
@@ -22,6 +22,7 @@ pub static SINUMERIK: Interface = Interface::new(Tables {
         ChannelToNck::SIGNALS,
         ChannelHmi::SIGNALS,
         ChannelFromNck::SIGNALS,
+        ChannelAuxiliary::SIGNALS,
         AxisToNck::SIGNALS,
         AxisFromNck::SIGNALS,
     ],

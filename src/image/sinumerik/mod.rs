@@ -3,6 +3,7 @@
 mod db10;
 mod db11;
 mod db21;
+mod db21_auxiliary;
 mod db31;
 mod interface;
 mod machine_functions;
@@ -15,6 +16,7 @@ pub use db11::{
     ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, mode_group_from_nck, mode_group_hmi, mode_group_to_nck,
 };
 pub use db21::{ChannelFromNck, ChannelHmi, ChannelToNck, channel_from_nck, channel_hmi, channel_to_nck};
+pub use db21_auxiliary::{ChannelAuxiliary, channel_auxiliary};
 pub use db31::{AxisFromNck, AxisToNck, axis_from_nck, axis_to_nck};
 pub use interface::{SINUMERIK, Sinumerik};
 pub use parts::{FromNck, Hmi, Plain, ToNck};

@@ -5,16 +5,16 @@ use zerocopy::{FromBytes, FromZeros, Immutable, IntoBytes, KnownLayout, Unaligne
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 
 use super::{
-    AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck,
-    NckFromNck, NckHmi, NckToNck,
+    AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelToNck, ModeGroupFromNck, ModeGroupHmi,
+    ModeGroupToNck, NckFromNck, NckHmi, NckToNck,
 };
 
 /// Plain bytes of DB10: 0 to 55, 58 to 67, 110 to 271.
 pub(super) const PLAIN_NCK: usize = 56 + 10 + 162;
 /// Plain bytes of DB11: 3, 9 to 19, 23, 29 to 63.
 pub(super) const PLAIN_MODE_GROUPS: usize = 1 + 11 + 1 + 35;
-/// Plain bytes of DB21: 22 and 23, 26 to 31, 54 to 415.
-pub(super) const PLAIN_CHANNEL: usize = 2 + 6 + 362;
+/// Plain bytes of DB21: 22 and 23, 26 to 31, 54 to 57, 272 to 415.
+pub(super) const PLAIN_CHANNEL: usize = 2 + 6 + 4 + 144;
 /// Plain bytes of DB31: 30 to 59, 103 to 147.
 pub(super) const PLAIN_AXIS: usize = 30 + 45;
 
@@ -46,6 +46,8 @@ pub struct FromNck {
     pub channels: PerChannel<ChannelFromNck>,
     /// DB31 to DB61.
     pub axes: PerAxis<AxisFromNck>,
+    /// DB21 to DB30, auxiliary functions and G functions.
+    pub auxiliary: PerChannel<ChannelAuxiliary>,
 }
 
 /// The signals that the HMI writes: strobes and selections.
@@ -109,6 +111,12 @@ impl FromNck {
     #[must_use]
     pub fn channel(&self, number: ChannelNumber) -> &ChannelFromNck {
         &self.channels[number]
+    }
+
+    /// Auxiliary functions and G functions in DB 20 + number.
+    #[must_use]
+    pub fn auxiliary(&self, number: ChannelNumber) -> &ChannelAuxiliary {
+        &self.auxiliary[number]
     }
 
     /// DB 30 + number.

@@ -4,8 +4,8 @@ use std::mem::offset_of;
 
 use super::parts::{PLAIN_AXIS, PLAIN_CHANNEL, PLAIN_MODE_GROUPS, PLAIN_NCK};
 use super::{
-    AxisFromNck, AxisToNck, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi,
-    ModeGroupToNck, NckFromNck, NckHmi, NckToNck, ToNck,
+    AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi, ModeGroupFromNck,
+    ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, ToNck,
 };
 use crate::image::{Block, BlockTable, ByteRange, Part};
 
@@ -61,13 +61,15 @@ static MODE_GROUPS: [ByteRange; 10] = [
 
 const CHANNEL_PLAIN: usize = offset_of!(ToNck, plain.channels);
 #[rustfmt::skip]
-static CHANNEL: [ByteRange; 6] = [
+static CHANNEL: [ByteRange; 8] = [
     range(0, 21, Part::ToNck, offset_of!(ToNck, channels), size_of::<ChannelToNck>()),
     plain(22, 23, CHANNEL_PLAIN, PLAIN_CHANNEL),
     range(24, 25, Part::Hmi, offset_of!(Hmi, channels), size_of::<ChannelHmi>()),
     plain(26, 31, CHANNEL_PLAIN + 2, PLAIN_CHANNEL),
     range(32, 53, Part::FromNck, offset_of!(FromNck, channels), size_of::<ChannelFromNck>()),
-    plain(54, 415, CHANNEL_PLAIN + 8, PLAIN_CHANNEL),
+    plain(54, 57, CHANNEL_PLAIN + 8, PLAIN_CHANNEL),
+    range(58, 271, Part::FromNck, offset_of!(FromNck, auxiliary), size_of::<ChannelAuxiliary>()),
+    plain(272, 415, CHANNEL_PLAIN + 12, PLAIN_CHANNEL),
 ];
 
 const AXIS_PLAIN: usize = offset_of!(ToNck, plain.axes);
@@ -90,6 +92,7 @@ const _: () = {
     assert!(ChannelToNck::FIRST == 0 && size_of::<ChannelToNck>() == 22);
     assert!(ChannelHmi::FIRST == 24 && size_of::<ChannelHmi>() == 2);
     assert!(ChannelFromNck::FIRST == 32 && size_of::<ChannelFromNck>() == 22);
+    assert!(ChannelAuxiliary::FIRST == 58 && size_of::<ChannelAuxiliary>() == 214);
     assert!(AxisToNck::FIRST == 0 && size_of::<AxisToNck>() == 30);
     assert!(AxisFromNck::FIRST == 60 && size_of::<AxisFromNck>() == 43);
     // The parts, without padding and in this order. They have space for each axis number; no block shows the last one.
@@ -97,6 +100,7 @@ const _: () = {
     assert!(offset_of!(ToNck, axes) == 228 && offset_of!(ToNck, plain) == 1188);
     assert!(size_of::<ToNck>() == 1188 + PLAIN_NCK + PLAIN_MODE_GROUPS + 10 * PLAIN_CHANNEL + 32 * PLAIN_AXIS);
     assert!(offset_of!(FromNck, mode_groups) == 42 && offset_of!(FromNck, channels) == 48);
-    assert!(offset_of!(FromNck, axes) == 268 && size_of::<FromNck>() == 268 + 32 * 43);
+    assert!(offset_of!(FromNck, axes) == 268 && offset_of!(FromNck, auxiliary) == 268 + 32 * 43);
+    assert!(size_of::<FromNck>() == 268 + 32 * 43 + 10 * 214);
     assert!(offset_of!(Hmi, mode_groups) == 7 && offset_of!(Hmi, channels) == 11 && size_of::<Hmi>() == 31);
 };

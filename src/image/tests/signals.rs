@@ -7,9 +7,9 @@ use zerocopy::{FromBytes, Immutable, IntoBytes};
 
 use crate::image::table::Accessors;
 use crate::image::{
-    AxisFromNck, AxisToNck, Block, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Kind, Memory, ModeGroupFromNck,
-    ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, SINUMERIK, Signal, ToNck, Writer, axis_from_nck,
-    axis_to_nck,
+    AxisFromNck, AxisToNck, Block, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Kind, Memory,
+    ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, SINUMERIK, Signal, ToNck, Writer,
+    axis_from_nck, axis_to_nck,
 };
 
 use super::{PARTS, all_names, data_block, full_of, location, names, signals};
@@ -63,6 +63,7 @@ fn every_typed_accessor_reads_and_writes_exactly_the_bits_of_its_row() {
     every_accessor_moves_only_its_own_bits::<ChannelToNck>(ChannelToNck::SIGNALS, 0);
     every_accessor_moves_only_its_own_bits::<ChannelHmi>(ChannelHmi::SIGNALS, 24);
     every_accessor_moves_only_its_own_bits::<ChannelFromNck>(ChannelFromNck::SIGNALS, 32);
+    every_accessor_moves_only_its_own_bits::<ChannelAuxiliary>(ChannelAuxiliary::SIGNALS, 58);
     every_accessor_moves_only_its_own_bits::<AxisToNck>(AxisToNck::SIGNALS, 0);
     every_accessor_moves_only_its_own_bits::<AxisFromNck>(AxisFromNck::SIGNALS, 60);
 }
@@ -299,7 +300,8 @@ fn numbers_have_the_position_of_the_manuals_and_are_big_endian() {
         .enumerate()
         .filter(|(index, _)| ![68, 78, 79, 80, 81, 86, 87, 88, 89, 90, 91].contains(&(index + 60)));
     assert!(untouched.map(|(_, byte)| byte).all(|byte| *byte == 0xA5));
-    assert_eq!(signals().filter(|signal| signal.kind == Kind::Real).count(), 2);
+    // Besides the two of an axis: S 1 to 3, DL, H 1 to 3, F 1 to 6 of a channel.
+    assert_eq!(signals().filter(|signal| signal.kind == Kind::Real).count(), 2 + 3 + 1 + 3 + 6);
 }
 
 #[test]
