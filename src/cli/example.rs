@@ -81,7 +81,8 @@ pub(super) fn run(svg: Option<PathBuf>, programs: &Programs, output: &mut Output
 fn screen(finished: &Finished) -> Result<String, Problem> {
     let session = finished.session();
     let machine = session.machine();
-    let watch = Watch::parse(SCREEN, machine.names(), machine.memory()).map_err(|(_, problem)| problem)?;
+    let watch =
+        Watch::parse(SCREEN, machine.names(), machine.memory(), machine.variables()).map_err(|(_, problem)| problem)?;
     let rows = session.trace().text(machine, &watch, true);
     let shown = rows.lines().filter(|row| !OMITTED.iter().any(|text| row.contains(text)));
     // On a terminal, a row is a line of it.

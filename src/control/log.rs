@@ -58,7 +58,8 @@ impl Log {
             | Input::Number(..)
             | Input::Length(..)
             | Input::Alarm(_)
-            | Input::Fault(_) => false,
+            | Input::Fault(_)
+            | Input::Block(_) => false,
         }
     }
 

@@ -37,9 +37,12 @@ use std::fmt::Debug;
 
 use crate::image::{Interface, Location, Names, OverrideCoding, Signal};
 use crate::motion::Feedback;
+use crate::nc_program::Program;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, Position, Time};
-use crate::variables::{AlarmNumber, DatumValue, EventId, Events, FaultName, Place, Rule, RuleNumber, Variables};
+use crate::variables::{
+    AlarmNumber, DatumValue, EventId, Events, FaultName, Place, RParameters, Rule, RuleNumber, Variables,
+};
 
 /// A command to a control from outside, taken at the edge of a cycle.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +56,36 @@ pub enum ControlCommand {
     },
     /// Makes stored data effective that wait for it ("set machine data active").
     Activate,
+    /// Writes an R parameter.
+    RParameter {
+        /// The channel.
+        channel: ChannelNumber,
+        /// `R number`.
+        number: u16,
+        /// Its value.
+        value: f64,
+    },
+    /// Selects the program of a channel.
+    SelectProgram {
+        /// The channel.
+        channel: ChannelNumber,
+        /// Its path among the programs of the control.
+        path: String,
+    },
+    /// Gives blocks to a channel, for manual data input.
+    EnterBlocks {
+        /// The channel.
+        channel: ChannelNumber,
+        /// The blocks, one a line.
+        text: String,
+    },
+    /// The operator gives an axis another actual value at the place where it stands (PRESET).
+    Preset {
+        /// The axis.
+        axis: AxisNumber,
+        /// Its new actual value, in millimetres or degrees.
+        value: f64,
+    },
     /// The operator's alarm-cancel key.
     Cancel,
     /// A handwheel is turned.
@@ -108,6 +141,8 @@ pub struct Changes {
     pub axes: AxisSet,
     /// Another block of the control changed.
     pub shared: bool,
+    /// The PLC has scanned since the last cycle, or there is no PLC program: it has seen what the control had output.
+    pub scanned: bool,
 }
 
 /// A machine datum that became active, with the event that activated it.
@@ -241,6 +276,26 @@ pub trait Control: Send + Sync + Debug {
     fn motor_speed(&self, _axis: AxisNumber, velocity: f64) -> f64 {
         velocity
     }
+
+    /// The value of an R parameter; `None` if it does not exist. The default is a control without them.
+    fn r_parameter(&self, _channel: ChannelNumber, _number: u16) -> Option<f64> {
+        None
+    }
+
+    /// All R parameters. The default is none.
+    fn r_parameters(&self) -> RParameters {
+        RParameters::default()
+    }
+
+    /// The NC programs in memory as a text that [`Program::read`] reads again: first the one with this path, then, if `all`, the others.
+    /// `None` if no program has this path. The default is a control without programs.
+    fn program_text(&self, _path: &str, _all: bool) -> Option<String> {
+        None
+    }
+
+    /// Puts NC programs into the memory of the control, in the place of those with the same paths; subprograms are also searched in
+    /// `search_path`. The default is a control without programs.
+    fn load_programs(&mut self, _programs: Vec<Program>, _search_path: Vec<String>) {}
 
     /// The machine data or parameters, by number.
     fn data(&self) -> &dyn Data;

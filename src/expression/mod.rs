@@ -16,7 +16,7 @@
 //! | in an expression | means | read from |
 //! |---|---|---|
 //! | `X.controller_enable`, `DB31.DBX2.1`, `MD24:REAL` | [`Scope::signal`] | [`Moment::memory`] of `now` |
-//! | `X.position` | [`AxisValue`](crate::variables::AxisValue) of an axis in [`Scope::describe`] | [`Moment::variables`] of `now` |
+//! | `X.position`, `CHAN1.block`, `R5`, `R5[CHAN2]` | [`NamedValue`](crate::variables::NamedValue), with the names in [`Scope::describe`] | [`Moment::variables`] of `now` |
 //! | `alarm(10654)`, `alarm(10651, X)`, `alarm_parameter(10651, 1)`, `alarms()` | alarms in [`Scope::describe`] | [`Moment::variables`] of `now` |
 //! | `time` | seconds since time zero of the caller | [`Moment::time`] of `now` |
 //! | any other plain name | [`Scope::named_values`] | [`Moment::named_values`] of `now` |

@@ -8,7 +8,7 @@ use super::tokens::{MACHINE_DATA, Token, excerpt, mistake, tokens};
 use crate::image::Location;
 use crate::source::{Problem, did_you_mean, nearest};
 use crate::units::{AxisNumber, ChannelNumber};
-use crate::variables::{AlarmNumber, AxisValue, Place, RuleNumber};
+use crate::variables::{AlarmNumber, AxisValue, NamedValue, Place, RuleNumber};
 
 /// The maximum nesting depth of parentheses.
 const DEPTH: usize = 100;
@@ -296,7 +296,7 @@ impl Parser<'_> {
         })
     }
 
-    /// `time`, a value of the caller, `X.position`, a symbol or an address.
+    /// `time`, a value of the caller, `X.position`, `CHAN1.block`, `R5`, a symbol or an address.
     fn name(&self, name: &str, column: usize) -> Result<Term, Problem> {
         if name == "time" {
             return Ok(Term::Time);
@@ -311,13 +311,21 @@ impl Parser<'_> {
         if let Some(cure) = word_of_another_language(name) {
             return Err(Problem { cure: cure.to_owned(), ..problem });
         }
-        let axis_and_value = name
-            .rsplit_once('.')
-            .and_then(|(head, tail)| self.scope.describe().names().axis(head).map(|axis| (axis, head, tail)));
-        if let Some((axis, _, tail)) = axis_and_value
-            && let Some(value) = AxisValue::named(tail)
-        {
-            return Ok(Term::Value(axis, value));
+        let describe = self.scope.describe();
+        let at = |problem: Problem| Problem {
+            what: format!("{} (at character {column} of `{}`)", problem.what, excerpt(self.source, column)),
+            ..problem
+        };
+        match NamedValue::named(name, describe.names(), |channel| describe.r_parameter_count(channel)).map_err(at)? {
+            Some(NamedValue::Program(_)) => {
+                let what = format!("expected a number, found `{name}`, which is a text");
+                return Err(at(Problem::new(
+                    what,
+                    format!("write watch = [\"{name}\"]: each change is a row of the trace"),
+                )));
+            }
+            Some(value) => return Ok(Term::Value(value)),
+            None => {}
         }
         match self.scope.signal(name) {
             Ok(location) => Ok(Term::Signal(location)),
@@ -332,6 +340,14 @@ impl Parser<'_> {
         let values = AxisValue::ALL.map(AxisValue::name);
         let at = format!("at character {column} of `{}`", excerpt(self.source, column));
         if let Some((head, tail)) = name.rsplit_once('.') {
+            let near_value = nearest(tail, NamedValue::names_of_channel()).filter(|_| names.channel(head).is_some());
+            if let (Some(value), false) = (near_value, no_signal.cure.starts_with("did you mean")) {
+                return Problem {
+                    place: None,
+                    what: format!("expected a signal or a value of `{head}`, found `{name}` ({at})"),
+                    cure: format!("did you mean `{head}.{value}`?"),
+                };
+            }
             let Some(_) = names.axis(head) else {
                 return Problem { place: None, what: format!("{} ({at})", no_signal.what), cure: no_signal.cure };
             };

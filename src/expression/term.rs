@@ -2,10 +2,7 @@
 
 use super::view::{Moment, View};
 use crate::image::Location;
-use crate::units::AxisNumber;
-use crate::variables::{
-    AlarmNumber, AxisValue, Describe, Parameter, Place, RuleNumber, axis_name, place_name, six_decimals,
-};
+use crate::variables::{AlarmNumber, Describe, NamedValue, Parameter, Place, RuleNumber, place_name, six_decimals};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Operator {
@@ -31,7 +28,7 @@ pub(super) enum Operator {
 pub(super) enum Term {
     Number(f64),
     Signal(Location),
-    Value(AxisNumber, AxisValue),
+    Value(NamedValue),
     Time,
     Named(Box<(usize, String)>),
     Alarm(AlarmNumber, Option<Place>),
@@ -101,7 +98,7 @@ fn named_value(moment: &Moment<'_>, index: usize) -> f64 {
 
 fn parameter(parameter: Parameter) -> f64 {
     match parameter {
-        Parameter::None => 0.0,
+        Parameter::None | Parameter::Text(_) => 0.0,
         Parameter::Channel(channel) => f64::from(channel.number()),
         Parameter::Axis(axis) => f64::from(axis.number()),
         Parameter::Number(number) => number as f64,
@@ -116,7 +113,8 @@ impl Term {
         match self {
             Self::Number(number) => *number,
             Self::Signal(location) => now.memory.value(*location),
-            Self::Value(axis, value) => value.of(*axis, now.variables),
+            // The parser refuses texts.
+            Self::Value(value) => value.number(now.variables).unwrap_or(f64::NAN),
             Self::Time => now.time.seconds(),
             Self::Named(named) => named_value(now, named.0),
             Self::Alarm(alarm, place) => number(now.variables.alarms.find(*alarm, *place).is_some()),
@@ -152,7 +150,7 @@ impl Term {
             Self::Pair(_, sides) => sides.each_ref().map(Some),
             Self::Number(_)
             | Self::Signal(_)
-            | Self::Value(..)
+            | Self::Value(_)
             | Self::Time
             | Self::Named(..)
             | Self::Alarm(..)
@@ -231,7 +229,8 @@ impl Term {
 
     pub(super) fn operands(&self, view: &View<'_>, describe: &dyn Describe, lines: &mut Vec<String>) {
         if let Some(name) = self.name(describe) {
-            let mut line = format!("{name} = {}", shown(self.value(view), matches!(self, Self::Value(..))));
+            let mut line =
+                format!("{name} = {}", shown(self.value(view), matches!(self, Self::Value(NamedValue::Axis(..)))));
             if let Self::Cause(term) = self {
                 let rule = term.last_rule(&view.now).map(|rule| describe.rule(rule).id);
                 let found = rule.map_or_else(|| "no edge with a cause".to_owned(), |id| format!("last edge by {id}"));
@@ -258,7 +257,7 @@ impl Term {
                 let address = names.address(term.signal).to_string();
                 format!("cause({}, '{}')", names.symbol(term.signal).unwrap_or(address), term.id)
             }
-            Self::Value(axis, value) => format!("{}.{value}", axis_name(*axis, names)),
+            Self::Value(value) => value.name(names),
             Self::Time => "time".to_owned(),
             Self::Named(named) => named.1.clone(),
             Self::Alarm(alarm, None) => format!("alarm({})", describe.alarm_name(*alarm)),

@@ -3,13 +3,14 @@
 use std::borrow::Cow;
 
 use crate::source::Problem;
+use crate::variables::is_r_parameter;
 
 /// One token of an expression.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Token {
     /// `1.5`, `2#1101_0000`.
     Number(f64),
-    /// `X.position`, `DB31.DBX101.5`, `DB1000.DBD4:REAL`, `abs`.
+    /// `X.position`, `DB31.DBX101.5`, `DB1000.DBD4:REAL`, `R5[CHAN2]`, `abs`.
     Name(String),
     /// `'gantry-stage-1'`.
     Quoted(String),
@@ -72,7 +73,14 @@ pub(super) fn tokens(source: &str) -> Result<Vec<(usize, Token)>, Problem> {
             rest = after;
         } else if first.is_alphabetic() || first == '_' {
             let length = rest.find(|c: char| !(c.is_alphanumeric() || "_.:".contains(c)));
-            let (word, after) = rest.split_at(length.unwrap_or(rest.len()));
+            let mut length = length.unwrap_or(rest.len());
+            if rest[length..].starts_with('[') && is_r_parameter(&rest[..length]) {
+                let Some(end) = rest[length..].find(']') else {
+                    return Err(mistake(source, column + length, "a channel and `]`, as in R5[CHAN2]", "no `]`"));
+                };
+                length += end + 1;
+            }
+            let (word, after) = rest.split_at(length);
             found.push((column, Token::Name(word.to_owned())));
             rest = after;
         } else if first == '\'' {

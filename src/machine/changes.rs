@@ -12,33 +12,33 @@ use crate::variables::{EventId, Happening, Place};
 
 impl Machine {
     /// The differences of the PLC's half from the last cycle, as the control sees it.
-    pub(super) fn plc_changes(&mut self) -> Changes {
-        let written = self.written_changes();
+    pub(super) fn plc_changes(&mut self, scanned: bool) -> Changes {
+        let written = self.written_changes(scanned);
         let State { to_nck, memory, .. } = &mut self.state;
         to_nck.advance(&memory.to_nck);
         let Some(before) = to_nck.seen_before() else { return written };
         let now: &[u8] = to_nck.seen(&memory.to_nck);
         if now == &**before {
-            return Changes { axes: AxisSet::NONE, shared: false };
+            return Changes { axes: AxisSet::NONE, shared: false, scanned };
         }
         let (axes, shared) = self.definition.names.interface().plc_changes(before, now);
-        Changes { axes, shared }
+        Changes { axes, shared, scanned }
     }
 
     /// The differences of the PLC's half from the end of the last cycle.
-    fn written_changes(&mut self) -> Changes {
+    fn written_changes(&mut self, scanned: bool) -> Changes {
         let before = self.before.parts.iter().find(|(part, _)| *part == Part::ToNck);
         let now: &[u8] = &self.state.memory.to_nck;
         self.before.plc_wrote = true;
         let Some((_, before)) = before else {
-            return Changes { axes: AxisSet::ALL, shared: true };
+            return Changes { axes: AxisSet::ALL, shared: true, scanned };
         };
         if now == before {
             self.before.plc_wrote = false;
-            return Changes { axes: AxisSet::NONE, shared: false };
+            return Changes { axes: AxisSet::NONE, shared: false, scanned };
         }
         let (axes, shared) = self.definition.names.interface().plc_changes(before, now);
-        Changes { axes, shared }
+        Changes { axes, shared, scanned }
     }
 
     /// Records the writes from outside that the PLC program overwrote in this step.

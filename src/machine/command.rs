@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::Fault;
 use crate::control::Value;
 use crate::image::Location;
-use crate::units::ChannelNumber;
+use crate::units::{AxisNumber, ChannelNumber};
 
 /// A command to a machine from outside.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,6 +45,27 @@ pub enum Command {
         /// Its value.
         value: f64,
     },
+    /// Selects the NC program of a channel, which must be in memory ([`Machine::load_programs`](super::Machine::load_programs)).
+    SelectProgram {
+        /// The channel.
+        channel: ChannelNumber,
+        /// Its path among the programs in memory.
+        path: String,
+    },
+    /// Gives blocks to a channel, for manual data input (MDA).
+    EnterBlocks {
+        /// The channel.
+        channel: ChannelNumber,
+        /// The blocks, one a line.
+        text: String,
+    },
+    /// Gives an axis another actual value at the place where it stands (PRESET).
+    Preset {
+        /// The axis.
+        axis: AxisNumber,
+        /// Its new actual value, in millimetres or degrees.
+        value: f64,
+    },
     /// "Set machine data active".
     NewConf,
     /// Power off and on.
@@ -81,6 +102,9 @@ impl Command {
             Self::Write { location, .. } | Self::Force { location, .. } | Self::Release { location } => Some(*location),
             Self::MachineDatum { .. }
             | Self::RParameter { .. }
+            | Self::SelectProgram { .. }
+            | Self::EnterBlocks { .. }
+            | Self::Preset { .. }
             | Self::NewConf
             | Self::PowerOn
             | Self::PlcStop
@@ -105,6 +129,9 @@ impl Command {
             | Self::Release { .. }
             | Self::MachineDatum { .. }
             | Self::RParameter { .. }
+            | Self::SelectProgram { .. }
+            | Self::EnterBlocks { .. }
+            | Self::Preset { .. }
             | Self::NewConf
             | Self::PowerOn
             | Self::Cancel

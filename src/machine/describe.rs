@@ -5,7 +5,7 @@ use crate::expression::Scope;
 use crate::image::{Location, Names};
 use crate::motion::Encoder;
 use crate::source::Problem;
-use crate::units::{AxisNumber, Position};
+use crate::units::{AxisNumber, ChannelNumber, Position};
 use crate::variables::{AlarmNumber, Describe, Parameter, RaisedAlarm, Rule, RuleNumber};
 
 impl Describe for Machine {
@@ -61,6 +61,10 @@ impl Describe for Machine {
         self.control.active_datum(number, index, axis)
     }
 
+    fn r_parameter_count(&self, channel: ChannelNumber) -> usize {
+        self.state.variables.r_parameters.count(channel)
+    }
+
     fn in_causes(&self, number: u32, axis: Option<AxisNumber>, value: f64) -> f64 {
         self.control.in_causes(number, axis, value)
     }
@@ -85,5 +89,6 @@ fn shown(machine: &Machine, parameter: Parameter) -> String {
         Parameter::Number(number) => number.to_string(),
         Parameter::Direction(direction) => if direction < 0 { "-" } else { "+" }.to_owned(),
         Parameter::Milliseconds(time) => time.milliseconds().to_string(),
+        Parameter::Text(text) => text.to_string(),
     }
 }

@@ -42,11 +42,12 @@ use std::sync::Arc;
 
 use crate::control::{Control, Finding};
 use crate::image::{Memory, Names, OverrideCoding, PartBytes};
+use crate::nc_program::Program;
 use crate::plc::PlcProgram;
 use crate::source::Problem;
 use crate::trace::Recorder;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, Time};
-use crate::variables::{RParameters, RaisedAlarm, Variables};
+use crate::variables::{RaisedAlarm, Variables};
 
 use before::Before;
 use definition::Definition;
@@ -112,10 +113,23 @@ impl Machine {
         &self.state.variables
     }
 
-    /// The R parameters of its channels.
+    /// The value of an R parameter; `None` if it does not exist.
     #[must_use]
-    pub fn r_parameters(&self) -> &RParameters {
-        &self.state.r_parameters
+    pub fn r_parameter(&self, channel: ChannelNumber, number: u16) -> Option<f64> {
+        self.control.r_parameter(channel, number)
+    }
+
+    /// Puts NC programs into the memory of the control, in the place of those with the same paths. Subprograms are found beside their
+    /// caller, then in the folders of `search_path`.
+    pub fn load_programs(&mut self, programs: Vec<Program>, search_path: Vec<String>) {
+        self.control.load_programs(programs, search_path);
+    }
+
+    /// The NC programs in memory as a text in the form of an archive: first the one with this path, then, if `all`, the others. `None` if no
+    /// program has this path.
+    #[must_use]
+    pub fn program_text(&self, path: &str, all: bool) -> Option<String> {
+        self.control.program_text(path, all)
     }
 
     /// The effective override of an axis, in per cent.

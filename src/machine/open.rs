@@ -16,7 +16,7 @@ use crate::plant::{EncoderKind, Given, Hints, Layout, Plant, PlantDefinition, Sw
 use crate::source::{Place, Problem, Table};
 use crate::trace::Recorder;
 use crate::units::{AxisNumber, AxisSet, PerAxis, Time};
-use crate::variables::{Alarms, EventId, RParameters, Variables};
+use crate::variables::{Alarms, EventId, Variables};
 
 /// Options that override the files of a machine.
 #[derive(Debug, Default)]
@@ -149,7 +149,6 @@ fn assemble(definition: Definition, control: Box<dyn Control>, memory: Memory) -
         to_nck,
         from_nck,
         variables: Variables::default(),
-        r_parameters: RParameters::default(),
         plant: Plant::new(&definition.layout),
         feedback: PerAxis::default(),
         plc: PlcState::default(),
@@ -168,7 +167,7 @@ fn assemble(definition: Definition, control: Box<dyn Control>, memory: Memory) -
         recorder: Recorder::default(),
     };
     machine.sense(AxisSet::ALL);
-    machine.state.variables = first_variables(&machine.state.feedback);
+    machine.state.variables = first_variables(&machine.state.feedback, machine.control.r_parameters());
     machine
 }
 

@@ -9,7 +9,7 @@ use crate::image::{Location, Part};
 use crate::source::Problem;
 use crate::trace::{By, NoEffect};
 use crate::units::{AxisSet, Position};
-use crate::variables::{EventId, FaultName, Happening, RParameters};
+use crate::variables::{EventId, FaultName, Happening, program_name};
 
 impl Machine {
     /// Queues a command for the edge of the next step.
@@ -40,15 +40,6 @@ impl Machine {
         }
         if let Command::Fault(fault) | Command::ClearFault(fault) = command {
             self.check_fault(*fault)?;
-        }
-        if let Command::RParameter { number, value, .. } = command
-            && (*number >= RParameters::COUNT || !value.is_finite())
-        {
-            let last = RParameters::COUNT - 1;
-            return Err(Problem::new(
-                format!("expected a finite value for R0 to R{last}, found {value} for R{number}"),
-                "a channel has 100 R parameters",
-            ));
         }
         Ok(())
     }
@@ -107,9 +98,6 @@ impl Machine {
                     self.record_no_effect(NoEffect::Release(location));
                 }
             }
-            Command::RParameter { channel, number, value } => {
-                self.state.r_parameters.set(channel, number, value);
-            }
             Command::PowerOn => {
                 let event = self.power_on();
                 self.record_happening(Happening::PowerOn, By::Outside, event);
@@ -153,7 +141,14 @@ impl Machine {
                 self.state.plant.press_switches(&self.definition.layout, AxisSet::of(fault.axis));
                 self.report_fault(fault, false);
             }
-            Command::MachineDatum { .. } | Command::NewConf | Command::Cancel | Command::Handwheel { .. } => {}
+            Command::MachineDatum { .. }
+            | Command::RParameter { .. }
+            | Command::SelectProgram { .. }
+            | Command::EnterBlocks { .. }
+            | Command::Preset { .. }
+            | Command::NewConf
+            | Command::Cancel
+            | Command::Handwheel { .. } => {}
         }
     }
 
@@ -175,8 +170,17 @@ impl Machine {
             &ControlCommand::Handwheel { number, pulses, .. } => {
                 self.record_happening(Happening::HandwheelTurned { number, pulses }, By::Outside, event);
             }
+            ControlCommand::SelectProgram { channel, path } => {
+                let (channel, program) = (*channel, program_name(path));
+                self.record_happening(Happening::ProgramSelected { channel, program }, By::Outside, event);
+            }
+            &ControlCommand::EnterBlocks { channel, .. } => {
+                self.record_happening(Happening::BlocksEntered { channel }, By::Outside, event);
+            }
             ControlCommand::PlcMissing
             | ControlCommand::PlcRestarted
+            | ControlCommand::RParameter { .. }
+            | ControlCommand::Preset { .. }
             | ControlCommand::Written(_)
             | ControlCommand::Fault { .. } => {}
         }
@@ -271,13 +275,20 @@ fn of_the_control(command: &Command) -> Option<ControlCommand> {
         Command::MachineDatum { target, value } => {
             Some(ControlCommand::Store { target: target.clone(), value: value.clone() })
         }
+        &Command::RParameter { channel, number, value } => Some(ControlCommand::RParameter { channel, number, value }),
+        Command::SelectProgram { channel, path } => {
+            Some(ControlCommand::SelectProgram { channel: *channel, path: path.clone() })
+        }
+        Command::EnterBlocks { channel, text } => {
+            Some(ControlCommand::EnterBlocks { channel: *channel, text: text.clone() })
+        }
+        &Command::Preset { axis, value } => Some(ControlCommand::Preset { axis, value }),
         Command::NewConf => Some(ControlCommand::Activate),
         Command::Cancel => Some(ControlCommand::Cancel),
         &Command::Handwheel { number, pulses, cycles } => Some(ControlCommand::Handwheel { number, pulses, cycles }),
         Command::Write { .. }
         | Command::Force { .. }
         | Command::Release { .. }
-        | Command::RParameter { .. }
         | Command::PowerOn
         | Command::PlcStop
         | Command::PlcRun

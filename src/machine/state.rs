@@ -12,7 +12,7 @@ use crate::image::Memory;
 use crate::motion::Feedback;
 use crate::plant::{Fault, Plant};
 use crate::units::{PerAxis, Time};
-use crate::variables::{EventId, RParameters, Variables};
+use crate::variables::{EventId, Variables};
 
 /// The state of a machine.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -27,7 +27,6 @@ pub(super) struct State {
     /// The NCK's half on its way to the PLC program.
     pub(super) from_nck: Delay,
     pub(super) variables: Variables,
-    pub(super) r_parameters: RParameters,
     pub(super) plant: Plant,
     /// What drives and encoders reported last.
     pub(super) feedback: PerAxis<Feedback>,

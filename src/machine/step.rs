@@ -9,7 +9,7 @@ use crate::motion::Feedback;
 use crate::plc::PlcIo;
 use crate::trace::By;
 use crate::units::{AxisSet, PerAxis};
-use crate::variables::{AxisValues, Happening, Variables};
+use crate::variables::{AxisValues, Happening, RParameters, Variables};
 
 impl Machine {
     /// One interpolation cycle. The order of the stages defines in which cycle each part receives the data of the others.
@@ -23,12 +23,12 @@ impl Machine {
         // Plant signals: wired switches are inputs of the PLC.
         self.sense_wired_switches();
         // PLC scan, if it is due; cams that are not wired; forces.
-        self.scan();
+        let scanned = self.scan();
         self.note_overwritten();
         self.sense_unwired_switches();
         self.apply_forces();
         // The control decides.
-        let changes = self.plc_changes();
+        let changes = self.plc_changes(scanned);
         self.control.decide(self.state.plc_side(), changes);
         self.record_activated(By::Nck);
         // Position control, drives and mechanics.
@@ -49,19 +49,20 @@ impl Machine {
         self.record();
     }
 
-    fn scan(&mut self) {
+    /// Returns whether the PLC has seen the image of the last cycle; without a program nobody looks.
+    fn scan(&mut self) -> bool {
         if self.state.plc.stopped {
             let _ = self.control.command(&ControlCommand::PlcMissing);
-            return;
+            return false;
         }
         if self.state.plc.wait > 0 {
             self.state.plc.wait -= 1;
-            return;
+            return false;
         }
         let cycle = self.cycle_time();
         self.state.plc.wait = self.definition.plc_cycle.map_or(0, |every| every.in_cycles(cycle) - 1);
         let Some(program) = &mut self.program else {
-            return;
+            return true;
         };
         let memory = &mut self.state.memory;
         let mut io = PlcIo::<AsBytes> {
@@ -88,6 +89,7 @@ impl Machine {
             let event = self.control.command(&ControlCommand::PlcMissing);
             self.record_happening(Happening::PlcStopped, By::Plc, event);
         }
+        true
     }
 
     fn sense_wired_switches(&mut self) {
@@ -136,9 +138,9 @@ impl Machine {
     }
 }
 
-/// The variables of a machine after power on: the positions of its slides are known before the first cycle.
-pub(super) fn first_variables(feedback: &PerAxis<Feedback>) -> Variables {
-    let mut variables = Variables::default();
+/// The variables of a machine after power on: the positions of its slides and its R parameters are known before the first cycle.
+pub(super) fn first_variables(feedback: &PerAxis<Feedback>, r_parameters: RParameters) -> Variables {
+    let mut variables = Variables { r_parameters, ..Variables::default() };
     for (axis, values) in variables.axes.iter_mut() {
         *values = AxisValues { slide: feedback[axis].slide, ..AxisValues::default() };
     }

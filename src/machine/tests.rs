@@ -268,18 +268,18 @@ fn r_parameters_are_written_at_the_edge_of_a_step_saved_and_kept_without_power()
     let mut machine = example();
     let first = ChannelNumber::FIRST;
     let write = |number, value| Command::RParameter { channel: first, number, value };
-    assert_eq!(machine.r_parameters().get(first, 99), Some(0.0));
+    assert_eq!(machine.r_parameter(first, 99), Some(0.0));
     assert!(machine.queue(write(100, 1.0)).is_err() && machine.queue(write(1, f64::NAN)).is_err());
     machine.queue(write(99, -2.5)).unwrap();
-    assert_eq!(machine.r_parameters().get(first, 99), Some(0.0));
+    assert_eq!(machine.r_parameter(first, 99), Some(0.0));
     run(&mut machine, 1);
     machine.queue(Command::PowerOn).unwrap();
     run(&mut machine, 1);
     let mut other = example();
     other.restore(&machine.save()).unwrap();
     for machine in [&machine, &other, &machine.fork().unwrap()] {
-        assert_eq!(machine.r_parameters().get(first, 99), Some(-2.5));
-        assert_eq!(machine.r_parameters().get(first, 100), None);
+        assert_eq!(machine.r_parameter(first, 99), Some(-2.5));
+        assert_eq!(machine.r_parameter(first, 100), None);
     }
 }
 

@@ -1,4 +1,4 @@
-//! The motion command of an axis in one cycle: brake, run, go to a position, follow the actual value, or hold.
+//! The motion command of an axis in one cycle: brake, run, go to a position, be where the path is, follow the actual value, or hold.
 
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +29,13 @@ pub enum Motion {
         /// In increments per second squared.
         acceleration: f64,
     },
+    /// Is at this position at the end of the cycle: the path of a program interpolates it.
+    Interpolated {
+        /// The position.
+        position: Position,
+        /// The velocity of the axis in this cycle, signed, in increments per second.
+        velocity: f64,
+    },
     /// Follow-up: the setpoint is the actual value.
     Track,
     /// The setpoint does not change.
@@ -41,7 +48,7 @@ impl Motion {
     pub fn is_held(&self) -> bool {
         match *self {
             Self::Run { velocity, .. } | Self::GoTo { velocity, .. } => velocity.abs() <= 0.0,
-            Self::Brake { .. } | Self::Track | Self::Hold => false,
+            Self::Brake { .. } | Self::Interpolated { .. } | Self::Track | Self::Hold => false,
         }
     }
 
@@ -56,6 +63,7 @@ impl Motion {
                 return setpoint.go_to(target, Limits { velocity, acceleration }, cycle);
             }
             Self::GoTo { .. } => setpoint.run(0.0, hold, cycle),
+            Self::Interpolated { position, velocity } => setpoint.lead(position, velocity),
             Self::Track => *setpoint = Setpoint::at(actual),
             Self::Hold => *setpoint = Setpoint::at(setpoint.position),
         }
@@ -68,7 +76,8 @@ impl Motion {
     pub fn is_fast(self, hardest: f64) -> bool {
         match self {
             Self::Brake { deceleration } => deceleration > hardest,
-            Self::Track | Self::Hold => true,
+            // The path has the limits of its axes already.
+            Self::Interpolated { .. } | Self::Track | Self::Hold => true,
             Self::Run { .. } | Self::GoTo { .. } => false,
         }
     }
@@ -78,7 +87,7 @@ impl Motion {
     pub fn acceleration(self) -> Option<f64> {
         match self {
             Self::Run { acceleration, .. } | Self::GoTo { acceleration, .. } => Some(acceleration),
-            Self::Brake { .. } | Self::Track | Self::Hold => None,
+            Self::Brake { .. } | Self::Interpolated { .. } | Self::Track | Self::Hold => None,
         }
     }
 
@@ -86,7 +95,7 @@ impl Motion {
     #[must_use]
     pub fn direction(&self, from: Position) -> i8 {
         let sign = match *self {
-            Self::Run { velocity, .. } => velocity,
+            Self::Run { velocity, .. } | Self::Interpolated { velocity, .. } => velocity,
             Self::GoTo { target, velocity, .. } if velocity > 0.0 => (target - from).increments() as f64,
             Self::GoTo { .. } | Self::Brake { .. } | Self::Track | Self::Hold => 0.0,
         };

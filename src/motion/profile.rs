@@ -119,6 +119,11 @@ impl Setpoint {
         (self.velocity, self.held_back) = (movement.velocity, movement.held_back);
     }
 
+    /// Is moved to a position by the path of a program, with the velocity of this cycle.
+    pub fn lead(&mut self, position: Position, velocity: f64) {
+        *self = Self { position, carry: 0.0, velocity, held_back: false };
+    }
+
     /// Sets the output of a filter for this setpoint.
     pub(super) fn show(&mut self, position: Position, velocity: f64, held_back: bool) {
         *self = Self { position, carry: 0.0, velocity, held_back };

@@ -4,10 +4,12 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::head::{Head, head};
 
 /// Whether a program is a main program or a subprogram, by its file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum ProgramKind {
     /// `.mpf`, `_MPF`
     Main,
@@ -16,7 +18,7 @@ pub enum ProgramKind {
 }
 
 /// The text of a program.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Program {
     name: String,
     kind: ProgramKind,
@@ -128,6 +130,22 @@ impl Program {
         }
     }
 
+    /// Appends the program with its header to an archive.
+    fn write_into(&self, archive: &mut String) {
+        let ending = match self.kind {
+            ProgramKind::Main => "MPF",
+            ProgramKind::Sub => "SPF",
+        };
+        for part in ["%_N_", &self.name, "_", ending, "\n;$PATH=", &self.folder, "\n"] {
+            archive.push_str(part);
+        }
+        // A carriage return before a line feed does not belong to the line.
+        archive.push_str(&self.text.replace("\r\n", "\n"));
+        if !archive.ends_with('\n') {
+            archive.push('\n');
+        }
+    }
+
     /// The number of lines.
     #[must_use]
     pub fn count(&self) -> u32 {
@@ -196,7 +214,7 @@ pub struct Request<'a> {
 
 /// Programs in memory. Without a folder in the call a program is searched beside the caller, then in the search path in its order; a
 /// subprogram comes before a main program of the same name.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Library {
     programs: BTreeMap<String, Arc<Program>>,
     search_path: Vec<String>,
@@ -207,6 +225,15 @@ impl Library {
     #[must_use]
     pub fn new(search_path: Vec<String>) -> Self {
         Self { programs: BTreeMap::new(), search_path }
+    }
+
+    /// Subprograms are also searched in these folders, after those that are searched already.
+    pub fn search_also(&mut self, folders: impl IntoIterator<Item = String>) {
+        for folder in folders {
+            if !self.search_path.contains(&folder) {
+                self.search_path.push(folder);
+            }
+        }
     }
 
     /// Adds a program, in the place of an earlier one with the same path.
@@ -237,6 +264,20 @@ impl Library {
             };
             in_folder("SPF").or_else(|| in_folder("MPF"))
         })
+    }
+
+    /// Programs as an ASCII archive, as [`Program::read`] reads it: first the one with this path, then, if `all`, the others. `None` if no
+    /// program has this path. A name with a space cannot stand in an archive.
+    #[must_use]
+    pub fn archive(&self, path: &str, all: bool) -> Option<String> {
+        let can_be_read = |program: &Program| !program.name.contains(char::is_whitespace);
+        let first = self.program(path).filter(|first| can_be_read(first))?;
+        let others = self.programs.values().filter(|other| all && !Arc::ptr_eq(&first, other) && can_be_read(other));
+        let mut text = String::new();
+        for program in std::iter::once(&first).chain(others) {
+            program.write_into(&mut text);
+        }
+        Some(text)
     }
 
     /// All programs, in the order of their paths.

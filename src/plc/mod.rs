@@ -39,8 +39,8 @@ pub use closure::{ClosureProgram, program, program_for, program_with_fault};
 pub use io::PlcIo;
 pub use process::PlcProcess;
 pub use programs::{
-    LimitEdgeMarker, MACHINE_CONTROL_PANEL_LAYOUT, MachineControlPanel, enable_all, gantry_start, limit_edge_marker,
-    machine_control_panel, shared_reference_cam,
+    LimitEdgeMarker, MACHINE_CONTROL_PANEL_LAYOUT, MachineControlPanel, ToolChange, enable_all, gantry_start,
+    limit_edge_marker, machine_control_panel, shared_reference_cam, tool_change,
 };
 pub use registry::Programs;
 

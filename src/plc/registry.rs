@@ -8,7 +8,9 @@ use crate::source::{Problem, did_you_mean};
 use crate::units::Time;
 
 use super::process::PlcProcess;
-use super::{PlcProgram, enable_all, gantry_start, limit_edge_marker, machine_control_panel, shared_reference_cam};
+use super::{
+    PlcProgram, enable_all, gantry_start, limit_edge_marker, machine_control_panel, shared_reference_cam, tool_change,
+};
 
 type Constructor = Arc<dyn Fn(&Names) -> Result<Box<dyn PlcProgram>, Problem> + Send + Sync>;
 
@@ -29,7 +31,8 @@ impl Default for Programs {
 }
 
 impl Programs {
-    /// The built-in programs: `enable_all`, `gantry_start`, `limit_edge_marker`, `machine_control_panel`, `shared_reference_cam`.
+    /// The built-in programs: `enable_all`, `gantry_start`, `limit_edge_marker`, `machine_control_panel`, `shared_reference_cam`,
+    /// `tool_change`.
     #[must_use]
     pub fn ready() -> Self {
         Self { named: BTreeMap::new(), processes: None }
@@ -38,6 +41,7 @@ impl Programs {
             .with("limit_edge_marker", |_| Ok(limit_edge_marker().boxed()))
             .with("machine_control_panel", |_| Ok(machine_control_panel().boxed()))
             .with("shared_reference_cam", |_| Ok(shared_reference_cam().boxed()))
+            .with("tool_change", |_| Ok(tool_change().boxed()))
     }
 
     /// Adds a program under a name and replaces an existing one. The constructor can reject a machine by its names.

@@ -104,9 +104,10 @@ fn programs_are_found_by_name_and_a_misspelt_name_gets_a_suggestion() {
         "limit_edge_marker",
         "machine_control_panel",
         "mine",
-        "shared_reference_cam"
+        "shared_reference_cam",
+        "tool_change"
     ]));
-    for name in ["enable_all", "gantry_start", "shared_reference_cam"] {
+    for name in ["enable_all", "gantry_start", "shared_reference_cam", "tool_change"] {
         assert_eq!(programs.program(name, &names).unwrap().name(), name);
     }
     assert_eq!(programs.program("mine", &names).unwrap().name(), "counting");

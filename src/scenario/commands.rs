@@ -1,13 +1,17 @@
 //! The verbs of a session that queue one command for the next cycle: data, power, the PLC, the operator, faults.
 
+use std::path::Path;
+
 use super::duration::Duration;
 use super::failure::Failure;
 use super::naming::axis_named;
+use super::programs::NcPrograms;
 use super::session::Session;
-use super::steps::r_parameter;
 use super::values::Setting;
 use crate::machine::{Command, DatumValue, Fault, FaultKind};
-use crate::source::Problem;
+use crate::source::{Place, Problem};
+use crate::units::ChannelNumber;
+use crate::variables::r_parameter;
 
 impl Session {
     /// Stores a machine datum, as `34090[XF]`. It takes effect as its activation class defines.
@@ -29,11 +33,57 @@ impl Session {
     /// # Errors
     /// The parameter does not exist.
     pub fn r_parameter(&mut self, name: &str, value: f64) -> Result<(), Failure> {
-        let Some((channel, number)) = r_parameter(name) else {
+        let Some((channel, number)) = r_parameter(name, self.machine.names())? else {
             let cure = "write `R5` for the first channel, `R5[CHAN2]` for channel 2";
             return Err(Problem::new(format!("expected an R parameter, found {name:?}"), cure).into());
         };
+        // No channel has a parameter with a larger number.
+        let number = u16::try_from(number).unwrap_or(u16::MAX);
         self.queue(Command::RParameter { channel, number, value })
+    }
+
+    /// Loads an NC program with those beside it, and selects it in a channel.
+    ///
+    /// # Errors
+    /// The file cannot be read, or the channel does not exist.
+    pub fn program(&mut self, file: &str, channel: u8) -> Result<(), Failure> {
+        let mut programs = NcPrograms::default();
+        let path = programs.file(file, Path::new(""), &Place::file(file))?;
+        self.select(programs, path, channel)
+    }
+
+    /// Selects an NC program by its text.
+    ///
+    /// # Errors
+    /// The channel does not exist.
+    pub fn nc(&mut self, text: &str, channel: u8) -> Result<(), Failure> {
+        let mut programs = NcPrograms::default();
+        let path = programs.text(text);
+        self.select(programs, path, channel)
+    }
+
+    fn select(&mut self, programs: NcPrograms, path: String, channel: u8) -> Result<(), Failure> {
+        let channel = channel_numbered(channel)?;
+        programs.load(&mut self.machine);
+        self.queue(Command::SelectProgram { channel, path })
+    }
+
+    /// Gives blocks to manual data input (MDA).
+    ///
+    /// # Errors
+    /// The channel does not exist.
+    pub fn mdi(&mut self, blocks: &str, channel: u8) -> Result<(), Failure> {
+        let channel = channel_numbered(channel)?;
+        self.queue(Command::EnterBlocks { channel, text: blocks.to_owned() })
+    }
+
+    /// Gives an axis another actual value at the place where it stands (PRESET), in millimetres or degrees.
+    ///
+    /// # Errors
+    /// The axis does not exist, or it is a synchronous axis of a gantry grouping.
+    pub fn preset(&mut self, axis: &str, value: f64) -> Result<(), Failure> {
+        let axis = axis_named(&self.machine, axis)?;
+        self.queue(Command::Preset { axis, value })
     }
 
     /// Turns a handwheel by a number of pulses, evenly spread over a time.
@@ -110,4 +160,9 @@ impl Session {
         let axis = axis_named(&self.machine, axis)?;
         self.queue(Command::ClearFault(Fault { axis, kind }))
     }
+}
+
+fn channel_numbered(number: u8) -> Result<ChannelNumber, Problem> {
+    let found = || Problem::new(format!("expected a channel from 1 to 10, found {number}"), "count channels from 1");
+    ChannelNumber::new(number).ok_or_else(found)
 }

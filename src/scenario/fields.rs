@@ -41,7 +41,3 @@ pub(super) fn in_the_case(problem: Problem, case: Option<&str>) -> Problem {
         None => problem,
     }
 }
-
-pub(super) fn not_available(place: &Place, what: &str) -> Problem {
-    place.problem(format!("{what} is not available in this version"), "remove it, or use a version that supports it")
-}

@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use super::duration::Duration;
-use super::fields::{Named, duration, in_the_case, named, not_available, texts};
+use super::fields::{Named, duration, in_the_case, named, texts};
 use super::matrix::{FIXED, HEAD, Variant, heads};
 use super::rules;
 use super::written::WrittenSteps;
@@ -37,6 +37,10 @@ pub struct Scenario {
     pub plc_process: Option<(PlcProcess, Place)>,
     /// The PLC memory image, by name or file.
     pub plc_image: Option<Named>,
+    /// The NC program that is selected at the beginning: its file, or its text.
+    pub program: Option<(Named, bool)>,
+    /// Folders in which subprograms are found.
+    pub program_path: Vec<Named>,
     /// The limit of simulated time.
     pub limit: Duration,
     /// What the trace shows; `None` selects the default.
@@ -198,6 +202,8 @@ impl Scenario {
                 .take("plc_image")
                 .map(|node| named(&node, "the name or file of a PLC image"))
                 .transpose()?,
+            program: program(&mut table)?,
+            program_path: texts(table.take("program_path"), "folders with NC programs")?,
             limit: table
                 .take("limit")
                 .map_or(Ok(Duration::Time(DEFAULT_LIMIT)), |node| duration(&node, "the limit of simulated time"))?,
@@ -212,7 +218,6 @@ impl Scenario {
             variant,
             steps,
         };
-        refuse_later_keys(&mut table)?;
         table.finish()?;
         Ok(scenario)
     }
@@ -366,10 +371,14 @@ fn compare(node: Node) -> Result<Compare, Problem> {
     }
 }
 
-/// Rejects keys that the format reserves and this version does not support.
-fn refuse_later_keys(table: &mut Table) -> Result<(), Problem> {
-    if let Some(node) = table.take("program") {
-        return Err(not_available(&node.place, "the key `program`"));
+/// `program`, the file of an NC program, or `nc`, its text.
+fn program(table: &mut Table) -> Result<Option<(Named, bool)>, Problem> {
+    match (table.take("program"), table.take("nc")) {
+        (Some(_), Some(text)) => {
+            Err(text.place.problem("expected `program` or `nc`, found both", "keep the one that is to be selected"))
+        }
+        (Some(file), None) => Ok(Some((named(&file, "the file of an NC program")?, false))),
+        (None, Some(text)) => Ok(Some((named(&text, "the text of an NC program")?, true))),
+        (None, None) => Ok(None),
     }
-    Ok(())
 }

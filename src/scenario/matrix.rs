@@ -8,8 +8,21 @@ use std::path::{Path, PathBuf};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
 
 /// The keys of the head that a matrix can vary.
-pub(super) const HEAD: [&str; 10] =
-    ["machine", "profile", "plc", "plc_image", "limit", "watch", "causes", "never", "always", "compare"];
+pub(super) const HEAD: [&str; 13] = [
+    "machine",
+    "profile",
+    "plc",
+    "plc_image",
+    "program",
+    "nc",
+    "program_path",
+    "limit",
+    "watch",
+    "causes",
+    "never",
+    "always",
+    "compare",
+];
 
 /// The keys of the head that belong to the scenario as a whole.
 pub(super) const FIXED: [&str; 7] = ["title", "covers", "plant", "machine_data", "matrix", "rule", "step"];

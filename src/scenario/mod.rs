@@ -17,6 +17,7 @@ mod matrix;
 mod naming;
 mod operator;
 mod passing;
+mod programs;
 mod rules;
 mod run;
 mod session;

@@ -6,7 +6,7 @@ use crate::machine::Machine;
 use crate::source::{Problem, did_you_mean};
 use crate::trace::value_as_signal;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
-use crate::variables::Describe;
+use crate::variables::{Describe, NamedValue, is_r_parameter};
 
 /// The names of a machine and of the values captured so far.
 pub(super) struct Known<'a> {
@@ -53,6 +53,12 @@ pub(super) fn axis_named(machine: &Machine, name: &str) -> Result<AxisNumber, Pr
 pub(super) fn check_captured_name(name: &str) -> Result<(), Problem> {
     let plain = name.starts_with(|c: char| c.is_alphabetic() || c == '_')
         && name.chars().all(|c| c.is_alphanumeric() || c == '_');
+    if is_r_parameter(name) {
+        return Err(Problem::new(
+            format!("expected a plain name for a captured value, found the R parameter `{name}`"),
+            "use another name, such as `before`",
+        ));
+    }
     if plain && name != "time" {
         Ok(())
     } else {
@@ -61,6 +67,23 @@ pub(super) fn check_captured_name(name: &str) -> Result<(), Problem> {
             "use letters, digits and underscores; `time` is reserved",
         ))
     }
+}
+
+/// The problem of a name that is no signal: a value cannot be written like one.
+fn no_signal(machine: &Machine, name: &str, unknown: Problem) -> Problem {
+    let known = NamedValue::named(name, machine.names(), |channel| machine.r_parameter_count(channel));
+    let cure = match known {
+        Err(problem) => return problem,
+        Ok(None) => return unknown,
+        Ok(Some(NamedValue::RParameter(..))) => format!("write r_parameters = {{ \"{name}\" = 1.5 }}"),
+        Ok(Some(NamedValue::Program(_))) => "select a program with `program` or `nc`; `watch` shows it".to_owned(),
+        // The problem says already what an axis value is.
+        Ok(Some(NamedValue::Axis(..))) => return unknown,
+        Ok(Some(NamedValue::Block(_))) => {
+            format!("`{name}` can only be read: in `wait`, `hold`, `expect`, `capture` and `watch`")
+        }
+    };
+    Problem::new(format!("expected a signal, found the value `{name}`"), cure)
 }
 
 /// The location of any signal. A client of the control can write every signal; the NCK then overwrites its own signals.
@@ -86,7 +109,7 @@ pub(super) fn writable(machine: &Machine, name: &str) -> Result<Location, Proble
 /// The location of a signal that the NCK does not write.
 pub(super) fn written_by_others(machine: &Machine, name: &str) -> Result<Location, Problem> {
     let names = machine.names();
-    let location = signal_named(machine, name)?;
+    let location = signal_named(machine, name).map_err(|problem| no_signal(machine, name, problem))?;
     names.check_writer(location)?;
     Ok(location)
 }

@@ -15,12 +15,12 @@ use crate::control::Read;
 use crate::controls;
 use crate::expression::Expression;
 use crate::image::{Preset, Profile};
-use crate::machine::{Machine, OpenOptions};
+use crate::machine::{Command, Machine, OpenOptions};
 use crate::monitor::{Claim, Rule};
 use crate::plc::Programs;
 use crate::source::{Place, Problem};
 use crate::trace::{Head, Watch, Window};
-use crate::units::Time;
+use crate::units::{ChannelNumber, Time};
 use crate::variables::Describe;
 
 /// A scenario that is ready to run: the machine is open, names are looked up, values are checked.
@@ -70,11 +70,20 @@ impl Scenario {
         let mut machine = self.open(profile, read)?;
         let watch = self.watch(&machine)?;
         let mut reader = Reader::new(&machine, &self.path);
+        for folder in &self.program_path {
+            reader.programs.search(&folder.text, self.directory(), &folder.place)?;
+        }
+        let selected = match &self.program {
+            Some((text, true)) => Some(reader.programs.text(&text.text)),
+            Some((file, false)) => Some(reader.programs.file(&file.text, self.directory(), &file.place)?),
+            None => None,
+        };
         let mut steps = Steps::default();
         reader.steps(&self.steps, &mut steps)?;
         let plan = Plan::new(steps);
         let rules = self.rules(&mut reader, machine.cycle_time())?;
         let followed = std::mem::take(&mut reader.followed);
+        let nc_programs = std::mem::take(&mut reader.programs);
         let looks_back = rules.iter().flat_map(Rule::expressions).any(Expression::looks_back) || plan.looks_back();
         let head = Head {
             title: self.title.clone(),
@@ -83,6 +92,10 @@ impl Scenario {
             case: self.case(),
             cycle_time: machine.cycle_time(),
         };
+        nc_programs.load(&mut machine);
+        if let Some(path) = selected {
+            machine.queue(Command::SelectProgram { channel: ChannelNumber::FIRST, path })?;
+        }
         // The program is looked up last, so that mistakes in the file are reported first.
         if let Some(name) = &self.plc {
             let program = programs.program(&name.text, machine.names());
@@ -194,7 +207,7 @@ impl Scenario {
             return Ok(Watch::default());
         };
         let texts: Vec<_> = entries.iter().map(|entry| (entry.name.text.as_str(), entry.step)).collect();
-        Watch::parse_stepped(&texts, machine.names(), machine.memory())
+        Watch::parse_stepped(&texts, machine.names(), machine.memory(), machine.variables())
             .map_err(|(index, problem)| problem.at(&entries[index].name.place))
     }
 

@@ -132,7 +132,8 @@ impl Session {
     /// # Errors
     /// An entry does not name a signal or value.
     pub fn watch(&mut self, entries: &[&str]) -> Result<(), Failure> {
-        let watch = Watch::parse(entries, self.machine.names(), self.machine.memory());
+        let (names, memory) = (self.machine.names(), self.machine.memory());
+        let watch = Watch::parse(entries, names, memory, self.machine.variables());
         self.set_watch(watch.map_err(|(_, problem)| problem)?);
         Ok(())
     }
@@ -286,7 +287,8 @@ impl Session {
         reader.followed.clone_from(&self.book.followed);
         let mut steps = Steps::default();
         reader.steps(&steps_of(file)?, &mut steps)?;
-        let Reader { captured, followed, .. } = reader;
+        let Reader { captured, followed, programs, .. } = reader;
+        programs.load(&mut self.machine);
         self.book.captured_names = captured;
         self.follow_more(followed);
         let mut plan = Plan::new(steps);

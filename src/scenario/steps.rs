@@ -5,14 +5,16 @@ use std::path::{Path, PathBuf};
 
 use super::duration::Duration;
 use super::faults::fault;
-use super::fields::{Named, duration, not_available, texts};
-use super::naming::{Known, check_captured_name, missing_owner, place_named, written_by_others};
+use super::fields::{Named, duration, texts};
+use super::naming::{Known, axis_named, check_captured_name, missing_owner, place_named, written_by_others};
+use super::programs::NcPrograms;
 use super::written::WrittenSteps;
 use crate::expression::{Expression, Followed};
 use crate::image::{Location, raw_value, signal_value};
 use crate::machine::{Command, DatumValue, Machine};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
 use crate::units::{ChannelNumber, Time};
+use crate::variables::r_parameter;
 
 /// A step that is ready to run. A generated scenario can have 100,000 of them.
 #[derive(Debug)]
@@ -90,7 +92,7 @@ impl Turn {
 }
 
 /// The verbs of a step; `include` is another one.
-const VERBS: [&str; 20] = [
+const VERBS: [&str; 24] = [
     "set",
     "write",
     "force",
@@ -103,6 +105,10 @@ const VERBS: [&str; 20] = [
     "capture",
     "machine_data",
     "r_parameters",
+    "program",
+    "nc",
+    "mdi",
+    "preset",
     "new_conf",
     "power_on",
     "plc",
@@ -112,9 +118,6 @@ const VERBS: [&str; 20] = [
     "clear_fault",
     "image",
 ];
-
-/// Verbs that the format reserves for later versions.
-const LATER_VERBS: [&str; 1] = ["program"];
 
 /// The largest number of steps, with those of included files; files that include each other twice have many in a few lines.
 const STEPS: usize = 1_000_000;
@@ -135,6 +138,8 @@ pub(super) struct Reader<'a> {
     pub(super) files: Vec<PathBuf>,
     /// How often the present steps run.
     pub(super) times: u64,
+    /// The NC programs that the steps select.
+    pub(super) programs: NcPrograms,
 }
 
 /// The bits of an address: place, location, value.
@@ -145,7 +150,8 @@ impl<'a> Reader<'a> {
     pub(super) fn new(machine: &'a Machine, file: &Path) -> Self {
         let files = vec![file.to_owned()];
         let (captured, followed) = (Vec::new(), Followed::default());
-        Self { machine, captured, followed, reconfigured: [false; 2], files, times: 1 }
+        let programs = NcPrograms::default();
+        Self { machine, captured, followed, reconfigured: [false; 2], files, times: 1, programs }
     }
 
     /// An expression with all names known so far.
@@ -162,11 +168,6 @@ impl<'a> Reader<'a> {
         for verb in VERBS {
             if let Some(node) = table.take(verb) {
                 verbs.push((verb, node));
-            }
-        }
-        for verb in LATER_VERBS {
-            if let Some(node) = table.take(verb) {
-                return Err(not_available(&node.place, &format!("the verb `{verb}`")));
             }
         }
         let mut verbs = verbs.into_iter();
@@ -227,11 +228,17 @@ impl<'a> Reader<'a> {
 
     /// Checks a command against the machine, so that it is rejected before anything runs.
     fn judge(&self, command: &Command, place: &Place) -> Result<(), Problem> {
+        if matches!(command, Command::SelectProgram { .. }) {
+            // Its program is loaded when all steps are read.
+            return Ok(());
+        }
         self.machine.check(command).map_err(|problem| problem.at(place))
     }
 
     fn refuse_foreign_modifiers(&self, verb: &str, table: &mut Table) -> Result<(), Problem> {
-        for (modifier, owner) in [("within", "wait"), ("for", "pulse"), ("during", "hold"), ("times", "include")] {
+        for (modifier, owner) in
+            [("within", "wait"), ("for", "pulse"), ("during", "hold"), ("times", "include"), ("channel", "program")]
+        {
             if let Some(node) = table.take(modifier) {
                 return Err(node.place.problem(
                     format!("`{modifier}` cannot be combined with `{verb}`"),
@@ -295,6 +302,20 @@ impl<'a> Reader<'a> {
                 Action::Queue(self.machine_data(node)?)
             }
             "r_parameters" => Action::Queue(self.r_parameters(node)?),
+            "program" => {
+                let directory = self.files.last().and_then(|file| file.parent()).unwrap_or_else(|| Path::new(""));
+                let path = self.programs.file(node.text("the file of an NC program")?, directory, &place)?;
+                command(Command::SelectProgram { channel: channel(table)?, path })
+            }
+            "nc" => {
+                let path = self.programs.text(node.text("the text of an NC program")?);
+                command(Command::SelectProgram { channel: channel(table)?, path })
+            }
+            "mdi" => {
+                let text = node.text("blocks of an NC program")?.to_owned();
+                command(Command::EnterBlocks { channel: channel(table)?, text })
+            }
+            "preset" => Action::Queue(self.presets(node)?),
             "new_conf" => self.flag(&node, verb).map(|()| command(Command::NewConf))?,
             "power_on" => {
                 self.flag(&node, verb)?;
@@ -421,18 +442,34 @@ impl<'a> Reader<'a> {
         Ok(commands.into())
     }
 
+    /// PRESET: axes with their new actual values.
+    fn presets(&self, node: Node) -> Result<Box<[Command]>, Problem> {
+        let mut table = node.into_table("axes with their new actual values, as { X = 100.0 }")?;
+        let mut commands = Vec::new();
+        for (name, place, node) in table.take_rest() {
+            let axis = axis_named(self.machine, &name).map_err(|problem| problem.at(&place))?;
+            let command = Command::Preset { axis, value: node.number("a number in mm or degrees")? };
+            self.judge(&command, &place)?;
+            commands.push(command);
+        }
+        Ok(commands.into())
+    }
+
     /// Writes to R parameters: `R5` of the first channel, `R5[CHAN2]` of channel 2.
     fn r_parameters(&self, node: Node) -> Result<Box<[Command]>, Problem> {
         let mut table = node.into_table("R parameters with their values")?;
         let entries = table.take_rest();
         let mut commands = Vec::with_capacity(entries.len());
         for (name, place, node) in entries {
-            let Some((channel, number)) = r_parameter(&name) else {
+            let found = r_parameter(&name, self.machine.names()).map_err(|problem| problem.at(&place))?;
+            let Some((channel, number)) = found else {
                 return Err(place.problem(
                     format!("expected an R parameter, found {name:?}"),
                     "write \"R5\" for the first channel, \"R5[CHAN2]\" for channel 2",
                 ));
             };
+            // No channel has a parameter with this number.
+            let number = u16::try_from(number).unwrap_or(u16::MAX);
             let command = Command::RParameter { channel, number, value: node.number("a number")? };
             self.judge(&command, &place)?;
             commands.push(command);
@@ -454,13 +491,11 @@ impl<'a> Reader<'a> {
     }
 }
 
-pub(super) fn r_parameter(name: &str) -> Option<(ChannelNumber, u16)> {
-    let rest = name.strip_prefix('R')?;
-    let (number, channel) = match rest.split_once("[CHAN") {
-        Some((number, channel)) => (number, channel.strip_suffix(']')?.parse().ok()?),
-        None => (rest, 1),
-    };
-    Some((ChannelNumber::new(channel)?, number.parse().ok()?))
+/// The channel of a program: `channel = 2`, else the first one.
+fn channel(table: &mut Table) -> Result<ChannelNumber, Problem> {
+    let Some(node) = table.take("channel") else { return Ok(ChannelNumber::FIRST) };
+    let number: u8 = whole(&node, "a channel, 1 to 10", 1..=10)?;
+    ChannelNumber::new(number).ok_or_else(|| node.expected("a channel, 1 to 10", "write channel = 2"))
 }
 
 fn verbs_in_words() -> String {

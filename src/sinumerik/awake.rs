@@ -50,7 +50,8 @@ impl Nck {
         } else if resting.never {
             resting.awake = AxisSet::ALL;
         }
-        resting.deciding = resting.deciding.with(changes.axes).and(self.parameters.existing);
+        let programs = state.program_axes(&self.parameters);
+        resting.deciding = resting.deciding.with(changes.axes).with(programs).and(self.parameters.existing);
         resting.awake = resting.awake.with(resting.deciding).and(self.parameters.existing);
         // Until position control changes it.
         (resting.still, resting.heard) = (AxisSet::ALL, AxisSet::NONE);

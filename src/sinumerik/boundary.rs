@@ -8,13 +8,14 @@ use crate::control::{
 };
 use crate::image::{FromNck, Hmi, Names, NckHmi, OverrideCoding, ToNck, View};
 use crate::motion::Feedback;
+use crate::nc_program::Program;
 use crate::sinumerik::jog::state::HANDWHEELS;
 use crate::sinumerik::machine_data::Target;
 use crate::sinumerik::nck::{Nck, shown};
 use crate::sinumerik::texts::TEXTS;
 use crate::source::Problem;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, Position};
-use crate::variables::{AlarmNumber, DatumValue, EventId, Events, Place, Variables};
+use crate::variables::{AlarmNumber, DatumValue, EventId, Events, Place, RParameters, Variables};
 
 /// The parts have the lengths of this control's interface, because the memory was created for it.
 const LENGTHS: &str = "the memory of a machine has the interface of its control";
@@ -40,6 +41,20 @@ impl Control for Nck {
                     "use handwheel 1, 2 or 3",
                 ))
             }
+            &ControlCommand::RParameter { channel, number, value } => {
+                let count = self.state.r_parameters.count(channel);
+                if usize::from(number) < count && value.is_finite() {
+                    return Ok(());
+                }
+                let known = if count == 0 { "no R parameter".to_owned() } else { format!("R0 to R{}", count - 1) };
+                Err(Problem::new(
+                    format!("expected a finite value for {known}, found {value} for R{number}"),
+                    "MD28050 is the number of R parameters of a channel",
+                ))
+            }
+            ControlCommand::SelectProgram { channel, path } => self.check_program(*channel, path),
+            ControlCommand::EnterBlocks { channel, .. } => self.check_channel(*channel),
+            &ControlCommand::Preset { axis, value } => self.check_preset(axis, value),
             ControlCommand::Handwheel { .. }
             | ControlCommand::Activate
             | ControlCommand::Cancel
@@ -62,6 +77,12 @@ impl Control for Nck {
                     let _ = self.store(&target, value);
                 }
             }
+            &ControlCommand::RParameter { channel, number, value } => {
+                self.state.r_parameters.set(channel, number, value);
+            }
+            ControlCommand::SelectProgram { channel, path } => return self.select_program(*channel, path),
+            ControlCommand::EnterBlocks { channel, text } => return self.enter_blocks(*channel, text),
+            &ControlCommand::Preset { axis, value } => return self.preset(axis, value),
             ControlCommand::Activate => return self.new_conf(),
             ControlCommand::Cancel => return self.press_cancel_key(),
             &ControlCommand::Handwheel { number, pulses, cycles } => {
@@ -171,6 +192,22 @@ impl Control for Nck {
 
     fn motor_speed(&self, axis: AxisNumber, velocity: f64) -> f64 {
         Self::motor_speed(self, axis, velocity)
+    }
+
+    fn r_parameter(&self, channel: ChannelNumber, number: u16) -> Option<f64> {
+        self.state.r_parameters.get(channel, number)
+    }
+
+    fn r_parameters(&self) -> RParameters {
+        self.state.r_parameters.clone()
+    }
+
+    fn program_text(&self, path: &str, all: bool) -> Option<String> {
+        self.programs.archive(path, all)
+    }
+
+    fn load_programs(&mut self, programs: Vec<Program>, search_path: Vec<String>) {
+        Self::load_programs(self, programs, search_path);
     }
 
     fn data(&self) -> &dyn Data {

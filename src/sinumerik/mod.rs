@@ -27,6 +27,7 @@ mod nck;
 mod opening;
 mod operation;
 mod parameters;
+mod program;
 mod publish;
 mod referencing;
 mod resting;
@@ -37,6 +38,7 @@ mod strobe;
 mod texts;
 
 pub use alarms::not_raised::NOT_RAISED as ALARMS_NOT_RAISED;
+pub use alarms::programs::PROGRAMS as PROGRAM_ALARMS;
 pub use alarms::{Alarm, CATALOGUE as ALARMS, Cancel, Reaction};
 pub use commissioning::{Commissioning, examine};
 pub use gantry::state::{Phase as GroupingPhase, TRANSITIONS as GROUPING_TRANSITIONS};

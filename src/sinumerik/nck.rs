@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::control::{Activated, Changes, Owner, Taken, Value};
 use crate::image::{Location, Part, ToNck};
 use crate::motion::Feedback;
+use crate::nc_program::Library;
 use crate::sinumerik::gantry::state::Phase as GroupingPhase;
 use crate::sinumerik::machine_data::{Effect, MachineData, Target};
 use crate::sinumerik::parameters::Parameters;
@@ -37,6 +38,8 @@ pub struct Nck {
     pub(super) state: Box<State>,
     pub(super) resting: Box<Resting>,
     strobe: Strobe,
+    /// The NC programs in memory.
+    pub(super) programs: Arc<Library>,
     /// The cancel key was pressed at the edge of this cycle: its event. The stage resets it, so no saved machine contains it.
     cancel_key: EventId,
     /// The machine data that became active, until the machine has recorded them.
@@ -55,6 +58,7 @@ impl Clone for Nck {
             state: self.state.clone(),
             resting: Box::new(self.resting.anew(&self.state)),
             strobe: self.strobe,
+            programs: Arc::clone(&self.programs),
             cancel_key: self.cancel_key,
             activated: Vec::new(),
         }
@@ -82,6 +86,7 @@ struct SavedNck {
     stored: MachineData,
     active: MachineData,
     output_entered: [AxisSet; 2],
+    programs: Library,
     state: State,
 }
 
@@ -111,6 +116,7 @@ impl Nck {
             state,
             resting,
             strobe,
+            programs: Arc::default(),
             cancel_key,
             activated,
         };
@@ -142,7 +148,8 @@ impl Nck {
         let events = std::mem::take(&mut self.state.log.events);
         let taken = self.state.log.taken;
         let faults = PerAxis::from_fn(|number| self.state.axes[number].causes.fault);
-        *self.state = State::new(&self.parameters);
+        let old = std::mem::replace(&mut *self.state, State::new(&self.parameters));
+        self.state.keep_programs(&old);
         for (number, axis) in self.state.axes.iter_mut() {
             // A fault outlasts power off.
             axis.causes.fault = faults[number];
@@ -349,6 +356,8 @@ impl Nck {
         state.select_parameter_sets(parameters, to_nck, resting);
         state.enable(parameters, to_nck, resting);
         state.select_functions(parameters, to_nck, resting);
+        self.run_programs(to_nck, changes.scanned);
+        let (parameters, state, resting) = (&*self.parameters, &mut *self.state, &*self.resting);
         let mut next = 0;
         while let Some(index) = state.next_awake(next, resting) {
             next = index + 1;
@@ -414,6 +423,7 @@ impl Nck {
             stored: MachineData::clone(&self.stored),
             active: MachineData::clone(&self.active),
             output_entered: self.output_entered,
+            programs: Library::clone(&self.programs),
             state: State::clone(&self.state),
         };
         postcard::to_stdvec(&saved).expect("plain data can always be written")
@@ -439,6 +449,7 @@ impl Nck {
         self.stored = Arc::new(saved.stored);
         self.active = if same { Arc::clone(&self.stored) } else { Arc::new(saved.active) };
         self.output_entered = saved.output_entered;
+        self.programs = Arc::new(saved.programs);
         self.parameters = Arc::new(self.parameters_now());
         let taken = self.state.log.taken;
         *self.state = saved.state;

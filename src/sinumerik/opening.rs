@@ -181,6 +181,7 @@ fn at_power_on(fault: &Fault, cure: &str, names: &Names) -> Finding {
         Parameter::Number(number) => number.to_string(),
         Parameter::Direction(sign) => if *sign < 0 { "-" } else { "+" }.to_owned(),
         Parameter::Milliseconds(time) => time.milliseconds().to_string(),
+        Parameter::Text(text) => text.to_string(),
     };
     let alarm = Alarm::find(fault.alarm);
     let mut text = alarm.map_or_else(String::new, |alarm| alarm.text.to_owned());
@@ -198,7 +199,8 @@ fn cure_of(fault: &Fault) -> &'static str {
         | Parameter::Channel(_)
         | Parameter::Axis(_)
         | Parameter::Direction(_)
-        | Parameter::Milliseconds(_) => None,
+        | Parameter::Milliseconds(_)
+        | Parameter::Text(_) => None,
     });
     match reason {
         Some(1000..2000) => "no leading axis: give one axis MD37100 = the number of the grouping",
@@ -223,7 +225,8 @@ fn fault_axis(fault: &Fault, control: &Nck) -> Option<AxisNumber> {
         | Parameter::Channel(_)
         | Parameter::Axis(_)
         | Parameter::Direction(_)
-        | Parameter::Milliseconds(_) => None,
+        | Parameter::Milliseconds(_)
+        | Parameter::Text(_) => None,
     })?;
     let grouping = reason % 100;
     let of_grouping = |axis: &AxisNumber| {

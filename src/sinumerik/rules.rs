@@ -86,6 +86,31 @@ rules! {
     StrobeOwnedByHmi "E-01" "DB11.DBB5 was written from outside and belongs to the HMI from now on";
     ResetDone "RESET" "RESET";
     StartRefused "10203" "NC start without reference point";
+    Preset "SYN-10" "another actual value was set: the reference is lost";
+    PresetByOperator "PRESET" "PRESET by the operator";
+    // Programs.
+    StartHinderedByAlarm "16919" "NC start while an alarm with NC start disabled is pending";
+    StartAlreadyActive "16920" "NC start while the program runs";
+    NoProgramSelected "14014" "NC start, and the selected program does not exist";
+    ProgramSelected "program" "a program is selected";
+    BlocksEntered "program" "blocks are entered for MDA";
+    ProgramStarted "program" "NC start: the program begins";
+    ProgramGoesOn "program" "NC start: the program goes on";
+    ProgramStopped "program" "the program is stopped, its axes are at rest";
+    ProgramAborted "RESET" "RESET has ended the program, its axes are at rest";
+    ProgramEnded "program" "end of the program";
+    NcStop "program" "NC stop";
+    ModeLeft "program" "the mode of the program was left";
+    InterruptionInJog "program" "a program is stopped, and JOG is selected or left";
+    ProgrammedStop "M0" "programmed stop";
+    StopAtBlockEnd "program" "NC stop at the block limit";
+    SingleBlock "program" "single block: stop after the block";
+    BlockBegins "block" "begins";
+    BlockMoves "block" "moves the axis";
+    BlockMotionEnds "block" "motion of the axis has ended";
+    BlockNotExecutable "block" "cannot be executed";
+    AuxiliaryOutput "auxiliary" "output of auxiliary functions";
+    AuxiliaryAcknowledged "auxiliary" "one PLC cycle has passed";
     // Jogging.
     TraversingKey "JOG" "key";
     KeyReleased "JOG" "no key";
@@ -108,6 +133,7 @@ rules! {
     ApproachWaits "O-27" "reference point approach requested; it waits";
     ChannelReferencingEnds "REF-23" "channel-specific referencing ended";
     ApproachStartedByChannel "REF-23" "channel-specific referencing";
+    ApproachStartedByProgram "G74" "reference point approach by a program";
     ApproachStartedInGrouping "REF-04" "synchronous axis referenced after the leading axis";
     OnCamAtStart "REF-31" "on the cam at the start";
     WithoutCam "REF-31" "MD34000 = 0: no cam, zero mark search starts at once";

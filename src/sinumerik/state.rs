@@ -15,9 +15,10 @@ use crate::sinumerik::jog::state::{GroupFunction, HANDWHEELS, Handwheel};
 use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunUp};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::{GROUPINGS, GantryCoupling, SYNCHRONOUS_AXES};
+use crate::sinumerik::program::state::{ChannelProgram, Led};
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
-use crate::variables::{EventId, Place};
+use crate::variables::{EventId, Place, RParameters};
 
 /// Axes that are enabled, stopped and held together: a closed grouping with its leading axis first, or one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -103,6 +104,12 @@ pub(super) struct State {
     pub plc_missing: bool,
     pub plc_cause: EventId,
     pub declared: Declared,
+    /// The programs of the channels.
+    pub programs: PerChannel<ChannelProgram>,
+    /// They outlast power off.
+    pub r_parameters: RParameters,
+    /// Where programs want axes in this cycle; empty between cycles.
+    pub led: PerAxis<Option<Led>>,
     /// Another writer wrote into the NCK's half. The next publication overwrites all of it (SIG-11).
     pub overwritten: bool,
 }
@@ -130,6 +137,9 @@ impl State {
             plc_missing: false,
             plc_cause: EventId::NONE,
             declared: Declared::default(),
+            programs: PerChannel::from_fn(|channel| ChannelProgram::new(parameters.programs[channel].as_deref())),
+            r_parameters: parameters.r_parameters(),
+            led: PerAxis::default(),
             overwritten: true,
         };
         for grouping in &mut state.groupings {

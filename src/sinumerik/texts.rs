@@ -2,7 +2,7 @@
 
 use crate::control::{AlarmRow, Chart, ClearInfo, DatumRow, Kind, Texts};
 use crate::image::{Interface, SINUMERIK, Signal};
-use crate::sinumerik::alarms::{Alarm, CATALOGUE, Cancel, not_raised};
+use crate::sinumerik::alarms::{Alarm, Cancel, not_raised};
 use crate::sinumerik::gantry;
 use crate::sinumerik::machine_data::{Datum, Range, Scope, catalogue};
 use crate::sinumerik::modelled::is_modelled;
@@ -32,7 +32,7 @@ impl Texts for Words {
     }
 
     fn alarms(&self) -> Vec<AlarmRow> {
-        let raised = CATALOGUE.iter().map(|alarm| row(alarm, true));
+        let raised = Alarm::raised().map(|alarm| row(alarm, true));
         let mut all: Vec<_> = raised.chain(not_raised::NOT_RAISED.iter().map(|alarm| row(alarm, false))).collect();
         all.sort_by_key(|alarm| alarm.number);
         all
@@ -40,7 +40,9 @@ impl Texts for Words {
 
     fn alarm(&self, number: AlarmNumber) -> Option<AlarmRow> {
         let not_raised = || not_raised::NOT_RAISED.iter().find(|alarm| alarm.number == number);
-        Alarm::find(number).map(|alarm| row(alarm, true)).or_else(|| not_raised().map(|alarm| row(alarm, false)))
+        Alarm::find(number)
+            .map(|alarm| row(&Alarm { number, ..*alarm }, true))
+            .or_else(|| not_raised().map(|alarm| row(alarm, false)))
     }
 
     fn alarm_name(&self, number: AlarmNumber) -> String {
@@ -102,7 +104,7 @@ fn row(alarm: &Alarm, raised: bool) -> AlarmRow {
 
 fn datum_row(datum: &Datum) -> DatumRow {
     let values = (datum.count > 1).then(|| format!("0..{}", datum.count - 1));
-    let owner = (datum.scope == Scope::Axis).then(|| "axis".to_owned());
+    let owner = matches!(datum.scope, Scope::Axis | Scope::AxisSetting).then(|| "axis".to_owned());
     let index: Vec<_> = values.into_iter().chain(owner).collect();
     let index = if index.is_empty() { String::new() } else { format!("[{}]", index.join(",")) };
     let written = |is_rotary| {

@@ -33,6 +33,7 @@ fn shown(input: &Input, describe: &dyn Describe) -> Option<String> {
         }
         Input::Alarm(number) => Some(format!("alarm {}", describe.alarm_name(AlarmNumber(number)))),
         Input::Fault(fault) => Some(fault.name().to_owned()),
+        Input::Block(name) => Some(format!("block {name}")),
     }
 }
 

@@ -40,6 +40,8 @@ pub(super) enum CauseInput {
     Alarm(String),
     /// A fault, by its name in scenarios.
     Fault(String),
+    /// A block of a program, by its number, label or line.
+    Block(String),
 }
 
 impl CauseInput {
@@ -61,6 +63,7 @@ impl CauseInput {
                 Self::Value(format!("{}.{name}", place_name(Place::Axis(axis), names)), six_decimals(value))
             }
             Input::Fault(fault) => Self::Fault(fault.name().to_owned()),
+            Input::Block(name) => Self::Block(name.to_string()),
             Input::Alarm(number) => Self::Alarm(describe.alarm_name(AlarmNumber(number))),
         })
     }
@@ -98,7 +101,7 @@ impl Trace {
                 LineKind::Signal(signal) => signal.event,
                 LineKind::Alarm(alarm) => alarm.event,
                 LineKind::Happening(happening) => happening.event,
-                LineKind::Note(_) | LineKind::Value(..) => 0,
+                LineKind::Note(_) | LineKind::Value(..) | LineKind::Text(..) => 0,
             };
             while let Some(event) = self.event_numbered(number) {
                 if !wanted.insert(number) {

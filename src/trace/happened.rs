@@ -1,4 +1,4 @@
-//! Rows for what happens in addition to changes of the memory: power on, machine data, faults, operator keys.
+//! Rows for what happens in addition to changes of the memory: power on, machine data, faults, operator keys, selected programs.
 
 use super::By;
 use crate::variables::{DatumValue, Describe, Happening, Place, place_name};
@@ -67,6 +67,13 @@ pub(super) fn happened(what: &Happening, by: By, describe: &dyn Describe) -> Hap
             let mut details = vec![("fault", Detail::Text(name.name().to_owned()))];
             details.extend(by.map(|by| ("amount", Detail::Number(by))));
             line(kind, with_value(format!("fault {}", name.name()), by), Place::Axis(axis), change, details)
+        }
+        Happening::ProgramSelected { channel, program } => {
+            let details = vec![("program", Detail::Text(program.to_string()))];
+            line("program_selected", format!("program {program}"), Place::Channel(channel), "selected", details)
+        }
+        Happening::BlocksEntered { channel } => {
+            line("blocks_entered", "MDA blocks".to_owned(), Place::Channel(channel), "entered", Vec::new())
         }
         Happening::HandwheelTurned { number, pulses } => {
             let details =

@@ -4,12 +4,12 @@ use super::bits::Bits;
 use super::calendar::Calendar;
 use super::measured::Measured;
 use super::record::by_in_words;
-use super::value::millionths;
+use super::value::Recorded;
 use super::watch::WatchedItem;
 use super::{Change, Recorder, Row, Watch};
 use crate::image::{Location, Memory, PartBytes};
-use crate::units::{AxisNumber, Time};
-use crate::variables::{AxisValue, Event, EventId, RuleNumber, Variables};
+use crate::units::Time;
+use crate::variables::{Event, EventId, NamedValue, RuleNumber, Variables};
 
 /// A trace that grows while a machine runs.
 #[derive(Clone, Debug)]
@@ -29,6 +29,8 @@ pub struct Trace {
     pub(super) notes: Vec<(u64, String)>,
     pub(super) watched: Vec<WatchedValue>,
     pub(super) values: Vec<ValueRow>,
+    /// The texts of watched values.
+    pub(super) texts: Vec<Box<str>>,
     /// What a check of causes needs in addition, if it was asked for.
     pub(super) measured: Option<Box<Measured>>,
     pub(super) lost: u64,
@@ -39,20 +41,19 @@ pub struct Trace {
 /// A value that is recorded in every cycle in which it changes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WatchedValue {
-    pub(super) axis: AxisNumber,
-    pub(super) value: AxisValue,
-    /// The last value in millionths, as displayed.
-    pub(super) last: Option<i64>,
-    /// How far it must have moved for another row, in millionths.
-    pub(super) step: i64,
+    pub(super) value: NamedValue,
+    /// The last value, as displayed.
+    pub(super) last: Option<Recorded>,
+    /// How far it must have moved for another row, in its own unit.
+    pub(super) step: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ValueRow {
     pub(super) cycle: u64,
     pub(super) index: usize,
-    pub(super) old: Option<i64>,
-    pub(super) new: i64,
+    pub(super) old: Option<Recorded>,
+    pub(super) new: Recorded,
 }
 
 impl Trace {
@@ -70,6 +71,7 @@ impl Trace {
             notes: Vec::new(),
             watched: Vec::new(),
             values: Vec::new(),
+            texts: Vec::new(),
             measured: None,
             lost: 0,
             last_cycle: cycle,
@@ -78,10 +80,8 @@ impl Trace {
 
     /// Records these values from now on, in every cycle in which they change.
     pub fn watch_values(&mut self, watch: &Watch, cycle: u64, variables: &Variables) {
-        self.watched = watch
-            .items()
-            .map(|WatchedItem { axis, value, step }| WatchedValue { axis, value, last: None, step: millionths(step) })
-            .collect();
+        self.watched =
+            watch.items().map(|WatchedItem { value, step }| WatchedValue { value, last: None, step }).collect();
         self.values.clear();
         self.note_values(cycle, variables);
     }
@@ -122,9 +122,8 @@ impl Trace {
     fn note_values(&mut self, cycle: u64, variables: &Variables) {
         self.last_cycle = self.last_cycle.max(cycle);
         for (index, watched) in self.watched.iter_mut().enumerate() {
-            let new = millionths(watched.value.of(watched.axis, variables));
-            let moved = watched.last.map(|last| new.abs_diff(last));
-            if moved.is_none_or(|moved| moved > 0 && moved >= watched.step.unsigned_abs()) {
+            let new = Recorded::of(watched.value, watched.last, variables, &mut self.texts);
+            if watched.last.is_none_or(|last| new.has_moved(last, watched.step)) {
                 self.values.push(ValueRow { cycle, index, old: watched.last, new });
                 watched.last = Some(new);
             }

@@ -29,7 +29,7 @@ fn follows_events(kind: &LineKind) -> bool {
     match kind {
         LineKind::Note(_) | LineKind::Happening(_) => false,
         LineKind::Signal(signal) => signal.by == By::Nck,
-        LineKind::Alarm(_) | LineKind::Value(..) => true,
+        LineKind::Alarm(_) | LineKind::Value(..) | LineKind::Text(..) => true,
     }
 }
 
@@ -64,6 +64,7 @@ fn input(input: &CauseInput) -> String {
             Err(_) => format!("{{\"alarm\":{}}}", quoted(name)),
         },
         CauseInput::Fault(name) => format!("{{\"fault\":{}}}", quoted(name)),
+        CauseInput::Block(name) => format!("{{\"block\":{}}}", quoted(name)),
     }
 }
 
@@ -122,7 +123,13 @@ fn line(line: &Line) -> String {
         }
         LineKind::Value(name, _, new) => {
             fields.push(("symbol", quoted(name)));
-            fields.push(("value", new.clone()));
+            // Only an R parameter can be without a finite number.
+            let is_finite = new.parse().is_ok_and(f64::is_finite);
+            fields.push(("value", if is_finite { new.clone() } else { "null".to_owned() }));
+        }
+        LineKind::Text(name, _, new) => {
+            fields.push(("symbol", quoted(name)));
+            fields.push(("value", quoted(new)));
         }
     }
     object(&fields)

@@ -9,7 +9,7 @@ use super::bits::Bits;
 use super::happened::{HappeningLine, happened};
 use super::places::Places;
 use super::printable::{Order, Printable, Shown, printable, shown};
-use super::value::decimals;
+use super::value::Recorded;
 use super::{By, Change, NoEffect, Trace, Watch};
 use crate::image::{Format, Location, Memory, Names};
 use crate::units::Time;
@@ -37,8 +37,10 @@ pub enum LineKind {
     Signal(SignalLine),
     /// An alarm was raised or cleared.
     Alarm(AlarmLine),
-    /// A watched value changed: its name, the old and the new value, with six decimals.
+    /// A watched value changed: its name, the old and the new value; measured values have six decimals.
     Value(String, Option<String>, String),
+    /// A watched text changed: its name, the old and the new text; `-` if it is empty.
+    Text(String, Option<String>, String),
 }
 
 /// A signal changed.
@@ -188,9 +190,14 @@ impl Trace {
         }
         for row in &self.values {
             let watched = &self.watched[row.index];
-            let axis = place_name(Place::Axis(watched.axis), names);
-            let name = format!("{axis}.{}", watched.value);
-            push(row.cycle, 5, LineKind::Value(name, row.old.map(decimals), decimals(row.new)));
+            let name = watched.value.name(names);
+            let shown = |value: Recorded| value.shown(&self.texts);
+            let (old, new) = (row.old.map(shown), shown(row.new));
+            let kind = match row.new {
+                Recorded::Measured(_) | Recorded::Number(_) => LineKind::Value(name, old, new),
+                Recorded::Text(_) => LineKind::Text(name, old, new),
+            };
+            push(row.cycle, 5, kind);
         }
         ranked.sort_by_key(|(cycle, rank, _)| (*cycle, *rank));
         ranked.into_iter().map(|(_, _, line)| line).collect()
@@ -211,6 +218,7 @@ impl Trace {
             Parameter::Number(number) => Some(Ok(number)),
             Parameter::Direction(direction) => Some(Err(if direction < 0 { "-" } else { "+" }.to_owned())),
             Parameter::Milliseconds(time) => Some(Err(time.milliseconds().to_string())),
+            Parameter::Text(text) => Some(Err(text.to_string())),
         };
         AlarmLine {
             name: describe.alarm_name(alarm.number),

@@ -21,7 +21,7 @@
 //! What happens in addition to changes of signals is a line, too, with or without `watch`: one line for one thing. The power on that opens
 //! a machine is the start of its trace and has no line; a datum that becomes active in the cycle in which it was written has only the
 //! second of its two lines. In the text, a happening is a row (`power`, `MD37110 = 0.1`, `fault push = 0.3`); in VCD and SVG it stands
-//! among the notes.
+//! among the notes. So does a watched text, `CHAN1.program`; its line has `symbol` and a text as `value`.
 //!
 //! | `happened` | keys of its object |
 //! |---|---|
@@ -29,6 +29,8 @@
 //! | `machine_datum_stored`, `machine_datum_active` | `machine_data` (`34100[2,XF]`), `value` unless it is a text |
 //! | `fault_set`, `fault_cleared` | `fault` (`push`), `amount` if it has one |
 //! | `handwheel_turned` | `handwheel`, `pulses` |
+//! | `program_selected` | `program` (`PART.MPF`) |
+//! | `blocks_entered` | |
 //!
 //! `event` is a unique number in a trace. A change names the event that caused it, an event names the event that led to it as `parent`. A
 //! trace contains only events that caused changes in it. `inputs` lists what the event tested: objects with `signal`, `symbol` and `value`,

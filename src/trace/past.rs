@@ -64,6 +64,8 @@ impl Past {
             self.changed.clear();
         }
         self.variables.axes = variables.axes;
+        self.variables.channels = variables.channels;
+        self.variables.r_parameters.take_over(&variables.r_parameters);
         if self.variables.alarms != variables.alarms {
             self.variables.alarms = variables.alarms.clone();
         }

@@ -57,7 +57,7 @@ fn byte(location: Location, cycle: u64, old: u8, new: u8, by: By, cause: EventId
 
 fn recorded(control: &Control) -> Trace {
     let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10, Time::ZERO);
-    let watch = Watch::parse(&["X.position"], &control.0, &Memory::new()).unwrap();
+    let watch = Watch::parse(&["X.position"], &control.0, &Memory::new(), &Variables::default()).unwrap();
     let mut variables = Variables::default();
     variables.axes[AxisNumber::FIRST].position = Position::from_user(120.0);
     trace.watch_values(&watch, 10, &variables);
@@ -213,11 +213,15 @@ fn a_watch_selects_signals_plain_memory_and_values() {
     let control = Control::new();
     let trace = recorded(&control);
     let rows = |entries: &[&str]| {
-        let watch = Watch::parse(entries, &control.0, &Memory::new()).unwrap();
+        let watch = Watch::parse(entries, &control.0, &Memory::new(), &Variables::default()).unwrap();
         let lines = trace.lines(&control, &watch);
         let address = |line: &Line| match &line.kind {
             LineKind::Signal(signal) => Some(format!("{} {} -> {}", signal.address, signal.old, signal.new)),
-            LineKind::Note(_) | LineKind::Happening(_) | LineKind::Alarm(_) | LineKind::Value(..) => None,
+            LineKind::Note(_)
+            | LineKind::Happening(_)
+            | LineKind::Alarm(_)
+            | LineKind::Value(..)
+            | LineKind::Text(..) => None,
         };
         lines.iter().filter_map(address).collect::<Vec<_>>()
     };
@@ -241,7 +245,8 @@ fn a_watch_without_a_match_is_rejected() {
         ("X.traversing_key_pls", "traversing_key_plus"),
         ("DB99.DBX0.0", "PLC image"),
     ] {
-        let (index, problem) = Watch::parse(&["X.*", entry], &control.0, &Memory::new()).unwrap_err();
+        let (index, problem) =
+            Watch::parse(&["X.*", entry], &control.0, &Memory::new(), &Variables::default()).unwrap_err();
         assert!(index == 1 && problem.cure.contains(cure), "{entry}: {problem}");
     }
 }
@@ -326,7 +331,13 @@ fn a_sequence_may_be_compared_without_times_or_with_a_tolerance() {
 #[test]
 fn a_waveform_has_scopes_start_values_and_a_unit_that_fits_the_cycle() {
     let control = Control::new();
-    let watch = Watch::parse(&["X.*", "MB7", "X.position", "XF.feed_override"], &control.0, &Memory::new()).unwrap();
+    let watch = Watch::parse(
+        &["X.*", "MB7", "X.position", "XF.feed_override"],
+        &control.0,
+        &Memory::new(),
+        &Variables::default(),
+    )
+    .unwrap();
     let trace = recorded(&control);
     let text = trace.vcd(&control, &watch, Window::default());
     assert!(!text.contains("$date") && !text.contains("$version"), "{text}");
@@ -369,7 +380,7 @@ sthe_PLC_program_overwrote_what_was_set:_X.traversing_key_plus_(DB31.DBX4.7);_fo
 #[test]
 fn a_window_begins_with_the_values_before_it_and_keeps_watched_rows() {
     let control = Control::new();
-    let watch = Watch::parse(&["X.feed_override", "MB7"], &control.0, &Memory::new()).unwrap();
+    let watch = Watch::parse(&["X.feed_override", "MB7"], &control.0, &Memory::new(), &Variables::default()).unwrap();
     let shown = |from, to| {
         let window = Window { from: Some(Time::from_millis(from)), to: Some(Time::from_millis(to)) };
         let text = recorded(&control).vcd(&control, &watch, window);
@@ -395,7 +406,7 @@ fn a_window_begins_with_the_values_before_it_and_keeps_watched_rows() {
 fn watched_signals_are_shown_even_if_they_never_change() {
     let control = Control::new();
     let rows = |entries: &[&str]| {
-        let watch = Watch::parse(entries, &control.0, &Memory::new()).unwrap();
+        let watch = Watch::parse(entries, &control.0, &Memory::new(), &Variables::default()).unwrap();
         let text = recorded(&control).vcd(&control, &watch, Window::default());
         (text.matches(" traversing_key_plus ").count(), text.matches(" traversing_key_minus ").count())
     };
@@ -409,7 +420,7 @@ fn watched_signals_are_shown_even_if_they_never_change() {
 #[test]
 fn a_diagram_shows_names_extremes_alarms_and_notes() {
     let control = Control::new();
-    let watch = Watch::parse(&["X.*", "MB7", "X.position"], &control.0, &Memory::new()).unwrap();
+    let watch = Watch::parse(&["X.*", "MB7", "X.position"], &control.0, &Memory::new(), &Variables::default()).unwrap();
     let head = Head {
         title: "a < b".into(),
         machine: "m".into(),

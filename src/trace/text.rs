@@ -150,7 +150,7 @@ fn columns(line: &Line, causes: bool) -> Result<Columns, &Line> {
                 rest: format!("{}{because}", alarm.text),
             }
         }
-        LineKind::Value(name, old, new) => Columns {
+        LineKind::Value(name, old, new) | LineKind::Text(name, old, new) => Columns {
             time,
             what: name.clone(),
             address: String::new(),

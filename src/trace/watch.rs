@@ -3,8 +3,8 @@
 use super::printable::{Printable, printable};
 use crate::image::{Block, Location, Memory, Names, Part, Signal};
 use crate::source::{Problem, did_you_mean, nearest};
-use crate::units::AxisNumber;
-use crate::variables::AxisValue;
+use crate::units::{AxisNumber, ChannelNumber};
+use crate::variables::{AxisValue, NamedValue, Variables};
 
 /// The signals and values that a trace shows. The default is every signal of the catalogue and every input and output that changed, without
 /// values.
@@ -26,19 +26,23 @@ struct Chosen {
 /// A value to record, and how far it must have moved since its last row for another row, in its own unit; 0 for every change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WatchedItem {
-    pub(super) axis: AxisNumber,
-    pub(super) value: AxisValue,
+    pub(super) value: NamedValue,
     pub(super) step: f64,
 }
 
 impl Watch {
-    /// Reads names, addresses and patterns, such as `X.*`, `DB33.DBX101.*`, `M10.3`, `X.position`.
+    /// Reads names, addresses and patterns, such as `X.*`, `DB33.DBX101.*`, `M10.3`, `X.position`, `CHAN1.block`, `R5`.
     ///
     /// # Errors
     /// One of the entries, given by its index, matches nothing.
-    pub fn parse(entries: &[&str], names: &Names, memory: &Memory) -> Result<Self, (usize, Problem)> {
+    pub fn parse(
+        entries: &[&str],
+        names: &Names,
+        memory: &Memory,
+        variables: &Variables,
+    ) -> Result<Self, (usize, Problem)> {
         let entries: Vec<_> = entries.iter().map(|entry| (*entry, None)).collect();
-        Self::parse_stepped(&entries, names, memory)
+        Self::parse_stepped(&entries, names, memory, variables)
     }
 
     /// The same with the step of a value, in its own unit: a row where the value has moved by at least this much since its last row.
@@ -49,22 +53,21 @@ impl Watch {
         entries: &[(&str, Option<f64>)],
         names: &Names,
         memory: &Memory,
+        variables: &Variables,
     ) -> Result<Self, (usize, Problem)> {
         let mut chosen = Chosen::default();
         for (index, (entry, step)) in entries.iter().enumerate() {
-            chosen.add(entry, *step, names, memory).map_err(|problem| (index, problem))?;
+            chosen.add(entry, *step, names, (memory, variables)).map_err(|problem| (index, problem))?;
         }
         // The finest step of a value that is named twice counts.
-        chosen.values.sort_by(|one, other| {
-            (one.axis, one.value).cmp(&(other.axis, other.value)).then(one.step.total_cmp(&other.step))
-        });
-        chosen.values.dedup_by_key(|item| (item.axis, item.value));
+        chosen.values.sort_by(|one, other| one.value.cmp(&other.value).then(one.step.total_cmp(&other.step)));
+        chosen.values.dedup_by_key(|item| item.value);
         Ok(Self { chosen: Some(chosen) })
     }
 
     /// The selected values.
-    pub fn values(&self) -> impl Iterator<Item = (AxisNumber, AxisValue)> {
-        self.items().map(|item| (item.axis, item.value))
+    pub fn values(&self) -> impl Iterator<Item = NamedValue> {
+        self.items().map(|item| item.value)
     }
 
     pub(super) fn items(&self) -> impl Iterator<Item = WatchedItem> {
@@ -109,7 +112,21 @@ impl Watch {
 }
 
 impl Chosen {
-    fn add(&mut self, entry: &str, step: Option<f64>, names: &Names, memory: &Memory) -> Result<(), Problem> {
+    fn add(
+        &mut self,
+        entry: &str,
+        step: Option<f64>,
+        names: &Names,
+        (memory, variables): (&Memory, &Variables),
+    ) -> Result<(), Problem> {
+        let found = channel_values(entry, names, variables)?;
+        let is_text = found.iter().any(|value| matches!(value, NamedValue::Program(_)));
+        let fits_step = !is_text || step.is_none();
+        if !found.is_empty() && fits_step {
+            let step = step.unwrap_or(0.0);
+            self.values.extend(found.into_iter().map(|value| WatchedItem { value, step }));
+            return Ok(());
+        }
         if let Some((head, tail)) = entry.rsplit_once('.')
             && let Some(value) = AxisValue::named(tail)
         {
@@ -123,14 +140,17 @@ impl Chosen {
                 ));
             }
             let step = step.unwrap_or(0.0);
-            self.values.extend(axes.into_iter().map(|(axis, _)| WatchedItem { axis, value, step }));
+            self.values
+                .extend(axes.into_iter().map(|(axis, _)| WatchedItem { value: NamedValue::Axis(axis, value), step }));
             return Ok(());
         }
         if step.is_some() {
             let values = AxisValue::ALL.map(AxisValue::name).join(", ");
             return Err(Problem::new(
                 format!("expected the value of a machine axis for a step, found `{entry}`"),
-                format!("values are {values}; every change of a signal is a row"),
+                format!(
+                    "values of an axis are {values}, and R parameters have steps, too; every change of a signal is a row"
+                ),
             ));
         }
         if !entry.contains('*') {
@@ -176,13 +196,38 @@ fn is_broad(pattern: &str) -> bool {
     pattern == "*" || pattern.split_once('.').is_some_and(|(_, rest)| rest == "*")
 }
 
-/// The problem of an unknown name, with the nearest value of an axis as the remedy if one is near.
+/// The problem of an unknown name, with the nearest value of an axis or a channel as the remedy if one is near.
 fn nearest_value(problem: Problem, entry: &str, names: &Names) -> Problem {
-    let near = entry.rsplit_once('.').filter(|(head, _)| axes(names).any(|(_, name)| name == *head));
-    match near.and_then(|(head, tail)| Some((head, nearest(tail, AxisValue::ALL.map(AxisValue::name))?))) {
+    let near = entry.rsplit_once('.').and_then(|(head, tail)| {
+        if names.axis(head).is_some() {
+            return Some((head, nearest(tail, AxisValue::ALL.map(AxisValue::name))?));
+        }
+        names.channel(head)?;
+        Some((head, nearest(tail, NamedValue::names_of_channel())?))
+    });
+    match near {
         Some((head, value)) => Problem { cure: format!("did you mean `{head}.{value}`?"), ..problem },
         None => problem,
     }
+}
+
+/// The values of channels that an entry names: `R5`, `CHAN1.block`, `*.program`.
+fn channel_values(entry: &str, names: &Names, variables: &Variables) -> Result<Vec<NamedValue>, Problem> {
+    if let Some(value) = NamedValue::named(entry, names, |channel| variables.r_parameters.count(channel))?
+        && !matches!(value, NamedValue::Axis(..))
+    {
+        return Ok(vec![value]);
+    }
+    let Some((head, tail)) = entry.rsplit_once('.').filter(|(head, _)| head.contains('*')) else {
+        return Ok(Vec::new());
+    };
+    let value: fn(ChannelNumber) -> NamedValue = match tail {
+        "block" => NamedValue::Block,
+        "program" => NamedValue::Program,
+        _ => return Ok(Vec::new()),
+    };
+    let channels = names.channels.iter().filter(|(_, name)| name.as_deref().is_some_and(|name| matches(head, name)));
+    Ok(channels.map(|(channel, _)| value(channel)).collect())
 }
 
 fn axes(names: &Names) -> impl Iterator<Item = (AxisNumber, &str)> {

@@ -12,7 +12,7 @@ use super::printable::{Printable, order, printable, shown};
 use super::{By, Shown, Trace, Watch};
 use crate::image::Location;
 use crate::units::Time;
-use crate::variables::{AxisValue, Describe, Place, place_name};
+use crate::variables::{AxisValue, Describe, NamedValue, place_name};
 
 /// All rows of a trace, in the order of owners and addresses.
 #[derive(Clone, Debug)]
@@ -145,6 +145,7 @@ impl Trace {
                     let HappeningLine { what, place, change, .. } = happening;
                     notes.push((cycle, format!("{place}: {what} {change}")));
                 }
+                LineKind::Text(name, _, new) => notes.push((cycle, format!("{name} = {new}"))),
                 LineKind::Value(..) => {}
                 LineKind::Signal(signal) => {
                     let wave = rows.signal(signal.symbol.as_deref(), &signal.address, signal.location, signal.old);
@@ -173,27 +174,24 @@ impl Trace {
             let Some(first) = changes.next() else {
                 continue;
             };
-            let owner = place_name(Place::Axis(watched.axis), names);
-            let key = (rows.rank(&owner), 1, (watched.value as u8, 0, 0, 0), String::new());
+            // Texts are among the notes.
+            let Some(start) = first.new.in_millionths() else { continue };
+            let owner = place_name(watched.value.place(), names);
+            let (name, unit, order) = described(watched.value, describe);
+            let key = (rows.rank(&owner), 1, order, String::new());
             let step = |row: &ValueRow| Step {
                 cycle: row.cycle.saturating_sub(self.first_cycle),
-                level: Level::Value(row.new),
+                level: Level::Value(row.new.in_millionths().unwrap_or(0)),
                 by: None,
                 because: None,
             };
-            let unit = match (watched.value, describe.is_rotary(watched.axis)) {
-                (AxisValue::Velocity, false) => "mm/min",
-                (AxisValue::Velocity, true) => "rev/min",
-                (_, false) => "mm",
-                (_, true) => "\u{b0}",
-            };
             let wave = Wave {
                 owner,
-                name: watched.value.name().to_owned(),
+                name,
                 beside: unit.to_owned(),
                 kind: WaveKind::Value,
                 is_watched: true,
-                start: Level::Value(first.new),
+                start: Level::Value(start),
                 changes: changes.map(step).collect(),
             };
             rows.rows.insert(key, wave);
@@ -205,6 +203,24 @@ impl Trace {
             rows: rows.rows.into_values().collect(),
             notes,
         }
+    }
+}
+
+/// The name of a value below its owner, its unit, and its order.
+fn described(value: NamedValue, describe: &dyn Describe) -> (String, &'static str, super::printable::Order) {
+    match value {
+        NamedValue::Axis(axis, value) => {
+            let unit = match (value, describe.is_rotary(axis)) {
+                (AxisValue::Velocity, false) => "mm/min",
+                (AxisValue::Velocity, true) => "rev/min",
+                (_, false) => "mm",
+                (_, true) => "\u{b0}",
+            };
+            (value.name().to_owned(), unit, (value as u8, 0, 0, 0))
+        }
+        NamedValue::Block(_) => ("block".to_owned(), "", (0, 0, 0, 0)),
+        NamedValue::Program(_) => ("program".to_owned(), "", (1, 0, 0, 0)),
+        NamedValue::RParameter(_, number) => (format!("R{number}"), "", (2, number.into(), 0, 0)),
     }
 }
 

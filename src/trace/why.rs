@@ -71,7 +71,7 @@ impl Edge {
     fn of(line: &Line) -> Option<Self> {
         let time = line.time;
         match &line.kind {
-            LineKind::Note(_) | LineKind::Value(..) => None,
+            LineKind::Note(_) | LineKind::Value(..) | LineKind::Text(..) => None,
             LineKind::Happening(happening) => Some(Self {
                 time,
                 name: happening.what.split(" = ").next().unwrap_or_default().to_owned(),
@@ -341,7 +341,7 @@ impl<'a> Chain<'a> {
             CauseInput::Signal { address, value, .. } => (address.clone(), value.to_string()),
             CauseInput::Alarm(name) => (format!("alarm({name})"), "raised".to_owned()),
             // Measured values and machine data are in the text of the event.
-            CauseInput::Datum(..) | CauseInput::Value(..) | CauseInput::Fault(_) => return,
+            CauseInput::Datum(..) | CauseInput::Value(..) | CauseInput::Fault(_) | CauseInput::Block(_) => return,
         };
         let edges = self.by_value.get(&(name.as_str(), new.as_str())).map_or(&[][..], Vec::as_slice);
         let before = edges.partition_point(|index| self.story.edges[*index].time <= time);
@@ -396,6 +396,9 @@ fn input(input: &Value) -> Option<CauseInput> {
     }
     if let Some(fault) = text("fault") {
         return Some(CauseInput::Fault(fault));
+    }
+    if let Some(block) = text("block") {
+        return Some(CauseInput::Block(block));
     }
     text("symbol").map(|name| CauseInput::Value(name, plain(value)))
 }

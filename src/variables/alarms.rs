@@ -1,6 +1,6 @@
 //! The pending alarms, and the time at which each of them was raised.
 
-use arrayvec::ArrayVec;
+use arrayvec::{ArrayString, ArrayVec};
 use serde::{Deserialize, Serialize};
 
 use super::Place;
@@ -25,6 +25,23 @@ pub enum Parameter {
     Direction(i8),
     /// A duration, shown in milliseconds.
     Milliseconds(Time),
+    /// A name or a text of a program.
+    Text(ShortText),
+}
+
+/// A text of at most 24 bytes.
+pub type ShortText = ArrayString<24>;
+
+/// The beginning of a text, as long as it fits.
+#[must_use]
+pub fn short_text(text: &str) -> ShortText {
+    let mut short = ShortText::new();
+    for letter in text.chars() {
+        if short.try_push(letter).is_err() {
+            break;
+        }
+    }
+    short
 }
 
 /// Number of an alarm in the list of the manual. Numbers from [`AlarmNumber::OWN`] on stand for alarms that have only a name (O-18).

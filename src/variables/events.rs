@@ -3,7 +3,7 @@
 //! An event consists of numbers; it becomes text only when it is printed. Events form chains: `parent` is the event that led to this one
 //! (an edge of a signal can also lead to it and is then among the inputs).
 
-use arrayvec::ArrayVec;
+use arrayvec::{ArrayString, ArrayVec};
 use serde::{Deserialize, Serialize};
 
 use super::{FaultName, Place};
@@ -97,7 +97,12 @@ pub enum Input {
     Number(SignalBit, u8),
     /// A fault of the place of the event.
     Fault(FaultName),
+    /// A block of a program, by its number, label or line.
+    Block(BlockName),
 }
+
+/// The name of a block in causes, at most 12 bytes.
+pub type BlockName = ArrayString<12>;
 
 impl Input {
     /// The signal, by its lowest bit, and its value, if the input is a signal.
@@ -106,9 +111,13 @@ impl Input {
         match *self {
             Self::Bit(bit, value) => Some((bit, value.into())),
             Self::Number(bit, value) => Some((bit, value)),
-            Self::None | Self::Datum(..) | Self::Element(..) | Self::Length(..) | Self::Alarm(_) | Self::Fault(_) => {
-                None
-            }
+            Self::None
+            | Self::Datum(..)
+            | Self::Element(..)
+            | Self::Length(..)
+            | Self::Alarm(_)
+            | Self::Fault(_)
+            | Self::Block(_) => None,
         }
     }
 }

@@ -1,10 +1,10 @@
-//! What happens to a machine in addition to changes of its memory: power on, machine data, faults, operator keys. Each is a row of the
+//! What happens to a machine in addition to changes of its memory: power on, machine data, faults, operator keys, selected programs. Each is a row of the
 //! trace, and the events that follow from it name it as their cause.
 
 use serde::{Deserialize, Serialize};
 
-use super::Place;
-use crate::units::AxisNumber;
+use super::{Place, ProgramName};
+use crate::units::{AxisNumber, ChannelNumber};
 
 /// The name of a kind of fault, as scenarios write it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -90,6 +90,18 @@ pub enum Happening {
         number: u8,
         /// The pulses, with sign.
         pulses: i32,
+    },
+    /// The NC program of a channel was selected.
+    ProgramSelected {
+        /// The channel.
+        channel: ChannelNumber,
+        /// The name of the program.
+        program: ProgramName,
+    },
+    /// Blocks were entered for manual data input (MDA).
+    BlocksEntered {
+        /// The channel.
+        channel: ChannelNumber,
     },
     /// The PLC stopped.
     PlcStopped,

@@ -1,18 +1,20 @@
-//! The output of the control in addition to signals: axis values, raised alarms, and events with their causes.
+//! The output of the control in addition to signals: values of axes and channels, raised alarms, and events with their causes.
 //!
 //! The control writes all of it once per cycle, in the stage "publish". Traces, expressions and clients read it. This module is
 //! independent of a particular control: alarms and rules are numbers, and the control provides their texts through [`Describe`].
 
 mod alarms;
 mod axis_value;
+mod channel_values;
 mod events;
 mod happening;
 mod place;
 mod r_parameters;
 
-pub use alarms::{AlarmNumber, Alarms, Arrival, Parameter, RaisedAlarm};
+pub use alarms::{AlarmNumber, Alarms, Arrival, Parameter, RaisedAlarm, ShortText, short_text};
 pub use axis_value::{AxisValue, six_decimals};
-pub use events::{Event, EventId, Events, Input, Quantity, Rule, RuleNumber, SignalBit};
+pub use channel_values::{ChannelValues, NamedValue, ProgramName, is_r_parameter, program_name, r_parameter};
+pub use events::{BlockName, Event, EventId, Events, Input, Quantity, Rule, RuleNumber, SignalBit};
 pub use happening::{DatumValue, FaultName, Happening};
 pub use place::{Place, axis_name, place_name};
 pub use r_parameters::RParameters;
@@ -20,7 +22,7 @@ pub use r_parameters::RParameters;
 use serde::{Deserialize, Serialize};
 
 use crate::image::Names;
-use crate::units::{AxisNumber, PerAxis, Position};
+use crate::units::{AxisNumber, ChannelNumber, PerAxis, PerChannel, Position};
 
 /// The values of one machine axis, as in the actual-value display and the service-axes view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -48,6 +50,10 @@ pub struct AxisValues {
 pub struct Variables {
     /// The values of each machine axis.
     pub axes: PerAxis<AxisValues>,
+    /// The values of each channel.
+    pub channels: PerChannel<ChannelValues>,
+    /// The R parameters of each channel.
+    pub r_parameters: RParameters,
     /// The pending alarms.
     pub alarms: Alarms,
 }
@@ -85,6 +91,10 @@ pub trait Describe {
     /// The active value of a machine datum; the index is `None` for a datum with one value. `None` if it does not exist or is a text.
     fn active_datum(&self, _number: u32, _index: Option<u8>, _axis: Option<AxisNumber>) -> Option<f64> {
         None
+    }
+    /// The number of R parameters of a channel. The default is a control without them.
+    fn r_parameter_count(&self, _channel: ChannelNumber) -> usize {
+        0
     }
     /// The value of a machine datum in the units of causes: lengths in mm, velocities of rotary axes in degrees/min.
     fn in_causes(&self, _number: u32, _axis: Option<AxisNumber>, value: f64) -> f64 {

@@ -74,12 +74,13 @@ fn fits(pattern: &str, name: &str) -> bool {
 mod tests {
     use super::*;
     use crate::controls;
-    use crate::variables::AxisValue;
+    use crate::variables::{AxisValue, NamedValue};
 
     #[test]
     fn every_alias_means_a_signal_or_a_value() {
         let signals = controls::texts().flat_map(|texts| texts.interface().signals().map(|signal| signal.name));
-        let known: Vec<_> = signals.chain(AxisValue::ALL.map(AxisValue::name)).collect();
+        let known: Vec<_> =
+            signals.chain(AxisValue::ALL.map(AxisValue::name)).chain(NamedValue::names_of_channel()).collect();
         let names = ALIASES.iter().flat_map(|(_, names)| names.iter());
         let unknown: Vec<_> = names.filter(|pattern| !known.iter().any(|name| fits(pattern, name))).collect();
         assert!(unknown.is_empty(), "{unknown:?}");

@@ -13,7 +13,7 @@ use crate::machine::{Machine, OpenOptions};
 use crate::scenario::profile_named;
 use crate::source::Problem;
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber};
-use crate::variables::AxisValue;
+use crate::variables::{AxisValue, NamedValue};
 use aliases::means;
 
 /// The columns for programs. New ones are added at the end.
@@ -170,7 +170,7 @@ impl Catalogue {
         Some(Row { name: signal.name, cells })
     }
 
-    /// The values of each axis, which have names and no addresses.
+    /// The values of each axis and channel, which have names and no addresses.
     fn values(&self) -> Vec<Row> {
         let axes = self.names.axes.iter().filter_map(|(_, name)| name.as_deref());
         let of_axis = |axis: &str| {
@@ -185,7 +185,20 @@ impl Catalogue {
                 ],
             })
         };
-        axes.flat_map(of_axis).collect()
+        let channels = self.names.channels.iter().filter_map(|(_, name)| name.as_deref());
+        let of_channel = |channel: &str| {
+            NamedValue::OF_CHANNEL.map(|(name, meaning)| Row {
+                name,
+                cells: [
+                    "value".to_owned(),
+                    format!("{channel}.{name}"),
+                    "nck".to_owned(),
+                    meaning.to_owned(),
+                    "yes".to_owned(),
+                ],
+            })
+        };
+        axes.flat_map(of_axis).chain(channels.flat_map(of_channel)).collect()
     }
 }
 

@@ -81,6 +81,15 @@ struct Planned {
     acceleration: f64,
     /// Largest velocity at its start, after the corner to the block before.
     corner: f64,
+    /// The path stops at its end by [`Path::stop_at_block_end`].
+    stopped: bool,
+}
+
+impl Planned {
+    /// Whether the path stops at its end until the control continues.
+    const fn stops(&self) -> bool {
+        self.block.exact_stop || self.stopped
+    }
 }
 
 /// The result of a cycle.
@@ -127,10 +136,10 @@ impl Path {
         }
         let (velocity, acceleration) = block.way.limits(&self.limits);
         let corner = match self.blocks.back() {
-            Some(before) if !before.block.exact_stop => self.corner(&before.block.way, &block.way, cycle),
+            Some(before) if !before.stops() => self.corner(&before.block.way, &block.way, cycle),
             Some(_) | None => 0.0,
         };
-        self.blocks.push_back(Planned { block, velocity, acceleration, corner });
+        self.blocks.push_back(Planned { block, velocity, acceleration, corner, stopped: false });
         Ok(())
     }
 
@@ -179,12 +188,54 @@ impl Path {
         self.blocks.len() < BLOCKS
     }
 
+    /// Stops the path at the end of the present block, or of the first one at whose end it can still stop.
+    pub fn stop_at_block_end(&mut self, cycle: f64) {
+        if self.blocks.iter().any(|planned| planned.stopped) {
+            return;
+        }
+        let (mut ahead, mut acceleration, velocity) = (-self.distance, f64::INFINITY, self.velocity);
+        for planned in &mut self.blocks {
+            ahead += planned.block.way.length();
+            acceleration = acceleration.min(planned.acceleration);
+            if planned.block.exact_stop || stopping(ahead, acceleration, cycle) + acceleration * cycle >= velocity {
+                planned.stopped = true;
+                return;
+            }
+        }
+    }
+
+    /// Takes [`Path::stop_at_block_end`] back. A path that stands already goes on with [`Path::go_on`].
+    pub fn pass_block_end(&mut self) {
+        for planned in &mut self.blocks {
+            planned.stopped = false;
+        }
+    }
+
+    /// Puts a path without blocks at a position.
+    pub fn place(&mut self, position: PerPathAxis) {
+        if self.blocks.is_empty() {
+            self.position = position;
+        }
+    }
+
+    /// Where the axes are.
+    #[must_use]
+    pub const fn position(&self) -> PerPathAxis {
+        self.position
+    }
+
     /// The axes are in position: the block that stands at its exact stop is over.
     pub fn go_on(&mut self) {
         if std::mem::take(&mut self.stands) {
             self.blocks.pop_front();
             self.distance = 0.0;
         }
+    }
+
+    /// The direction of each axis in the present block: its movement per increment of the way, at its present place.
+    #[must_use]
+    pub fn direction(&self) -> PerPathAxis {
+        self.blocks.front().map_or_else(PerPathAxis::default, |planned| planned.block.way.direction_at(self.distance))
     }
 
     /// Drops all blocks; the position stays. To brake first, call [`Path::step`] with overrides of 0 until the velocity is 0.
@@ -217,10 +268,10 @@ impl Path {
             }
             self.position = planned.block.way.end();
             let last = self.blocks.len() == 1;
-            if planned.block.exact_stop || last {
+            if planned.stops() || last {
                 self.velocity = 0.0;
             }
-            if planned.block.exact_stop {
+            if planned.stops() {
                 (self.stands, self.distance) = (true, length);
                 break;
             }
@@ -245,7 +296,7 @@ impl Path {
             permitted = permitted.min(if index == 0 { wanted } else { slowing(ahead, at_start, acceleration, cycle) });
             acceleration = acceleration.min(planned.acceleration);
             ahead += planned.block.way.length();
-            let stops = planned.block.exact_stop || index + 1 == self.blocks.len();
+            let stops = planned.stops() || index + 1 == self.blocks.len();
             if stops {
                 return permitted.min(stopping(ahead, acceleration, cycle));
             }

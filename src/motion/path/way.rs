@@ -1,6 +1,6 @@
 //! The geometry of one block: a straight line of several axes, or an arc of two axes with which the others go along.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
@@ -58,6 +58,8 @@ pub struct Way {
     start: PerPathAxis,
     end: PerPathAxis,
     length: f64,
+    /// The axes to which the feed refers.
+    counted: [bool; PATH_AXES],
     shape: Shape,
 }
 
@@ -71,7 +73,7 @@ impl Way {
         };
         let of_counted = length(&|axis| counted[axis]);
         let length = if of_counted > 0.0 { of_counted } else { length(&|_| true) };
-        Self { start, end, length, shape: Shape::Line }
+        Self { start, end, length, counted, shape: Shape::Line }
     }
 
     /// An arc in a plane. The other axes move in proportion to its angle; those of them that are in `counted` lengthen the way (a helix).
@@ -107,13 +109,47 @@ impl Way {
         let others = (0..PATH_AXES).filter(|axis| !circle.plane.contains(axis) && counted[*axis]);
         let along: f64 = others.map(|axis| square(end[axis] - start[axis])).sum();
         let length = (square(in_plane) + along).sqrt();
-        Ok(Self { start, end, length, shape: Shape::Arc { circle, radius, begin, sweep } })
+        Ok(Self { start, end, length, counted, shape: Shape::Arc { circle, radius, begin, sweep } })
     }
 
     /// Its length in increments, to which the feed refers.
     #[must_use]
     pub const fn length(&self) -> f64 {
         self.length
+    }
+
+    /// Its start.
+    #[must_use]
+    pub const fn start(&self) -> PerPathAxis {
+        self.start
+    }
+
+    /// Lets it begin elsewhere: a line leads from there to the same end, an arc keeps its circle and its start.
+    pub fn begin_at(&mut self, start: PerPathAxis) {
+        if self.shape == Shape::Line {
+            *self = Self::line(start, self.end, self.counted);
+        }
+    }
+
+    /// The smallest and the largest position of an axis on the way.
+    #[must_use]
+    pub fn bounds(&self, axis: usize) -> (f64, f64) {
+        let (start, end) = (self.start[axis], self.end[axis]);
+        let (mut lowest, mut highest) = (start.min(end), start.max(end));
+        if let Shape::Arc { circle, radius, begin, sweep } = self.shape
+            && let Some(index) = circle.plane.iter().position(|member| *member == axis)
+        {
+            // An arc is farthest out where its angle is a multiple of a quarter turn.
+            let (first, last) = (begin.min(begin + sweep), begin.max(begin + sweep));
+            let mut quarter = (first / FRAC_PI_2).ceil();
+            while quarter * FRAC_PI_2 <= last && quarter - (first / FRAC_PI_2).ceil() < 4.0 {
+                let (sine, cosine) = sin_cos(quarter * FRAC_PI_2);
+                let out = circle.centre[index] + radius[0] * if index == 0 { cosine } else { sine };
+                (lowest, highest) = (lowest.min(out), highest.max(out));
+                quarter += 1.0;
+            }
+        }
+        (lowest, highest)
     }
 
     /// Its end.
@@ -146,6 +182,12 @@ impl Way {
     /// The movement of each axis per increment of the way, at its start or at its end.
     #[must_use]
     pub(super) fn direction(&self, at_end: bool) -> PerPathAxis {
+        self.direction_at(if at_end { self.length } else { 0.0 })
+    }
+
+    /// The movement of each axis per increment of the way, at a distance from its start.
+    #[must_use]
+    pub fn direction_at(&self, distance: f64) -> PerPathAxis {
         let mut direction = PerPathAxis::default();
         if self.length <= 0.0 {
             return direction;
@@ -154,8 +196,9 @@ impl Way {
             *value = (self.end[axis] - self.start[axis]) / self.length;
         }
         if let Shape::Arc { circle, radius, begin, sweep } = self.shape {
-            let (sine, cosine) = sin_cos(if at_end { begin + sweep } else { begin });
-            let tangent = sweep * radius[usize::from(at_end)] / self.length;
+            let part = (distance / self.length).clamp(0.0, 1.0);
+            let (sine, cosine) = sin_cos(begin + sweep * part);
+            let tangent = sweep * (radius[0] + (radius[1] - radius[0]) * part) / self.length;
             direction[circle.plane[0]] = -sine * tangent;
             direction[circle.plane[1]] = cosine * tangent;
         }

@@ -105,7 +105,7 @@ impl nck::ControlValues for Panel<'_> {
     }
 
     fn r_parameter(&self, channel: ChannelNumber, number: u16) -> Option<f64> {
-        self.0.r_parameters().get(channel, number)
+        self.0.r_parameter(channel, number)
     }
 
     fn clear_info(&self, alarm: AlarmNumber) -> u8 {

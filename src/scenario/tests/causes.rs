@@ -83,7 +83,7 @@ fn a_cause_is_what_the_trace_shows_in_every_cycle() {
         found.push((session.time(), all.filter(holds).map(|(_, id)| *id).collect()));
     }
     let machine = session.machine();
-    let watch = Watch::parse(&signals, machine.names(), machine.memory()).unwrap();
+    let watch = Watch::parse(&signals, machine.names(), machine.memory(), machine.variables()).unwrap();
     let lines = session.trace().lines(machine, &watch);
     let mut last = [""; 4];
     let mut lines = lines.iter().peekable();

@@ -69,7 +69,7 @@ fn every_mistake_in_the_head_names_its_line_and_a_cure() {
         ("compare = \"exakt\"\n", 3, "a way to compare traces", "sequence"),
         ("compare = { tim = \"50ms\" }\n", 3, "unknown key `tim`", "did you mean `time`?"),
         ("compare = { time = \"5cycles\" }\n", 3, "a time with a unit", "50ms"),
-        ("program = \"part.mpf\"\n", 3, "not available in this version", "remove it"),
+        ("program = 5\n", 3, "the file of an NC program, found the integer 5", "quotes"),
         ("plant = 3\n", 3, "a table of plant data", "table"),
     ] {
         let problem = prepared(&format!("{head}{STEP}")).err().unwrap_or_else(|| panic!("{head} is accepted"));
@@ -185,7 +185,7 @@ fn every_mistake_in_a_step_names_its_line_and_a_cure() {
         ),
         ("handwheel = { number = -1, pulses = 5, over = \"1s\" }", 4, "found the integer -1", "whole number"),
         ("handwheel = { number = 1, pulses = 1.5, over = \"1s\" }", 4, "expected a number of pulses", "whole number"),
-        ("program = \"x.mpf\"\nchannel = 1", 4, "`program` is not available in this version", "remove it"),
+        ("program = \"x.mpf\"\nchannel = 1", 4, "expected an NC program, found", "the path of an NC program"),
         ("fault = { kind = \"block\" }", 4, "the key `axis`", "axis = "),
         ("fault = { axis = \"XG\", kind = \"block\" }", 4, "a machine axis, found `XG`", "did you mean"),
         ("fault = { axis = \"XF\", kind = \"blok\" }", 4, "a kind of fault", "did you mean `block`?"),

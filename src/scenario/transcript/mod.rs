@@ -12,7 +12,7 @@ use crate::image::{Address, Format, Location, Profile, Writer, is_no_code};
 use crate::machine::{Command, DatumValue, Fault, Machine};
 use crate::scenario::faults::written;
 use crate::source::{Table, Value as SourceValue};
-use crate::units::AxisNumber;
+use crate::units::{AxisNumber, ChannelNumber};
 
 /// The limit of simulated time, because the final length of a transcript is not known.
 const LIMIT: &str = "8760h";
@@ -57,6 +57,8 @@ pub struct Transcript {
     notes: Vec<String>,
     /// The table of the step that is still open for entries.
     open: Option<Open>,
+    /// A step has the programs in memory.
+    has_programs: bool,
 }
 
 /// A step whose table can take more entries.
@@ -96,7 +98,7 @@ impl Transcript {
             let data: Vec<_> = data.map(|(target, value)| format!("{} = {}", quoted(target), datum(value))).collect();
             text += &format!("machine_data = {{ {} }}\n", data.join(", "));
         }
-        Self { text, written: 0, notes: Vec::new(), open: None }
+        Self { text, written: 0, notes: Vec::new(), open: None, has_programs: false }
     }
 
     /// Adds a note, as the trace of the machine does at the end of its next step.
@@ -172,6 +174,19 @@ impl Transcript {
                 };
                 self.put("r_parameters", quoted(&key), format!("{value:?}"));
             }
+            Command::SelectProgram { channel, path } => {
+                // The programs in memory do not change; those that it can call are with the first one.
+                let text = machine.program_text(path, !std::mem::replace(&mut self.has_programs, true));
+                match text {
+                    Some(text) => self.program("nc", *channel, &in_lines(&text)),
+                    None => self.program("program", *channel, &quoted(path)),
+                }
+            }
+            Command::EnterBlocks { channel, text } => self.program("mdi", *channel, &in_lines(text)),
+            Command::Preset { axis, value } => {
+                let name = machine.names().axes[*axis].as_deref().unwrap_or_default();
+                self.put("preset", quoted(name), format!("{value:?}"));
+            }
             Command::NewConf => self.step("new_conf", "true"),
             Command::PowerOn => self.step("power_on", "true"),
             Command::PlcStop => self.step("plc", "\"stop\""),
@@ -185,6 +200,12 @@ impl Transcript {
             Command::Fault(fault) => self.step("fault", &broken(*fault, machine)),
             Command::ClearFault(fault) => self.step("clear_fault", &broken(*fault, machine)),
         }
+    }
+
+    /// Writes a step that names a program or blocks.
+    fn program(&mut self, verb: &str, channel: ChannelNumber, value: &str) {
+        let channel = if channel == ChannelNumber::FIRST { String::new() } else { format!("\nchannel = {channel}") };
+        self.step(verb, &format!("{value}{channel}"));
     }
 
     /// Writes a step with one value.
@@ -308,6 +329,16 @@ fn toml(value: &SourceValue) -> String {
                 entries.iter().map(|(key, _, node)| format!("{} = {}", quoted(key), toml(&node.value))).collect();
             format!("{{ {} }}", entries.join(", "))
         }
+    }
+}
+
+/// A text of several lines as a TOML string: as it is, if it can stand so.
+fn in_lines(text: &str) -> String {
+    let is_plain = |letter: char| !letter.is_control() || matches!(letter, '\n' | '\t');
+    if text.contains('\n') && !text.contains("'''") && text.chars().all(is_plain) {
+        format!("'''\n{text}'''")
+    } else {
+        quoted(text)
     }
 }
 

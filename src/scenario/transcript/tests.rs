@@ -86,7 +86,7 @@ fn every_command_is_repeated() {
                 datum("34080[AX1]", DatumValue::Integer(7)),
             ],
         ),
-        (65, vec![r_parameter(1, 0, 0.1), r_parameter(2, 99, -1e300), Command::PlcColdRestart]),
+        (65, vec![r_parameter(1, 0, 0.1), r_parameter(1, 99, -1e300), Command::PlcColdRestart]),
         (70, vec![Command::NewConf, Command::Cancel, Command::Handwheel { number: 1, pulses: -20, cycles: 7 }]),
         (
             80,
@@ -114,7 +114,7 @@ fn every_command_is_repeated() {
         "{text}"
     );
     assert!(text.contains("write = { \"DB31.DBB60\" = 3 }"), "{text}");
-    assert!(text.contains("r_parameters = { \"R0\" = 0.1, \"R99[CHAN2]\" = -1e300 }"), "{text}");
+    assert!(text.contains("r_parameters = { \"R0\" = 0.1, \"R99\" = -1e300 }"), "{text}");
 }
 
 /// 2 ms before power on and 60 ms after it: the times of the recording are those of the machine.
@@ -154,7 +154,8 @@ fn every_location_is_repeated() {
                 for (bit, width) in [(bit, 1), (bit, 3), (0, 7), (0, 8), (0, 16), (0, 32), (1, 8), (0, 64)] {
                     let location = Location { part, offset, bit, width, format: Format::Unsigned };
                     // A client cannot write a location that the profile does not show or that spans two parts.
-                    let value = u64::from(offset).wrapping_mul(0x9E37_79B9);
+                    // As a REAL it is a finite number: another one has no text for a signal that the profile shows at no address.
+                    let value = u64::from(offset).wrapping_mul(0x9E37_79B9) & 0xFFFF_FFFF_BFFF_FFFF;
                     let command = Command::Write { location, value };
                     if machine.check(&command).is_ok() {
                         commands.push(Command::Write { location, value: value & location.mask() });
@@ -200,4 +201,48 @@ fn notes_are_at_their_cycle_with_or_without_commands() {
     let steps =
         "\n[[step]]\nrun = \"3cycles\"\n\n[[step]]\nnote = \"one\"\nset = {}\n\n[[step]]\nnote = \"two\"\nset = {}\n";
     assert!(transcript.take_text().ends_with(steps));
+}
+
+/// A selected program with its subprogram, once more, another one, and blocks of MDA: the recording has their texts.
+#[test]
+fn programs_are_repeated_with_their_texts() {
+    let main = "N10 G90 ; it's\nN20 SUB\nN30 M30";
+    let program = |name: &str, text: &str| crate::nc_program::Program::read(name, "parts", text.as_bytes()).remove(0);
+    let mut machine = Machine::open("machine_data/portal").unwrap();
+    machine.load_programs(
+        vec![program("part.mpf", main), program("other.mpf", "M30\r\n"), program("sub.spf", "M17\n")],
+        Vec::new(),
+    );
+    let channel = ChannelNumber::FIRST;
+    let select = |path: &str| Command::SelectProgram { channel, path: path.to_owned() };
+    let heading = Heading { machine: "machine_data/portal", ..HEADING };
+    let mut transcript = Transcript::begin(&heading);
+    let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), 0, machine.time());
+    let mdi = Command::EnterBlocks { channel, text: "G0 X1\nM30".to_owned() };
+    for command in [select("parts/PART.MPF"), mdi, select("parts/OTHER.MPF"), select("parts/PART.MPF")] {
+        machine.queue(command).unwrap();
+        transcript.edge(&machine, &[]);
+        machine.step();
+        trace.extend(machine.recorder());
+        machine.drain();
+        trace.end_cycle(machine.cycle(), machine.time(), machine.variables());
+    }
+    let text = transcript.take_text() + &transcript.rest(4);
+    let scenario =
+        Scenario::parse(&text, Path::new("again.toml")).unwrap_or_else(|problem| panic!("{problem}\n{text}"));
+    let finished = scenario.prepare(scenario.profiles[0], &Programs::ready()).unwrap().run();
+    assert!(finished.failure.is_none(), "{:?}\n{text}", finished.failure);
+    assert!(
+        finished.json_lines() == trace.json_lines(&machine, &Watch::default()),
+        "{text}\n{}",
+        finished.json_lines()
+    );
+    let expected = "nc = '''\n%_N_PART_MPF\n;$PATH=parts\nN10 G90 ; it's\nN20 SUB\nN30 M30\n";
+    assert!(text.contains(expected), "{text}");
+    assert!(text.contains("\n%_N_SUB_SPF\n;$PATH=parts\nM17\n"), "{text}");
+    assert!(text.contains("mdi = '''\nG0 X1\nM30'''\n"), "{text}");
+    let again = finished.session().machine();
+    for path in ["parts/PART.MPF", "parts/OTHER.MPF", "parts/SUB.SPF"] {
+        assert!(again.program_text(path, false).is_some(), "{path}");
+    }
 }

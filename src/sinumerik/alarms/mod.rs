@@ -7,6 +7,7 @@
 mod ended;
 pub(super) mod not_raised;
 pub(super) mod pending;
+pub(super) mod programs;
 mod raised;
 
 use std::fmt;
@@ -376,10 +377,18 @@ impl Alarm {
         u32::try_from(index).ok().map(|index| AlarmNumber(AlarmNumber::OWN + index))
     }
 
+    /// All alarms that the model can raise; not in the order of their numbers.
+    pub(in crate::sinumerik) fn raised() -> impl Iterator<Item = &'static Self> {
+        CATALOGUE.iter().chain(programs::PROGRAMS)
+    }
+
     /// The row of this number.
     #[must_use]
     pub fn find(number: AlarmNumber) -> Option<&'static Self> {
-        CATALOGUE.binary_search_by_key(&number, |alarm| alarm.number).ok().map(|index| &CATALOGUE[index])
+        let in_table = |table: &'static [Self]| {
+            table.binary_search_by_key(&number, |alarm| alarm.number).ok().map(|index| &table[index])
+        };
+        in_table(CATALOGUE).or_else(|| in_table(programs::PROGRAMS)).or_else(|| programs::of_a_cycle(number))
     }
 }
 
@@ -391,7 +400,7 @@ mod tests {
     fn the_catalogue_ascends_so_that_a_number_is_found() {
         let [first, second] = [CATALOGUE[0], CATALOGUE[1]];
         assert!(ascends(&[first, second]) && !ascends(&[second, first]) && !ascends(&[first, first]));
-        assert!(CATALOGUE.iter().all(|alarm| Alarm::find(alarm.number) == Some(alarm)));
+        assert!(Alarm::raised().all(|alarm| Alarm::find(alarm.number) == Some(alarm)));
         assert_eq!(Alarm::find(GANTRY_WAITING).map(|alarm| alarm.cancel), Some(Cancel::ByItself));
         assert_eq!(Alarm::find(AlarmNumber(1)), None);
     }

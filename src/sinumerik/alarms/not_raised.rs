@@ -4,7 +4,7 @@
 //! | numbers | not modelled |
 //! |---|---|
 //! | 2001, 2900, 4002, 4004, 4005, 4011, 4040, 4060, 4075, 4111, 4112, 4113, 4200, 4210, 26014, 26015, 26017, 26024, 26025 | alarms of machine data: the model checks them before the control starts and reports them there |
-//! | 10620, 10630, 10631, 107xx, 12550, 14xxx, 16xxx, 17xxx, 20070, 20071, 26072, 26076 | programs, blocks, the PLC's positioning axes, working areas |
+//! | 10620, 10630, 10631, 10721, 10723, 14790, 16xxx, 17630 to 17900, 20070, 20071, 26072, 26076 | limits in motion, actions of the operator, the PLC's positioning axes |
 //! | 20003, 20004, 20007, 20008, 22062, 22064 | distance-coded marks, and MD34200 = 6 and 7 |
 //! | 20052, 20053, 20060, 20062 | geometry axes, and overlaid movements such as DRF |
 //! | 20054, 20056, 20058 | indexing axes and revolutional feed |
@@ -12,7 +12,6 @@
 //! | 21550 | couplings other than gantry groupings, which would retract an axis from its limit switch |
 //! | 21620 | the emergency braking ramp of a drive that stops on its own |
 //! | 22060 | a movement that a program, not a key, requests while the axis is not in position control |
-//! | 22321, 22322 | PRESET |
 //! | 25022, 26020, 26030 | absolute encoders |
 //! | 25042 | limits of torque or force |
 //! | 25070 | drift compensation |
@@ -41,12 +40,8 @@ alarms! {
     10620 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %3 axis %2 reaches software limit switch %4";
     10630 [LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP_AT_BLOCK_END] Reset "channel %1 block %2 axis %3 reaches working area limit %4";
     10631 [DISPLAY] ByItself "channel %1 axis %2 rests on working area limit %3";
-    10720 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %3 axis %2 programmed end point is behind software limit switch %4";
     10721 [LOCAL INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %3 axis %2 programmed end point is behind software limit switch %4";
-    10722 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %5 axis %2 software limit switch violated, residual distance %3 %4";
     10723 [LOCAL INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %5 axis %2 software limit switch violated, residual distance %3 %4";
-    12550 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 name %3 not defined";
-    14092 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 has the wrong axis type";
     14790 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 currently controlled by the PLC";
     16772 [DISPLAY] ByItself "channel %1 block %2 axis %3 is a following axis, the coupling is opened";
     16904 [DISPLAY] CancelKey "channel %1 action %2 not allowed in the present state";
@@ -56,12 +51,9 @@ alarms! {
     16908 [DISPLAY] CancelKey "channel %1 action %2 only possible in reset or at the block end";
     16912 [DISPLAY] CancelKey "channel %1 action %2 only possible in reset";
     16914 [DISPLAY] CancelKey "channel %1 mode change not allowed, action %2";
-    16920 [DISPLAY] CancelKey "channel %1 action %2 already active";
     16925 [DISPLAY] CancelKey "channel %1 action %2 not allowed in this mode";
     16928 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 interrupt handling: action %2 not possible";
     16933 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 interrupt handling: action %2 not allowed in the present state";
-    17020 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 illegal first array index";
-    17030 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 illegal second array index";
     17630 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 reference point approach not possible";
     17650 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 machine axis %3 not programmable";
     17810 [INTERFACE_SIGNALS DISPLAY] CancelKey "channel %1 axis %2 not referenced";
@@ -85,8 +77,6 @@ alarms! {
     22060 [DISPLAY] ByItself "channel %1 axis %2 position control expected";
     22062 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 zero mark search velocity not reached";
     22064 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 zero mark search velocity too high";
-    22321 [INTERFACE_SIGNALS DISPLAY] CancelKey "channel %1 axis %2 PRESET not allowed during motion";
-    22322 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 PRESET: illegal value";
     25022 [DISPLAY] CancelKey "axis %1 encoder %2 warning %3";
     25042 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset "axis %1 standstill monitoring with torque or force limiting";
     25070 [DISPLAY] CancelKey "axis %1 drift value too large";

@@ -13,6 +13,7 @@ use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::LimitSwitches;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, ChannelNumber, Position};
@@ -94,12 +95,8 @@ impl State {
         parameters: &Parameters,
         to_nck: &ToNck,
     ) -> Option<Position> {
-        let (axis, signals) = (&parameters.axes[number], &to_nck.axes[number]);
-        if axis.modulo || !self.axes[number].is_referenced() {
-            return None;
-        }
-        let (second, _) = selects_second(signals, direction);
-        Some(axis.software_limits[usize::from(direction > 0)][usize::from(second)])
+        let limit = || selected_limit(&to_nck.axes[number], &parameters.axes[number], direction);
+        self.axes[number].is_referenced().then(limit).flatten()
     }
 
     /// The software limit ahead of a movement in JOG in this direction.
@@ -157,6 +154,17 @@ impl State {
             self.end_tested(&alarm, Rule::OffSoftwareLimit, inputs, parent);
         }
     }
+}
+
+/// The software limit that acts in a direction while the axis is referenced; `None` for a modulo axis.
+pub(in crate::sinumerik) fn selected_limit(
+    signals: &AxisToNck,
+    parameters: &AxisParameters,
+    direction: i8,
+) -> Option<Position> {
+    let (second, _) = selects_second(signals, direction);
+    let limits = parameters.software_limits[usize::from(direction > 0)];
+    (!parameters.modulo).then_some(limits[usize::from(second)])
 }
 
 /// The alarm of a limit: `%1` channel, `%2` axis, `%3` direction.

@@ -46,14 +46,14 @@ impl State {
         if !grouping.coupling.is_closed() {
             grouping.coupling.settle(unit.members().all(|axis| self.axes[axis].setpoint.is_at_rest()));
         }
-        if !self.mode_group(unit).is_referencing() {
+        if !self.may_reference(unit) {
             self.groupings[index].from_referencing = false;
         }
         if self.groupings[index].may_start_approach()
             && self.unit_can_move(unit, parameters)
             && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
         {
-            let key = if self.channels[unit.channel].started(leader) { 0 } else { direction };
+            let key = self.key_of_approach(unit, direction);
             self.ask(index, parameters, |grouping, _, log, wants| {
                 *wants = grouping.start_approach(direction, key, event, log);
             });
@@ -77,7 +77,9 @@ impl State {
             Phase::NotSynchronised | Phase::WaitingForStart | Phase::Synchronised | Phase::Open => {}
         }
         let idle = !self.groupings[index].is_referencing() && self.groupings[index].coupling.is_closed();
-        if idle && self.is_jogging(unit) {
+        if idle && self.follow_program(unit, parameters) {
+            self.watch_software_limits(unit, parameters, to_nck);
+        } else if idle && self.is_jogging(unit) {
             self.jog(unit, parameters, to_nck);
         } else if idle && !self.wait_for_approach(unit, parameters, to_nck) {
             // The key of a moving grouping has no function in the new mode.
@@ -130,7 +132,7 @@ impl State {
     /// Whether a synchronising motion may run.
     fn permit(&self, unit: &Unit, parameters: &Parameters) -> Permit {
         let free = self.unit_can_move(unit, parameters) && self.on_limit_switch(unit).is_none();
-        let granted = free && self.mode_group(unit).is_referencing();
+        let granted = free && self.may_reference(unit);
         let hindrance = if granted { (Input::None, EventId::NONE) } else { self.hindrance(unit, parameters) };
         Permit { granted, hindrance }
     }
@@ -141,7 +143,7 @@ impl State {
             return (stop.tested().1, stop.cause());
         }
         let group = self.mode_group(unit);
-        if !group.is_referencing() {
+        if !self.may_reference(unit) {
             let referencing = mode_group_from_nck::active_machine_function_ref;
             return (mode_group_signal(unit.mode_group, referencing, false), group.function_cause);
         }

@@ -146,9 +146,12 @@ impl Grouping {
                 Motion::GoTo { target, .. } if motion.is_held() => {
                     Travel::waiting(i8::try_from((target - setpoint).increments().signum()).unwrap_or(0))
                 }
-                Motion::GoTo { .. } | Motion::Brake { .. } | Motion::Run { .. } | Motion::Track | Motion::Hold => {
-                    Travel::moving(motion.direction(setpoint))
-                }
+                Motion::GoTo { .. }
+                | Motion::Brake { .. }
+                | Motion::Run { .. }
+                | Motion::Interpolated { .. }
+                | Motion::Track
+                | Motion::Hold => Travel::moving(motion.direction(setpoint)),
             };
             wants.push(Want::Move { axis, motion, travel, cause: self.cause });
         }

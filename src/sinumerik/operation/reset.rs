@@ -2,20 +2,20 @@
 //!
 //! RESET of a channel is the rising edge of DB21.DBX7.7 or of DB11.DBX0.7 of its mode group. While either is 1, none of its axes
 //! starts to move. RESET cancels the channel's alarms of class RESET; alarms of class mode group RESET clear when RESET is
-//! pressed in all channels of the group at the same time. The alarm-cancel key concerns all channels. As no NC program can be
-//! selected yet, NC start only cancels alarms, or is refused without a reference point (10203).
+//! pressed in all channels of the group at the same time. The alarm-cancel key concerns all channels. NC start cancels alarms, and then
+//! starts the program (`program/start.rs`).
 
-use crate::image::{ToNck, channel_from_nck, channel_to_nck, mode_group_to_nck};
-use crate::sinumerik::alarms::{self, Alarm, Cancel, Reaction};
+use crate::image::{ToNck, channel_to_nck, mode_group_to_nck};
+use crate::nc_program::Library;
+use crate::sinumerik::alarms::{Alarm, Cancel, Reaction};
 use crate::sinumerik::inputs::{channel_signal, mode_group_signal};
 use crate::sinumerik::machine_data::Effect;
 use crate::sinumerik::nck::Nck;
-use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{ChannelNumber, ModeGroupNumber};
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
+use crate::variables::{AlarmNumber, EventId, Input, Place};
 
 impl Nck {
     /// RESET, the cancel key and NC start; data of the classes RESET and NEWCONF become active with a RESET.
@@ -23,7 +23,7 @@ impl Nck {
         let (parameters, state) = (&*self.parameters, &mut *self.state);
         let mut last = EventId::NONE;
         for (channel, group) in parameters.existing_channels() {
-            state.start(channel, group, parameters, to_nck);
+            state.start(channel, group, parameters, &self.programs, to_nck);
             last = last.max(state.reset(channel, group, parameters, to_nck));
         }
         if cancel_key.is_some() {
@@ -68,6 +68,7 @@ impl State {
         let place = Place::Channel(channel);
         let event = self.log.note_one(place, Rule::ResetDone, input, EventId::NONE);
         self.channels[channel].reset_cause = event;
+        self.reset_program(channel, event);
         self.alarms.cancel(Cancel::Reset, event, |place| parameters.concerns_channel(place, channel));
         for index in 0..self.groupings.len() {
             let leader = self.groupings[index].coupling.leader();
@@ -79,7 +80,14 @@ impl State {
     }
 
     /// NC start of a channel.
-    fn start(&mut self, channel: ChannelNumber, group: ModeGroupNumber, parameters: &Parameters, to_nck: &ToNck) {
+    fn start(
+        &mut self,
+        channel: ChannelNumber,
+        group: ModeGroupNumber,
+        parameters: &Parameters,
+        library: &Library,
+        to_nck: &ToNck,
+    ) {
         let signals = &to_nck.channels[channel];
         let start = signals.nc_start();
         let was = std::mem::replace(&mut self.channels[channel].start_was, start);
@@ -88,15 +96,8 @@ impl State {
             let pressed = channel_signal(channel, channel_to_nck::nc_start, true);
             self.cancel(Cancel::NcStart, Some(channel), pressed, EventId::NONE, parameters);
         }
-        let runs_programs = self.mode_groups[group].mode != Mode::Jog;
-        if rises && runs_programs && !signals.nc_start_disable() && !self.is_referenced(channel, parameters) {
-            let place = Place::Channel(channel);
-            let pressed = channel_signal(channel, channel_to_nck::nc_start, true);
-            let referenced = channel_from_nck::all_axes_requiring_reference_point_are_referenced;
-            let missing = channel_signal(channel, referenced, false);
-            let event = self.log.note(place, Rule::StartRefused, [pressed, missing, Input::None], EventId::NONE);
-            let shown = [Parameter::Channel(channel), Parameter::None, Parameter::None, Parameter::None];
-            self.alarms.raise(alarms::START_WITHOUT_REFERENCE, place, shown, event);
+        if rises {
+            self.start_program((channel, group), parameters, library, to_nck);
         }
     }
 

@@ -112,6 +112,14 @@ pub struct AxisParameters {
     pub maximum_acceleration: f64,
     /// MD32301, or MD32300 if it is 0.
     pub jog_acceleration: f64,
+    /// MD37100 is 11 to 18: a synchronous axis of a gantry grouping.
+    pub gantry_follower: bool,
+    /// MD32060.
+    pub positioning_velocity: f64,
+    /// MD32310[0]: the factor of the acceleration at a corner of the path.
+    pub overload: f64,
+    /// SD43430 and SD43420 while SD43410 and SD43400 enable them.
+    pub working_area: [Option<Position>; 2],
     /// MD32020, or SD41110 / SD41130 if it is not 0.
     pub jog_velocity: f64,
     /// MD32010.
@@ -177,6 +185,16 @@ pub(super) fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresenc
         maximum_velocity,
         maximum_acceleration,
         jog_acceleration,
+        gantry_follower: md.gantry_axis_type > 10,
+        positioning_velocity: velocity(md.pos_ax_velo).min(maximum_velocity),
+        overload: md.max_accel_ovl_factor[0].max(1.0),
+        working_area: {
+            let settings = &data.axis_settings[number];
+            [
+                settings.workarea_minus_enable.then(|| Position::from_user(settings.workarea_limit_minus)),
+                settings.workarea_plus_enable.then(|| Position::from_user(settings.workarea_limit_plus)),
+            ]
+        },
         jog_velocity: velocity(if setting > 0.0 { setting } else { md.jog_velo }).min(maximum_velocity),
         jog_rapid_velocity: velocity(md.jog_velo_rapid).min(maximum_velocity),
         increments: increments(data, md),

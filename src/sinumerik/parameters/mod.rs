@@ -11,6 +11,7 @@ pub(super) mod groupings;
 pub(super) mod mechanics;
 pub(super) mod monitoring;
 pub(super) mod overrides;
+pub(super) mod programs;
 
 use arrayvec::ArrayVec;
 
@@ -20,8 +21,9 @@ use crate::sinumerik::parameters::channels::{ChannelParameters, channels};
 use crate::sinumerik::parameters::configuration::{ChannelFault, faults};
 use crate::sinumerik::parameters::groupings::{Definitions, define};
 use crate::sinumerik::parameters::overrides::{effective, factor, is_zero_setting};
+use crate::sinumerik::parameters::programs::{PathOverrides, ProgramParameters, programs};
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Time};
-use crate::variables::Place;
+use crate::variables::{Place, RParameters};
 
 /// All active parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,6 +76,10 @@ pub struct Parameters {
     pub groupings: Definitions,
     /// The faults of the channels and their axes.
     pub faults: Vec<ChannelFault>,
+    /// The overrides of feed and rapid traverse.
+    pub(super) path_overrides: PathOverrides,
+    /// For programs, of each channel.
+    pub(super) programs: PerChannel<Option<Box<ProgramParameters>>>,
 }
 
 impl Parameters {
@@ -112,6 +118,10 @@ impl Parameters {
             mode_after_power_on: PerModeGroup::from_fn(|group| data.general.operating_mode_default[group.index()]),
             groupings: define(data, &axes),
             faults: faults(data, &axes),
+            path_overrides: PathOverrides::new(data),
+            programs: PerChannel::from_fn(|channel| {
+                data.mode_group(channel).map(|_| Box::new(programs(data, channel, &axes)))
+            }),
             axes,
         }
     }
@@ -165,6 +175,12 @@ pub struct KeyModes {
 }
 
 impl Parameters {
+    /// R parameters of 0, as many as MD28050 gives each channel.
+    #[must_use]
+    pub(super) fn r_parameters(&self) -> RParameters {
+        RParameters::new(|channel| self.programs[channel].as_ref().map_or(0, |own| own.r_parameters))
+    }
+
     /// The channels that exist, with their mode groups.
     pub fn existing_channels(&self) -> impl Iterator<Item = (ChannelNumber, ModeGroupNumber)> {
         self.channel_list.iter().copied()

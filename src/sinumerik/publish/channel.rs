@@ -6,6 +6,7 @@ use crate::sinumerik::axis::travel::command_signal;
 use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::program::state::ProgramState;
 use crate::sinumerik::publish::rows::{Rows, Why};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
@@ -20,6 +21,12 @@ impl State {
         moves || self.channels[channel].is_referencing()
     }
 
+    /// No program runs or is stopped, and no axis moves.
+    pub(super) fn is_channel_reset(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
+        let aborted = self.programs[channel].state == ProgramState::Aborted;
+        aborted && !self.is_channel_active(channel, parameters)
+    }
+
     /// DB21 to DB30 of one channel.
     pub(super) fn show_channel(&self, channel: ChannelNumber, parameters: &Parameters, rows: &mut impl Rows) {
         let active = self.is_channel_active(channel, parameters);
@@ -27,10 +34,30 @@ impl State {
         rows.bit(channel_from_nck::referencing_active, self.channels[channel].is_referencing(), || {
             Why::Event(self.channels[channel].referencing.cause)
         });
-        // Without a program its state is "aborted", as after RESET.
-        rows.bit(channel_from_nck::program_state_aborted, true, || Why::Event(EventId::NONE));
-        rows.bit(channel_from_nck::channel_state_active, active, motion);
-        rows.bit(channel_from_nck::channel_state_reset, !active, motion);
+        let program = &self.programs[channel];
+        let by_program = || Why::Event(program.cause);
+        rows.bit(channel_from_nck::m0_m1_active, program.programmed_stop, by_program);
+        rows.bit(channel_from_nck::m2_m30_active, program.ended, by_program);
+        for (signal, state) in [
+            (channel_from_nck::program_state_running, ProgramState::Running),
+            (channel_from_nck::program_state_wait, ProgramState::Waiting),
+            (channel_from_nck::program_state_stopped, ProgramState::Stopped),
+            (channel_from_nck::program_state_interrupted, ProgramState::Interrupted),
+            (channel_from_nck::program_state_aborted, ProgramState::Aborted),
+        ] {
+            rows.bit(signal, program.state == state, by_program);
+        }
+        let runs = matches!(program.state, ProgramState::Running | ProgramState::Waiting);
+        let interrupted = matches!(program.state, ProgramState::Stopped | ProgramState::Interrupted);
+        // A program that is stopped leaves the channel interrupted, but for an axis that is moved meanwhile.
+        let moved = active && program.state != ProgramState::Stopped;
+        let why_state = || {
+            let of_program = self.log.is_of_this_cycle(program.cause);
+            if of_program { Why::Event(program.cause) } else { motion() }
+        };
+        rows.bit(channel_from_nck::channel_state_active, runs || moved, why_state);
+        rows.bit(channel_from_nck::channel_state_interrupted, interrupted && !moved, why_state);
+        rows.bit(channel_from_nck::channel_state_reset, !runs && !interrupted && !active, why_state);
         let referenced = self.is_referenced(channel, parameters);
         rows.bit(channel_from_nck::all_axes_requiring_reference_point_are_referenced, referenced, || {
             self.why_referenced(channel, referenced, parameters)

@@ -64,9 +64,13 @@ impl State {
             self.why_ready(ready, alarm)
         });
         let mut channels = parameters.existing_channels().filter(|(_, group)| *group == number);
-        let reset = channels.all(|(channel, _)| !self.is_channel_active(channel, parameters));
+        let reset = channels.all(|(channel, _)| self.is_channel_reset(channel, parameters));
         rows.bit(mode_group_from_nck::all_channels_in_reset_state, reset, || {
-            self.activity(|channel| parameters.mode_group(channel) == number, !reset, parameters)
+            let mut own = parameters.existing_channels().filter(|(_, group)| *group == number);
+            let by_program = own.find_map(|(channel, _)| self.of_this_cycle([self.programs[channel].cause]));
+            by_program.unwrap_or_else(|| {
+                self.activity(|channel| parameters.mode_group(channel) == number, !reset, parameters)
+            })
         });
         let teach_in = group.function == MachineFunction::TeachIn;
         rows.bit(mode_group_from_nck::active_machine_function_teach_in, teach_in, function);

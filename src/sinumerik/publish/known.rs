@@ -23,6 +23,10 @@ impl Rows for Collected<'_> {
     fn group(&mut self, first: Signal, last: Signal, _: u8, _: impl FnOnce() -> Why) {
         self.bits.push((self.block, first.byte, mask(first, last)));
     }
+
+    fn bytes(&mut self, first: u16, values: &[u8], _: impl FnOnce() -> Why) {
+        self.bits.extend((first..).take(values.len()).map(|byte| (self.block, byte, 0xFF)));
+    }
 }
 
 /// Whether a row of publication gives this signal, also in the bytes of the HMI that the control mirrors.
@@ -51,7 +55,10 @@ fn collect() -> Vec<Bits> {
         state.show_mode_group(ModeGroupNumber::FIRST, &parameters, rows);
         state.show_selection(ModeGroupNumber::FIRST, rows);
     });
-    of(Block::Channel, &|rows| state.show_channel(ChannelNumber::FIRST, &parameters, rows));
+    of(Block::Channel, &|rows| {
+        state.show_channel(ChannelNumber::FIRST, &parameters, rows);
+        state.show_auxiliary(ChannelNumber::FIRST, &parameters, rows);
+    });
     for (axis, _) in pair {
         of(Block::Axis, &|rows| {
             let own = &parameters.axes[axis];

@@ -7,16 +7,20 @@
 //! Signals are set axis by axis (SIG-09). A value that another writer wrote into a bit of the NCK is overwritten here (SIG-11).
 
 mod alarms;
+mod auxiliary;
 mod axis;
 mod channel;
 mod conditions;
 mod control;
 pub(super) mod known;
+mod program;
 mod rows;
 
 use zerocopy::IntoBytes;
 
-use crate::image::{AxisFromNck, ChannelFromNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi, NckFromNck};
+use crate::image::{
+    AxisFromNck, ChannelAuxiliary, ChannelFromNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi, NckFromNck,
+};
 use crate::motion::Motion;
 use crate::sinumerik::jog::state::Movement;
 use crate::sinumerik::nck::Nck;
@@ -48,7 +52,11 @@ impl Nck {
         for (channel, _) in parameters.existing_channels() {
             let bytes = from_nck.channels[channel].as_mut_bytes();
             state.show_channel(channel, parameters, &mut Written::new(bytes, ChannelFromNck::FIRST));
+            let bytes = from_nck.auxiliary[channel].as_mut_bytes();
+            state.show_auxiliary(channel, parameters, &mut Written::new(bytes, ChannelAuxiliary::FIRST));
+            state.programs[channel].show_values(&mut variables.channels[channel]);
         }
+        variables.r_parameters.take_over(&state.r_parameters);
         for number in shown.iter() {
             let axis = &parameters.axes[number];
             if !axis.silent {
@@ -84,7 +92,10 @@ impl Nck {
                 state.show_mode_group(group, parameters, &mut asked);
                 state.show_selection(group, &mut asked);
             }
-            Place::Channel(channel) => state.show_channel(channel, parameters, &mut asked),
+            Place::Channel(channel) => {
+                state.show_channel(channel, parameters, &mut asked);
+                state.show_auxiliary(channel, parameters, &mut asked);
+            }
             // What a silent axis had shown went with power off.
             Place::Axis(axis) if parameters.axes[axis].silent => {}
             Place::Axis(axis) => {

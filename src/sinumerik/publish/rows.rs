@@ -21,6 +21,9 @@ pub(super) trait Rows {
     /// Adjacent signals of one byte, from the first to the last, with their common value.
     fn group(&mut self, first: Signal, last: Signal, value: u8, why: impl FnOnce() -> Why);
 
+    /// Whole bytes, from the byte of this number in the block.
+    fn bytes(&mut self, first: u16, values: &[u8], why: impl FnOnce() -> Why);
+
     /// A signal of one bit.
     #[inline]
     fn bit(&mut self, signal: Signal, value: bool, why: impl FnOnce() -> Why) {
@@ -62,6 +65,10 @@ impl Rows for Written<'_> {
         let byte = &mut self.bytes[usize::from(first.byte - self.first)];
         *byte = *byte & !mask | value << first.bit & mask;
     }
+
+    fn bytes(&mut self, first: u16, values: &[u8], _: impl FnOnce() -> Why) {
+        self.bytes[usize::from(first - self.first)..][..values.len()].copy_from_slice(values);
+    }
 }
 
 /// Finds the reason for one bit of a block.
@@ -85,6 +92,12 @@ impl Asked {
 impl Rows for Asked {
     fn group(&mut self, first: Signal, last: Signal, _: u8, why: impl FnOnce() -> Why) {
         if first.byte == self.byte && mask(first, last) >> self.bit & 1 == 1 {
+            self.why = Some(why());
+        }
+    }
+
+    fn bytes(&mut self, first: u16, values: &[u8], why: impl FnOnce() -> Why) {
+        if usize::from(self.byte.wrapping_sub(first)) < values.len() {
             self.why = Some(why());
         }
     }

@@ -29,6 +29,8 @@ enum RequestedBy {
     Key,
     /// Channel-specific referencing.
     Channel,
+    /// G74 of a program.
+    Program,
 }
 
 /// The progress of the axes of an order number.
@@ -49,6 +51,8 @@ impl State {
         self.watch_key(unit, self.axes[number].approach.is_running(), parameters, to_nck);
         if self.axes[number].approach.is_running() {
             self.reference_single(unit, parameters, to_nck);
+        } else if self.follow_program(unit, parameters) {
+            self.watch_software_limits(unit, parameters, to_nck);
         } else if self.is_jogging(unit) {
             self.jog(unit, parameters, to_nck);
         } else {
@@ -63,8 +67,7 @@ impl State {
                 && !open
                 && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
             {
-                self.axes[number].approach_key =
-                    if self.channels[unit.channel].started(number) { 0 } else { direction };
+                self.axes[number].approach_key = self.key_of_approach(unit, direction);
                 self.start_approach(number, f64::from(direction), event);
                 self.reference_single(unit, parameters, to_nck);
             }
@@ -141,6 +144,7 @@ impl State {
                     (axis_signal(number, key_signal(direction), true), self.mode_group(unit).function_cause)
                 }
                 RequestedBy::Channel => (Input::None, self.channels[unit.channel].referencing.cause),
+                RequestedBy::Program => (Input::None, self.programs[unit.channel].block_cause()),
             };
             let inputs = [input, holder, Input::None];
             let event = self.log.note(Place::Axis(number), Rule::ApproachWaits, inputs, parent);
@@ -179,16 +183,28 @@ impl State {
             .measuring_system
             .is_some_and(|active| reference.mode[usize::from(active)] == BY_ZERO_MARK);
         let hindered = reference.is_spindle || signals.axis_spindle_disable();
-        if !self.mode_group(unit).is_referencing() || !has_zero_mark || hindered {
+        if !self.may_reference(unit) || !has_zero_mark || hindered {
             return None;
         }
         let forward = if reference.cam_direction > 0.0 { 1 } else { -1 };
+        if self.program_wants_reference(unit) {
+            return Some((forward, RequestedBy::Program));
+        }
+        if !self.mode_group(unit).is_referencing() {
+            return None;
+        }
         if self.channels[unit.channel].referencing.wants(number, reference.cycle_number) {
             return Some((forward, RequestedBy::Channel));
         }
         // The other key: no start, no alarm. Without a cam both directions are correct.
         let right = key != 0 && (key == forward || !reference.cam_is_active);
         (right && !self.axes[number].key_used).then_some((key, RequestedBy::Key))
+    }
+
+    /// The key that must be held during an approach; 0 if the channel or a program has started it.
+    pub(in crate::sinumerik) fn key_of_approach(&self, unit: &Unit, direction: i8) -> i8 {
+        let by_channel = self.channels[unit.channel].started(unit.leader());
+        if by_channel || self.is_referenced_by_program(unit) { 0 } else { direction }
     }
 
     /// The start of a requested approach, which takes the request.
@@ -212,6 +228,11 @@ impl State {
             referencing.started |= 1 << number.index();
             let cause = referencing.cause;
             let event = self.log.note_plain(Place::Axis(number), Rule::ApproachStartedByChannel, cause);
+            return Some((direction, event));
+        }
+        if by == RequestedBy::Program {
+            let cause = self.begin_reference_by_program(unit);
+            let event = self.log.note_plain(Place::Axis(number), Rule::ApproachStartedByProgram, cause);
             return Some((direction, event));
         }
         self.axes[number].key_used = true;
@@ -293,8 +314,8 @@ impl State {
             let input = limits.input(pressed, direction);
             return Some((None, self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, limits.cause)));
         }
-        if !self.mode_group(unit).is_referencing() {
-            let cause = self.mode_group(unit).function_cause;
+        if !self.may_reference(unit) {
+            let cause = self.mode_group(unit).function_cause.max(self.programs[unit.channel].cause);
             let referencing = mode_group_from_nck::active_machine_function_ref;
             let input = mode_group_signal(unit.mode_group, referencing, false);
             return Some((None, self.log.note_one(Place::Axis(number), Rule::ApproachAborted, input, cause)));
@@ -340,13 +361,18 @@ impl State {
     /// Shifts the actual value at the present position; the axis is referenced.
     pub(in crate::sinumerik) fn set_reference(&mut self, number: AxisNumber, shift: Position, event: EventId) {
         let axis = &mut self.axes[number];
-        axis.shift(shift);
-        if let Some(filter) = self.shaping[number].as_deref_mut().and_then(|shaping| shaping.jerk.as_mut()) {
-            filter.shift(shift);
-        }
         if let Some(active) = axis.measuring_system {
             axis.referenced[usize::from(active)] = true;
             axis.causes.reference[usize::from(active)] = event;
+        }
+        self.shift_actual_value(number, shift);
+    }
+
+    /// Shifts the actual value at the present position: nothing moves.
+    pub(in crate::sinumerik) fn shift_actual_value(&mut self, number: AxisNumber, shift: Position) {
+        self.axes[number].shift(shift);
+        if let Some(filter) = self.shaping[number].as_deref_mut().and_then(|shaping| shaping.jerk.as_mut()) {
+            filter.shift(shift);
         }
         self.value_shifted(number, shift);
         // The base of the limits ends with a new reference (E-14).

@@ -78,7 +78,8 @@ impl Run {
         self.recorder.events([event].iter());
         let mut trace = Trace::begin(&Memory::new(), Time::from_millis(2), 10, Time::ZERO);
         trace.extend(&self.recorder);
-        let watch = Watch::parse(&["X.traverse_command_plus"], &self.control.0, &Memory::new()).unwrap();
+        let watch =
+            Watch::parse(&["X.traverse_command_plus"], &self.control.0, &Memory::new(), &Variables::default()).unwrap();
         let findings = trace.check_causes(&self.control, &watch);
         findings.into_iter().map(|finding| finding.fault).collect()
     }
@@ -222,7 +223,8 @@ fn lengths(input: Input, values: [AxisValues; 2]) -> Vec<CauseFault> {
     trace.extend(&run.recorder);
     trace.end_cycle(13, Time::from_millis(2), &now);
     trace.measure(13, &now, None);
-    let watch = Watch::parse(&["X.traverse_command_plus"], &run.control.0, &Memory::new()).unwrap();
+    let watch =
+        Watch::parse(&["X.traverse_command_plus"], &run.control.0, &Memory::new(), &Variables::default()).unwrap();
     trace.check_causes(&run.control, &watch).into_iter().map(|finding| finding.fault).collect()
 }
 

@@ -54,12 +54,6 @@ pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
         |look, owner| look.channel_referencing(owner),
         |look, owner| look.channel_referencing_ended(owner),
     ),
-    // Without a program its state is "aborted", as after RESET.
-    Row::new(channel_from_nck::program_state_aborted, |_, _| {
-        Fact::new("program that runs", "none", "none", true).into()
-    }),
-    Row::new(channel_from_nck::channel_state_active, |look, channel| look.at_rest(channel).opposite()),
-    Row::new(channel_from_nck::channel_state_reset, |look, owner| look.at_rest(owner)),
     Row::new(channel_from_nck::all_axes_requiring_reference_point_are_referenced, |look, owner| {
         look.all_referenced(owner)
     }),
@@ -208,7 +202,7 @@ impl Look<'_> {
         if left.is_empty() { "none".to_owned() } else { left.join(", ") }
     }
 
-    fn at_rest(self, channel: ChannelNumber) -> Condition {
+    pub(super) fn at_rest(self, channel: ChannelNumber) -> Condition {
         let axes = self.parameters.channels[channel].axes;
         let moving = self.state.summary.in_motion.and(axes);
         let found = if moving.is_empty() {

@@ -13,6 +13,7 @@
 //! | `motion.rs` | 64.4 to 64.7, and what stops and holds movements |
 //! | `jog.rs` | handwheels, increments: 64.0 to 64.2, 65.x, 67.0, DB11 8.x |
 //! | `control.rs` | DB10, DB11, DB21 |
+//! | `program.rs` | DB21 32.5, 33.5, 35.x, 58 to 206 |
 //!
 //! `look.rs` has what they are computed from.
 
@@ -22,6 +23,7 @@ mod gantry;
 mod jog;
 mod look;
 mod motion;
+mod program;
 mod referencing;
 
 use crate::control::{Condition, Question};
@@ -44,7 +46,11 @@ impl Nck {
                 let found = [control::MODE_GROUP, jog::MODE_GROUP];
                 found.iter().find_map(|rows| look.find(rows, group, question))
             }
-            Place::Channel(channel) => look.find(control::CHANNEL, channel, question),
+            Place::Channel(channel) => {
+                let found = [control::CHANNEL, program::CHANNEL];
+                let row = found.iter().find_map(|rows| look.find(rows, channel, question));
+                row.or_else(|| look.auxiliary(channel, question))
+            }
             Place::Axis(axis) => {
                 let found = [axis::ROWS, referencing::ROWS, gantry::ROWS, motion::ROWS, jog::ROWS];
                 found.iter().find_map(|rows| look.find(rows, axis, question))
@@ -70,7 +76,8 @@ mod tests {
         let has_conditions = |signal: &Signal| match signal.block {
             Block::Nck => is_in(control::NCK, signal),
             Block::ModeGroup => is_in(control::MODE_GROUP, signal) || is_in(jog::MODE_GROUP, signal),
-            Block::Channel => is_in(control::CHANNEL, signal),
+            Block::Channel if signal.byte >= 58 => true,
+            Block::Channel => is_in(control::CHANNEL, signal) || is_in(program::CHANNEL, signal),
             _ => {
                 let all = [axis::ROWS, referencing::ROWS, gantry::ROWS, motion::ROWS, jog::ROWS];
                 all.iter().any(|rows| is_in(rows, signal))

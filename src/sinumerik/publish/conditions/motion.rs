@@ -115,7 +115,11 @@ impl Look<'_> {
         } else if self.synchronises(number) {
             let goes = match axis.motion {
                 Motion::GoTo { target, .. } => (target - axis.setpoint.position).increments().signum(),
-                Motion::Brake { .. } | Motion::Run { .. } | Motion::Track | Motion::Hold => 0,
+                Motion::Brake { .. }
+                | Motion::Run { .. }
+                | Motion::Interpolated { .. }
+                | Motion::Track
+                | Motion::Hold => 0,
             };
             let goes = i8::try_from(goes).unwrap_or(0);
             let what = format!("synchronising motion of {}", self.axis_name(number));
@@ -130,6 +134,8 @@ impl Look<'_> {
             return Fact::new(what, "none", format!("direction {}", sign(direction)), false).into();
         } else if self.state.is_jogging(&unit) {
             all.push(self.jog(&unit, direction, command));
+        } else if self.state.programs[unit.channel].run.is_some() {
+            all.push(self.moved_by_program(number, direction));
         } else {
             all.push(self.referencing_by_key(&unit, direction));
         }

@@ -1,0 +1,259 @@
+//! What programs of a channel need to know: the names of its axes, the axes of its path, reset values, tolerances, and when auxiliary
+//! functions are output.
+
+use std::sync::Arc;
+
+use arrayvec::ArrayVec;
+
+use crate::image::ChannelToNck;
+use crate::motion::path::{Feed, PATH_AXES};
+use crate::nc_program::{AuxiliaryKind, AxisKind, AxisName, AxisNames, GFunction, Modal};
+use crate::sinumerik::machine_data::{Channel, MachineData};
+use crate::sinumerik::parameters::axis::AxisParameters;
+use crate::sinumerik::parameters::overrides::{effective, factor, is_zero_setting};
+use crate::units::{AxisNumber, ChannelNumber, PerAxis, Position};
+
+/// When an auxiliary function is output (MD22200 to 22252).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::sinumerik) enum OutputTime {
+    /// The motion of the block waits for its acknowledgement.
+    Before,
+    /// With the beginning of the motion.
+    During,
+    /// At the end of the motion.
+    End,
+    /// Not at all.
+    Never,
+}
+
+impl OutputTime {
+    /// 4, "as predefined", is the time that the manual gives for the kind.
+    fn new(datum: u8, predefined: Self) -> Self {
+        match datum {
+            0 => Self::Before,
+            1 => Self::During,
+            2 => Self::End,
+            3 => Self::Never,
+            _ => predefined,
+        }
+    }
+}
+
+/// The names that programs of a channel can use, with their axes.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::sinumerik) struct ProgramAxes {
+    /// Geometry axes, channel axes, machine axes: the names of one axis follow in this order.
+    pub names: Arc<AxisNames>,
+    /// The machine axis of each name.
+    pub machine_axes: Arc<[AxisNumber]>,
+    /// The machine axes of the path: geometry axes first. A synchronous axis of a grouping is not among them.
+    pub path: ArrayVec<AxisNumber, PATH_AXES>,
+    /// The places of geometry axes 1 to 3 in the path.
+    pub geometry: [Option<usize>; 3],
+    /// The places of all geometry axes; the feed refers to them.
+    pub counted: [bool; PATH_AXES],
+}
+
+impl ProgramAxes {
+    /// The place of a machine axis in the path.
+    pub(in crate::sinumerik) fn place(&self, axis: AxisNumber) -> Option<usize> {
+        self.path.iter().position(|member| *member == axis)
+    }
+}
+
+/// The data of one channel for programs.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::sinumerik) struct ProgramParameters {
+    pub axes: ProgramAxes,
+    /// MD28050.
+    pub r_parameters: u32,
+    /// MD20150.
+    pub modal: Modal,
+    /// MD21000 in increments.
+    pub circle_tolerance: f64,
+    /// MD21010.
+    pub circle_tolerance_share: f64,
+    /// MD22200, 22210, 22220, 22250, 22252, 22230, 22240.
+    output_times: [OutputTime; 7],
+    /// MD22254 and MD22256.
+    pub associated_stops: [i32; 2],
+    /// MD22110.
+    pub whole_h_functions: bool,
+    /// MD20800 bit 0: M17 and M30 of subprograms are output.
+    pub outputs_end_of_subprogram: bool,
+    /// MD20800 bit 1: M1 is output only while it stops.
+    pub outputs_m1_only_active: bool,
+    /// MD22410.
+    pub feed_stays: bool,
+    /// SD42110 in mm/min.
+    pub default_feed: f64,
+    /// SD42100 in mm/min and SD42101.
+    pub dry_run: (f64, u8),
+    /// SD42120 in mm/min.
+    pub approach_feed: f64,
+    /// MD22510.
+    pub shown_groups: [u8; 8],
+    /// MD22515 bit 0.
+    pub shows_groups_in_order: bool,
+}
+
+impl ProgramParameters {
+    pub(in crate::sinumerik) fn output_time(&self, kind: AuxiliaryKind) -> OutputTime {
+        let index = match kind {
+            AuxiliaryKind::M => 0,
+            AuxiliaryKind::S => 1,
+            AuxiliaryKind::T => 2,
+            AuxiliaryKind::D => 3,
+            AuxiliaryKind::SumOffset => 4,
+            AuxiliaryKind::H => 5,
+            AuxiliaryKind::F => 6,
+        };
+        self.output_times[index]
+    }
+}
+
+/// The overrides of the path (MD12020 to 12100).
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::sinumerik) struct PathOverrides {
+    feed: ([f64; 31], bool),
+    rapid: ([f64; 31], bool),
+    limit: f64,
+}
+
+impl PathOverrides {
+    pub(in crate::sinumerik) fn new(data: &MachineData) -> Self {
+        let general = &data.general;
+        Self {
+            feed: (general.ovr_factor_feedrate, general.ovr_feed_is_gray_code),
+            rapid: (general.ovr_factor_rapid_tra, general.ovr_rapid_is_gray_code),
+            limit: general.ovr_factor_limit_bin,
+        }
+    }
+
+    /// The factor of the feed, from DB21.DBB4 and 6.7.
+    pub(in crate::sinumerik) fn feed(&self, code: u8, is_active: bool) -> f64 {
+        let (factors, gray) = &self.feed;
+        effective(factor(code, *gray, factors, self.limit), is_active, is_zero_setting(code, *gray))
+    }
+
+    /// The factor of rapid traverse, from DB21.DBB5 and 6.6.
+    pub(in crate::sinumerik) fn rapid(&self, code: u8, is_active: bool) -> f64 {
+        let (factors, gray) = &self.rapid;
+        effective(factor(code, *gray, factors, self.limit.min(1.0)), is_active, is_zero_setting(code, *gray))
+    }
+}
+
+/// From the data of a channel.
+pub(in crate::sinumerik) fn programs(
+    data: &MachineData,
+    channel: ChannelNumber,
+    axes: &PerAxis<AxisParameters>,
+) -> ProgramParameters {
+    let md = &data.channels[channel];
+    let setting = &data.channel_settings[channel];
+    let mut modal = Modal::default();
+    for GFunction { group, .. } in Modal::default().groups() {
+        let index = md.gcode_reset_values.of(group);
+        if index > 0 {
+            // A function that OpenNCK does not have leaves the first one of the table.
+            modal.set(GFunction { group, index });
+        }
+    }
+    let times = [
+        (md.auxfu_m_sync_type, OutputTime::Before),
+        (md.auxfu_s_sync_type, OutputTime::During),
+        (md.auxfu_t_sync_type, OutputTime::Before),
+        (md.auxfu_d_sync_type, OutputTime::Before),
+        (md.auxfu_dl_sync_type, OutputTime::Before),
+        (md.auxfu_h_sync_type, OutputTime::Before),
+        (md.auxfu_f_sync_type, OutputTime::Never),
+    ];
+    ProgramParameters {
+        axes: program_axes(data, md, channel, axes),
+        r_parameters: u32::try_from(md.mm_num_r_param).unwrap_or(0),
+        modal,
+        circle_tolerance: Position::from_user(md.circle_error_const).increments() as f64,
+        circle_tolerance_share: md.circle_error_factor,
+        output_times: times.map(|(datum, predefined)| OutputTime::new(datum, predefined)),
+        associated_stops: [md.auxfu_assoc_m0_value, md.auxfu_assoc_m1_value],
+        whole_h_functions: md.auxfu_h_type_int == 1,
+        outputs_end_of_subprogram: md.spf_end_to_vdi & 1 == 1,
+        outputs_m1_only_active: md.spf_end_to_vdi & 2 == 2,
+        feed_stays: md.f_values_active_after_reset,
+        default_feed: setting.default_feed,
+        dry_run: (setting.dry_run_feed, setting.dry_run_feed_mode),
+        approach_feed: setting.approach_feed,
+        shown_groups: md.gcode_groups_to_plc,
+        shows_groups_in_order: md.gcode_groups_to_plc_mode & 1 == 1,
+    }
+}
+
+fn program_axes(
+    data: &MachineData,
+    md: &Channel,
+    channel: ChannelNumber,
+    axes: &PerAxis<AxisParameters>,
+) -> ProgramAxes {
+    let machine_axis =
+        |number: u8| AxisNumber::new(number).filter(|axis| axes[*axis].exists && axes[*axis].channel == channel);
+    let channel_axis = |index: usize| md.axconf_machax_used.get(index).copied().and_then(machine_axis);
+    let geometry = md.axconf_geoax_assign_tab.map(|number| channel_axis(usize::from(number).checked_sub(1)?));
+    let mut rows: Vec<(String, AxisNumber)> = Vec::new();
+    let mut add = |name: &str, axis: Option<AxisNumber>| {
+        if let (Some(axis), false) = (axis, name.is_empty()) {
+            rows.push((name.to_owned(), axis));
+        }
+    };
+    for (name, axis) in md.axconf_geoax_name_tab.iter().zip(geometry) {
+        add(name, axis);
+    }
+    for (index, name) in md.axconf_chanax_name_tab.iter().enumerate() {
+        add(name, channel_axis(index));
+    }
+    for axis in MachineData::axis_numbers() {
+        add(data.axis_name(axis), machine_axis(axis.number()));
+        add(&format!("AX{axis}"), machine_axis(axis.number()));
+    }
+    let name = |(name, axis): &(String, AxisNumber)| AxisName {
+        name: name.clone(),
+        kind: match (axes[*axis].rotary, axes[*axis].modulo) {
+            (false, _) => AxisKind::Linear,
+            (true, false) => AxisKind::Rotary,
+            (true, true) => AxisKind::Modulo,
+        },
+        is_beyond_modulo: false,
+    };
+    let is_synchronous = |axis: AxisNumber| data.axes[axis].gantry_axis_type > 10;
+    let mut path = ArrayVec::<AxisNumber, PATH_AXES>::new();
+    let others = (0..md.axconf_machax_used.len()).map(channel_axis);
+    for axis in geometry.into_iter().chain(others).flatten() {
+        if !is_synchronous(axis) && !path.contains(&axis) {
+            // A channel with more axes than a path can have interpolates the first of them.
+            let _ = path.try_push(axis);
+        }
+    }
+    let geometry = geometry.map(|axis| path.iter().position(|member| Some(*member) == axis));
+    ProgramAxes {
+        names: Arc::new(AxisNames::new(rows.iter().map(name))),
+        machine_axes: rows.iter().map(|(_, axis)| *axis).collect(),
+        counted: std::array::from_fn(|place| geometry.contains(&Some(place))),
+        path,
+        geometry,
+    }
+}
+
+impl ProgramParameters {
+    /// The feed of a block while the dry run is active (DB21.DBX0.6): SD42101 decides between SD42100 and the programmed feed.
+    pub(in crate::sinumerik) fn dry_run_feed(&self, feed: Feed, signals: &ChannelToNck) -> Feed {
+        let Feed::Programmed(programmed) = feed else { return feed };
+        if !signals.activate_dry_run_feedrate() {
+            return feed;
+        }
+        let dry = self.dry_run.0 * Position::PER_USER_UNIT / 60.0;
+        Feed::Programmed(match self.dry_run.1 {
+            0 => programmed.max(dry),
+            1 => programmed.min(dry),
+            _ => dry,
+        })
+    }
+}

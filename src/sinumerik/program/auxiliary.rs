@@ -1,0 +1,198 @@
+//! Output of auxiliary functions to the PLC (nc_programs.md 2.3 to 2.6): values and change bits in DB21.DBB58 to 193, decoded M functions in
+//! 194 to 206.
+//!
+//! A package is output in one cycle of the NCK and seen by the next scan of the PLC, for one scan. The NCK cycle of that scan takes it back: that
+//! is the acknowledgement. The next package follows at the earliest in the same cycle. Without a PLC program each cycle acknowledges.
+//!
+//! Choices where the manuals leave one: an M function is decoded with extension 0, or 1 for M3 to M5, M19, M70 and M40 to M45 (nc_programs.md
+//! 2.5); values stay until the next output of their place. RESET does not withdraw what is output.
+
+use std::collections::VecDeque;
+
+use arrayvec::ArrayVec;
+use serde::{Deserialize, Serialize};
+
+use crate::image::{ChannelAuxiliary, Signal, channel_auxiliary as signal};
+use crate::nc_program::AuxiliaryKind;
+use crate::variables::EventId;
+
+/// The most auxiliary functions of a block.
+const MOST: usize = 10;
+
+/// The bytes that this module writes: DB21.DBB58 to 206.
+pub(in crate::sinumerik) const BYTES: usize = 149;
+
+/// An auxiliary function at its place in the interface.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Entry {
+    pub kind: AuxiliaryKind,
+    /// From 0: M 1 is place 0.
+    pub place: u8,
+    pub extension: u16,
+    pub value: f64,
+    pub is_quick: bool,
+}
+
+/// What is output in one PLC cycle.
+pub(in crate::sinumerik) type Package = ArrayVec<Entry, MOST>;
+
+/// The output of a channel.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Output {
+    /// DB21.DBB58 to 206; empty before the first output.
+    bytes: Vec<u8>,
+    waiting: VecDeque<(Package, EventId)>,
+    /// The package that the PLC has not acknowledged.
+    pending: bool,
+    /// The event behind the last change.
+    pub cause: EventId,
+}
+
+impl Output {
+    /// Whether something is output or waits for it.
+    pub(in crate::sinumerik) fn is_busy(&self) -> bool {
+        self.pending || !self.waiting.is_empty()
+    }
+
+    /// Adds a package, after the event that leads to it.
+    pub(in crate::sinumerik) fn add(&mut self, package: &Package, cause: EventId) {
+        if !package.is_empty() {
+            self.waiting.push_back((package.clone(), cause));
+        }
+    }
+
+    /// Whether the PLC has acknowledged a package, if it has scanned since.
+    pub(in crate::sinumerik) fn acknowledges(&self, scanned: bool) -> bool {
+        self.pending && scanned
+    }
+
+    /// Takes change bits and decoded M functions back.
+    pub(in crate::sinumerik) fn take_back(&mut self, cause: EventId) {
+        self.pending = false;
+        self.cause = cause;
+        let first = usize::from(signal::decoded_m_function_0.byte - ChannelAuxiliary::FIRST);
+        // The change bits are bytes 58 to 67, the decoded M functions 194 to 206.
+        self.bytes[..10].fill(0);
+        self.bytes[first..].fill(0);
+    }
+
+    /// Outputs the next package, if none is pending. Returns the event behind it.
+    pub(in crate::sinumerik) fn next(&mut self, whole_h_functions: bool) -> Option<EventId> {
+        if self.pending {
+            return None;
+        }
+        let (package, cause) = self.waiting.pop_front()?;
+        if self.bytes.is_empty() {
+            self.bytes = vec![0; BYTES];
+        }
+        for entry in &package {
+            self.show(entry, whole_h_functions);
+        }
+        self.pending = true;
+        Some(cause)
+    }
+
+    /// DB21.DBB58 to 206; `None` before the first output.
+    pub(in crate::sinumerik) fn bytes(&self) -> Option<&[u8]> {
+        Some(self.bytes.as_slice()).filter(|bytes| !bytes.is_empty())
+    }
+
+    /// RESET: packages that have not been output are dropped.
+    pub(in crate::sinumerik) fn drop_waiting(&mut self) {
+        self.waiting.clear();
+    }
+
+    fn show(&mut self, entry: &Entry, whole_h_functions: bool) {
+        let place = u16::from(entry.place);
+        let (change, quick) = change_bits(entry.kind);
+        self.set_bit(change.byte, change.bit + entry.place);
+        if entry.is_quick {
+            self.set_bit(quick.byte, quick.bit + entry.place);
+        }
+        match entry.kind {
+            AuxiliaryKind::M => {
+                let at = signal::m_function_1_extension.byte + 6 * place;
+                self.put(at, &entry.extension.to_be_bytes());
+                let value = unsigned(entry.value);
+                self.put(at + 2, &value.to_be_bytes());
+                match decoded(entry.extension, value) {
+                    Some(number) => {
+                        self.set_bit(signal::decoded_m_function_0.byte + u16::from(number) / 8, number % 8);
+                    }
+                    None => {
+                        let of_first = signal::m_function_1_not_decoded;
+                        self.set_bit(of_first.byte, of_first.bit + entry.place);
+                    }
+                }
+            }
+            AuxiliaryKind::S => self.put_real(signal::s_function_1_extension, 6 * place, entry),
+            AuxiliaryKind::F => self.put_real(signal::f_function_1_extension, 6 * place, entry),
+            AuxiliaryKind::SumOffset => self.put_real(signal::dl_function_extension, 0, entry),
+            AuxiliaryKind::H if whole_h_functions => {
+                let at = signal::h_function_1_extension.byte + 6 * place;
+                self.put(at, &entry.extension.to_be_bytes());
+                self.put(at + 2, &signed(entry.value).to_be_bytes());
+            }
+            AuxiliaryKind::H => self.put_real(signal::h_function_1_extension, 6 * place, entry),
+            AuxiliaryKind::T => {
+                let at = signal::t_function_1_extension.byte + 4 * place;
+                self.put(at, &entry.extension.to_be_bytes());
+                let number = u16::try_from(unsigned(entry.value)).unwrap_or(u16::MAX);
+                self.put(at + 2, &number.to_be_bytes());
+            }
+            AuxiliaryKind::D => {
+                let at = signal::d_function_1_extension.byte + 2 * place;
+                let byte = |number: u32| u8::try_from(number).unwrap_or(u8::MAX);
+                self.put(at, &[byte(entry.extension.into()), byte(unsigned(entry.value))]);
+            }
+        }
+    }
+
+    /// An extension and a REAL.
+    fn put_real(&mut self, extension: Signal, offset: u16, entry: &Entry) {
+        let at = extension.byte + offset;
+        self.put(at, &entry.extension.to_be_bytes());
+        #[expect(clippy::cast_possible_truncation, reason = "the interface has REALs of four bytes")]
+        let value = entry.value as f32;
+        self.put(at + 2, &value.to_be_bytes());
+    }
+
+    fn put(&mut self, byte: u16, value: &[u8]) {
+        let at = usize::from(byte - ChannelAuxiliary::FIRST);
+        self.bytes[at..at + value.len()].copy_from_slice(value);
+    }
+
+    fn set_bit(&mut self, byte: u16, bit: u8) {
+        self.bytes[usize::from(byte - ChannelAuxiliary::FIRST)] |= 1 << bit;
+    }
+}
+
+/// The change bit and the quick bit of the first place of a kind.
+const fn change_bits(kind: AuxiliaryKind) -> (Signal, Signal) {
+    match kind {
+        AuxiliaryKind::M => (signal::m_function_1_change, signal::m_function_1_quick),
+        AuxiliaryKind::S => (signal::s_function_1_change, signal::s_function_1_quick),
+        AuxiliaryKind::T => (signal::t_function_1_change, signal::t_function_1_quick),
+        AuxiliaryKind::D => (signal::d_function_1_change, signal::d_function_1_quick),
+        AuxiliaryKind::SumOffset => (signal::dl_function_change, signal::dl_function_quick),
+        AuxiliaryKind::H => (signal::h_function_1_change, signal::h_function_1_quick),
+        AuxiliaryKind::F => (signal::f_function_1_change, signal::f_function_1_quick),
+    }
+}
+
+/// The number of the decoded signal of an M function.
+fn decoded(extension: u16, value: u32) -> Option<u8> {
+    let of_spindle = matches!(value, 3..=5 | 19 | 70 | 40..=45);
+    let decodes = extension == 0 || extension == 1 && of_spindle;
+    u8::try_from(value).ok().filter(|number| decodes && *number < 100)
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
+fn unsigned(value: f64) -> u32 {
+    value.round() as u32
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
+fn signed(value: f64) -> i32 {
+    value.round() as i32
+}

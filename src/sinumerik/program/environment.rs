@@ -1,0 +1,245 @@
+//! What the programs of a channel read and write: R parameters, system variables, machine and setting data, other programs, skip levels.
+//!
+//! Lengths in system variables are in millimetres or degrees. A machine datum is read as it is stored, and written as by the operator: it takes
+//! effect as its class defines.
+
+use std::sync::Arc;
+
+use crate::control;
+use crate::control::Owner;
+use crate::image::ChannelToNck;
+use crate::nc_program::{
+    AxisNames, Dialect, Environment, Library, Program, Refusal, Request, SINUMERIK, SystemVariable, Value,
+};
+use crate::sinumerik::axis::state::Axis;
+use crate::sinumerik::machine_data::{MachineData, Scope, Target, by_identifier};
+use crate::sinumerik::parameters::programs::ProgramParameters;
+use crate::sinumerik::program::state::{ChannelProgram, Run};
+use crate::units::{AxisNumber, ChannelNumber, PerAxis, Position};
+use crate::variables::RParameters;
+
+/// The channel, as the language sees it.
+pub(in crate::sinumerik) struct Channel<'a> {
+    pub channel: ChannelNumber,
+    pub parameters: &'a ProgramParameters,
+    pub axes: &'a PerAxis<Axis>,
+    pub r_parameters: &'a mut RParameters,
+    pub library: &'a Library,
+    pub stored: &'a MachineData,
+    /// Data that the program has written, to be stored after the stage.
+    pub written: &'a mut Vec<(Target, control::Value)>,
+    pub program: &'a mut ChannelProgram,
+    pub signals: &'a ChannelToNck,
+    pub end: [f64; crate::motion::path::PATH_AXES],
+    pub is_executed: bool,
+}
+
+impl<'a> Channel<'a> {
+    /// Where the prepared blocks end.
+    pub(in crate::sinumerik) fn take_run(&mut self, run: &Run) {
+        self.end = run.end;
+        self.is_executed = run.is_executed();
+    }
+
+    fn axis(&self, value: Option<&Value>) -> Result<AxisNumber, Refusal> {
+        match value {
+            Some(Value::Axis(axis)) => {
+                self.parameters.axes.machine_axes.get(usize::from(axis.0)).copied().ok_or(Refusal::Axis)
+            }
+            Some(Value::Int(_) | Value::Real(_) | Value::Bool(_) | Value::Char(_) | Value::Text(_)) | None => {
+                Err(Refusal::Axis)
+            }
+        }
+    }
+
+    /// `$MA_NAME[0,X]`, `$MC_NAME[1]`, `$MN_NAME`, `$SA_…`, `$SC_…`, `$SN_…`.
+    fn datum(&self, variable: &SystemVariable<'_>) -> Option<Result<Target, Refusal>> {
+        let datum = by_identifier(variable.name)?;
+        let (mut index, mut axis) = (0.0, None);
+        for value in variable.indices {
+            match (value.number(), value) {
+                (Some(number), _) => index = number,
+                (None, found) => axis = Some(self.axis(Some(found))),
+            }
+        }
+        let owner = match datum.scope {
+            Scope::General | Scope::Setting => Owner::Nck,
+            Scope::Channel | Scope::ChannelSetting => Owner::Channel(self.channel),
+            Scope::Axis | Scope::AxisSetting => match axis {
+                Some(Ok(axis)) => Owner::Axis(axis),
+                Some(Err(refusal)) => return Some(Err(refusal)),
+                None => return Some(Err(Refusal::Axis)),
+            },
+        };
+        let whole = (index.fract() == 0.0 && (0.0..255.0).contains(&index)).then(|| {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested above")]
+            let whole = index as u8;
+            whole
+        });
+        let target = whole.and_then(|index| Target::new(datum.number, owner, index).ok());
+        Some(target.ok_or(Refusal::FirstIndex))
+    }
+
+    /// The stored value, or the one that the program has just written.
+    fn now(&self, target: &Target) -> Option<control::Value> {
+        let written = self.written.iter().rev().find(|(other, _)| other == target);
+        written.map(|(_, value)| value.clone()).or_else(|| self.stored.get(target))
+    }
+
+    /// `$P_UIFR[1,X,TR]`: the index in G group 8 and the axis.
+    fn settable_offset(&self, variable: &SystemVariable<'_>) -> Result<(u8, AxisNumber), Refusal> {
+        let [number, axis, part] = variable.indices else { return Err(Refusal::FirstIndex) };
+        let number = number.number().filter(|number| number.fract() == 0.0 && (1.0..=99.0).contains(number));
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tested above")]
+        let number = number.ok_or(Refusal::FirstIndex)? as u8;
+        let axis = self.axis(Some(axis))?;
+        match part {
+            Value::Text(part) if part == "TR" => {}
+            // Rotation, scale and mirror image.
+            _ => return Err(Refusal::NotModelled),
+        }
+        // $P_UIFR[1] is G54, index 2 of its group; [5] is G505, index 6.
+        Ok((number + 1, axis))
+    }
+}
+
+impl Environment for Channel<'_> {
+    fn dialect(&self) -> &'static Dialect {
+        &SINUMERIK
+    }
+
+    fn axes(&self) -> Arc<AxisNames> {
+        Arc::clone(&self.parameters.axes.names)
+    }
+
+    fn r_parameters(&self) -> u32 {
+        self.parameters.r_parameters
+    }
+
+    fn r_parameter(&self, index: u32) -> f64 {
+        u16::try_from(index).ok().and_then(|index| self.r_parameters.get(self.channel, index)).unwrap_or(0.0)
+    }
+
+    fn set_r_parameter(&mut self, index: u32, value: f64) {
+        if let Ok(index) = u16::try_from(index) {
+            self.r_parameters.set(self.channel, index, value);
+        }
+    }
+
+    fn system(&self, variable: &SystemVariable<'_>) -> Result<Value, Refusal> {
+        let axis = || self.axis(variable.indices.first());
+        let length = |position: Position| Value::Real(position.user());
+        match variable.name {
+            "$AA_IM" | "$AA_IW" | "$AA_IB" => {
+                let axis = axis()?;
+                let setpoint = self.axes[axis].setpoint.position;
+                let offset = if variable.name == "$AA_IM" {
+                    Position::ZERO
+                } else {
+                    let modal = self.program.modal.index(8);
+                    self.program.settable_offset(modal, axis)
+                };
+                Ok(length(setpoint - offset))
+            }
+            "$VA_IM" => Ok(length(self.axes[axis()?].actual)),
+            "$P_EP" => {
+                let axis = axis()?;
+                let place = self.parameters.axes.place(axis).ok_or(Refusal::Axis)?;
+                Ok(Value::Real(self.end[place] / Position::PER_USER_UNIT))
+            }
+            "$AA_REF" => Ok(Value::Int(i32::from(self.axes[axis()?].is_referenced()))),
+            "$P_UIFR" => {
+                let (index, axis) = self.settable_offset(variable)?;
+                Ok(length(self.program.settable_offset(index, axis)))
+            }
+            "$P_SEARCH" | "$P_ISTEST" => Ok(Value::Bool(false)),
+            _ => match self.datum(variable) {
+                Some(target) => match self.now(&target?) {
+                    Some(control::Value::Boolean(value)) => Ok(Value::Bool(value)),
+                    Some(control::Value::Integer(value)) => {
+                        i32::try_from(value).map(Value::Int).or(Ok(Value::Real(value as f64)))
+                    }
+                    Some(control::Value::Real(value)) => Ok(Value::Real(value)),
+                    Some(control::Value::Text(text)) => Ok(Value::Text(text)),
+                    None => Err(Refusal::ReadProtected),
+                },
+                None if is_of_the_control(variable.name) => Err(Refusal::NotModelled),
+                None => Err(Refusal::Unknown),
+            },
+        }
+    }
+
+    fn set_system(&mut self, variable: &SystemVariable<'_>, value: &Value) -> Result<(), Refusal> {
+        if variable.name == "$P_UIFR" {
+            let (index, axis) = self.settable_offset(variable)?;
+            let value = value.number().ok_or(Refusal::WrongType)?;
+            self.program.set_settable_offset(index, axis, Position::from_user(value));
+            return Ok(());
+        }
+        let Some(target) = self.datum(variable) else {
+            let known = is_of_the_control(variable.name);
+            return Err(if known { Refusal::NotModelled } else { Refusal::Unknown });
+        };
+        let target = target?;
+        let value = match value {
+            Value::Int(value) => control::Value::Integer((*value).into()),
+            Value::Real(value) => control::Value::Real(*value),
+            Value::Bool(value) => control::Value::Boolean(*value),
+            Value::Char(value) => control::Value::Integer((*value).into()),
+            Value::Text(text) => control::Value::Text(text.clone()),
+            Value::Axis(_) => return Err(Refusal::WrongType),
+        };
+        let (datum, number) = (target.datum(), value.number());
+        if datum.read_only {
+            return Err(Refusal::WriteProtected);
+        }
+        match number {
+            Some(number) if datum.range.minimum.is_some_and(|minimum| number < minimum) => return Err(Refusal::Below),
+            Some(number) if datum.range.maximum.is_some_and(|maximum| number > maximum) => return Err(Refusal::Above),
+            Some(_) | None => {}
+        }
+        if self.stored.check(&target, &value).is_err() {
+            return Err(Refusal::Invalid);
+        }
+        self.written.push((target, value));
+        Ok(())
+    }
+
+    fn is_executed(&self) -> bool {
+        self.is_executed
+    }
+
+    fn is_skipped(&self, level: u8) -> bool {
+        match level {
+            0 => self.signals.skip_block_level_0(),
+            1 => self.signals.skip_block_level_1(),
+            2 => self.signals.skip_block_level_2(),
+            3 => self.signals.skip_block_level_3(),
+            4 => self.signals.skip_block_level_4(),
+            5 => self.signals.skip_block_level_5(),
+            6 => self.signals.skip_block_level_6(),
+            7 => self.signals.skip_block_level_7(),
+            // DBX31.6 and 31.7 have no name in the catalogue.
+            _ => false,
+        }
+    }
+
+    fn is_restarting(&self) -> bool {
+        // DBX384.0 has no name in the catalogue.
+        false
+    }
+
+    fn find_program(&self, request: &Request<'_>) -> Option<Arc<Program>> {
+        self.library.find(request)
+    }
+
+    fn program(&self, path: &str) -> Option<Arc<Program>> {
+        self.library.program(path)
+    }
+}
+
+/// Whether the control has system variables that begin like this.
+fn is_of_the_control(name: &str) -> bool {
+    let groups = ["$A", "$V", "$P_", "$M", "$S", "$T", "$R"];
+    groups.iter().any(|group| name.starts_with(group))
+}

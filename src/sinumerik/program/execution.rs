@@ -1,0 +1,510 @@
+//! The stage "programs": runs the program of each channel for one cycle, block by block.
+//!
+//! | phase of a block | what happens | until |
+//! |---|---|---|
+//! | between | nothing | read-in disable (6.1) is 0, and a block is prepared |
+//! | before | its functions "before the motion" are output | the PLC has acknowledged them |
+//! | moving | functions "during the motion" are output; it moves, dwells, references | the motion has ended, with an exact stop the axes are in position |
+//! | after | functions "at the end" are output | the PLC has acknowledged everything |
+//!
+//! Then the program stops (M0, M1, single block, 7.2), ends (M2, M30), or goes on with the next block in the same cycle. In G64 the path passes
+//! from one block to the next without a stop as long as nothing has to be output before the next one, and nothing holds the change of blocks.
+
+use crate::image::{ToNck, channel_to_nck};
+use crate::nc_program::{Action, End, Library};
+use crate::sinumerik::alarms::{Alarm, Reaction};
+use crate::sinumerik::inputs::channel_signal;
+use crate::sinumerik::machine_data::{MachineData, Target};
+use crate::sinumerik::nck::Nck;
+use crate::sinumerik::parameters::programs::OutputTime;
+use crate::sinumerik::program::environment::Channel;
+use crate::sinumerik::program::path::Stage;
+use crate::sinumerik::program::preparation::Preparing;
+use crate::sinumerik::program::state::{
+    BlockAlarm, Criterion, Phase, Preparation, ProgramState, ProgrammedStop, Run, block_name, on_path,
+};
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
+use crate::units::{AxisSet, ChannelNumber, Position};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, short_text};
+
+/// Changes of blocks in one cycle: calculation blocks and blocks without motion take no time.
+const CHANGES: usize = 100;
+
+/// What a block does after a look at it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Progress {
+    /// Something has changed: look again in the same cycle.
+    Changed,
+    /// It waits for the next cycle.
+    Waits,
+    /// The program has ended.
+    Ended,
+}
+
+/// What is only read while programs run.
+struct Sources<'a> {
+    library: &'a Library,
+    stored: &'a MachineData,
+    written: &'a mut Vec<(Target, crate::control::Value)>,
+}
+
+impl Nck {
+    /// The stage. `scanned` says whether the PLC has seen what was output before.
+    pub(in crate::sinumerik) fn run_programs(&mut self, to_nck: &ToNck, scanned: bool) {
+        let (mut written, mut new_conf) = (Vec::new(), false);
+        let (parameters, state) = (&*self.parameters, &mut *self.state);
+        for (channel, _) in parameters.existing_channels() {
+            let Some(own) = parameters.programs[channel].as_deref() else { continue };
+            let acknowledged = state.acknowledge(channel, scanned);
+            if let Some(mut run) = state.programs[channel].run.take() {
+                let stage = Stage { channel, parameters, own, to_nck };
+                let mut sources = Sources { library: &self.programs, stored: &self.stored, written: &mut written };
+                let stays = state.run_program(&mut run, &stage, &mut sources);
+                new_conf |= std::mem::take(&mut run.new_conf);
+                if stays {
+                    state.programs[channel].run = Some(run);
+                }
+            }
+            // The PLC sees change bits of 0 between two packages.
+            if !acknowledged && let Some(cause) = state.programs[channel].output.next(own.whole_h_functions) {
+                let event = state.log.now(Place::Channel(channel), cause, Rule::AuxiliaryOutput, [Input::None; 3]);
+                state.programs[channel].output.cause = event;
+            }
+        }
+        for (target, value) in written {
+            // The environment has checked it.
+            let _ = self.store(&target, &value);
+        }
+        if new_conf {
+            self.new_conf();
+        }
+    }
+}
+
+impl State {
+    /// The PLC has seen what was output: it is taken back.
+    fn acknowledge(&mut self, channel: ChannelNumber, scanned: bool) -> bool {
+        let output = &mut self.programs[channel].output;
+        let acknowledges = output.acknowledges(scanned);
+        if acknowledges {
+            let before = output.cause;
+            let event = self.log.note_plain(Place::Channel(channel), Rule::AuxiliaryAcknowledged, before);
+            self.programs[channel].output.take_back(event);
+        }
+        acknowledges
+    }
+
+    /// One cycle of a program. Returns whether it is still there.
+    fn run_program(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) -> bool {
+        let channel = stage.channel;
+        run.pauses = false;
+        let runs = matches!(self.programs[channel].state, ProgramState::Running | ProgramState::Waiting);
+        if runs && run.stopping.is_none() && run.resetting.is_none() {
+            run.stopping = self.program_stopper(channel, run.is_mda, stage.parameters, stage.to_nck);
+        }
+        self.delete_distance_to_go_of_path(run, stage);
+        if runs && run.stopping.is_none() {
+            self.hold_block_change(run, stage);
+        }
+        let ended = self.move_program(run, stage);
+        for _ in 0..ended {
+            run.on_path -= 1;
+            if run.on_path > 0 {
+                self.pass_to_next_block(run, stage);
+            }
+        }
+        if let Some(event) = run.resetting {
+            if self.program_rests(run, stage) {
+                let event = self.log.now(Place::Channel(channel), event, Rule::ProgramAborted, [Input::None; 3]);
+                self.end_program(channel, stage.own, event, false);
+                return false;
+            }
+            return true;
+        }
+        if let Some(event) = run.stopping {
+            if runs && self.program_rests(run, stage) {
+                let event = self.log.now(Place::Channel(channel), event, Rule::ProgramStopped, [Input::None; 3]);
+                self.stop_program(channel, event);
+            }
+        } else if runs {
+            for _ in 0..CHANGES {
+                match self.execute(run, stage, sources) {
+                    Progress::Changed => {}
+                    Progress::Waits => break,
+                    Progress::Ended => return false,
+                }
+                if !matches!(self.programs[channel].state, ProgramState::Running | ProgramState::Waiting) {
+                    break;
+                }
+            }
+            self.lengthen_path(run, stage);
+        }
+        self.show_interruption(channel, stage.parameters);
+        true
+    }
+
+    fn stop_program(&mut self, channel: ChannelNumber, event: EventId) {
+        let program = &mut self.programs[channel];
+        (program.state, program.cause) = (ProgramState::Stopped, event);
+    }
+
+    /// DB21.DBX6.2: the path brakes, and the rest of its block is dropped.
+    fn delete_distance_to_go_of_path(&mut self, run: &mut Run, stage: &Stage<'_>) {
+        let delete = stage.to_nck.channels[stage.channel].delete_distance_to_go();
+        let was = std::mem::replace(&mut run.delete_was, delete);
+        if delete && !was && !run.path.is_empty() && run.returning.is_none() {
+            run.deleting = true;
+        }
+        if run.deleting && run.path.velocity() <= 0.0 {
+            run.deleting = false;
+            run.path.clear();
+            run.on_path = 0;
+            run.reorganise(run.path.position());
+            if let Some(block) = run.queue.front_mut() {
+                block.way = None;
+            }
+        }
+    }
+
+    /// Whether something holds the change to the next block: read-in disable, single block, NC stop at the block limit.
+    fn holds_block_change(run: &Run, stage: &Stage<'_>) -> bool {
+        let signals = &stage.to_nck.channels[stage.channel];
+        let single =
+            signals.activate_single_block() && !run.queue.front().is_some_and(|one| one.origin.is_single_block_off);
+        signals.read_in_disable() || signals.nc_stop_at_block_limit() || single
+    }
+
+    /// Stops the path at the end of its block while something holds the change to the next one.
+    fn hold_block_change(&mut self, run: &mut Run, stage: &Stage<'_>) {
+        if run.path.is_empty() {
+            return;
+        }
+        if Self::holds_block_change(run, stage) {
+            run.path.stop_at_block_end(stage.parameters.cycle.seconds());
+        } else {
+            run.path.pass_block_end();
+        }
+    }
+
+    /// Gives the path the blocks into which it can pass without a stop.
+    fn lengthen_path(&mut self, run: &mut Run, stage: &Stage<'_>) {
+        let moves = run.phase == Phase::Moving && run.on_path > 0 && run.returning.is_none();
+        if !moves || Self::holds_block_change(run, stage) || run.deleting {
+            return;
+        }
+        let cycle = stage.parameters.cycle.seconds();
+        let busy = self.programs[stage.channel].output.is_busy();
+        while let (Some(last), Some(next)) = (run.queue.get(run.on_path - 1), run.queue.get(run.on_path)) {
+            // The first block has output what it has; those behind it have not begun.
+            let outputs = if run.on_path == 1 { busy } else { last.has_outputs() };
+            let stops = last.way.is_none_or(|block| block.exact_stop)
+                || last.end.is_some()
+                || last.stop != ProgrammedStop::None
+                || !last.positions.is_empty()
+                || !last.references.is_empty();
+            if outputs || stops || !next.is_plain() || !run.positionings.is_empty() {
+                return;
+            }
+            let Some(mut block) = next.way else { return };
+            block.feed = stage.own.dry_run_feed(block.feed, &stage.to_nck.channels[stage.channel]);
+            if run.path.append(block, cycle).is_err() {
+                return;
+            }
+            run.on_path += 1;
+        }
+    }
+
+    /// The path has passed into the next block without a stop.
+    fn pass_to_next_block(&mut self, run: &mut Run, stage: &Stage<'_>) {
+        run.queue.pop_front();
+        self.begin_block(run, stage);
+        run.phase = Phase::Moving;
+        self.output(run, OutputTime::During, stage);
+    }
+
+    /// A block begins to run: it is displayed.
+    fn begin_block(&mut self, run: &mut Run, stage: &Stage<'_>) {
+        let Some(block) = run.queue.front() else { return };
+        let input = Input::Block(block_name(&block.origin.name));
+        let program = &self.programs[stage.channel];
+        let place = Place::Channel(stage.channel);
+        let event = self.log.note_one(place, Rule::BlockBegins, input, program.cause);
+        run.block_cause = event;
+        let modal = block.modal;
+        let program = &mut self.programs[stage.channel];
+        if program.modal != modal {
+            (program.modal, program.modal_cause) = (modal, event);
+        }
+    }
+
+    fn output(&mut self, run: &Run, time: OutputTime, stage: &Stage<'_>) {
+        if let Some(package) = run.queue.front().and_then(|block| block.output(time)) {
+            self.programs[stage.channel].output.add(package, run.block_cause);
+        }
+    }
+
+    fn execute(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) -> Progress {
+        let channel = stage.channel;
+        match run.phase {
+            Phase::Between => self.take_next_block(run, stage, sources),
+            Phase::Before => {
+                if self.programs[channel].output.is_busy() {
+                    return Progress::Waits;
+                }
+                self.begin_motion(run, stage);
+                Progress::Changed
+            }
+            Phase::Moving => {
+                self.prepare(run, stage, sources);
+                if !self.motion_has_ended(run, stage) {
+                    return Progress::Waits;
+                }
+                self.output(run, OutputTime::End, stage);
+                run.phase = Phase::After;
+                Progress::Changed
+            }
+            Phase::After => {
+                // The program ends when what POSA has started is over, too.
+                let ends = run.queue.front().is_some_and(|block| block.end == Some(End::Program));
+                if self.programs[channel].output.is_busy() || ends && !run.positionings.is_empty() {
+                    return Progress::Waits;
+                }
+                self.end_block(run, stage)
+            }
+        }
+    }
+
+    fn prepare(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) {
+        let group = stage.parameters.mode_group(stage.channel);
+        let signals = &stage.to_nck.channels[stage.channel];
+        let second = stage.to_nck.mode_groups[group].single_block_type_b();
+        let preparing = Preparing {
+            parameters: stage.parameters,
+            own: stage.own,
+            axes: &self.axes,
+            to_nck: stage.to_nck,
+            stops_after_calculations: signals.activate_single_block() && second,
+        };
+        let mut environment = Channel {
+            channel: stage.channel,
+            parameters: stage.own,
+            axes: &self.axes,
+            r_parameters: &mut self.r_parameters,
+            library: sources.library,
+            stored: sources.stored,
+            written: sources.written,
+            program: &mut self.programs[stage.channel],
+            signals,
+            end: run.end,
+            is_executed: run.is_executed(),
+        };
+        if std::mem::take(&mut run.reads_again) && run.queue.is_empty() {
+            run.read_again();
+        }
+        run.prepare(&preparing, &mut environment);
+    }
+
+    fn take_next_block(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) -> Progress {
+        self.prepare(run, stage, sources);
+        if run.queue.is_empty() {
+            return match &run.preparation {
+                Preparation::Reads | Preparation::Waits => Progress::Waits,
+                Preparation::Failed { alarm, .. } => {
+                    let alarm = *alarm;
+                    if run.positionings.is_empty() {
+                        self.raise_block_alarm(alarm, run, stage);
+                    }
+                    Progress::Waits
+                }
+                Preparation::Ended if !run.positionings.is_empty() => Progress::Waits,
+                Preparation::Ended => {
+                    let place = Place::Channel(stage.channel);
+                    let event = self.log.note_plain(place, Rule::ProgramEnded, run.block_cause);
+                    self.end_program(stage.channel, stage.own, event, !run.is_mda);
+                    Progress::Ended
+                }
+            };
+        }
+        if stage.to_nck.channels[stage.channel].read_in_disable() {
+            return Progress::Waits;
+        }
+        self.begin_block(run, stage);
+        self.output(run, OutputTime::Before, stage);
+        run.phase = Phase::Before;
+        Progress::Changed
+    }
+
+    /// Everything before a block that cannot be executed has been executed: its alarm appears, and the program stops.
+    fn raise_block_alarm(&mut self, alarm: BlockAlarm, run: &Run, stage: &Stage<'_>) {
+        let place = Place::Channel(stage.channel);
+        let [second, third, fourth] = alarm.parameters;
+        let shown = [Parameter::Channel(stage.channel), second, third, fourth];
+        let input = Input::Block(alarm.block);
+        let event = self.log.note_one(place, Rule::BlockNotExecutable, input, run.block_cause);
+        self.alarms.raise(alarm.number, place, shown, event);
+        let row = Alarm::find(alarm.number);
+        debug_assert!(row.is_some(), "{} has no row", alarm.number.0);
+        let stops = row.is_none_or(|row| {
+            row.reaction.has(Reaction::CORRECTION_BLOCK)
+                || row.reaction.has(Reaction::INTERPRETER_STOP)
+                || row.reaction.has(Reaction::STOP)
+        });
+        if stops {
+            self.stop_program(stage.channel, event);
+        }
+    }
+
+    fn begin_motion(&mut self, run: &mut Run, stage: &Stage<'_>) {
+        let cycle = stage.parameters.cycle.seconds();
+        let Some(block) = run.queue.front() else { return };
+        let path = &stage.own.axes.path;
+        if run.path.is_empty() && run.returning.is_none() {
+            let position = block
+                .way
+                .map_or_else(|| on_path(path, |axis| self.axes[axis].setpoint.position), |block| block.way.start());
+            run.path.place(position);
+        }
+        run.dwell = block.dwell;
+        let positions = block.positions.clone();
+        let mut references = AxisSet::NONE;
+        for axis in &block.references {
+            references.set(*axis, true);
+        }
+        (run.referencing, run.referencing_started) = (references, AxisSet::NONE);
+        // A block into which the path would have passed is there already.
+        if let (Some(mut way), 0) = (block.way, run.on_path) {
+            way.feed = stage.own.dry_run_feed(way.feed, &stage.to_nck.channels[stage.channel]);
+            if run.path.append(way, cycle).is_ok() {
+                run.on_path = 1;
+            }
+        }
+        let actions = block.actions.clone();
+        for action in actions {
+            self.act(action, run, stage);
+        }
+        for positioning in positions {
+            run.positionings.retain(|other| other.axis != positioning.axis);
+            run.positionings.push(positioning);
+        }
+        run.phase = Phase::Moving;
+        self.output(run, OutputTime::During, stage);
+    }
+
+    /// What a block does besides moving and output.
+    fn act(&mut self, action: Action, run: &mut Run, stage: &Stage<'_>) {
+        match action {
+            Action::Message(text) => self.programs[stage.channel].message = text,
+            Action::Preset(axes) => {
+                for (name, value) in axes {
+                    let axis = stage.own.axes.machine_axes.get(usize::from(name.0));
+                    if let Some(unit) = axis.and_then(|axis| self.unit_of(*axis)) {
+                        self.set_actual_value(&unit, Position::from_user(value), run.block_cause);
+                    }
+                }
+                // The path begins where its axes are now.
+                run.path.place(on_path(&stage.own.axes.path, |axis| self.axes[axis].setpoint.position));
+            }
+            Action::NewConfiguration => run.new_conf = true,
+            Action::CycleAlarm { number, text } => {
+                let text = text.unwrap_or_default();
+                let first = short_text(&text);
+                let name = run.queue.front().map(|block| block.origin.name.clone()).unwrap_or_default();
+                run.cycle_alarm = Some(BlockAlarm {
+                    number: AlarmNumber(number),
+                    parameters: [
+                        Parameter::Text(short_text(&name)),
+                        Parameter::Text(first),
+                        Parameter::Text(short_text(&text[first.len()..])),
+                    ],
+                    block: block_name(&name),
+                });
+            }
+            _ => {}
+        }
+    }
+
+    fn motion_has_ended(&mut self, run: &mut Run, stage: &Stage<'_>) -> bool {
+        let Some(block) = run.queue.front() else { return true };
+        if run.returning.is_some() {
+            return false;
+        }
+        if run.dwell > 0 {
+            // Runs on with feed disable; NC stop holds it.
+            run.dwell -= 1;
+            return false;
+        }
+        if run.positionings.iter().any(|positioning| positioning.waits && block.positions.contains(positioning)) {
+            return false;
+        }
+        let waited = block.actions.iter().any(|action| matches!(action, Action::WaitForPosition(_)));
+        if waited && !run.positionings.is_empty() || !self.references_are_done(run) {
+            return false;
+        }
+        if block.way.is_none() || run.on_path == 0 {
+            return true;
+        }
+        if !run.path.stands() {
+            return false;
+        }
+        if block.criterion != Criterion::Interpolation && !self.is_in_position(block.criterion, run, stage) {
+            return false;
+        }
+        run.path.go_on();
+        run.on_path -= 1;
+        true
+    }
+
+    /// Whether the axes of the path are within their exact stop windows.
+    fn is_in_position(&self, criterion: Criterion, run: &Run, stage: &Stage<'_>) -> bool {
+        let positioned = |axis| run.positionings.iter().any(|positioning| positioning.axis == axis);
+        stage.own.axes.path.iter().filter(|axis| !positioned(**axis)).all(|&number| {
+            let axis = &self.axes[number];
+            let set = axis.active_set(&stage.parameters.axes[number]);
+            let window = if criterion == Criterion::Coarse { set.exact_stop_coarse } else { set.exact_stop_fine };
+            axis.setpoint.is_at_rest() && axis.deviation().abs() <= window
+        })
+    }
+
+    /// The block is over: the program stops, ends, or goes on.
+    fn end_block(&mut self, run: &mut Run, stage: &Stage<'_>) -> Progress {
+        let channel = stage.channel;
+        let place = Place::Channel(channel);
+        let Some(block) = run.queue.pop_front() else { return Progress::Waits };
+        run.phase = Phase::Between;
+        // The path stands: what it would have passed into begins again when nothing holds it.
+        run.path.clear();
+        run.on_path = 0;
+        run.referencing = AxisSet::NONE;
+        let signals = &stage.to_nck.channels[channel];
+        let input = Input::Block(block_name(&block.origin.name));
+        if let Some(alarm) = run.cycle_alarm.take() {
+            self.raise_block_alarm(alarm, run, stage);
+            return Progress::Changed;
+        }
+        if block.end == Some(End::Program) {
+            let event = self.log.note_one(place, Rule::ProgramEnded, input, run.block_cause);
+            self.end_program(channel, stage.own, event, true);
+            return Progress::Ended;
+        }
+        let programmed = match block.stop {
+            ProgrammedStop::None => false,
+            ProgrammedStop::Always => true,
+            ProgrammedStop::Optional => signals.activate_m01(),
+        };
+        if programmed {
+            let event = self.log.note_one(place, Rule::ProgrammedStop, input, run.block_cause);
+            self.stop_program(channel, event);
+            self.programs[channel].programmed_stop = true;
+        } else if signals.nc_stop_at_block_limit() {
+            let pressed = channel_signal(channel, channel_to_nck::nc_stop_at_block_limit, true);
+            let event = self.log.note(place, Rule::StopAtBlockEnd, [pressed, input, Input::None], run.block_cause);
+            self.stop_program(channel, event);
+        } else if signals.activate_single_block() && block.is_executable && !block.origin.is_single_block_off {
+            let single = channel_signal(channel, channel_to_nck::activate_single_block, true);
+            let event = self.log.note(place, Rule::SingleBlock, [single, input, Input::None], run.block_cause);
+            self.stop_program(channel, event);
+        }
+        Progress::Changed
+    }
+}

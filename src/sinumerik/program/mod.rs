@@ -1,0 +1,43 @@
+//! PROGRAMS: a channel runs an NC program. [`nc_program`](crate::nc_program) reads its blocks, [`motion::path`](crate::motion::path)
+//! interpolates them, and this module brings both together with the interface: start, stop, single block, auxiliary functions, alarms.
+//!
+//! Called once per cycle for each channel in the stage "programs", between enabling and "referencing and gantry". It decides where the axes of
+//! the path are in this cycle ([`Led`](state::Led)); the units take that over. Synchronous axes go along, as in every movement of their leading axis.
+//!
+//! | file | what |
+//! |---|---|
+//! | `state.rs` | the state of a channel's program, and of the block that runs |
+//! | `selection.rs` | the programs in memory, and the selected ones |
+//! | `start.rs` | NC start and its refusals, stop, RESET, end, change of the mode: the program states 35.0 to 35.4 |
+//! | `environment.rs` | what the language reads and writes: R parameters, system variables, machine data, programs |
+//! | `preparation.rs` | blocks ahead of the movement: targets in machine coordinates, limits, who may move an axis |
+//! | `geometry.rs` | units, offsets, circles |
+//! | `execution.rs` | the block that runs: before, during and at the end of its motion; the change to the next one |
+//! | `path.rs` | the path in a cycle: overrides, holds, where the axes are, the return to the interruption point |
+//! | `positioning.rs` | POS and POSA |
+//! | `referencing.rs` | G74 |
+//! | `preset.rs` | PRESETON, and PRESET of the operator |
+//! | `auxiliary.rs` | output of auxiliary functions: DB21.DBB58 to 206 |
+//!
+//! # Choices where the manuals leave one
+//!
+//! * The channel shows "stopped" and "interrupted" (35.2, 35.6) when its axes have come to rest, not when the stop begins.
+//! * An error of preparation appears when everything before its block has been executed.
+//! * A block is read again after a correctable alarm with the values that it had: the text of a program does not change while it runs.
+//! * Auxiliary functions without motion in their block are output together.
+//! * M2 and M30 end the program when axes that POSA has started have arrived.
+//! * A change of the mode to JOG while a program runs stops it.
+//! * A program stays selected over RESET and power off, and so do R parameters.
+
+pub(super) mod auxiliary;
+pub(super) mod environment;
+pub(super) mod execution;
+pub(super) mod geometry;
+pub(super) mod path;
+pub(super) mod positioning;
+pub(super) mod preparation;
+pub(super) mod preset;
+pub(super) mod referencing;
+pub(super) mod selection;
+pub(super) mod start;
+pub(super) mod state;

@@ -1,0 +1,326 @@
+//! The path in a cycle: what holds it, where its axes are, the return to it, and the axes that are positioned beside it.
+//!
+//! An axis that is not where the path is (it was moved in JOG, or braked alone because it lost its enables) first comes back: all axes go on a
+//! straight line to where the path was left (REPOS).
+
+use crate::image::{ToNck, axis_to_nck, channel_to_nck};
+use crate::motion::path::{Feed, Overrides, Path, PathBlock, PerPathAxis, Way};
+use crate::sinumerik::axis::travel::Travel;
+use crate::sinumerik::inputs::{axis_signal, channel_signal};
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::programs::ProgramParameters;
+use crate::sinumerik::program::positioning::Positioning;
+use crate::sinumerik::program::state::{Led, ProgramState, Run, on_path};
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::{State, Unit};
+use crate::units::{AxisNumber, ChannelNumber, Position};
+use crate::variables::{Input, Place};
+
+/// An axis that is farther from the path than this is not on it, in increments.
+const ON_PATH: f64 = 1.5;
+
+/// What the stage reads in a cycle.
+#[derive(Clone, Copy)]
+pub(in crate::sinumerik) struct Stage<'a> {
+    pub channel: ChannelNumber,
+    pub parameters: &'a Parameters,
+    pub own: &'a ProgramParameters,
+    pub to_nck: &'a ToNck,
+}
+
+/// Whether the movements of a program may go on, and what holds them if not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Held {
+    No,
+    /// By a signal or an alarm that ends by itself: the travel command stays (O-27).
+    By(Rule, Input),
+    /// By a stop: the program is stopped or is being stopped.
+    Stopped,
+}
+
+impl State {
+    /// Moves the axes of a program for one cycle. Returns how many blocks have ended on the path.
+    pub(in crate::sinumerik) fn move_program(&mut self, run: &mut Run, stage: &Stage<'_>) -> usize {
+        let state = self.programs[stage.channel].state;
+        let stopped = state != ProgramState::Running && state != ProgramState::Waiting;
+        let stops = stopped || run.stopping.is_some() || run.resetting.is_some();
+        let held = if stops { Held::Stopped } else { self.holder(run, stage) };
+        let ended = self.step_path(run, held, stage);
+        self.step_positionings(run, held, stage);
+        ended
+    }
+
+    /// What holds the path: feed disable, feed stop or a missing enable of an axis that moves, or an override of 0 %.
+    fn holder(&self, run: &Run, stage: &Stage<'_>) -> Held {
+        let signals = &stage.to_nck.channels[stage.channel];
+        if signals.feed_disable() {
+            let input = channel_signal(stage.channel, channel_to_nck::feed_disable, true);
+            return Held::By(Rule::HeldByFeedStop, input);
+        }
+        let path = run.returning.as_ref().unwrap_or(&run.path);
+        let direction = path.direction();
+        for (place, &axis) in stage.own.axes.path.iter().enumerate() {
+            if direction[place].abs() < 1e-12 {
+                continue;
+            }
+            let Some(unit) = self.unit_of(axis) else { continue };
+            if let Some(stopper) = unit.members().find(|member| stage.to_nck.axes[*member].feed_stop()) {
+                return Held::By(Rule::HeldByFeedStop, axis_signal(stopper, axis_to_nck::feed_stop, true));
+            }
+            if let Some(off) = unit.members().find(|member| !self.axes[*member].enabling.is_on()) {
+                let control = crate::image::axis_from_nck::position_controller_active;
+                return Held::By(Rule::MotionBlocked, axis_signal(off, control, false));
+            }
+            let sign = if direction[place] > 0.0 { 1 } else { -1 };
+            if let Some(pressed) = self.limited_by(&unit, sign) {
+                let input = self.axes[pressed].limits.input(pressed, sign);
+                return Held::By(Rule::HardwareLimitSwitch, input);
+            }
+            if self.axes[axis].signals.fast_stop {
+                let shown = crate::image::axis_from_nck::ramp_function_generator_disable_active;
+                return Held::By(Rule::FastStop, axis_signal(axis, shown, true));
+            }
+        }
+        Held::No
+    }
+
+    /// The unit that an axis leads.
+    pub(in crate::sinumerik) fn unit_of(&self, axis: AxisNumber) -> Option<Unit> {
+        self.units.iter().find(|unit| unit.leader() == axis).copied()
+    }
+
+    fn overrides(run: &Run, held: Held, stage: &Stage<'_>) -> Overrides {
+        if held != Held::No || run.deleting {
+            return Overrides { feed: 0.0, rapid: 0.0 };
+        }
+        let signals = &stage.to_nck.channels[stage.channel];
+        let of = &stage.parameters.path_overrides;
+        Overrides {
+            feed: of.feed(signals.feed_override(), signals.feed_override_active()),
+            rapid: of.rapid(signals.rapid_traverse_override(), signals.rapid_traverse_override_active()),
+        }
+    }
+
+    fn step_path(&mut self, run: &mut Run, held: Held, stage: &Stage<'_>) -> usize {
+        let cycle = stage.parameters.cycle.seconds();
+        let overrides = Self::overrides(run, held, stage);
+        let is_off = self.is_off(run, stage);
+        if is_off && held == Held::No && run.returning.is_none() {
+            run.returning = self.way_back(run, stage);
+        } else if is_off && run.returning.is_none() {
+            // An axis that lost the path stops alone; the path stops beside it.
+            run.path.step(Overrides { feed: 0.0, rapid: 0.0 }, cycle);
+            self.end_travels(run, held, stage, None);
+            return 0;
+        }
+        let returns = run.returning.is_some();
+        let path = run.returning.as_mut().unwrap_or(&mut run.path);
+        let before = path.position();
+        let direction = if path.stands() { PerPathAxis::default() } else { path.direction() };
+        let moved = path.step(overrides, cycle);
+        let (now, moves) = (moved.position, path.velocity() > 0.0);
+        self.show_travels(run, &direction, moves, held, stage);
+        self.lead(run, (before, now), stage);
+        if returns {
+            if run.returning.as_ref().is_some_and(Path::is_empty) {
+                run.returning = None;
+            }
+            return 0;
+        }
+        moved.ended
+    }
+
+    /// Whether an axis of the path is not where the path is. While no block is on the path, its axes are where they are.
+    fn is_off(&self, run: &Run, stage: &Stage<'_>) -> bool {
+        if run.path.is_empty() {
+            return false;
+        }
+        let position = run.path.position();
+        stage.own.axes.path.iter().enumerate().any(|(place, &axis)| {
+            let is_positioned = run.positionings.iter().any(|positioning| positioning.axis == axis);
+            let away = (self.axes[axis].setpoint.position.increments() as f64 - position[place]).abs();
+            !is_positioned && away > ON_PATH
+        })
+    }
+
+    /// A straight line from where the axes stand to the path; `None` while one of them still moves.
+    fn way_back(&self, run: &Run, stage: &Stage<'_>) -> Option<Path> {
+        let axes = &stage.own.axes;
+        if !axes.path.iter().all(|axis| self.axes[*axis].setpoint.is_at_rest()) {
+            return None;
+        }
+        let from = on_path(&axes.path, |axis| self.axes[axis].setpoint.position);
+        let mut way = Path::new(from, run.limits);
+        let programmed = run.queue.front().and_then(|block| block.way).map_or(Feed::Rapid, |block| block.feed);
+        let feed = match stage.own.approach_feed {
+            feed if feed > 0.0 => Feed::Programmed(feed * Position::PER_USER_UNIT / 60.0),
+            _ => programmed,
+        };
+        let line = Way::line(from, run.path.position(), axes.counted);
+        let block = PathBlock { number: 0, way: line, feed, exact_stop: false };
+        way.append(block, stage.parameters.cycle.seconds()).ok()?;
+        Some(way)
+    }
+
+    /// Leads the axes that move, and brings those to rest that moved in the last cycle.
+    fn lead(&mut self, run: &Run, (before, now): (PerPathAxis, PerPathAxis), stage: &Stage<'_>) {
+        let cycle = stage.parameters.cycle.seconds();
+        for (place, &axis) in stage.own.axes.path.iter().enumerate() {
+            if run.positionings.iter().any(|positioning| positioning.axis == axis) || run.referencing.contains(axis) {
+                continue;
+            }
+            let setpoint = &self.axes[axis].setpoint;
+            #[expect(clippy::cast_possible_truncation, reason = "a position of an axis fits")]
+            let position = Position::new(now[place].round() as i64);
+            let velocity = (now[place] - before[place]) / cycle;
+            if velocity != 0.0 || !setpoint.is_still() && (setpoint.position - position).increments().abs() <= 1 {
+                self.led[axis] = Some(Led::Path { position, velocity });
+            } else if self.axes[axis].travel != Travel::None {
+                self.led[axis] = Some(Led::Rest);
+            }
+        }
+    }
+
+    fn show_travels(&mut self, run: &Run, direction: &PerPathAxis, moves: bool, held: Held, stage: &Stage<'_>) {
+        for (place, &axis) in stage.own.axes.path.iter().enumerate() {
+            if run.positionings.iter().any(|positioning| positioning.axis == axis) || run.referencing.contains(axis) {
+                continue;
+            }
+            let sign = if direction[place] > 1e-12 {
+                1
+            } else if direction[place] < -1e-12 {
+                -1
+            } else {
+                0
+            };
+            let travel = match held {
+                Held::Stopped if !moves => Travel::None,
+                _ if moves => Travel::moving(sign),
+                Held::Stopped | Held::By(..) | Held::No => Travel::waiting(sign),
+            };
+            self.show_travel(axis, travel, held, run, stage);
+        }
+    }
+
+    fn end_travels(&mut self, run: &Run, held: Held, stage: &Stage<'_>, only: Option<AxisNumber>) {
+        for &axis in &stage.own.axes.path {
+            if only.is_none_or(|only| only == axis) && !run.referencing.contains(axis) {
+                self.show_travel(axis, Travel::None, held, run, stage);
+            }
+        }
+    }
+
+    /// The travel of an axis by a program, with the event behind a change.
+    fn show_travel(&mut self, axis: AxisNumber, travel: Travel, held: Held, run: &Run, stage: &Stage<'_>) {
+        let before = self.axes[axis].travel;
+        if before == travel {
+            return;
+        }
+        let place = Place::Axis(axis);
+        let cause = match (held, travel) {
+            (Held::Stopped, _) => {
+                let program = &self.programs[stage.channel];
+                let cause = run.resetting.or(run.stopping).unwrap_or(program.cause);
+                self.log.now(place, cause, Rule::ProgramStopped, [Input::None; 3])
+            }
+            (Held::By(rule, input), Travel::Waiting(_)) => {
+                self.log.now(place, run.block_cause, rule, [input, Input::None, Input::None])
+            }
+            _ => {
+                let name = run.queue.front().map(|block| block.origin.name.as_str()).unwrap_or_default();
+                let input = Input::Block(super::state::block_name(name));
+                let rule = if travel == Travel::None { Rule::BlockMotionEnds } else { Rule::BlockMoves };
+                self.log.now(place, run.block_cause, rule, [input, Input::None, Input::None])
+            }
+        };
+        self.travel(axis, travel, cause);
+    }
+
+    fn step_positionings(&mut self, run: &mut Run, held: Held, stage: &Stage<'_>) {
+        let mut index = 0;
+        while let Some(&Positioning { axis, target, velocity, .. }) = run.positionings.get(index) {
+            let signals = &stage.to_nck.axes[axis];
+            let state = &self.axes[axis];
+            let unit = self.unit_of(axis);
+            let arrived = state.setpoint.position == target && state.setpoint.is_at_rest();
+            let in_position = state.deviation().abs() <= state.active_set(&stage.parameters.axes[axis]).exact_stop_fine;
+            if arrived && in_position {
+                run.positionings.remove(index);
+                self.show_travel(axis, Travel::None, Held::No, run, stage);
+                continue;
+            }
+            index += 1;
+            let factor = stage.parameters.axis_override(signals.feed_override(), signals.override_active());
+            let on = |unit: &Unit| unit.members().all(|member| self.axes[member].enabling.is_on());
+            let stopper = |unit: &Unit| unit.members().find(|member| stage.to_nck.axes[*member].feed_stop());
+            let feed_disable = stage.to_nck.channels[stage.channel].feed_disable();
+            let held = if held == Held::Stopped {
+                held
+            } else if feed_disable {
+                let input = channel_signal(stage.channel, channel_to_nck::feed_disable, true);
+                Held::By(Rule::HeldByFeedStop, input)
+            } else if let Some(stopper) = unit.as_ref().and_then(stopper) {
+                Held::By(Rule::HeldByFeedStop, axis_signal(stopper, axis_to_nck::feed_stop, true))
+            } else if !unit.as_ref().is_some_and(on) {
+                let control = crate::image::axis_from_nck::position_controller_active;
+                Held::By(Rule::MotionBlocked, axis_signal(axis, control, false))
+            } else if factor <= 0.0 {
+                Held::By(Rule::HeldByOverride, self.axes[axis].override_input(axis))
+            } else {
+                Held::No
+            };
+            let velocity = if held == Held::No { velocity * factor } else { 0.0 };
+            let velocity = velocity.min(stage.parameters.axes[axis].maximum_velocity);
+            self.led[axis] = Some(Led::Target { target, velocity });
+            let sign = i8::try_from((target - self.axes[axis].setpoint.position).increments().signum()).unwrap_or(0);
+            let rests = self.axes[axis].setpoint.is_at_rest();
+            let travel = match held {
+                Held::Stopped if rests => Travel::None,
+                Held::No => Travel::moving(sign),
+                Held::Stopped | Held::By(..) => Travel::waiting(sign),
+            };
+            self.show_travel(axis, travel, held, run, stage);
+        }
+    }
+
+    /// Whether all axes of a program have come to rest.
+    pub(in crate::sinumerik) fn program_rests(&self, run: &Run, stage: &Stage<'_>) -> bool {
+        let path = run.returning.as_ref().unwrap_or(&run.path);
+        path.velocity() <= 0.0 && stage.own.axes.path.iter().all(|axis| self.axes[*axis].setpoint.is_at_rest())
+    }
+
+    /// A unit that a program leads in this cycle takes its movement over. Returns whether one does.
+    pub(in crate::sinumerik) fn follow_program(&mut self, unit: &Unit, parameters: &Parameters) -> bool {
+        let leader = unit.leader();
+        let Some(led) = self.led[leader].take() else { return false };
+        self.axes[leader].motion = match led {
+            Led::Rest => return true,
+            Led::Path { position, velocity } => crate::motion::Motion::Interpolated { position, velocity },
+            Led::Target { target, velocity } => {
+                let acceleration = parameters.axes[leader].maximum_acceleration;
+                crate::motion::Motion::GoTo { target, velocity, acceleration }
+            }
+        };
+        true
+    }
+
+    /// The axes that programs lead or have led: they decide in each cycle.
+    pub(in crate::sinumerik) fn program_axes(&self, parameters: &Parameters) -> crate::units::AxisSet {
+        let mut axes = crate::units::AxisSet::NONE;
+        for (channel, _) in parameters.existing_channels() {
+            let program = &self.programs[channel];
+            let Some(own) = parameters.programs[channel].as_deref() else { continue };
+            let moves =
+                |axis: &AxisNumber| self.axes[*axis].travel != Travel::None || !self.axes[*axis].setpoint.is_still();
+            if let Some(run) = program.run.as_deref() {
+                let runs = matches!(program.state, ProgramState::Running | ProgramState::Waiting);
+                let active = |axis: &AxisNumber| {
+                    runs && !run.path.is_empty() || moves(axis) || run.positionings.iter().any(|one| one.axis == *axis)
+                };
+                axes = axes.with(own.axes.path.iter().copied().filter(active).collect());
+                axes = axes.with(run.referencing);
+            }
+        }
+        axes
+    }
+}

@@ -1,0 +1,515 @@
+//! Preparation: reads blocks ahead of the movement, and turns each into what is executed.
+
+use crate::control::{Owner, Value};
+use crate::image::ToNck;
+use crate::motion::path::{Feed, PathBlock, PerPathAxis, Way};
+use crate::nc_program::{
+    Action, AuxiliaryFunction, AuxiliaryKind, AxisIndex, AxisWord, Block, End, Prepared, ProgramAlarm,
+};
+use crate::sinumerik::alarms::programs as alarms;
+use crate::sinumerik::axis::limits::selected_limit;
+use crate::sinumerik::axis::state::Axis;
+use crate::sinumerik::machine_data::Target;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::programs::{OutputTime, ProgramParameters};
+use crate::sinumerik::program::auxiliary::{Entry, Package};
+use crate::sinumerik::program::environment::Channel;
+use crate::sinumerik::program::geometry::{self, BadCircle};
+use crate::sinumerik::program::positioning::Positioning;
+use crate::sinumerik::program::state::{
+    BlockAlarm, Criterion, Executable, Preparation, ProgrammedStop, Run, block_name, on_path,
+};
+use crate::units::{AxisNumber, PerAxis, Position, Time};
+use crate::variables::{AlarmNumber, Parameter, short_text};
+
+/// The blocks that are prepared ahead.
+const AHEAD: usize = 80;
+
+/// Blocks that only calculate in one call of the preparation.
+const CALCULATIONS: usize = 100;
+
+/// A function of the control that OpenNCK does not have.
+const NOT_ACTIVE: AlarmNumber = AlarmNumber(12553);
+/// A spindle that the channel does not have.
+const NO_SPINDLE: AlarmNumber = AlarmNumber(16100);
+
+/// What the preparation of a block reads.
+pub(in crate::sinumerik) struct Preparing<'a> {
+    pub parameters: &'a Parameters,
+    pub own: &'a ProgramParameters,
+    pub axes: &'a PerAxis<Axis>,
+    pub to_nck: &'a ToNck,
+    /// DB21.DBX0.4 with type 2 (SBL2): calculation blocks are blocks.
+    pub stops_after_calculations: bool,
+}
+
+impl Run {
+    /// Reads blocks until the buffer is full, or the next one waits, ends or fails.
+    pub(in crate::sinumerik) fn prepare(&mut self, preparing: &Preparing<'_>, channel: &mut Channel<'_>) {
+        let mut calculations = 0;
+        while self.queue.len() < AHEAD && !self.pauses {
+            if matches!(self.preparation, Preparation::Failed { .. }) {
+                return;
+            }
+            if let Some(block) = self.again.pop_front() {
+                self.take_block(block, preparing, channel);
+                continue;
+            }
+            match &self.preparation {
+                Preparation::Reads => {}
+                Preparation::Waits if self.is_executed() => self.preparation = Preparation::Reads,
+                Preparation::Waits | Preparation::Ended | Preparation::Failed { .. } => return,
+            }
+            if self.is_executed() {
+                // Something else may have moved the axes.
+                self.end = on_path(&preparing.own.axes.path, |axis| preparing.axes[axis].setpoint.position);
+            }
+            channel.take_run(self);
+            let written = channel.written.len();
+            let prepared = self.interpreter.step(channel);
+            // Written data act on the next block: they become effective at the end of the stage.
+            self.pauses |= channel.written.len() > written;
+            match prepared {
+                Ok(Prepared::Block(block)) => self.take_block(block, preparing, channel),
+                Ok(Prepared::Calculated(origin)) if preparing.stops_after_calculations => {
+                    let modal = self.interpreter.modal();
+                    self.queue.push_back(Executable { is_executable: true, ..Executable::new(origin, modal) });
+                }
+                Ok(Prepared::Calculated(_)) => {
+                    // An endless calculation does not hold the channel: it goes on in the next cycle.
+                    calculations += 1;
+                    self.pauses |= calculations >= CALCULATIONS;
+                }
+                Ok(Prepared::Waits(_)) => self.preparation = Preparation::Waits,
+                Ok(Prepared::Ended) => self.preparation = Preparation::Ended,
+                Err(alarm) => self.fail(&alarm),
+            }
+        }
+    }
+
+    fn fail(&mut self, alarm: &ProgramAlarm) {
+        self.preparation = Preparation::Failed { alarm: BlockAlarm::of(alarm), block: None };
+    }
+
+    /// A correctable alarm was cancelled: its block is read again.
+    pub(in crate::sinumerik) fn read_again(&mut self) {
+        if let Preparation::Failed { block, .. } = &mut self.preparation {
+            if let Some(block) = block.take() {
+                self.again.push_front(block);
+            }
+            self.preparation = Preparation::Reads;
+        }
+    }
+
+    /// The blocks behind the first one are prepared again, from where its axes are now.
+    pub(in crate::sinumerik) fn reorganise(&mut self, position: PerPathAxis) {
+        self.read_again();
+        while self.queue.len() > 1 {
+            if let Some(block) = self.queue.pop_back().and_then(|one| one.block) {
+                self.again.push_front(block);
+            }
+        }
+        self.end = position;
+    }
+
+    fn take_block(&mut self, block: Box<Block>, preparing: &Preparing<'_>, channel: &mut Channel<'_>) {
+        let mut end = self.end;
+        match preparing.executable(&block, self, &mut end, channel) {
+            Ok(executable) => {
+                self.end = end;
+                self.queue.push_back(Executable { block: Some(block), ..executable });
+            }
+            Err(alarm) => {
+                // What is prepared again behind it stays for later.
+                self.preparation = Preparation::Failed { alarm, block: Some(block) };
+            }
+        }
+    }
+}
+
+impl Executable {
+    pub(in crate::sinumerik) fn new(origin: crate::nc_program::Origin, modal: crate::nc_program::Modal) -> Self {
+        Self {
+            origin,
+            modal,
+            way: None,
+            criterion: Criterion::Fine,
+            dwell: 0,
+            positions: Vec::new(),
+            references: Vec::new(),
+            actions: Vec::new(),
+            outputs: Default::default(),
+            stop: ProgrammedStop::None,
+            end: None,
+            is_executable: false,
+            block: None,
+        }
+    }
+}
+
+impl Preparing<'_> {
+    fn executable(
+        &self,
+        block: &Block,
+        run: &mut Run,
+        end: &mut PerPathAxis,
+        channel: &mut Channel<'_>,
+    ) -> Result<Executable, BlockAlarm> {
+        let mut done = Executable::new(block.origin.clone(), block.modal);
+        done.is_executable = block.is_executable();
+        done.end = block.end;
+        done.criterion = match block.modal.index(12) {
+            2 => Criterion::Coarse,
+            3 => Criterion::Interpolation,
+            _ => Criterion::Fine,
+        };
+        if block.modal.index(15) == 3 && !block.axes.is_empty() {
+            return Err(alarm(block, NOT_ACTIVE, Parameter::Text(short_text("G95"))));
+        }
+        self.take_actions(block, run, end, &mut done, channel)?;
+        let start = *end;
+        for word in &block.axes {
+            let (axis, place) = self.path_axis(block, word.axis)?;
+            end[place] = self.target(block, word, axis, start[place], channel);
+        }
+        let turns = matches!(block.modal.index(1), 3 | 4) && (!block.axes.is_empty() || !block.circle.is_empty());
+        let way = if turns {
+            let offset = |place: usize| self.offset(block, self.own.axes.path[place], channel);
+            let way = geometry::arc(block, self.own, start, *end, offset).map_err(|bad| bad_circle(block, bad))?;
+            *end = way.end();
+            Some(way)
+        } else if block.axes.is_empty() {
+            None
+        } else {
+            Some(Way::line(start, *end, self.own.axes.counted))
+        };
+        if let Some(way) = &way {
+            self.check_limits(block, way, &start, end)?;
+        }
+        self.take_outputs(block, way.is_some_and(|way| way.length() >= 0.5), &mut done);
+        let exact_stop = geometry::is_exact_stop(block) || !done.outputs[2].is_empty();
+        if let Some(way) = way.filter(|way| way.length() >= 0.5) {
+            run.numbers += 1;
+            let feed = self.feed(block);
+            done.way = Some(PathBlock { number: run.numbers, way, feed, exact_stop });
+        }
+        Ok(done)
+    }
+
+    fn feed(&self, block: &Block) -> Feed {
+        let feed = block.feed.map(|feed| geometry::feed(feed, block, self.parameters.is_inch));
+        match feed {
+            Some(feed) if !geometry::is_rapid(block) => Feed::Programmed(feed),
+            Some(_) | None => Feed::Rapid,
+        }
+    }
+
+    /// The machine axis of a name, which must be one of the path.
+    fn path_axis(&self, block: &Block, name: AxisIndex) -> Result<(AxisNumber, usize), BlockAlarm> {
+        let axes = &self.own.axes;
+        let axis = axes.machine_axes.get(usize::from(name.0)).copied();
+        let found = axis.and_then(|axis| Some((axis, axes.place(axis)?)));
+        // A synchronous axis moves only with its leading axis (O-06, E-15).
+        found.ok_or_else(|| alarm(block, alarms::WRONG_AXIS_TYPE, self.name(name)))
+    }
+
+    fn name(&self, name: AxisIndex) -> Parameter {
+        Parameter::Text(short_text(self.own.axes.names.name(name)))
+    }
+
+    /// The settable and the programmable offset of an axis.
+    fn offset(&self, block: &Block, axis: AxisNumber, channel: &Channel<'_>) -> f64 {
+        if geometry::suppresses_offsets(block) {
+            return 0.0;
+        }
+        let settable = geometry::active_offset(block)
+            .map_or(0.0, |index| channel.program.settable_offset(index, axis).increments() as f64);
+        settable + geometry::programmable_offset(block, &self.own.axes, axis, self.parameters.axes[axis].rotary)
+    }
+
+    fn target(&self, block: &Block, word: &AxisWord, axis: AxisNumber, from: f64, channel: &Channel<'_>) -> f64 {
+        let parameters = &self.parameters.axes[axis];
+        let value = geometry::length(word.value, block, parameters.rotary);
+        geometry::target(value, word.dimension, from, self.offset(block, axis, channel), parameters.modulo)
+    }
+
+    /// 10720, 10722, 10730: the end, and the farthest points of an arc.
+    fn check_limits(&self, block: &Block, way: &Way, start: &PerPathAxis, end: &PerPathAxis) -> Result<(), BlockAlarm> {
+        for (place, &axis) in self.own.axes.path.iter().enumerate() {
+            let (lowest, highest) = way.bounds(place);
+            let moves = highest - lowest >= 0.5 || (end[place] - start[place]).abs() >= 0.5;
+            if !moves || !self.axes[axis].is_referenced() {
+                continue;
+            }
+            let parameters = &self.parameters.axes[axis];
+            for (direction, extreme, at_end) in [(-1, lowest, end[place]), (1, highest, end[place])] {
+                let beyond = |limit: Position, position: f64| {
+                    (position - limit.increments() as f64) * f64::from(direction) > 0.5
+                };
+                let side = usize::from(direction > 0);
+                let said = [Parameter::Axis(axis), block_parameter(block), Parameter::Direction(direction)];
+                let limit = selected_limit(&self.to_nck.axes[axis], parameters, direction);
+                let software = limit.filter(|limit| beyond(*limit, extreme));
+                if let Some(limit) = software {
+                    let number =
+                        if beyond(limit, at_end) { alarms::BEHIND_SOFTWARE_LIMIT } else { alarms::PATH_BEHIND_LIMIT };
+                    return Err(BlockAlarm { number, parameters: said, block: block_name(&block.origin.name) });
+                }
+                let area = parameters.working_area[side].filter(|_| block.modal.index(28) == 1);
+                if area.is_some_and(|limit| beyond(limit, extreme)) {
+                    let number = alarms::OUTSIDE_WORKING_AREA;
+                    return Err(BlockAlarm { number, parameters: said, block: block_name(&block.origin.name) });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn take_actions(
+        &self,
+        block: &Block,
+        run: &mut Run,
+        end: &mut PerPathAxis,
+        done: &mut Executable,
+        channel: &mut Channel<'_>,
+    ) -> Result<(), BlockAlarm> {
+        for action in &block.actions {
+            match action {
+                Action::DwellSeconds(seconds) => {
+                    done.dwell = Time::from_seconds(*seconds).in_cycles(self.parameters.cycle).max(1);
+                }
+                Action::AxisFeed(name, feed) => {
+                    let (axis, _) = self.path_axis(block, *name)?;
+                    run.axis_feeds.retain(|(of, _)| *of != axis);
+                    run.axis_feeds.push((axis, *feed));
+                }
+                Action::Reference(names) => {
+                    for name in names {
+                        let axis = self
+                            .path_axis(block, *name)
+                            .map_err(|_| alarm(block, alarms::REFERENCING_COUPLED, self.name(*name)))?;
+                        done.references.push(axis.0);
+                    }
+                }
+                Action::Message(_) | Action::CycleAlarm { .. } | Action::NewConfiguration => {
+                    done.actions.push(action.clone());
+                }
+                Action::Preset(axes) => {
+                    for (name, _) in axes {
+                        self.path_axis(block, *name)?;
+                    }
+                    done.actions.push(action.clone());
+                }
+                Action::Coupling { is_on, following, leading, .. } => {
+                    return Err(self.coupling(block, *is_on, *following, *leading));
+                }
+                Action::Limit { is_upper, axes, spindles } => {
+                    if !spindles.is_empty() {
+                        return Err(alarm(block, NO_SPINDLE, Parameter::Text(short_text("1"))));
+                    }
+                    for (name, value) in axes {
+                        let (axis, _) = self.path_axis(block, *name)?;
+                        let rotary = self.parameters.axes[axis].rotary;
+                        let limit = geometry::length(*value, block, rotary);
+                        self.set_working_area(axis, *is_upper, limit, channel);
+                    }
+                    // The limits act on the next block.
+                    run.pauses = true;
+                }
+                Action::Position { .. } => {}
+                Action::WaitForPosition(names) => {
+                    for name in names {
+                        self.path_axis(block, *name)?;
+                    }
+                    done.actions.push(action.clone());
+                }
+                Action::DwellRevolutions { .. } | Action::SpindlePosition { .. } | Action::WaitForSpindle(_) => {
+                    return Err(alarm(block, NO_SPINDLE, Parameter::Text(short_text("1"))));
+                }
+                Action::Acceleration(..)
+                | Action::Override(_)
+                | Action::Release(_)
+                | Action::Get { .. }
+                | Action::SetMarks(_)
+                | Action::ClearMarks(_)
+                | Action::WaitMark { .. }
+                | Action::Initialise { .. }
+                | Action::Start(_)
+                | Action::WaitEnd(_)
+                | Action::Synchronised(_)
+                | Action::Cancel(_) => {
+                    return Err(alarm(block, NOT_ACTIVE, Parameter::Text(short_text(block.origin.text.trim()))));
+                }
+            }
+        }
+        // After the feeds of the same block, in whatever order they are written.
+        for action in &block.actions {
+            let Action::Position { target, waits } = action else { continue };
+            let (axis, place) = self.path_axis(block, target.axis)?;
+            let programmed = run.axis_feeds.iter().find(|(of, _)| *of == axis).map(|(_, feed)| *feed);
+            let rotary = self.parameters.axes[axis].rotary;
+            let velocity = match programmed {
+                Some(feed) => feed * Position::PER_USER_UNIT / 60.0 * if rotary { 360.0 } else { 1.0 },
+                None => self.parameters.axes[axis].positioning_velocity,
+            };
+            if velocity <= 0.0 {
+                let parameters = [Parameter::Axis(axis), block_parameter(block), Parameter::None];
+                let number = alarms::NO_POSITIONING_VELOCITY;
+                return Err(BlockAlarm { number, parameters, block: block_name(&block.origin.name) });
+            }
+            let start = *end;
+            end[place] = self.target(block, target, axis, start[place], channel);
+            let way = Way::line(start, *end, self.own.axes.counted);
+            self.check_limits(block, &way, &start, end)?;
+            #[expect(clippy::cast_possible_truncation, reason = "a position fits")]
+            let target = Position::new(end[place].round() as i64);
+            let velocity = velocity.min(self.parameters.axes[axis].maximum_velocity);
+            done.positions.push(Positioning { axis, target, velocity, waits: *waits });
+        }
+        Ok(())
+    }
+
+    /// G25, G26: SD43430 and SD43420, in the basic system.
+    fn set_working_area(&self, axis: AxisNumber, is_upper: bool, limit: f64, channel: &mut Channel<'_>) {
+        let inches = self.parameters.is_inch && !self.parameters.axes[axis].rotary;
+        let value = limit / Position::PER_USER_UNIT / if inches { geometry::INCH } else { 1.0 };
+        let number = if is_upper { 43420 } else { 43430 };
+        if let Ok(target) = Target::new(number, Owner::Axis(axis), 0) {
+            channel.written.push((target, Value::Real(value)));
+        }
+    }
+
+    /// The gantry chapter forbids couplings with synchronous axes; others are not modelled.
+    fn coupling(&self, block: &Block, is_on: bool, following: AxisIndex, leading: Option<AxisIndex>) -> BlockAlarm {
+        let machine_axis = |name: AxisIndex| self.own.axes.machine_axes.get(usize::from(name.0)).copied();
+        let follows = |name: AxisIndex| machine_axis(name).filter(|axis| self.parameters.axes[*axis].gantry_follower);
+        if !is_on {
+            return alarm(block, alarms::NO_COUPLING, Parameter::None);
+        }
+        if let Some(axis) = follows(following) {
+            let groupings = &self.parameters.groupings.groupings;
+            let of_axis = groupings.iter().find(|grouping| grouping.coupling.members().any(|member| member == axis));
+            let leader = of_axis.map_or(Parameter::None, |grouping| Parameter::Axis(grouping.coupling.leader()));
+            let parameters = [block_parameter(block), self.name(following), leader];
+            return BlockAlarm { number: alarms::FOLLOWS_ALREADY, parameters, block: block_name(&block.origin.name) };
+        }
+        if machine_axis(following).is_none() {
+            return alarm(block, alarms::FOLLOWING_AXIS_MISSING, self.name(following));
+        }
+        if let Some(leading) = leading.filter(|name| follows(*name).is_some()) {
+            return alarm(block, alarms::WRONG_AXIS_TYPE, self.name(leading));
+        }
+        alarm(block, NOT_ACTIVE, Parameter::Text(short_text(block.origin.text.trim())))
+    }
+
+    /// Sorts the auxiliary functions by the time of their output, and finds programmed stops.
+    fn take_outputs(&self, block: &Block, moves: bool, done: &mut Executable) {
+        let mut entries = [const { Vec::<Entry>::new() }; 3];
+        let mut places = [0_u8; 7];
+        for function in &block.auxiliary {
+            let place = &mut places[order(function.kind)];
+            let entry = Entry {
+                kind: function.kind,
+                place: *place,
+                extension: function.extension.unwrap_or(0),
+                value: function.value,
+                is_quick: function.is_quick,
+            };
+            *place += 1;
+            let stop = self.programmed_stop(function);
+            if stop != ProgrammedStop::None {
+                done.stop = stop;
+            }
+            if function.kind == AuxiliaryKind::M
+                && block.end == Some(End::Subprogram)
+                && [2, 17, 30].iter().any(|number| is_number(function, *number))
+                && !self.own.outputs_end_of_subprogram
+            {
+                continue;
+            }
+            match self.output_time(function) {
+                OutputTime::Never => {}
+                // Without motion there is nothing to wait for: all of them together.
+                OutputTime::Before => entries[0].push(entry),
+                _ if !moves => entries[0].push(entry),
+                OutputTime::During => entries[1].push(entry),
+                OutputTime::End => entries[2].push(entry),
+            }
+        }
+        for (package, mut entries) in done.outputs.iter_mut().zip(entries) {
+            entries.sort_by_key(|entry| (order(entry.kind), entry.place));
+            // A block has at most ten auxiliary functions (14750).
+            *package = entries.into_iter().take(Package::new().capacity()).collect();
+        }
+    }
+
+    fn programmed_stop(&self, function: &AuxiliaryFunction) -> ProgrammedStop {
+        let [m0, m1] = self.own.associated_stops;
+        let is = |number: i32| is_number(function, number);
+        if function.kind != AuxiliaryKind::M || function.extension.unwrap_or(0) != 0 {
+            ProgrammedStop::None
+        } else if is(0) || is(m0) {
+            ProgrammedStop::Always
+        } else if is(1) || is(m1) {
+            ProgrammedStop::Optional
+        } else {
+            ProgrammedStop::None
+        }
+    }
+
+    /// nc_programs.md 1.5: what the kind and the group of an M function say.
+    fn output_time(&self, function: &AuxiliaryFunction) -> OutputTime {
+        match function.kind {
+            // S is predefined, and that has priority over the type (MD22210).
+            AuxiliaryKind::S => return OutputTime::During,
+            AuxiliaryKind::M => {}
+            kind => return self.own.output_time(kind),
+        }
+        let is = |numbers: &[i32]| numbers.iter().any(|number| is_number(function, *number));
+        let plain = function.extension.unwrap_or(0) == 0;
+        if plain && is(&[0, 1, 2, 17, 30]) || self.programmed_stop(function) != ProgrammedStop::None {
+            OutputTime::End
+        } else if is(&[3, 4, 5, 6, 19, 70, 40, 41, 42, 43, 44, 45]) {
+            OutputTime::Before
+        } else {
+            self.own.output_time(AuxiliaryKind::M)
+        }
+    }
+}
+
+/// Whether a function has this whole number.
+fn is_number(function: &AuxiliaryFunction, number: i32) -> bool {
+    (function.value - f64::from(number)).abs() < 0.5
+}
+
+/// M, S, T, D, DL, H, F: the order within a package.
+const fn order(kind: AuxiliaryKind) -> usize {
+    match kind {
+        AuxiliaryKind::M => 0,
+        AuxiliaryKind::S => 1,
+        AuxiliaryKind::T => 2,
+        AuxiliaryKind::D => 3,
+        AuxiliaryKind::SumOffset => 4,
+        AuxiliaryKind::H => 5,
+        AuxiliaryKind::F => 6,
+    }
+}
+
+/// `%2`: the block.
+fn block_parameter(block: &Block) -> Parameter {
+    Parameter::Text(short_text(&block.origin.name))
+}
+
+/// An alarm with `%2` the block and `%3` what is wrong.
+fn alarm(block: &Block, number: AlarmNumber, third: Parameter) -> BlockAlarm {
+    let parameters = [block_parameter(block), third, Parameter::None];
+    BlockAlarm { number, parameters, block: block_name(&block.origin.name) }
+}
+
+fn bad_circle(block: &Block, bad: BadCircle) -> BlockAlarm {
+    match bad {
+        BadCircle::EndPoint => alarm(block, alarms::CIRCLE_END, Parameter::None),
+        BadCircle::Radius => alarm(block, alarms::CIRCLE_RADIUS, Parameter::None),
+        BadCircle::NoPlane => alarm(block, AlarmNumber(12110), Parameter::None),
+    }
+}

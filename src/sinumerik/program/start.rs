@@ -1,0 +1,268 @@
+//! NC start and its refusals, stop, RESET, the end of a program, and what a change of the mode does to it (nc_programs.md 3.1 to 3.3).
+
+use crate::image::{ToNck, channel_from_nck, channel_to_nck, mode_group_from_nck};
+use crate::motion::path::{PATH_AXES, Path, PathLimits};
+use crate::nc_program::{Interpreter, Library};
+use crate::sinumerik::alarms::{Reaction, START_WITHOUT_REFERENCE, programs as alarms};
+use crate::sinumerik::inputs::{channel_signal, mode_group_signal};
+use crate::sinumerik::operation::state::Mode;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::programs::ProgramParameters;
+use crate::sinumerik::program::state::{Phase, Preparation, ProgramState, Run, on_path};
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
+use crate::units::{AxisSet, ChannelNumber, ModeGroupNumber};
+use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, short_text};
+
+use std::collections::VecDeque;
+
+/// What an alarm of NC start calls it.
+const NC_START: &str = "NC start";
+
+impl State {
+    /// NC start: the rising edge of DB21.DBX7.1, after it has cancelled alarms.
+    pub(in crate::sinumerik) fn start_program(
+        &mut self,
+        (channel, group): (ChannelNumber, ModeGroupNumber),
+        parameters: &Parameters,
+        library: &Library,
+        to_nck: &ToNck,
+    ) {
+        let Some(own) = parameters.programs[channel].as_deref() else { return };
+        let signals = &to_nck.channels[channel];
+        let mode = self.mode_groups[group].mode;
+        let place = Place::Channel(channel);
+        let pressed = channel_signal(channel, channel_to_nck::nc_start, true);
+        let stops = signals.nc_stop() || signals.nc_stop_at_block_limit() || signals.nc_stop_axes_plus_spindles();
+        if mode == Mode::Jog || signals.nc_start_disable() || stops {
+            return;
+        }
+        if !self.is_referenced(channel, parameters) {
+            let referenced = channel_from_nck::all_axes_requiring_reference_point_are_referenced;
+            let missing = channel_signal(channel, referenced, false);
+            let event = self.log.note(place, Rule::StartRefused, [pressed, missing, Input::None], EventId::NONE);
+            let shown = [Parameter::Channel(channel), Parameter::None, Parameter::None, Parameter::None];
+            self.alarms.raise(START_WITHOUT_REFERENCE, place, shown, event);
+            return;
+        }
+        let hindering = self.alarms.first_alarm(|of, alarm| {
+            alarm.reaction.has(Reaction::START_DISABLED) && parameters.concerns_channel(of, channel)
+        });
+        if let Some((number, _)) = hindering {
+            let inputs = [pressed, Input::Alarm(number.0), Input::None];
+            self.refuse_start(channel, alarms::ALARM_PENDING, Rule::StartHinderedByAlarm, inputs);
+            return;
+        }
+        if self.stop(channel, parameters).is_some() || !self.is_nc_ready() {
+            return;
+        }
+        let program = &self.programs[channel];
+        match program.state {
+            ProgramState::Running | ProgramState::Waiting => {
+                let running = channel_signal(channel, channel_from_nck::program_state_running, true);
+                let inputs = [pressed, running, Input::None];
+                self.refuse_start(channel, alarms::ALREADY_ACTIVE, Rule::StartAlreadyActive, inputs);
+            }
+            ProgramState::Stopped | ProgramState::Interrupted => {
+                if program.run.as_ref().is_some_and(|run| run.is_mda == (mode == Mode::Mda)) {
+                    self.go_on(channel, pressed);
+                }
+            }
+            ProgramState::Aborted => {
+                let selected = if mode == Mode::Mda { program.mda.clone() } else { program.selected.clone() };
+                match selected.filter(|path| library.program(path).is_some()) {
+                    Some(path) => self.begin_program((channel, mode), &path, own, parameters, pressed),
+                    None if mode == Mode::Mda => {}
+                    None => {
+                        let event = self.log.note_one(place, Rule::NoProgramSelected, pressed, EventId::NONE);
+                        let name = self.programs[channel].selected.as_deref().unwrap_or("");
+                        let name = Parameter::Text(short_text(name));
+                        let shown = [Parameter::Channel(channel), Parameter::None, name, Parameter::None];
+                        self.alarms.raise(alarms::NO_PROGRAM, place, shown, event);
+                    }
+                }
+            }
+        }
+    }
+
+    /// NC start has no effect: a message says why.
+    fn refuse_start(&mut self, channel: ChannelNumber, number: AlarmNumber, rule: Rule, inputs: [Input; 3]) {
+        let place = Place::Channel(channel);
+        let event = self.log.note(place, rule, inputs, EventId::NONE);
+        let action = Parameter::Text(short_text(NC_START));
+        let shown = [Parameter::Channel(channel), action, Parameter::None, Parameter::None];
+        self.alarms.raise(number, place, shown, event);
+    }
+
+    fn begin_program(
+        &mut self,
+        (channel, mode): (ChannelNumber, Mode),
+        path: &str,
+        own: &ProgramParameters,
+        parameters: &Parameters,
+        pressed: Input,
+    ) {
+        let automatic = mode_group_from_nck::active_mode_automatic;
+        let mda = mode_group_from_nck::active_mode_mdi;
+        let group = parameters.mode_group(channel);
+        let active = mode_group_signal(group, if mode == Mode::Mda { mda } else { automatic }, true);
+        let event = self.log.note(
+            Place::Channel(channel),
+            Rule::ProgramStarted,
+            [pressed, active, Input::None],
+            self.mode_groups[group].mode_cause,
+        );
+        let position = on_path(&own.axes.path, |axis| self.axes[axis].setpoint.position);
+        let limits = limits(own, parameters);
+        let feed = Some(own.default_feed).filter(|feed| *feed > 0.0);
+        let run = Run {
+            interpreter: Interpreter::new(path, own.modal, feed, mode == Mode::Mda),
+            is_mda: mode == Mode::Mda,
+            preparation: Preparation::Reads,
+            queue: VecDeque::new(),
+            on_path: 0,
+            phase: Phase::Between,
+            path: Path::new(position, limits),
+            limits,
+            returning: None,
+            end: position,
+            numbers: 0,
+            axis_feeds: Vec::new(),
+            positionings: Vec::new(),
+            dwell: 0,
+            block_cause: event,
+            stopping: None,
+            resetting: None,
+            delete_was: false,
+            deleting: false,
+            reads_again: false,
+            new_conf: false,
+            cycle_alarm: None,
+            pauses: false,
+            again: VecDeque::new(),
+            referencing: AxisSet::NONE,
+            referencing_started: AxisSet::NONE,
+        };
+        let program = &mut self.programs[channel];
+        program.run = Some(Box::new(run));
+        (program.state, program.cause) = (ProgramState::Running, event);
+        (program.ended, program.programmed_stop) = (false, false);
+        (program.modal, program.modal_cause) = (own.modal, event);
+    }
+
+    /// NC start of a program that is stopped or interrupted.
+    fn go_on(&mut self, channel: ChannelNumber, pressed: Input) {
+        let before = self.programs[channel].cause;
+        let event = self.log.note_one(Place::Channel(channel), Rule::ProgramGoesOn, pressed, before);
+        let program = &mut self.programs[channel];
+        (program.state, program.cause, program.programmed_stop) = (ProgramState::Running, event, false);
+        if let Some(run) = &mut program.run {
+            (run.stopping, run.reads_again) = (None, true);
+            run.referencing_started = AxisSet::NONE;
+        }
+    }
+
+    /// RESET of a channel: its program ends when its axes are at rest.
+    pub(in crate::sinumerik) fn reset_program(&mut self, channel: ChannelNumber, event: EventId) {
+        let program = &mut self.programs[channel];
+        if let Some(run) = &mut program.run {
+            run.resetting.get_or_insert(event);
+        }
+        // What is in DB21 already stays for its cycle.
+        program.output.drop_waiting();
+        program.message = None;
+    }
+
+    /// The program of a channel has ended, by its M2 or M30, by its last block, or by RESET.
+    pub(in crate::sinumerik) fn end_program(
+        &mut self,
+        channel: ChannelNumber,
+        own: &ProgramParameters,
+        event: EventId,
+        by_itself: bool,
+    ) {
+        let program = &mut self.programs[channel];
+        (program.state, program.cause) = (ProgramState::Aborted, event);
+        (program.ended, program.programmed_stop) = (by_itself, false);
+        (program.modal, program.modal_cause) = (own.modal, event);
+        program.message = None;
+    }
+
+    /// What outlasts power off: R parameters, the selected programs, settable offsets.
+    pub(in crate::sinumerik) fn keep_programs(&mut self, before: &Self) {
+        self.r_parameters.keep(&before.r_parameters);
+        for (channel, program) in self.programs.iter_mut() {
+            let old = &before.programs[channel];
+            program.selected.clone_from(&old.selected);
+            program.mda.clone_from(&old.mda);
+            program.offsets.clone_from(&old.offsets);
+        }
+    }
+
+    /// Whether something stops the program of a channel in this cycle: the event.
+    pub(in crate::sinumerik) fn program_stopper(
+        &mut self,
+        channel: ChannelNumber,
+        is_mda: bool,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> Option<EventId> {
+        let place = Place::Channel(channel);
+        let before = self.programs[channel].cause;
+        if let Some(stop) = self.stop(channel, parameters) {
+            let (rule, input) = stop.tested();
+            return Some(self.log.now(place, stop.cause(), rule, [input, Input::None, Input::None]));
+        }
+        let signals = &to_nck.channels[channel];
+        let pressed = [
+            (signals.nc_stop(), channel_to_nck::nc_stop),
+            (signals.nc_stop_axes_plus_spindles(), channel_to_nck::nc_stop_axes_plus_spindles),
+        ];
+        if let Some((_, signal)) = pressed.into_iter().find(|(is_pressed, _)| *is_pressed) {
+            let input = channel_signal(channel, signal, true);
+            return Some(self.log.note_one(place, Rule::NcStop, input, before));
+        }
+        let group = parameters.mode_group(channel);
+        let wanted = if is_mda { Mode::Mda } else { Mode::Automatic };
+        if self.mode_groups[group].mode != wanted {
+            let shown =
+                if is_mda { mode_group_from_nck::active_mode_mdi } else { mode_group_from_nck::active_mode_automatic };
+            let input = mode_group_signal(group, shown, false);
+            return Some(self.log.note_one(place, Rule::ModeLeft, input, self.mode_groups[group].mode_cause));
+        }
+        None
+    }
+
+    /// 35.3 while a stopped program waits in JOG, 35.2 in its own mode.
+    pub(in crate::sinumerik) fn show_interruption(&mut self, channel: ChannelNumber, parameters: &Parameters) {
+        let group = parameters.mode_group(channel);
+        let jog = self.mode_groups[group].mode == Mode::Jog;
+        let program = &self.programs[channel];
+        let state = match program.state {
+            ProgramState::Stopped if jog => ProgramState::Interrupted,
+            ProgramState::Interrupted if !jog => ProgramState::Stopped,
+            _ => return,
+        };
+        let input = mode_group_signal(group, mode_group_from_nck::active_mode_jog, jog);
+        let parent = self.mode_groups[group].mode_cause;
+        let event = self.log.note_one(Place::Channel(channel), Rule::InterruptionInJog, input, parent);
+        let program = &mut self.programs[channel];
+        (program.state, program.cause) = (state, event);
+    }
+}
+
+/// The limits of the path of a channel: those of its axes, and of the synchronous axes that they lead.
+fn limits(own: &ProgramParameters, parameters: &Parameters) -> PathLimits {
+    let mut limits = PathLimits {
+        velocity: [f64::INFINITY; PATH_AXES],
+        acceleration: [f64::INFINITY; PATH_AXES],
+        overload: [1.0; PATH_AXES],
+    };
+    for (place, axis) in own.axes.path.iter().enumerate() {
+        let axis = &parameters.axes[*axis];
+        limits.velocity[place] = axis.maximum_velocity;
+        limits.acceleration[place] = axis.maximum_acceleration;
+        limits.overload[place] = axis.overload;
+    }
+    limits
+}

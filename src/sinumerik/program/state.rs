@@ -1,0 +1,300 @@
+//! The state of a channel's program.
+
+use std::collections::VecDeque;
+
+use serde::{Deserialize, Serialize};
+
+use crate::motion::path::{PATH_AXES, Path, PathBlock, PathLimits, PerPathAxis};
+use crate::nc_program::{Action, Block, End, Interpreter, Modal, Origin, ProgramAlarm};
+use crate::sinumerik::parameters::programs::{OutputTime, ProgramParameters};
+use crate::sinumerik::program::auxiliary::{Output, Package};
+use crate::sinumerik::program::positioning::Positioning;
+use crate::units::{AxisNumber, AxisSet, Position};
+use crate::variables::{AlarmNumber, BlockName, EventId, Parameter};
+
+/// 35.0 to 35.4.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum ProgramState {
+    /// 35.4: no program runs.
+    #[default]
+    Aborted,
+    /// 35.0.
+    Running,
+    /// 35.1: it waits for another channel, or for an axis.
+    Waiting,
+    /// 35.2: by NC stop, a programmed stop, single block, or an alarm.
+    Stopped,
+    /// 35.3: stopped, and the mode group is in JOG.
+    Interrupted,
+}
+
+/// Where the stage "programs" wants an axis in this cycle. It is taken over and forgotten in the same cycle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum Led {
+    /// On the path.
+    Path { position: Position, velocity: f64 },
+    /// On its own way to a target, with increments per second.
+    Target { target: Position, velocity: f64 },
+    /// At rest, while the path waits.
+    Rest,
+}
+
+/// The program of a channel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct ChannelProgram {
+    /// The path of the main program that is selected.
+    pub selected: Option<String>,
+    /// The path of the blocks given to MDA.
+    pub mda: Option<String>,
+    pub state: ProgramState,
+    /// The event behind the state.
+    pub cause: EventId,
+    /// 33.5: M2 or M30 has ended a program, and none has started since.
+    pub ended: bool,
+    /// 32.5: stopped by M0 or M1.
+    pub programmed_stop: bool,
+    /// The modal G functions of the block that runs.
+    pub modal: Modal,
+    /// The event of the block change that set them.
+    pub modal_cause: EventId,
+    pub output: Output,
+    /// Settable offsets: index in G group 8, axis, value.
+    pub offsets: Vec<(u8, AxisNumber, Position)>,
+    pub message: Option<String>,
+    /// The program that runs or is stopped.
+    pub run: Option<Box<Run>>,
+}
+
+impl ChannelProgram {
+    pub(in crate::sinumerik) fn new(parameters: Option<&ProgramParameters>) -> Self {
+        Self {
+            selected: None,
+            mda: None,
+            state: ProgramState::Aborted,
+            cause: EventId::NONE,
+            ended: false,
+            programmed_stop: false,
+            modal: parameters.map_or_else(Modal::default, |parameters| parameters.modal),
+            modal_cause: EventId::NONE,
+            output: Output::default(),
+            offsets: Vec::new(),
+            message: None,
+            run: None,
+        }
+    }
+
+    /// The settable offset of an axis.
+    pub(in crate::sinumerik) fn settable_offset(&self, index: u8, axis: AxisNumber) -> Position {
+        let found = self.offsets.iter().find(|(of, member, _)| (*of, *member) == (index, axis));
+        found.map_or(Position::ZERO, |(.., value)| *value)
+    }
+
+    /// Sets the settable offset of an axis.
+    pub(in crate::sinumerik) fn set_settable_offset(&mut self, index: u8, axis: AxisNumber, value: Position) {
+        self.offsets.retain(|(of, member, _)| (*of, *member) != (index, axis));
+        if value != Position::ZERO {
+            self.offsets.push((index, axis, value));
+        }
+    }
+}
+
+/// What preparation does next.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum Preparation {
+    /// Reads on.
+    Reads,
+    /// Waits until everything has been executed.
+    Waits,
+    /// There are no more blocks.
+    Ended,
+    /// A block cannot be executed. `block` is prepared again after a correctable alarm of the channel.
+    Failed { alarm: BlockAlarm, block: Option<Box<Block>> },
+}
+
+/// The alarm of a block, raised when everything before the block has been executed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct BlockAlarm {
+    pub number: AlarmNumber,
+    /// `%2` to `%4`.
+    pub parameters: [Parameter; 3],
+    pub block: BlockName,
+}
+
+impl BlockAlarm {
+    pub(in crate::sinumerik) fn of(alarm: &ProgramAlarm) -> Self {
+        let text = |text: &str| {
+            if text.is_empty() { Parameter::None } else { Parameter::Text(crate::variables::short_text(text)) }
+        };
+        Self {
+            number: AlarmNumber(alarm.number),
+            parameters: [text(&alarm.block), text(&alarm.text), Parameter::None],
+            block: block_name(&alarm.block),
+        }
+    }
+}
+
+/// The name of a block as causes show it.
+pub(in crate::sinumerik) fn block_name(name: &str) -> BlockName {
+    let mut short = BlockName::new();
+    for letter in name.chars() {
+        if short.try_push(letter).is_err() {
+            break;
+        }
+    }
+    short
+}
+
+/// A block that is ready to be executed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Executable {
+    pub origin: Origin,
+    pub modal: Modal,
+    /// Its motion on the path.
+    pub way: Option<PathBlock>,
+    /// When its exact stop is reached.
+    pub criterion: Criterion,
+    /// G4 in cycles.
+    pub dwell: u64,
+    /// POS and POSA.
+    pub positions: Vec<Positioning>,
+    /// G74.
+    pub references: Vec<AxisNumber>,
+    /// What else it does, at its beginning.
+    pub actions: Vec<Action>,
+    /// Auxiliary functions before, during and at the end of the motion.
+    pub outputs: [Package; 3],
+    pub stop: ProgrammedStop,
+    pub end: Option<End>,
+    /// Single block type 1 stops after it.
+    pub is_executable: bool,
+    /// The block, to be prepared again if its axes begin elsewhere.
+    pub block: Option<Box<Block>>,
+}
+
+impl Executable {
+    pub(in crate::sinumerik) fn output(&self, time: OutputTime) -> Option<&Package> {
+        let index = match time {
+            OutputTime::Before => 0,
+            OutputTime::During => 1,
+            OutputTime::End => 2,
+            OutputTime::Never => return None,
+        };
+        Some(&self.outputs[index]).filter(|package| !package.is_empty())
+    }
+
+    pub(in crate::sinumerik) fn has_outputs(&self) -> bool {
+        self.outputs.iter().any(|package| !package.is_empty())
+    }
+
+    /// Whether it only moves the path, so that the path can pass into it without a stop.
+    pub(in crate::sinumerik) fn is_plain(&self) -> bool {
+        self.way.is_some()
+            && self.outputs[0].is_empty()
+            && self.dwell == 0
+            && self.positions.is_empty()
+            && self.references.is_empty()
+            && self.actions.is_empty()
+    }
+}
+
+/// G601, G602, G603.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum Criterion {
+    /// Exact stop fine.
+    Fine,
+    /// Exact stop coarse.
+    Coarse,
+    /// The end of interpolation.
+    Interpolation,
+}
+
+/// M0 and M1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum ProgrammedStop {
+    None,
+    Always,
+    /// If DB21.DBX0.5 = 1.
+    Optional,
+}
+
+/// What the block that runs does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum Phase {
+    /// No block runs: the next one begins if nothing holds it.
+    #[default]
+    Between,
+    /// Waits until the PLC has acknowledged what is output before the motion.
+    Before,
+    /// Moves, dwells, references.
+    Moving,
+    /// Waits until the PLC has acknowledged what is output during or after the motion.
+    After,
+}
+
+/// A program that runs or is stopped.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Run {
+    pub interpreter: Interpreter,
+    /// It runs the blocks of MDA.
+    pub is_mda: bool,
+    pub preparation: Preparation,
+    /// The blocks that are prepared. The first one runs, unless the phase is "between".
+    pub queue: VecDeque<Executable>,
+    /// How many of them are on the path.
+    pub on_path: usize,
+    pub phase: Phase,
+    pub path: Path,
+    /// The axes of the path.
+    pub limits: PathLimits,
+    /// The return to the path.
+    pub returning: Option<Path>,
+    /// Where the prepared blocks end, in machine coordinates.
+    pub end: PerPathAxis,
+    /// Numbers the blocks on the path.
+    pub numbers: u64,
+    /// The feeds of positioning axes (FA), in mm/min or rev/min.
+    pub axis_feeds: Vec<(AxisNumber, f64)>,
+    /// POS and POSA that move.
+    pub positionings: Vec<Positioning>,
+    /// Cycles left of G4.
+    pub dwell: u64,
+    /// The event with which the block that runs began.
+    pub block_cause: EventId,
+    /// The event that stops the program; it is stopped when its axes are at rest.
+    pub stopping: Option<EventId>,
+    /// The event of a RESET that ends the program when its axes are at rest.
+    pub resetting: Option<EventId>,
+    /// DB21.DBX6.2 in the last cycle.
+    pub delete_was: bool,
+    /// The rest of the block is dropped when the path is at rest.
+    pub deleting: bool,
+    /// NC start has cancelled the alarm of a block.
+    pub reads_again: bool,
+    /// NEWCONF makes stored machine data effective at the end of the stage.
+    pub new_conf: bool,
+    /// SETAL raises this alarm at the end of its block.
+    pub cycle_alarm: Option<BlockAlarm>,
+    /// Nothing more is prepared in this cycle.
+    pub pauses: bool,
+    /// Blocks that are prepared again, before any other.
+    pub again: VecDeque<Box<Block>>,
+    /// The axes of G74 in the block that runs, and those whose approach has begun.
+    pub referencing: AxisSet,
+    pub referencing_started: AxisSet,
+}
+
+impl Run {
+    /// Whether everything that was prepared has been executed.
+    pub(in crate::sinumerik) fn is_executed(&self) -> bool {
+        self.queue.is_empty() && self.phase == Phase::Between && self.path.is_empty() && self.positionings.is_empty()
+    }
+}
+
+/// The positions of path axes, in increments.
+pub(in crate::sinumerik) fn on_path(axes: &[AxisNumber], position: impl Fn(AxisNumber) -> Position) -> PerPathAxis {
+    let mut all = [0.0; PATH_AXES];
+    for (place, axis) in all.iter_mut().zip(axes) {
+        *place = position(*axis).increments() as f64;
+    }
+    all
+}

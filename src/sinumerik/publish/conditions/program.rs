@@ -1,0 +1,115 @@
+//! Conditions of the signals of a program: its state, the state of the channel, auxiliary functions.
+
+use crate::control::{Condition, Fact, Question};
+use crate::image::{ChannelAuxiliary, channel_auxiliary, channel_from_nck, channel_to_nck, mode_group_from_nck};
+use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::program::state::ProgramState;
+use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
+use crate::units::{AxisNumber, ChannelNumber};
+
+/// DB21.DBX32.5, 33.5, 35.0 to 35.7.
+pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
+    Row::new(channel_from_nck::m0_m1_active, |look, channel| {
+        let is_stopped = look.state.programs[channel].programmed_stop;
+        fact(format!("the program of {} is stopped by M0 or M1", look.channel_name(channel)), is_stopped).into()
+    }),
+    Row::new(channel_from_nck::m2_m30_active, |look, channel| {
+        let what = format!("a program of {} has ended, and none has started since", look.channel_name(channel));
+        fact(what, look.state.programs[channel].ended).into()
+    }),
+    Row::new(channel_from_nck::program_state_running, |look, owner| look.program(owner, ProgramState::Running)),
+    Row::new(channel_from_nck::program_state_wait, |look, owner| look.program(owner, ProgramState::Waiting)),
+    Row::new(channel_from_nck::program_state_stopped, |look, owner| look.program(owner, ProgramState::Stopped)),
+    Row::new(channel_from_nck::program_state_interrupted, |look, owner| look.program(owner, ProgramState::Interrupted)),
+    Row::new(channel_from_nck::program_state_aborted, |look, owner| look.program(owner, ProgramState::Aborted)),
+    Row::new(channel_from_nck::channel_state_active, |look, channel| {
+        let program = [ProgramState::Running, ProgramState::Waiting].map(|state| look.program(channel, state));
+        let moved = Condition::All(vec![
+            look.program(channel, ProgramState::Stopped).opposite(),
+            look.at_rest(channel).opposite(),
+        ]);
+        Condition::Any(program.into_iter().chain([moved]).collect())
+    }),
+    Row::new(channel_from_nck::channel_state_interrupted, |look, channel| {
+        let rests = Condition::All(vec![look.program(channel, ProgramState::Interrupted), look.at_rest(channel)]);
+        Condition::Any(vec![look.program(channel, ProgramState::Stopped), rests])
+    }),
+    Row::new(channel_from_nck::channel_state_reset, |look, channel| {
+        Condition::All(vec![look.program(channel, ProgramState::Aborted), look.at_rest(channel)])
+    }),
+];
+
+const fn word(state: ProgramState) -> &'static str {
+    match state {
+        ProgramState::Aborted => "aborted",
+        ProgramState::Running => "running",
+        ProgramState::Waiting => "waiting",
+        ProgramState::Stopped => "stopped",
+        ProgramState::Interrupted => "interrupted",
+    }
+}
+
+impl Look<'_> {
+    fn program(self, channel: ChannelNumber, wanted: ProgramState) -> Condition {
+        let found = self.state.programs[channel].state;
+        let what = format!("state of the program of {}", self.channel_name(channel));
+        let fact = Fact::new(what, word(found), word(wanted), found == wanted);
+        if wanted == ProgramState::Running { fact.after(|| self.program_starts(channel)) } else { fact.into() }
+    }
+
+    /// What NC start tests, in the order of `program/start.rs`.
+    fn program_starts(self, channel: ChannelNumber) -> Condition {
+        let asks = |signal, value| self.channel(channel, signal, value);
+        let group = self.parameters.mode_group(channel);
+        let modes = [mode_group_from_nck::active_mode_automatic, mode_group_from_nck::active_mode_mdi];
+        let program = &self.state.programs[channel];
+        let was = self.state.channels[channel].start_was;
+        let selected = match (program.state, &program.selected) {
+            (ProgramState::Aborted, None) => ("none".to_owned(), false),
+            (ProgramState::Aborted, Some(path)) => (path.clone(), true),
+            _ => (word(program.state).to_owned(), true),
+        };
+        Condition::All(vec![
+            Condition::Any(modes.map(|mode| self.mode_group(group, mode, true)).into()),
+            asks(channel_to_nck::nc_start_disable, false),
+            asks(channel_to_nck::nc_stop, false),
+            asks(channel_to_nck::nc_stop_at_block_limit, false),
+            asks(channel_to_nck::nc_stop_axes_plus_spindles, false),
+            asks(channel_from_nck::all_axes_requiring_reference_point_are_referenced, true),
+            self.no_alarm(format!("alarm that disables NC start of {}", self.channel_name(channel)), |place, alarm| {
+                alarm.reaction.has(Reaction::START_DISABLED) && self.parameters.concerns_channel(place, channel)
+            }),
+            self.not_stopped(channel),
+            Fact::new("selected program", selected.0, "one", selected.1).into(),
+            asks(channel_to_nck::nc_start, true),
+            Fact::new("NC start in the last cycle", u8::from(was).to_string(), "0", !was).into(),
+        ])
+    }
+
+    /// The bits of DB21.DBB58 to 206: what is output to the PLC now.
+    pub(super) fn auxiliary(self, channel: ChannelNumber, question: &Question<'_>) -> Option<Condition> {
+        let index = usize::from(question.byte.checked_sub(ChannelAuxiliary::FIRST)?);
+        if question.byte >= channel_auxiliary::active_g_function_of_group_1.byte {
+            return None;
+        }
+        let bytes = self.state.programs[channel].output.bytes();
+        let byte = bytes.and_then(|bytes| bytes.get(index)).copied().unwrap_or(0);
+        let is_set = byte >> question.bit & 1 == 1;
+        let what = format!("auxiliary functions of {} set this bit", self.channel_name(channel));
+        let found = if is_set { "yes" } else { "no" };
+        let wanted = if question.wanted { "yes" } else { "no" };
+        Some(Fact::new(what, found, wanted, is_set == question.wanted).into())
+    }
+
+    /// A block of a program moves the axis in a direction.
+    pub(super) fn moved_by_program(self, axis: AxisNumber, direction: i8) -> Condition {
+        let goes = self.state.axes[axis].travel.request();
+        let words = |direction: i8| match direction {
+            1 => "plus",
+            -1 => "minus",
+            _ => "none",
+        };
+        let what = format!("direction in which the program moves {}", self.axis_name(axis));
+        Fact::new(what, words(goes), words(direction), goes == direction).into()
+    }
+}
