@@ -17,6 +17,7 @@ mod plc_process;
 #[cfg(feature = "cli")]
 #[path = "../processes/mod.rs"]
 mod processes;
+mod programs;
 mod referencing;
 mod robustness;
 mod rules;

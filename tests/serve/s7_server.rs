@@ -523,7 +523,7 @@ fn a_collector_writes_machine_data_and_r_parameters_within_their_limits() {
     let (axis, first) = (live.with(|machine| machine.axis("X")).unwrap(), opennck::units::ChannelNumber::FIRST);
     live.with(|machine| {
         assert!((machine.control().downcast::<Nck>().unwrap().stored().axes[axis].max_ax_velo - 9000.0).abs() < 1e-9);
-        assert_eq!(machine.r_parameters().get(first, 5), Some(2.5));
+        assert_eq!(machine.r_parameter(first, 5), Some(2.5));
     });
 }
 

@@ -1,0 +1,262 @@
+//! Start, stop, single block, RESET, interruption: the program states 35.0 to 35.4 and the channel states 35.5 to 35.7.
+
+use super::{automatic, position, run, start};
+use opennck::scenario::Session;
+
+/// 35.0 running, 35.1 wait, 35.2 stopped, 35.3 interrupted, 35.4 aborted; 35.5 active, 35.6 interrupted, 35.7 reset: exactly one of each.
+fn states(session: &Session) -> (&'static str, &'static str) {
+    let shown = |names: &[&'static str], prefix: &str| {
+        let set: Vec<_> =
+            names.iter().filter(|name| session.value(&format!("CHAN1.{prefix}_{name}")).unwrap() == 1.0).collect();
+        assert_eq!(set.len(), 1, "{set:?}");
+        *set[0]
+    };
+    (
+        shown(&["running", "wait", "stopped", "interrupted", "aborted"], "program_state"),
+        shown(&["active", "interrupted", "reset"], "channel_state"),
+    )
+}
+
+#[test]
+fn a_program_runs_from_nc_start_to_m30() {
+    let mut session = automatic("G1 X10 F6000\nM30");
+    assert_eq!(states(&session), ("aborted", "reset"));
+    start(&mut session);
+    assert_eq!(states(&session), ("running", "active"));
+    session.wait("CHAN1.m2_m30_active", "5s").unwrap();
+    assert_eq!(states(&session), ("aborted", "reset"));
+    // 33.5 goes with the next start.
+    start(&mut session);
+    session.expect("!CHAN1.m2_m30_active && CHAN1.program_state_running").unwrap();
+}
+
+#[test]
+fn nc_stop_brakes_on_the_path_and_nc_start_goes_on() {
+    let mut session = automatic("G1 X30 Y40 F3000\nM30");
+    start(&mut session);
+    session.run("300ms").unwrap();
+    session.set("CHAN1.nc_stop", 1).unwrap();
+    session.run("200ms").unwrap();
+    assert_eq!(states(&session), ("stopped", "interrupted"));
+    session.expect("abs(X.velocity) < 10 && abs(Y.velocity) < 10 && X.position > 5").unwrap();
+    // On the line: 3 : 4.
+    let [x, y, _] = position(&session);
+    assert!((x / 3.0 - y / 4.0).abs() < 0.01, "{x} {y}");
+    // While 7.3 is 1, NC start has no effect.
+    start(&mut session);
+    session.run("20ms").unwrap();
+    assert_eq!(states(&session), ("stopped", "interrupted"));
+    session.set("CHAN1.nc_stop", 0).unwrap();
+    start(&mut session);
+    assert_eq!(states(&session), ("running", "active"));
+    session.wait("CHAN1.m2_m30_active", "5s").unwrap();
+    assert_eq!(position(&session), [30.0, 40.0, 0.0]);
+}
+
+#[test]
+fn nc_stop_at_the_block_limit_ends_the_block() {
+    let mut session = automatic("G64 G1 X10 F3000\nX20\nX30\nM30");
+    start(&mut session);
+    session.run("100ms").unwrap();
+    session.set("CHAN1.nc_stop_at_block_limit", 1).unwrap();
+    session.wait("CHAN1.program_state_stopped", "5s").unwrap();
+    assert_eq!(position(&session)[0], 10.0);
+    session.set("CHAN1.nc_stop_at_block_limit", 0).unwrap();
+    start(&mut session);
+    session.wait("CHAN1.m2_m30_active", "5s").unwrap();
+}
+
+#[test]
+fn reset_ends_the_program_when_the_axes_stand() {
+    let mut session = automatic("G1 X100 F6000\nM30");
+    start(&mut session);
+    session.run("500ms").unwrap();
+    session.set("CHAN1.channel_reset", 1).unwrap();
+    session.run("1cycles").unwrap();
+    // The axis brakes from 100 mm/s with 2 m/s²: 50 ms.
+    assert_eq!(states(&session), ("running", "active"));
+    session.run("100ms").unwrap();
+    assert_eq!(states(&session), ("aborted", "reset"));
+    session.expect("X.position < 60 && !CHAN1.m2_m30_active").unwrap();
+    session.set("CHAN1.channel_reset", 0).unwrap();
+    session.run("10ms").unwrap();
+    // It begins again at its first block.
+    start(&mut session);
+    session.wait("CHAN1.m2_m30_active", "10s").unwrap();
+    assert_eq!(position(&session)[0], 100.0);
+}
+
+#[test]
+fn single_block_stops_after_each_block_that_moves() {
+    let mut session = automatic("R1=5\nG1 X10 F6000\nR2=6\nX20\nM30");
+    session.set("CHAN1.activate_single_block", 1).unwrap();
+    start(&mut session);
+    session.wait("CHAN1.program_state_stopped", "5s").unwrap();
+    assert_eq!((position(&session)[0], states(&session)), (10.0, ("stopped", "interrupted")));
+    start(&mut session);
+    session.wait("CHAN1.program_state_stopped", "5s").unwrap();
+    assert_eq!(position(&session)[0], 20.0);
+    start(&mut session);
+    session.wait("CHAN1.m2_m30_active", "5s").unwrap();
+}
+
+#[test]
+fn m0_stops_always_and_m1_if_it_is_selected() {
+    let mut session = automatic("X1 F6000\nM0\nX2\nM1\nX3\nM1\nX4\nM30");
+    start(&mut session);
+    session.wait("CHAN1.m0_m1_active", "5s").unwrap();
+    assert_eq!((position(&session)[0], states(&session)), (1.0, ("stopped", "interrupted")));
+    session.set("CHAN1.activate_m01", 1).unwrap();
+    start(&mut session);
+    session.expect("!CHAN1.m0_m1_active").unwrap();
+    session.wait("CHAN1.m0_m1_active", "5s").unwrap();
+    assert_eq!(position(&session)[0], 2.0);
+    session.set("CHAN1.activate_m01", 0).unwrap();
+    start(&mut session);
+    session.wait("CHAN1.m2_m30_active", "5s").unwrap();
+    assert_eq!(position(&session)[0], 4.0);
+}
+
+#[test]
+fn read_in_disable_holds_the_block_change_and_the_states_stay() {
+    let mut session = automatic("G64 G1 X10 F3000\nX20\nM30");
+    start(&mut session);
+    session.run("50ms").unwrap();
+    session.set("CHAN1.read_in_disable", 1).unwrap();
+    session.run("2s").unwrap();
+    assert_eq!((position(&session)[0], states(&session)), (10.0, ("running", "active")));
+    session.set("CHAN1.read_in_disable", 0).unwrap();
+    session.wait("CHAN1.m2_m30_active", "5s").unwrap();
+}
+
+#[test]
+fn feed_disable_feed_stop_and_an_override_of_zero_hold_the_path_and_keep_the_traverse_command() {
+    for signal in ["CHAN1.feed_disable", "X.feed_stop"] {
+        let mut session = automatic("G1 X20 Y20 F3000\nM30");
+        start(&mut session);
+        session.run("100ms").unwrap();
+        session.set(signal, 1).unwrap();
+        session.run("200ms").unwrap();
+        session
+            .expect(
+                "abs(X.velocity) < 10 && abs(Y.velocity) < 10 && X.traverse_command_plus && X2.traverse_command_plus",
+            )
+            .unwrap();
+        assert_eq!(states(&session), ("running", "active"), "{signal}");
+        session.set(signal, 0).unwrap();
+        session.wait("CHAN1.m2_m30_active", "5s").unwrap();
+    }
+    let mut session = automatic("G1 X20 F3000\nM30");
+    session.set("CHAN1.feed_override_active", 1).unwrap();
+    session.set("CHAN1.feed_override", "50%").unwrap();
+    start(&mut session);
+    session.run("200ms").unwrap();
+    session.expect("abs(X.velocity - 1500) < 5").unwrap();
+    session.set("CHAN1.feed_override", "0%").unwrap();
+    session.run("200ms").unwrap();
+    session.expect("abs(X.velocity) < 10 && CHAN1.program_state_running").unwrap();
+}
+
+#[test]
+fn delete_distance_to_go_drops_the_rest_of_the_block() {
+    let mut session = automatic("G1 X100 F3000\nY5\nM30");
+    start(&mut session);
+    session.run("500ms").unwrap();
+    session.pulse_for("CHAN1.delete_distance_to_go", "5cycles").unwrap();
+    session.wait("CHAN1.m2_m30_active", "5s").unwrap();
+    let [x, y, _] = position(&session);
+    assert!((20.0..30.0).contains(&x) && y == 5.0, "{x} {y}");
+}
+
+#[test]
+fn skip_levels_leave_blocks_out() {
+    let mut session = automatic("X1 F6000\n/X2\n/1 X3\nM30");
+    session.set("CHAN1.skip_block_level_1", 1).unwrap();
+    start(&mut session);
+    session.wait("CHAN1.m2_m30_active", "5s").unwrap();
+    assert_eq!(position(&session)[0], 2.0);
+}
+
+#[test]
+fn the_dry_run_moves_with_its_own_feed() {
+    // SD42100 = 5000 is the greater one (SD42101 = 0).
+    let mut session = automatic("X50 F1000\nM30");
+    session.set("CHAN1.activate_dry_run_feedrate", 1).unwrap();
+    start(&mut session);
+    session.run("200ms").unwrap();
+    session.expect("abs(X.velocity - 5000) < 20").unwrap();
+}
+
+#[test]
+fn a_program_interrupted_in_jog_returns_to_its_path() {
+    let mut session = automatic("G1 X30 Y40 F3000\nM30");
+    start(&mut session);
+    session.run("300ms").unwrap();
+    session.pulse_for("CHAN1.nc_stop", "200ms").unwrap();
+    session.set("mode_group_1.mode_automatic", 0).unwrap();
+    session.set("mode_group_1.mode_jog", 1).unwrap();
+    session.run("10ms").unwrap();
+    assert_eq!(states(&session), ("interrupted", "interrupted"));
+    session.set("Y.traversing_key_minus", 1).unwrap();
+    session.run("100ms").unwrap();
+    // 35.5 while an axis is jogged.
+    assert_eq!(states(&session), ("interrupted", "active"));
+    session.set("Y.traversing_key_minus", 0).unwrap();
+    session.run("500ms").unwrap();
+    assert_eq!(states(&session), ("interrupted", "interrupted"));
+    let [x, y, _] = position(&session);
+    assert!(x / 3.0 - y / 4.0 > 0.3, "{x} {y}");
+    session.set("mode_group_1.mode_jog", 0).unwrap();
+    session.set("mode_group_1.mode_automatic", 1).unwrap();
+    session.run("10ms").unwrap();
+    start(&mut session);
+    session.wait("CHAN1.m2_m30_active", "5s").unwrap();
+    assert_eq!(position(&session), [30.0, 40.0, 0.0]);
+}
+
+#[test]
+fn a_change_to_jog_stops_a_program_that_runs() {
+    let mut session = automatic("G1 X100 F3000\nM30");
+    start(&mut session);
+    session.run("300ms").unwrap();
+    session.set("mode_group_1.mode_automatic", 0).unwrap();
+    session.set("mode_group_1.mode_jog", 1).unwrap();
+    session.run("200ms").unwrap();
+    assert_eq!(states(&session), ("interrupted", "interrupted"));
+    session.expect("abs(X.velocity) < 10").unwrap();
+}
+
+#[test]
+fn an_emergency_stop_stops_the_program_and_its_reset_ends_it() {
+    let mut session = automatic("G1 X100 Y50 F6000\nM30");
+    start(&mut session);
+    session.run("300ms").unwrap();
+    session.set("nck.emergency_stop", 1).unwrap();
+    session.run("1s").unwrap();
+    assert_eq!(states(&session), ("stopped", "interrupted"));
+    session.set("nck.emergency_stop", 0).unwrap();
+    session.set("nck.acknowledge_emergency_stop", 1).unwrap();
+    session.set("mode_group_1.mode_group_reset", 1).unwrap();
+    session.run("1s").unwrap();
+    assert_eq!(states(&session), ("aborted", "reset"));
+}
+
+#[test]
+fn blocks_of_mda_run_without_m30_and_run_again() {
+    let mut session = automatic("M30");
+    session.set("mode_group_1.mode_automatic", 0).unwrap();
+    session.set("mode_group_1.mode_mdi", 1).unwrap();
+    session.mdi("G91 G0 X5", 1).unwrap();
+    session.run("10ms").unwrap();
+    for wanted in [5.0, 10.0] {
+        start(&mut session);
+        session.wait("CHAN1.program_state_aborted", "5s").unwrap();
+        assert_eq!((position(&session)[0], states(&session)), (wanted, ("aborted", "reset")));
+    }
+}
+
+#[test]
+fn a_subprogram_repeats_and_a_jump_goes_back() {
+    let session = run("R1=0\nAGAIN:\nG91 G0 X1\nR1=R1+1\nIF R1<3 GOTOB AGAIN\nFOR R2=1 TO 4\nY2\nENDFOR\nM30");
+    assert_eq!(position(&session), [3.0, 8.0, 0.0]);
+}

@@ -1,0 +1,150 @@
+//! Blocks that cannot be executed, and starts that are refused.
+
+use super::{automatic, position, start};
+
+/// Everything before the bad block is executed, nothing of the block, and NC start reads it again.
+#[test]
+fn a_bad_block_stops_the_program_before_it() {
+    let mut session = automatic("N10 G1 X5 F6000\nN20 FOO=3\nM30");
+    start(&mut session);
+    session.wait("alarms() > 0", "5s").unwrap();
+    session.expect_all(&["alarm(12550)", "CHAN1.program_state_stopped", "CHAN1.channel_state_interrupted"]).unwrap();
+    assert_eq!(position(&session)[0], 5.0);
+    let text = session.text();
+    assert!(text.contains("N20") && text.contains("FOO"), "{text}");
+    // NC start cancels the alarm, reads the block again, and finds the same.
+    start(&mut session);
+    session.run("10ms").unwrap();
+    session.expect("alarm(12550) && CHAN1.program_state_stopped").unwrap();
+    session.pulse_for("CHAN1.channel_reset", "5cycles").unwrap();
+    session.run("10ms").unwrap();
+    session.expect("alarms() == 0 && CHAN1.program_state_aborted").unwrap();
+}
+
+#[test]
+fn a_bad_block_that_is_jumped_over_is_never_noticed() {
+    let session = super::run("GOTOF GOOD\nFOO=3\nGOOD: X1 F6000\nM30");
+    assert_eq!(position(&session)[0], 1.0);
+}
+
+#[test]
+fn each_error_has_its_alarm() {
+    for (nc, alarm) in [
+        ("G1 X1\nM30", 10860),
+        ("X1 F0\nM30", 14800),
+        ("G999\nM30", 12470),
+        ("R1=1/0\nM30", 14051),
+        ("L99\nM30", 14011),
+        ("GOTOF NOWHERE\nM30", 14080),
+        ("G2 X10 Y0 CR=2 F1000\nM30", 14095),
+        ("G2 X10 Y0 I1 J0 F1000\nM30", 14040),
+        ("X2=5 F1000\nM30", 14092),
+        ("POS[X2]=5\nM30", 14092),
+        ("G74 X2=0\nM30", 16794),
+        ("X1 F1000", 14000),
+        ("POS[Z]=1 FA[Z]=0\nM30", 10861),
+        ("R100=1\nM30", 17020),
+        ("SPOS=90\nM30", 16100),
+        ("G41 X1 F100\nM30", 12553),
+    ] {
+        let mut session = automatic(nc);
+        start(&mut session);
+        session.wait("alarms() > 0", "5s").unwrap();
+        assert_eq!(session.value(&format!("alarm({alarm})")).unwrap(), 1.0, "{nc}: {}", session.text());
+    }
+}
+
+/// 10720: the end is behind a software limit switch; only a referenced axis has one.
+#[test]
+fn a_target_behind_a_software_limit_is_refused_when_the_axis_is_referenced() {
+    let mut session = automatic("G0 Y50\nY150\nM30");
+    session.machine_data("36110[Y]", 100.0).unwrap();
+    session.new_conf().unwrap();
+    start(&mut session);
+    session.wait("CHAN1.m2_m30_active", "10s").unwrap();
+    assert_eq!(position(&session)[1], 150.0);
+}
+
+#[test]
+fn nc_start_without_a_program_is_refused() {
+    let mut session = automatic("M30");
+    session.run("10ms").unwrap();
+    let mut other = opennck::scenario::Session::open("machine_data/portal").unwrap();
+    other.set("mode_group_1.mode_automatic", 1).unwrap();
+    other.run("100ms").unwrap();
+    start(&mut other);
+    other.expect("alarm(14014)").unwrap();
+}
+
+#[test]
+fn nc_start_of_a_program_that_runs_is_refused() {
+    let mut session = automatic("X100 F1000\nM30");
+    start(&mut session);
+    session.run("50ms").unwrap();
+    start(&mut session);
+    session.expect("alarm(16920) && CHAN1.program_state_running").unwrap();
+}
+
+#[test]
+fn nc_start_with_an_alarm_that_disables_it_is_refused() {
+    // 14000 is cancelled by RESET only.
+    let mut session = automatic("X1 F6000");
+    start(&mut session);
+    session.wait("alarm(14000)", "5s").unwrap();
+    start(&mut session);
+    session.expect("alarm(16919)").unwrap();
+}
+
+/// MIS-03, MIS-11: a synchronous axis cannot be programmed, and its coupling cannot be changed by a program.
+#[test]
+fn a_program_cannot_couple_or_move_a_synchronous_axis() {
+    for (nc, alarm) in [
+        ("TRAILON(X2,Y,1)\nM30", 16779),
+        ("TRAILON(Y,X2,1)\nM30", 14092),
+        ("TRAILON(X2,X2,1)\nM30", 16785),
+        ("TRAILOF(X2,Y)\nM30", 16796),
+        ("TRAILON(Y,Z,1)\nM30", 12553),
+        ("PRESETON(X2,5)\nM30", 14092),
+        ("POSA[X2]=5\nM30", 14092),
+    ] {
+        let mut session = automatic(nc);
+        start(&mut session);
+        session.wait("alarms() > 0", "5s").unwrap();
+        assert_eq!(session.value(&format!("alarm({alarm})")).unwrap(), 1.0, "{nc}: {}", session.text());
+    }
+}
+
+#[test]
+fn cycle_alarms_stop_or_only_say_something() {
+    let mut session = automatic(
+        "SETAL(65000,\"A remark\")\nX1 F6000\nSETAL(62000,\"The tool is missing in place 7\")\nX2\nSETAL(61000)\nX3\nM30",
+    );
+    start(&mut session);
+    session.wait("alarm(62000)", "5s").unwrap();
+    session.expect("alarm(65000) && CHAN1.program_state_stopped").unwrap();
+    assert_eq!(position(&session)[0], 1.0);
+    assert!(session.text().contains("The tool is missing in place 7"), "{}", session.text());
+    start(&mut session);
+    session.wait("alarm(61000)", "5s").unwrap();
+    session.expect("!alarm(62000)").unwrap();
+    assert_eq!(position(&session)[0], 2.0);
+    // Only RESET helps.
+    start(&mut session);
+    session.run("100ms").unwrap();
+    assert_eq!(position(&session)[0], 2.0);
+    session.pulse_for("CHAN1.channel_reset", "5cycles").unwrap();
+    session.run("10ms").unwrap();
+    session.expect("!alarm(61000) && CHAN1.program_state_aborted").unwrap();
+}
+
+/// G25, G26 write the limits, SD43400 and 43410 enable them, WALIMOF switches them off; only referenced axes.
+#[test]
+fn the_working_area_limits_the_path_of_referenced_axes() {
+    let nc = |walim: &str| format!("G74 Y=0\n$SA_WORKAREA_PLUS_ENABLE[Y]=1\nG26 Y50\n{walim}\nG0 Y40\nN60 Y60\nM30");
+    let mut session = automatic(&nc("WALIMON"));
+    start(&mut session);
+    session.wait("alarms() > 0", "60s").unwrap();
+    session.expect("alarm(10730)").unwrap();
+    assert_eq!(position(&session)[1], 40.0);
+    assert_eq!(position(&super::run(&nc("WALIMOF")))[1], 60.0);
+}
