@@ -94,6 +94,15 @@ fn a_positioning_axis_goes_its_own_way() {
     assert_eq!(position(&session), [10.0, 1.0, 50.0]);
 }
 
+/// M30 waits for what POSA has started.
+#[test]
+fn a_program_ends_when_its_positioning_axes_have_arrived() {
+    let mut session = automatic("POSA[A]=20\nM30");
+    start(&mut session);
+    session.wait("CHAN1.m2_m30_active", "20s").unwrap();
+    session.expect("A.setpoint == 20 && !A.traverse_command_plus").unwrap();
+}
+
 #[test]
 fn a_modulo_axis_takes_the_shortest_way() {
     // From 350° to 10° are 20° forward: no value between 20° and 340° is passed.

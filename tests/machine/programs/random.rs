@@ -115,7 +115,7 @@ fn always_deciding(nc: &str, interventions: &[(&'static str, u32, u32)]) -> Stri
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 40, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn any_program_with_any_interventions_keeps_the_limits(
