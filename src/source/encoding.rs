@@ -1,7 +1,5 @@
 //! Texts in UTF-16 and UTF-32, which no reader of this project takes: recognised, so that the message names the conversion.
 
-use super::{Place, Problem};
-
 /// An encoding with two or four bytes a letter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wide {
@@ -40,19 +38,19 @@ impl Wide {
         }
     }
 
-    /// The problem of a file in this encoding where this kind of file is expected.
+    /// Cause and remedy of the problem of a file in this encoding where this kind of file is expected.
     #[must_use]
-    pub fn problem(self, file: &str, expected: &str) -> Problem {
+    pub fn problem(self, file: &str, expected: &str) -> [String; 2] {
         let Self { name, order, iconv, power_shell } = self;
         // A quote inside quotes: each shell has its own form.
         let (shell, windows) = (file.replace('\'', r"'\''"), file.replace('\'', "''"));
-        Place::file(file).problem(
+        [
             format!("expected {expected}, found a text in {name} ({order})"),
             format!(
                 "save it as UTF-8 in an editor, or convert it: `iconv -f {iconv} -t UTF-8 '{shell}' > NEW_FILE`; in PowerShell: \
                  `Get-Content -Encoding {power_shell} '{windows}' | Set-Content -Encoding utf8 NEW_FILE`"
             ),
-        )
+        ]
     }
 }
 
@@ -72,9 +70,9 @@ mod tests {
             (&marked(&[0xFF, 0xFE, 0, 0], &little), "little-endian", "UTF-32"),
             (&marked(&[0, 0, 0xFE, 0xFF], &big), "big-endian", "UTF-32"),
         ] {
-            let problem = Wide::of(bytes).unwrap().problem("s.toml", "a text in UTF-8");
-            assert_eq!(problem.what, format!("expected a text in UTF-8, found a text in UTF-32 ({order})"));
-            assert!(problem.cure.contains(&format!("`iconv -f {iconv} -t UTF-8 's.toml' > NEW_FILE`")), "{problem}");
+            let [what, cure] = Wide::of(bytes).unwrap().problem("s.toml", "a text in UTF-8");
+            assert_eq!(what, format!("expected a text in UTF-8, found a text in UTF-32 ({order})"));
+            assert!(cure.contains(&format!("`iconv -f {iconv} -t UTF-8 's.toml' > NEW_FILE`")), "{cure}");
         }
         assert_eq!(Wide::of(text.as_bytes()), None);
         assert_eq!(Wide::of(&[0; 64]), None);

@@ -157,7 +157,11 @@ pub fn printable(text: &str) -> Cow<'_, str> {
 pub fn read_text(path: &Path) -> Result<String, Problem> {
     let bytes = read_bytes(path, INPUT_MIB)?;
     match Wide::of(&bytes) {
-        Some(wide) => Err(wide.problem(&path.display().to_string(), "a text in UTF-8 or Latin-1")),
+        Some(wide) => {
+            let file = path.display().to_string();
+            let [what, cure] = wide.problem(&file, "a text in UTF-8 or Latin-1");
+            Err(Place::file(&file).problem(what, cure))
+        }
         None => Ok(decode(&bytes)),
     }
 }

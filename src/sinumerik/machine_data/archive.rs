@@ -109,7 +109,8 @@ impl Archive {
             reading.file = number;
             if let Some(wide) = Wide::of(bytes) {
                 let expected = "a text in UTF-8 or Latin-1, or a binary archive";
-                reading.findings.push(wide.problem(name, expected).into());
+                let [what, cure] = wide.problem(name, expected);
+                reading.findings.push(Place::file(name).problem(what, cure).into());
             } else if binary::is_binary(name, bytes) {
                 if let Err(problem) = binary::read(name, bytes, &mut reading) {
                     reading.findings.push(problem.into());
