@@ -189,7 +189,8 @@ impl Trace {
                 | Input::Number(..)
                 | Input::Length(..)
                 | Input::Alarm(_)
-                | Input::Fault(_) => None,
+                | Input::Fault(_)
+                | Input::Block(_) => None,
             };
             if let Some((key @ (number, _, axis), named)) = datum
                 && let Some(active) = seen.active(key, describe)

@@ -235,9 +235,6 @@ alarms! {
     /// The grouping cannot be closed. %3: the thousands digit gives the reason (7: motion pending), the last two digits the grouping.
     IMPERMISSIBLE_AXIS_STATE 10658 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP LOCAL] Reset
         "channel %1 axis %2 impermissible axis state %3";
-    /// A synchronous axis of an open grouping is to be referenced by itself. %2: the block of a program.
-    REFERENCING_COUPLED 16794 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart
-        "channel %1 axis %3 coupling does not permit referencing";
     /// Reference cam not reached within MD34030.
     CAM_NOT_REACHED 20000 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 reference cam not reached";

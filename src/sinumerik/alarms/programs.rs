@@ -122,7 +122,7 @@ pub(in crate::sinumerik) const CIRCLE_END: AlarmNumber = AlarmNumber(14040);
 pub(in crate::sinumerik) const WRONG_AXIS_TYPE: AlarmNumber = AlarmNumber(14092);
 /// The radius of a circle is too small.
 pub(in crate::sinumerik) const CIRCLE_RADIUS: AlarmNumber = AlarmNumber(14095);
-/// G74 of a synchronous axis.
+/// G74 of a synchronous axis; in REF, a key of one in an open grouping, then without a block.
 pub(in crate::sinumerik) const REFERENCING_COUPLED: AlarmNumber = AlarmNumber(16794);
 /// An action while an alarm is pending.
 pub(in crate::sinumerik) const ALARM_PENDING: AlarmNumber = AlarmNumber(16919);

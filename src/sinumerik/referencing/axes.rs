@@ -169,7 +169,7 @@ impl State {
         let parent = self.mode_group(unit).function_cause;
         // %2 is the block of a program.
         let shown = [Parameter::Channel(unit.channel), Parameter::None, Parameter::Axis(number), Parameter::None];
-        let alarm = RaisedAlarm { number: alarms::REFERENCING_COUPLED, place: Place::Axis(number), parameters: shown };
+        let alarm = RaisedAlarm { number: alarms::programs::REFERENCING_COUPLED, place: Place::Axis(number), parameters: shown };
         self.raise_new(alarm, Rule::NoApproachInOpenGrouping, inputs, parent);
     }
 
