@@ -57,19 +57,19 @@
 //! | [`units`] | time in whole nanoseconds, positions in whole nanometres, numbers of axes and channels | nothing |
 //! | [`source`] | files with line numbers, TOML as a tree, and error messages with place, cause and remedy | nothing |
 //! | [`image`] | the interface: bytes by writer, signals, symbols, addresses, presets, for any control; the tables of the SINUMERIK | `source`, `units` |
-//! | [`variables`] | the output of the control in addition to signals: values, alarms, events with causes | `image`, `units` |
+//! | [`variables`] | the output of the control in addition to signals: values, alarms, events with causes | `image`, `source`, `units` |
 //! | [`motion`] | the axis: setpoints, position control, drive, encoder, and the engine that couples axes | `units` |
 //! | [`nc_program`] | NC programs as a language: text, words, expressions, blocks, with a dialect; knows the names of axes, and no axis | nothing |
-//! | [`control`] | the boundary of a control: the trait that the machine steps, its commands, data, texts and charts | `image`, `motion`, `source`, `units`, `variables` |
-//! | [`sinumerik`] | the control of the gantry manual, with its machine data and alarms | `control`, `image`, `motion`, `source`, `units`, `variables` |
+//! | [`control`] | the boundary of a control: the trait that the machine steps, its commands, data, texts and charts | `image`, `motion`, `nc_program`, `source`, `units`, `variables` |
+//! | [`sinumerik`] | the control of the gantry manual, with its machine data and alarms | `control`, `image`, `motion`, `nc_program`, `source`, `units`, `variables` |
 //! | [`controls`] | the list of controls: the only module that names them | `control`, `image`, `sinumerik`, `source` |
 //! | [`plc`] | the PLC program: closures over the PLC side, function blocks, built-in programs, STEP 7 sources | `image`, `source`, `units` |
 //! | [`plant`] | the simulated mechanics: slides, bridges, cams, switches, faults | `motion`, `source`, `units` |
 //! | [`trace`] | the record: every change with its time and cause, as text and JSON lines | `image`, `source`, `units`, `variables` |
 //! | [`expression`] | expressions over signals, values and alarms: parsed once, evaluated in every cycle | `image`, `source`, `units`, `variables` |
 //! | [`monitor`] | rules over time: conditions of every cycle, consequences that follow in time | `expression`, `image`, `source`, `units`, `variables` |
-//! | [`machine`] | one step of the complete machine, and open, queue, power, save, restore, fork | `control`, `controls`, `expression`, `image`, `motion`, `plant`, `plc`, `source`, `trace`, `units`, `variables` |
-//! | [`scenario`] | scenario files, and the session for tests in Rust | `control`, `controls`, `expression`, `image`, `machine`, `monitor`, `plc`, `source`, `trace`, `units`, `variables` |
+//! | [`machine`] | one step of the complete machine, and open, queue, power, save, restore, fork | `control`, `controls`, `expression`, `image`, `motion`, `nc_program`, `plant`, `plc`, `source`, `trace`, `units`, `variables` |
+//! | [`scenario`] | scenario files, and the session for tests in Rust | `control`, `controls`, `expression`, `image`, `machine`, `monitor`, `nc_program`, `plc`, `source`, `trace`, `units`, `variables` |
 //! | [`golden`] | runs the scenarios below a folder and compares each with its golden trace | `control`, `controls`, `image`, `plc`, `scenario`, `source`, `trace`, `units` |
 //! | [`live`] | a machine in real time: the stepping thread, the inbox, the copy of the last step, the recording, a PLC in another process (feature `live`, part of `s7` and `mapped`) | `image`, `machine`, `plc`, `scenario`, `source`, `trace`, `units`, `variables` |
 //! | [`s7`] | S7 communication: wire formats, sessions without a socket, a server on TCP and for [`live`] (feature `s7`) | `control`, `image`, `live`, `machine`, `source`, `units`, `variables` |

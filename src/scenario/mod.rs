@@ -21,6 +21,7 @@ mod programs;
 mod rules;
 mod run;
 mod session;
+mod step_values;
 mod steps;
 mod transcript;
 mod values;

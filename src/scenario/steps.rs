@@ -6,15 +6,14 @@ use std::path::{Path, PathBuf};
 use super::duration::Duration;
 use super::faults::fault;
 use super::fields::{Named, duration, texts};
-use super::naming::{Known, axis_named, check_captured_name, missing_owner, place_named, written_by_others};
+use super::naming::{Known, check_captured_name, missing_owner, place_named, written_by_others};
 use super::programs::NcPrograms;
 use super::written::WrittenSteps;
 use crate::expression::{Expression, Followed};
 use crate::image::{Location, raw_value, signal_value};
-use crate::machine::{Command, DatumValue, Machine};
+use crate::machine::{Command, Machine};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
 use crate::units::{ChannelNumber, Time};
-use crate::variables::r_parameter;
 
 /// A step that is ready to run. A generated scenario can have 100,000 of them.
 #[derive(Debug)]
@@ -127,7 +126,7 @@ const PULSE: Duration = Duration::Time(Time::from_millis(100));
 
 /// Reads the steps for one machine in order, because a captured name is known only after its step.
 pub(super) struct Reader<'a> {
-    machine: &'a Machine,
+    pub(super) machine: &'a Machine,
     /// The names captured so far.
     pub(super) captured: Vec<String>,
     /// The conditions of `since` and `count` and the signals of `cause` in all expressions.
@@ -143,7 +142,7 @@ pub(super) struct Reader<'a> {
 }
 
 /// The bits of an address: place, location, value.
-type Bits = (Place, Location, u64);
+pub(super) type Bits = (Place, Location, u64);
 
 impl<'a> Reader<'a> {
     /// A reader of the steps in this file.
@@ -227,7 +226,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Checks a command against the machine, so that it is rejected before anything runs.
-    fn judge(&self, command: &Command, place: &Place) -> Result<(), Problem> {
+    pub(super) fn judge(&self, command: &Command, place: &Place) -> Result<(), Problem> {
         if matches!(command, Command::SelectProgram { .. }) {
             // Its program is loaded when all steps are read.
             return Ok(());
@@ -426,68 +425,6 @@ impl<'a> Reader<'a> {
         }
         self.captured.extend(names);
         Ok(captures.into())
-    }
-
-    fn machine_data(&self, node: Node) -> Result<Box<[Command]>, Problem> {
-        let mut table = node.into_table("machine data with their values")?;
-        let entries = table.take_rest();
-        let mut commands = Vec::with_capacity(entries.len());
-        for (target, place, node) in entries {
-            node.refuse_unquoted_key(&target)?;
-            let value = DatumValue::from_node(&node)?;
-            let command = Command::MachineDatum { target, value };
-            self.judge(&command, &place)?;
-            commands.push(command);
-        }
-        Ok(commands.into())
-    }
-
-    /// PRESET: axes with their new actual values.
-    fn presets(&self, node: Node) -> Result<Box<[Command]>, Problem> {
-        let mut table = node.into_table("axes with their new actual values, as { X = 100.0 }")?;
-        let mut commands = Vec::new();
-        for (name, place, node) in table.take_rest() {
-            let axis = axis_named(self.machine, &name).map_err(|problem| problem.at(&place))?;
-            let command = Command::Preset { axis, value: node.number("a number in mm or degrees")? };
-            self.judge(&command, &place)?;
-            commands.push(command);
-        }
-        Ok(commands.into())
-    }
-
-    /// Writes to R parameters: `R5` of the first channel, `R5[CHAN2]` of channel 2.
-    fn r_parameters(&self, node: Node) -> Result<Box<[Command]>, Problem> {
-        let mut table = node.into_table("R parameters with their values")?;
-        let entries = table.take_rest();
-        let mut commands = Vec::with_capacity(entries.len());
-        for (name, place, node) in entries {
-            let found = r_parameter(&name, self.machine.names()).map_err(|problem| problem.at(&place))?;
-            let Some((channel, number)) = found else {
-                return Err(place.problem(
-                    format!("expected an R parameter, found {name:?}"),
-                    "write \"R5\" for the first channel, \"R5[CHAN2]\" for channel 2",
-                ));
-            };
-            // No channel has a parameter with this number.
-            let number = u16::try_from(number).unwrap_or(u16::MAX);
-            let command = Command::RParameter { channel, number, value: node.number("a number")? };
-            self.judge(&command, &place)?;
-            commands.push(command);
-        }
-        Ok(commands.into())
-    }
-
-    fn image(&self, node: Node) -> Result<Box<[Bits]>, Problem> {
-        let mut table = node.into_table("addresses with their bits, as { \"DB31.DBB101\" = \"2#1100_0000\" }")?;
-        let entries = table.take_rest();
-        let mut expected = Vec::with_capacity(entries.len());
-        for (name, place, node) in entries {
-            node.refuse_unquoted_key(&name)?;
-            let location = place_named(self.machine, &name).map_err(|problem| problem.at(&place))?;
-            let bits = raw_value(&node, location, self.machine.override_coding())?;
-            expected.push((node.place, location, bits));
-        }
-        Ok(expected.into())
     }
 }
 

@@ -54,7 +54,12 @@ impl Replacement {
     fn open(path: &Path) -> io::Result<Self> {
         let named = path.to_owned();
         if let Some(file) = stream(path) {
-            return Ok(Self { target: named.clone(), named, permissions: None, destination: Destination::Direct(file?) });
+            return Ok(Self {
+                target: named.clone(),
+                named,
+                permissions: None,
+                destination: Destination::Direct(file?),
+            });
         }
         let target = target(path);
         let old = std::fs::metadata(&target).ok();

@@ -8,14 +8,16 @@ mod axis_value;
 mod channel_values;
 mod events;
 mod happening;
+mod named_value;
 mod place;
 mod r_parameters;
 
 pub use alarms::{AlarmNumber, Alarms, Arrival, Parameter, RaisedAlarm, ShortText, short_text};
 pub use axis_value::{AxisValue, six_decimals};
-pub use channel_values::{ChannelValues, NamedValue, ProgramName, is_r_parameter, program_name, r_parameter};
+pub use channel_values::{ChannelValues, ProgramName, program_name};
 pub use events::{BlockName, Event, EventId, Events, Input, Quantity, Rule, RuleNumber, SignalBit};
 pub use happening::{DatumValue, FaultName, Happening};
+pub use named_value::{NamedValue, is_r_parameter, r_parameter};
 pub use place::{Place, axis_name, place_name};
 pub use r_parameters::RParameters;
 

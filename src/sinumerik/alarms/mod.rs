@@ -5,6 +5,7 @@
 //! [`Pending::raise`](pending::Pending::raise).
 
 mod ended;
+mod find;
 pub(super) mod not_raised;
 pub(super) mod pending;
 pub(super) mod programs;
@@ -372,20 +373,6 @@ impl Alarm {
     pub fn named(name: &str) -> Option<AlarmNumber> {
         let index = OWN_NAMES.iter().position(|known| *known == name)?;
         u32::try_from(index).ok().map(|index| AlarmNumber(AlarmNumber::OWN + index))
-    }
-
-    /// All alarms that the model can raise; not in the order of their numbers.
-    pub(in crate::sinumerik) fn raised() -> impl Iterator<Item = &'static Self> {
-        CATALOGUE.iter().chain(programs::PROGRAMS)
-    }
-
-    /// The row of this number.
-    #[must_use]
-    pub fn find(number: AlarmNumber) -> Option<&'static Self> {
-        let in_table = |table: &'static [Self]| {
-            table.binary_search_by_key(&number, |alarm| alarm.number).ok().map(|index| &table[index])
-        };
-        in_table(CATALOGUE).or_else(|| in_table(programs::PROGRAMS)).or_else(|| programs::of_a_cycle(number))
     }
 }
 

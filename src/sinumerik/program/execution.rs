@@ -25,8 +25,8 @@ use crate::sinumerik::program::state::{
 };
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
-use crate::units::{AxisSet, ChannelNumber, Position};
-use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, short_text};
+use crate::units::{AxisSet, ChannelNumber};
+use crate::variables::{EventId, Input, Parameter, Place};
 
 /// Changes of blocks in one cycle: calculation blocks and blocks without motion take no time.
 const CHANGES: usize = 100;
@@ -389,39 +389,6 @@ impl State {
         }
         run.phase = Phase::Moving;
         self.output(run, OutputTime::During, stage);
-    }
-
-    /// What a block does besides moving and output.
-    fn act(&mut self, action: Action, run: &mut Run, stage: &Stage<'_>) {
-        match action {
-            Action::Message(text) => self.programs[stage.channel].message = text,
-            Action::Preset(axes) => {
-                for (name, value) in axes {
-                    let axis = stage.own.axes.machine_axes.get(usize::from(name.0));
-                    if let Some(unit) = axis.and_then(|axis| self.unit_of(*axis)) {
-                        self.set_actual_value(&unit, Position::from_user(value), run.block_cause);
-                    }
-                }
-                // The path begins where its axes are now.
-                run.path.place(on_path(&stage.own.axes.path, |axis| self.axes[axis].setpoint.position));
-            }
-            Action::NewConfiguration => run.new_conf = true,
-            Action::CycleAlarm { number, text } => {
-                let text = text.unwrap_or_default();
-                let first = short_text(&text);
-                let name = run.queue.front().map(|block| block.origin.name.clone()).unwrap_or_default();
-                run.cycle_alarm = Some(BlockAlarm {
-                    number: AlarmNumber(number),
-                    parameters: [
-                        Parameter::Text(short_text(&name)),
-                        Parameter::Text(first),
-                        Parameter::Text(short_text(&text[first.len()..])),
-                    ],
-                    block: block_name(&name),
-                });
-            }
-            _ => {}
-        }
     }
 
     fn motion_has_ended(&mut self, run: &mut Run, stage: &Stage<'_>) -> bool {

@@ -11,8 +11,10 @@
 //! | `start.rs` | NC start and its refusals, stop, RESET, end, change of the mode: the program states 35.0 to 35.4 |
 //! | `environment.rs` | what the language reads and writes: R parameters, system variables, machine data, programs |
 //! | `preparation.rs` | blocks ahead of the movement: targets in machine coordinates, limits, who may move an axis |
+//! | `outputs.rs` | when the auxiliary functions of a block are output, and which stop the program |
 //! | `geometry.rs` | units, offsets, circles |
 //! | `execution.rs` | the block that runs: before, during and at the end of its motion; the change to the next one |
+//! | `actions.rs` | messages, PRESETON, NEWCONF, SETAL |
 //! | `path.rs` | the path in a cycle: overrides, holds, where the axes are, the return to the interruption point |
 //! | `positioning.rs` | POS and POSA |
 //! | `referencing.rs` | G74 |
@@ -29,10 +31,12 @@
 //! * A change of the mode to JOG while a program runs stops it.
 //! * A program stays selected over RESET and power off, and so do R parameters.
 
+pub(super) mod actions;
 pub(super) mod auxiliary;
 pub(super) mod environment;
 pub(super) mod execution;
 pub(super) mod geometry;
+pub(super) mod outputs;
 pub(super) mod path;
 pub(super) mod positioning;
 pub(super) mod preparation;

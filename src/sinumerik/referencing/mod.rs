@@ -2,4 +2,5 @@
 
 pub(super) mod approach;
 pub(super) mod axes;
+pub(super) mod channel;
 pub(super) mod state;

@@ -1,0 +1,43 @@
+//! What a block does besides moving and output: messages, PRESETON, NEWCONF, SETAL.
+
+use crate::nc_program::Action;
+use crate::sinumerik::program::path::Stage;
+use crate::sinumerik::program::state::{BlockAlarm, Run, block_name, on_path};
+use crate::sinumerik::state::State;
+use crate::units::Position;
+use crate::variables::{AlarmNumber, Parameter, short_text};
+
+impl State {
+    /// What a block does besides moving and output.
+    pub(super) fn act(&mut self, action: Action, run: &mut Run, stage: &Stage<'_>) {
+        match action {
+            Action::Message(text) => self.programs[stage.channel].message = text,
+            Action::Preset(axes) => {
+                for (name, value) in axes {
+                    let axis = stage.own.axes.machine_axes.get(usize::from(name.0));
+                    if let Some(unit) = axis.and_then(|axis| self.unit_of(*axis)) {
+                        self.set_actual_value(&unit, Position::from_user(value), run.block_cause);
+                    }
+                }
+                // The path begins where its axes are now.
+                run.path.place(on_path(&stage.own.axes.path, |axis| self.axes[axis].setpoint.position));
+            }
+            Action::NewConfiguration => run.new_conf = true,
+            Action::CycleAlarm { number, text } => {
+                let text = text.unwrap_or_default();
+                let first = short_text(&text);
+                let name = run.queue.front().map(|block| block.origin.name.clone()).unwrap_or_default();
+                run.cycle_alarm = Some(BlockAlarm {
+                    number: AlarmNumber(number),
+                    parameters: [
+                        Parameter::Text(short_text(&name)),
+                        Parameter::Text(first),
+                        Parameter::Text(short_text(&text[first.len()..])),
+                    ],
+                    block: block_name(&name),
+                });
+            }
+            _ => {}
+        }
+    }
+}
