@@ -19,6 +19,10 @@ impl Describe for Machine {
         };
         let mut text = row.text.to_owned();
         for (index, parameter) in alarm.parameters.iter().enumerate() {
+            if *parameter == Parameter::None {
+                // An alarm of programs that is raised without one has no block.
+                text = text.replace(&format!(" block %{}", index + 1), "");
+            }
             text = text.replace(&format!("%{}", index + 1), &shown(self, *parameter));
         }
         text

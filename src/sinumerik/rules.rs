@@ -87,7 +87,7 @@ rules! {
     ResetDone "RESET" "RESET";
     StartRefused "10203" "NC start without reference point";
     Preset "SYN-10" "another actual value was set: the reference is lost";
-    PresetByOperator "PRESET" "PRESET by the operator";
+    PresetByOperator "SYN-10" "PRESET by the operator";
     // Programs.
     StartHinderedByAlarm "16919" "NC start while an alarm with NC start disabled is pending";
     StartAlreadyActive "16920" "NC start while the program runs";
