@@ -63,8 +63,7 @@ fn the_page_names_every_key_and_verb() {
     names.extend(known("machine = \"g1_example\"\n[[step]]\nunknown = 1\n"));
     names.extend(known(&format!("machine = \"g1_example\"\n{step}[[rule]]\nnever = \"0\"\nunknown = 1\n")));
     assert!(names.len() > 40, "{names:?}");
-    // Programs of the NC are not available yet.
-    for name in names.iter().filter(|name| *name != "program") {
+    for name in &names {
         let shown = [format!("`{name}"), format!("[[{name}]]"), format!("[{name}"), format!("\n{name} ")];
         assert!(shown.iter().any(|text| page.contains(text)), "{name}");
     }

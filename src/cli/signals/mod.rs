@@ -185,7 +185,9 @@ impl Catalogue {
                 ],
             })
         };
-        let channels = self.names.channels.iter().filter_map(|(_, name)| name.as_deref());
+        let exists = |channel| self.machine.as_ref().is_none_or(|machine| machine.has_channel(channel));
+        let channels =
+            self.names.channels.iter().filter(|(channel, _)| exists(*channel)).filter_map(|(_, name)| name.as_deref());
         let of_channel = |channel: &str| {
             NamedValue::OF_CHANNEL.map(|(name, meaning)| Row {
                 name,

@@ -112,9 +112,11 @@ fn unknown_values_are_refused_with_what_exists() {
     assert!(watched.contains("did you mean `CHAN1.block`?"), "{watched}");
     let watched = session.watch(&["R100"]).unwrap_err().to_string();
     assert!(watched.contains("R0 to R99"), "{watched}");
-    for (name, cure) in
-        [("CHAN1.block", "can only be read"), ("R5", "r_parameters = { \"R5\""), ("X.position", "can only be read")]
-    {
+    for (name, cure) in [
+        ("CHAN1.block", "can only be read"),
+        ("R5", "r_parameters = { \"R5\""),
+        ("X.position", "is a value and not a signal"),
+    ] {
         let text = session.set(name, 1).unwrap_err().to_string();
         assert!(text.contains(cure), "{text}");
     }
