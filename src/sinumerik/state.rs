@@ -190,6 +190,12 @@ impl State {
         groupings.flat_map(|grouping| grouping.coupling.members()).collect()
     }
 
+    /// The axes of groupings that are open or open in this cycle.
+    pub(super) fn open_groupings(&self, parameters: &Parameters) -> AxisSet {
+        let open = self.groupings.iter().filter(|grouping| grouping.is_kept_open(parameters));
+        open.flat_map(|grouping| grouping.coupling.members()).collect()
+    }
+
     /// JOG without a machine function.
     pub(super) fn is_jogging(&self, unit: &Unit) -> bool {
         self.mode_group(unit).is_jogging()

@@ -284,6 +284,7 @@ impl State {
             own: stage.own,
             axes: &self.axes,
             to_nck: stage.to_nck,
+            open: self.open_groupings(stage.parameters),
             stops_after_calculations: signals.activate_single_block() && second,
         };
         let mut environment = Channel {

@@ -16,7 +16,7 @@ use crate::sinumerik::program::positioning::Positioning;
 use crate::sinumerik::program::state::{
     BlockAlarm, Criterion, Executable, Preparation, ProgrammedStop, Run, block_name, on_path,
 };
-use crate::units::{AxisNumber, PerAxis, Position, Time};
+use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 use crate::variables::{AlarmNumber, Parameter, short_text};
 
 /// The blocks that are prepared ahead.
@@ -36,6 +36,8 @@ pub(in crate::sinumerik) struct Preparing<'a> {
     pub own: &'a ProgramParameters,
     pub axes: &'a PerAxis<Axis>,
     pub to_nck: &'a ToNck,
+    /// The axes of open gantry groupings.
+    pub open: AxisSet,
     /// DB21.DBX0.4 with type 2 (SBL2): calculation blocks are blocks.
     pub stops_after_calculations: bool,
 }
@@ -284,7 +286,10 @@ impl Preparing<'_> {
                     for name in names {
                         let axis = self
                             .path_axis(block, *name)
-                            .map_err(|_| alarm(block, alarms::REFERENCING_COUPLED, self.name(*name)))?;
+                            .ok()
+                            // No axis of an open grouping is referenced by itself, neither its leading axis (E-15, P-60).
+                            .filter(|(axis, _)| !self.open.contains(*axis))
+                            .ok_or_else(|| alarm(block, alarms::REFERENCING_COUPLED, self.name(*name)))?;
                         done.references.push(axis.0);
                     }
                 }
