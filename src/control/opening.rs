@@ -67,9 +67,10 @@ pub struct StoredDatum {
 }
 
 /// The type of an encoder in the plant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum EncoderModel {
     /// Incremental, with equidistant zero marks.
+    #[default]
     Incremental,
     /// Absolute: its position is always known.
     Absolute,
@@ -111,6 +112,10 @@ pub struct AxisHints {
     pub cam_direction: i8,
     /// Distance between two zero marks, of encoder 1 and 2.
     pub zero_mark_spacing: [Position; 2],
+    /// The types of both encoders, for those without a type in the plant.
+    pub encoders: [EncoderModel; 2],
+    /// The code of distance-coded marks: by how much the mark between two fixed ones moves on, and whether the scale counts against the axis.
+    pub zero_mark_code: [(Position, bool); 2],
 }
 
 /// The contents of the files of a machine.

@@ -89,6 +89,12 @@ impl Machine {
             exists: axes[axis].exists,
             cam_direction: axes[axis].cam_direction,
             zero_mark_spacing: axes[axis].zero_mark_spacing,
+            encoders: axes[axis].encoders.map(|model| match model {
+                EncoderModel::Incremental => EncoderKind::Incremental,
+                EncoderModel::Absolute => EncoderKind::Absolute,
+                EncoderModel::DistanceCoded => EncoderKind::DistanceCoded,
+            }),
+            zero_mark_code: axes[axis].zero_mark_code,
         });
         let layout = Layout::new(&plant, &names.axes, &hints, &groupings);
         let definition = Definition {

@@ -18,6 +18,8 @@ pub struct Feedback {
     pub drive_ready: bool,
     /// The drive reports a fault.
     pub drive_fault: bool,
+    /// Encoders that read their position without a movement.
+    pub absolute: [bool; 2],
     /// Encoders without a signal.
     pub encoder_faults: [bool; 2],
     /// True position of the slide. Only the display of the simulator uses it; the control does not know it.

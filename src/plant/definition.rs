@@ -84,24 +84,39 @@ impl Default for Drive {
 pub struct EncoderPlant {
     /// Its type; `None`: as defined by MD30240 and MD34200.
     pub kind: Option<EncoderKind>,
-    /// Machine-frame position of one zero mark.
+    /// Machine-frame position at which an absolute encoder reads zero.
+    pub zero: Position,
+    /// Machine-frame position of one zero mark; of distance-coded marks, the first.
     pub zero_mark: Position,
-    /// Distance between two zero marks; `None`: as defined by machine data.
+    /// Distance between two zero marks; of distance-coded marks, between two fixed ones. `None`: as defined by machine data.
     pub zero_mark_spacing: Option<Position>,
+    /// By this distance the mark between two fixed ones moves on; `None`: as defined by machine data.
+    pub zero_mark_shift: Option<Position>,
+    /// Whether distance-coded marks count against the axis; `None`: as defined by machine data.
+    pub inverted: Option<bool>,
     /// The smallest step that it detects; default 0.0001 mm or degrees.
     pub resolution: Position,
 }
 
 impl Default for EncoderPlant {
     fn default() -> Self {
-        Self { kind: None, zero_mark: Position::ZERO, zero_mark_spacing: None, resolution: Position::new(100) }
+        Self {
+            kind: None,
+            zero: Position::ZERO,
+            zero_mark: Position::ZERO,
+            zero_mark_spacing: None,
+            zero_mark_shift: None,
+            inverted: None,
+            resolution: Position::new(100),
+        }
     }
 }
 
 /// The type of an encoder.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum EncoderKind {
     /// Incremental with equidistant zero marks; the position is lost without power.
+    #[default]
     Incremental,
     /// Absolute: its position is always known.
     Absolute,
@@ -306,11 +321,20 @@ fn read_encoder(node: Node) -> Result<EncoderPlant, Problem> {
         ];
         encoder.kind = Some(node.one_of(&kinds)?);
     }
+    if let Some(node) = table.take("zero") {
+        encoder.zero = position(&node, "the position of the zero of an absolute encoder in mm or degrees")?;
+    }
     if let Some(node) = table.take("zero_mark") {
         encoder.zero_mark = position(&node, "the position of a zero mark in mm or degrees")?;
     }
     if let Some(node) = table.take("zero_mark_spacing") {
         encoder.zero_mark_spacing = Some(distance(&node, "a spacing of more than 0 mm or degrees")?);
+    }
+    if let Some(node) = table.take("zero_mark_shift") {
+        encoder.zero_mark_shift = Some(distance(&node, "a shift of more than 0 mm or degrees")?);
+    }
+    if let Some(node) = table.take("inverted") {
+        encoder.inverted = Some(node.boolean("whether the scale counts against the axis")?);
     }
     if let Some(node) = table.take("resolution") {
         encoder.resolution = distance(&node, "a resolution of at least 0.000001 mm or degrees")?;

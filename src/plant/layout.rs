@@ -1,6 +1,6 @@
 //! The plant of one machine, with all defaults filled in.
 
-use super::{Cam, Given, Input, LimitSwitch, PlantDefinition, Switch};
+use super::{Cam, EncoderKind, Given, Input, LimitSwitch, PlantDefinition, Switch};
 use crate::motion::Encoder;
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 
@@ -13,6 +13,10 @@ pub struct Hints {
     pub cam_direction: i8,
     /// Distance of the zero marks of both encoders, used if `plant.toml` does not give it.
     pub zero_mark_spacing: [Position; 2],
+    /// The types of both encoders, used if `plant.toml` does not give them.
+    pub encoders: [EncoderKind; 2],
+    /// The code of distance-coded marks: by how much the mark between two fixed ones moves on, and whether the scale counts against the axis.
+    pub zero_mark_code: [(Position, bool); 2],
 }
 
 /// The simulated mechanics of one axis.
@@ -136,7 +140,15 @@ fn axis_mechanics(definition: &PlantDefinition, name: &str, hints: Hints) -> Axi
     let encoders = [0, 1].map(|index| {
         let encoder = &said.encoders[index];
         let spacing = encoder.zero_mark_spacing.unwrap_or(hints.zero_mark_spacing[index]);
-        Encoder::new(encoder.resolution, encoder.zero_mark, spacing, said.start)
+        let new = Encoder::new(encoder.resolution, encoder.zero_mark, spacing, said.start);
+        let (shift, inverted) = hints.zero_mark_code[index];
+        match encoder.kind.unwrap_or(hints.encoders[index]) {
+            EncoderKind::Incremental => new,
+            EncoderKind::Absolute => new.absolute(encoder.zero),
+            EncoderKind::DistanceCoded => {
+                new.distance_coded(encoder.zero_mark_shift.unwrap_or(shift), encoder.inverted.unwrap_or(inverted))
+            }
+        }
     });
     let cam = match &said.cam {
         Given::Said(cam) => Some(*cam),

@@ -78,7 +78,7 @@ impl Plant {
                 slide.ready_in = mechanics.ready_after;
                 for (encoder, dead) in slide.encoders.iter_mut().zip(&mut slide.dead) {
                     encoder.restart(slide.position);
-                    *dead = dead.map(|_| Position::ZERO);
+                    *dead = dead.map(|_| encoder.value(slide.position));
                 }
                 slide.count();
             }
@@ -320,6 +320,7 @@ impl Slide {
             velocity: self.drive.velocity() + self.pulled,
             drive_ready: self.ready_in == Time::ZERO && !self.drive_fault,
             drive_fault: self.drive_fault,
+            absolute: self.encoders.map(|encoder| encoder.is_absolute()),
             encoder_faults: self.dead.map(|dead| dead.is_some()),
             slide: self.position,
         }
@@ -357,9 +358,13 @@ impl Slide {
         self.dead[encoder] = self.dead[encoder].or(Some(self.counts[encoder]));
     }
 
-    /// The encoder counts on from its last value: movement in the meantime is lost.
+    /// An incremental encoder counts on from its last value: movement in the meantime is lost.
     fn revive(&mut self, encoder: usize) {
         if let Some(value) = self.dead[encoder].take() {
+            if self.encoders[encoder].is_absolute() {
+                self.count();
+                return;
+            }
             let lost = value - self.encoders[encoder].value(self.reported);
             self.encoders[encoder].slip(lost);
             self.count();
@@ -401,8 +406,8 @@ mod tests {
         let names = PerAxis::from_fn(|number| (number == axis).then(|| "X".to_owned()));
         let hints = PerAxis::from_fn(|number| Hints {
             exists: number == axis,
-            cam_direction: 0,
             zero_mark_spacing: [mm(10.0); 2],
+            ..Hints::default()
         });
         let definition = PlantDefinition::parse("[X]\nstart = 5.0\n", "plant.toml").unwrap();
         let layout = Layout::new(&definition, &names, &hints, &[]);

@@ -5,12 +5,12 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::control::{AxisHints, Configuration, Examined, Opened, Owner, Settings, Site, StoredDatum};
+use crate::control::{AxisHints, Configuration, EncoderModel, Examined, Opened, Owner, Settings, Site, StoredDatum};
 use crate::image::{Names, OverrideCoding, Profile, SINUMERIK};
 use crate::sinumerik::machine_data::{Archive, Axis, MachineData, files_of, refusal};
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::opening::findings;
-use crate::sinumerik::parameters::axis::AxisPresence;
+use crate::sinumerik::parameters::axis::{AxisPresence, Kind};
 use crate::sinumerik::parameters::groupings::GROUPINGS;
 use crate::sinumerik::parameters::mechanics::Mechanics;
 use crate::sinumerik::strobe::Strobe;
@@ -73,6 +73,12 @@ impl Commissioning {
                     (true, false) => -1,
                 },
                 zero_mark_spacing: spacing(&acting.axes[axis]),
+                encoders: parameters.axes[axis].reference.kind.map(|kind| match kind {
+                    Kind::Absolute => EncoderModel::Absolute,
+                    Kind::DistanceCoded => EncoderModel::DistanceCoded,
+                    Kind::ZeroMark | Kind::None => EncoderModel::Incremental,
+                }),
+                zero_mark_code: reference.scale.map(|scale| (scale.shift, scale.inverted)),
             }
         })
     }

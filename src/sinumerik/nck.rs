@@ -132,6 +132,7 @@ impl Nck {
 
     /// Power off and on: stored machine data become active, everything else starts again.
     pub fn power_on(&mut self) -> EventId {
+        self.store_encoder_data();
         let cycle = self.state.log.cycle;
         let changes_system =
             self.stored.general.scaling_system_is_metric != self.active.general.scaling_system_is_metric;
@@ -147,6 +148,7 @@ impl Nck {
         self.parameters = Arc::new(self.parameters_now());
         let events = std::mem::take(&mut self.state.log.events);
         let taken = self.state.log.taken;
+        let buffered = self.state.buffered_positions();
         let faults = PerAxis::from_fn(|number| self.state.axes[number].causes.fault);
         let old = std::mem::replace(&mut *self.state, State::new(&self.parameters));
         self.state.keep_programs(&old);
@@ -154,6 +156,7 @@ impl Nck {
             // A fault outlasts power off.
             axis.causes.fault = faults[number];
         }
+        self.state.buffered = Some(buffered);
         let log = &mut self.state.log;
         (log.cycle, log.events, log.taken) = (cycle, events, taken);
         self.resting.begin_anew(&self.state);
@@ -161,6 +164,7 @@ impl Nck {
         let event = self.state.log.note_plain(Place::Nck, Rule::PowerOn, EventId::NONE);
         self.note_activated(&before, Rule::DataActiveAtPowerOn, event);
         self.report_scaling(&before, event);
+        self.lose_adjustments(&before, event);
         self.state.note_after_power_on(event);
         event
     }
@@ -335,6 +339,7 @@ impl Nck {
     pub fn decide(&mut self, to_nck: &ToNck, changes: Changes) {
         let cancel_key = std::mem::take(&mut self.cancel_key);
         self.store_differences();
+        self.store_encoder_data();
         self.state.note_power_on();
         self.state.run_up(&self.parameters);
         self.state.select_modes(&self.parameters, to_nck);
@@ -376,6 +381,7 @@ impl Nck {
             state.set_setpoints(&unit, parameters);
         }
         state.order_channel_referencing(parameters, to_nck);
+        self.store_encoder_data();
     }
 
     /// Takes the feedback of encoders and drives of these axes, and monitors it. The feedback of the other axes has not changed.
@@ -395,6 +401,9 @@ impl Nck {
                 state.log.news.set(number, true);
             }
             axis.sense(&seen);
+        }
+        if self.state.read_encoders(&self.parameters) {
+            self.resting.wake_all();
         }
         self.monitor();
         let (awake, decided) = (self.awake(), self.decided());

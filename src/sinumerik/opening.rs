@@ -63,10 +63,8 @@ const ACTS_OTHERWISE: &[(u32, &str, &str)] = &[
 ];
 
 /// Data of the catalogue that have no effect in the model and no effect on the interface.
-const WITHOUT_EFFECT: &[u32] = &[
-    10200, 10210, 32060, 32070, 32090, 32402, 32650, 34220, 34230, 34232, 34310, 34320, 34330, 34800, 36042, 36520,
-    41100,
-];
+const WITHOUT_EFFECT: &[u32] =
+    &[10200, 10210, 32060, 32070, 32090, 32402, 32650, 34220, 34232, 34800, 36042, 36520, 41100];
 
 /// Data beside the catalogue with which a control shows a PLC program something that is not modelled, their default, and what to do.
 const SEEN_BY_THE_PLC: &[(u32, f64, &str, &str)] = &[
@@ -133,7 +131,7 @@ pub(super) fn findings(archive: &Archive, control: &Nck, names: &Names, site: &S
         let axis = &control.active().axes[number];
         references(archive, number, axis, &mut findings);
         functions(archive, number, axis, &mut findings);
-        encoders(archive, number, site, &mut findings);
+        encoders(archive, number, axis, site, &mut findings);
         unused_cam(archive, number, control, site, &mut findings);
     }
     without_effect(archive, control, &mut findings);
@@ -265,14 +263,19 @@ fn references(archive: &Archive, number: AxisNumber, axis: &Axis, findings: &mut
         return;
     }
     for encoder in 0..axis.num_encs.min(2) {
-        let (mode, state) = (axis.enc_refp_mode[usize::from(encoder)], axis.enc_refp_state[usize::from(encoder)]);
-        if mode != 1 {
-            let what = "this kind of reference point approach is not modelled, and the encoder is never referenced; the model \
-                references incremental encoders with zero marks (1)";
-            add(34200, encoder, what, "set MD34200 = 1 for the test; `plant.toml` gives the zero marks");
-        } else if state != 0 {
-            let what = "the position of an incremental encoder is not restored at power on";
-            add(34210, encoder, what, "reference the axis after power on");
+        match axis.enc_refp_mode[usize::from(encoder)] {
+            // 0 without an absolute encoder has no approach on a control either.
+            1 | 3 => {}
+            0 if axis.enc_type[usize::from(encoder)] == 4 => {}
+            0 => {
+                let what = "an encoder that is not absolute (MD30240 = 4) has no reference point approach with 0, and is never referenced";
+                add(34200, encoder, what, "set MD34200 = 1 (zero marks) or 3 (distance-coded marks)");
+            }
+            _ => {
+                let what = "this kind of reference point approach is not modelled, and the encoder is never referenced; the model \
+                    references with zero marks (1), distance-coded marks (3) and absolute encoders (0)";
+                add(34200, encoder, what, "set MD34200 = 1 for the test; `plant.toml` gives the zero marks");
+            }
         }
     }
 }
@@ -292,16 +295,38 @@ fn functions(archive: &Archive, number: AxisNumber, axis: &Axis, findings: &mut 
     }
 }
 
-fn encoders(archive: &Archive, number: AxisNumber, site: &Site<'_>, findings: &mut Vec<Finding>) {
-    for (index, kind) in (site.encoders)(archive.data.axis_name(number)).into_iter().enumerate() {
-        if matches!(kind, Some(EncoderModel::Absolute | EncoderModel::DistanceCoded)) {
-            let encoder = index + 1;
-            let what = format!("the type of encoder {encoder} is not modelled; an incremental encoder is used");
-            let owner = archive.data.owner_in_words(Owner::Axis(number));
-            let name = archive.data.axis_name(number);
-            let cure = format!("write kind = \"incremental\" in [{name}.encoder{encoder}] of plant.toml");
-            findings.push(Finding { owner, ..Finding::new(Class::ActsOtherwise, what, cure) });
-        }
+/// An encoder of the plant that is of another type than its machine data say.
+fn encoders(archive: &Archive, number: AxisNumber, axis: &Axis, site: &Site<'_>, findings: &mut Vec<Finding>) {
+    let kinds = (site.encoders)(archive.data.axis_name(number)).into_iter().zip(0..axis.num_encs.min(2));
+    let name = archive.data.axis_name(number);
+    for (kind, index) in kinds {
+        let write = |kind: &str| format!("write kind = \"{kind}\" in [{name}.encoder{}] of plant.toml", index + 1);
+        let (mode, encoder_type) = (axis.enc_refp_mode[usize::from(index)], axis.enc_type[usize::from(index)]);
+        let reads = mode == 0 && encoder_type == 4;
+        let (datum, what, cure) = match kind {
+            Some(EncoderModel::Incremental | EncoderModel::DistanceCoded) if reads => (
+                30240,
+                "the encoder of `plant.toml` is not absolute: alarm 26020",
+                write("absolute"),
+            ),
+            Some(EncoderModel::Absolute) if encoder_type != 4 => {
+                let what = "the encoder of `plant.toml` is absolute, and the control uses it as an incremental one";
+                (30240, what, "set MD30240 = 4 and MD34200 = 0".to_owned())
+            }
+            Some(EncoderModel::Incremental | EncoderModel::Absolute) if mode == 3 => {
+                let what =
+                    "the encoder of `plant.toml` has no distance-coded marks: positions after referencing are wrong";
+                (34200, what, write("distance_coded"))
+            }
+            Some(EncoderModel::DistanceCoded) if mode != 3 => {
+                let what =
+                    "the encoder of `plant.toml` has distance-coded marks: the next of them is taken as the zero mark";
+                (34200, what, "set MD34200 = 3".to_owned())
+            }
+            Some(EncoderModel::Incremental | EncoderModel::Absolute | EncoderModel::DistanceCoded) | None => continue,
+        };
+        let finding = Finding::new(Class::Implausible, what, cure);
+        findings.push(archive.about(datum, Owner::Axis(number), index, finding));
     }
 }
 

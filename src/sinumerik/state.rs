@@ -16,6 +16,7 @@ use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunU
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::{GROUPINGS, GantryCoupling, SYNCHRONOUS_AXES};
 use crate::sinumerik::program::state::{ChannelProgram, Led};
+use crate::sinumerik::referencing::encoders::{Buffered, EncoderDatum};
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 use crate::variables::{EventId, Place, RParameters};
@@ -97,6 +98,12 @@ pub(super) struct State {
     pub summary: Summary,
     pub handwheels: [Handwheel; HANDWHEELS],
     pub group_functions: PerModeGroup<GroupFunction>,
+    /// The encoders have been read after power on.
+    pub encoders_read: bool,
+    /// Actual values at the last power off; `None` before the first one.
+    pub buffered: Option<PerAxis<[Buffered; 2]>>,
+    /// Machine data of encoders that the control writes.
+    pub written: Vec<EncoderDatum>,
     pub power_on_cause: EventId,
     /// The event of power on, for everything that has not changed since.
     pub as_after_power_on: EventId,
@@ -131,6 +138,9 @@ impl State {
             summary: Summary::default(),
             handwheels: Default::default(),
             group_functions: PerModeGroup::default(),
+            encoders_read: false,
+            buffered: None,
+            written: Vec::new(),
             power_on_cause: EventId::NONE,
             as_after_power_on: EventId::NONE,
             definition_cause: EventId::NONE,

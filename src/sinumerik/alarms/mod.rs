@@ -245,6 +245,12 @@ alarms! {
     /// No zero mark within MD34060.
     REFERENCE_MARK_NOT_FOUND 20002 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 zero reference mark not found";
+    /// Distance-coded: the distance of two marks is above 2 × MD34300, also on a second attempt in the other direction.
+    MEASURING_SYSTEM_ERROR 20003 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "channel %1 axis %2 measuring system error";
+    /// Distance-coded: no two marks within MD34060.
+    REFERENCE_MARK_MISSING 20004 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
+        "channel %1 axis %2 reference mark missing";
     /// Approach aborted.
     APPROACH_ABORTED 20005 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "channel %1 axis %2 reference point approach aborted";
@@ -294,6 +300,9 @@ alarms! {
     /// As 25020, for the passive encoder.
     PASSIVE_ZERO_MARK 25021 [DISPLAY] CancelKey
         "axis %1 zero mark monitoring of the passive encoder";
+    /// %3 = 0: the absolute encoder is not adjusted.
+    ENCODER_WARNING 25022 [DISPLAY] CancelKey
+        "axis %1 encoder %2 warning %3";
     /// MD36200 exceeded.
     ACTUAL_VELOCITY 25030
         [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
@@ -342,6 +351,14 @@ alarms! {
     DATUM_NOT_ALLOWED 26016
         [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset
         "axis %1 machine datum %2 value not allowed";
+    /// MD30240 = 4, and the encoder has no absolute position. %2: encoder; %3: bits as of 25022.
+    ENCODER_INITIALISATION 26020
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] PowerOn
+        "axis %1 encoder %2 hardware fault %3 at encoder initialisation";
+    /// Data of gear or encoder, or the serial number, of an adjusted absolute encoder were changed.
+    ABSOLUTE_POSITION_LOST 26030
+        [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] ModeGroupReset
+        "axis %1 encoder %2 absolute position lost";
     /// The parameter set has another load gear, and the axis is in position control with an encoder behind that gear. %2, %3: 1 to 6.
     PARAMETER_SET_NOT_POSSIBLE 26050 [FOLLOW_UP LOCAL START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset
         "axis %1 parameter set change from %2 to %3 not possible";

@@ -5,14 +5,13 @@
 //! |---|---|
 //! | 2001, 2900, 4002, 4004, 4005, 4011, 4040, 4060, 4075, 4111, 4112, 4113, 4200, 4210, 26014, 26015, 26017, 26024, 26025 | alarms of machine data: the model checks them before the control starts and reports them there |
 //! | 10620, 10630, 10631, 10721, 10723, 14790, 16xxx, 17630 to 17900, 20070, 20071, 26072, 26076 | limits in motion, actions of the operator, the PLC's positioning axes |
-//! | 20003, 20004, 20007, 20008, 22062, 22064 | distance-coded marks, and MD34200 = 6 and 7 |
+//! | 20007, 20008, 22062, 22064 | MD34200 = 6 and 7 |
 //! | 20052, 20053, 20060, 20062 | geometry axes, and overlaid movements such as DRF |
 //! | 20054, 20056, 20058 | indexing axes and revolutional feed |
 //! | 20059 | AUTOMATIC with JOG at the same time (MD10735) |
 //! | 21550 | couplings other than gantry groupings, which would retract an axis from its limit switch |
 //! | 21620 | the emergency braking ramp of a drive that stops on its own |
 //! | 22060 | a movement that a program, not a key, requests while the axis is not in position control |
-//! | 25022, 26020, 26030 | absolute encoders |
 //! | 25042 | limits of torque or force |
 //! | 25070 | drift compensation |
 //! | 26006, 26100, 26101, 26105, 26106 | drives and encoders on a bus: those of the plant are always found and always have the correct type |
@@ -58,8 +57,6 @@ alarms! {
     17650 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 machine axis %3 not programmable";
     17810 [INTERFACE_SIGNALS DISPLAY] CancelKey "channel %1 axis %2 not referenced";
     17900 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 block %2 axis %4 is not a machine axis";
-    20003 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 measuring system error";
-    20004 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 reference mark missing";
     20007 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 reference point approach needs two measuring systems";
     20008 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 reference point approach needs a second, referenced measuring system";
     20052 [DISPLAY] CancelKey "channel %1 axis %2 already active";
@@ -77,17 +74,14 @@ alarms! {
     22060 [DISPLAY] ByItself "channel %1 axis %2 position control expected";
     22062 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 zero mark search velocity not reached";
     22064 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 zero mark search velocity too high";
-    25022 [DISPLAY] CancelKey "axis %1 encoder %2 warning %3";
     25042 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset "axis %1 standstill monitoring with torque or force limiting";
     25070 [DISPLAY] CancelKey "axis %1 drift value too large";
     26006 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 encoder %2 encoder or output type %3 not possible";
     26014 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 machine datum %2 value not allowed";
     26015 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 machine datum %2[%3] value not allowed";
     26017 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset "axis %1 machine datum %2[%3] value not allowed";
-    26020 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] PowerOn "axis %1 encoder %2 hardware fault %3 at encoder initialisation";
     26024 [DISPLAY] Reset "axis %1 machine datum %2 value was changed";
     26025 [DISPLAY] Reset "axis %1 machine datum %2[%3] value was changed";
-    26030 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP REFERENCE_AGAIN] ModeGroupReset "axis %1 encoder %2 absolute position lost";
     26072 [INTERFACE_SIGNALS DISPLAY] CancelKey "channel %1 axis %2 cannot be controlled by the PLC";
     26076 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 axis %2 not available for the NC program, permanently a PLC axis";
     26100 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 drive %2 sign of life missing";

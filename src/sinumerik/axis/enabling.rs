@@ -111,6 +111,7 @@ impl State {
         let rule = if wanted.is_some() { Rule::MeasuringSystem } else { Rule::Parking };
         let event = self.log.note(Place::Axis(number), rule, inputs, EventId::NONE);
         let aborts = self.axes[number].approach.is_running();
+        let was_parked = self.axes[number].measuring_system.is_none();
         let axis = &mut self.axes[number];
         let before = axis.actual;
         axis.measuring_system = wanted;
@@ -118,6 +119,8 @@ impl State {
         if wanted.is_none() {
             axis.referenced = [false; 2];
             axis.causes.reference = [event; 2];
+            axis.restored = [false; 2];
+            axis.causes.restored = [event; 2];
         }
         axis.sense(&self.feedback[number]);
         axis.setpoint = crate::motion::Setpoint::at(axis.actual);
@@ -125,6 +128,9 @@ impl State {
         axis.signals.hold_at(axis.actual);
         let shift = axis.actual - before;
         self.value_shifted(number, shift);
+        if was_parked {
+            self.read_absolute(number, event, parameters);
+        }
         if aborts {
             self.abort_approach(number, event);
         }

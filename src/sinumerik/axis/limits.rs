@@ -96,7 +96,7 @@ impl State {
         to_nck: &ToNck,
     ) -> Option<Position> {
         let limit = || selected_limit(&to_nck.axes[number], &parameters.axes[number], direction);
-        self.axes[number].is_referenced().then(limit).flatten()
+        self.axes[number].knows_position().then(limit).flatten()
     }
 
     /// The software limit ahead of a movement in JOG in this direction.

@@ -28,6 +28,8 @@ pub(in crate::sinumerik) struct Causes {
     pub measuring_system: EventId,
     /// 60.4, 60.5.
     pub reference: [EventId; 2],
+    /// 71.4, 71.5.
+    pub restored: [EventId; 2],
     /// 64.4 to 64.7.
     pub motion: EventId,
     /// 69.0 to 69.2.
@@ -69,6 +71,8 @@ pub(in crate::sinumerik) struct Axis {
     pub offset: [Position; 2],
     /// Which measuring system is referenced.
     pub referenced: [bool; 2],
+    /// Whose position was restored at power on, without a reference (MD34210 = 3).
+    pub restored: [bool; 2],
     /// The active measuring system, 0 or 1; `None` for a parked axis.
     pub measuring_system: Option<u8>,
     /// Actual value in the machine coordinate system.
@@ -130,6 +134,7 @@ impl Default for Axis {
             arrived: false,
             offset: [Position::ZERO; 2],
             referenced: [false; 2],
+            restored: [false; 2],
             measuring_system: None,
             actual: Position::ZERO,
             zero_mark: None,
@@ -168,7 +173,7 @@ impl Axis {
             && (self.feed_held, self.feed_disabled, self.feed_holder)
                 == (other.feed_held, other.feed_disabled, other.feed_holder)
             && (self.key_used, self.approach_key, self.limits) == (other.key_used, other.approach_key, other.limits)
-            && (self.offset, self.referenced) == (other.offset, other.referenced)
+            && (self.offset, self.referenced, self.restored) == (other.offset, other.referenced, other.restored)
             && self.jogging == other.jogging
             && self.signals == other.signals
             && self.causes == other.causes
@@ -221,6 +226,15 @@ impl Axis {
     #[must_use]
     pub(in crate::sinumerik) fn is_referenced(&self) -> bool {
         self.measuring_system.is_some_and(|active| self.referenced[usize::from(active)])
+    }
+
+    /// Whether the position of the active measuring system is known: referenced, or restored at power on.
+    #[must_use]
+    pub(in crate::sinumerik) fn knows_position(&self) -> bool {
+        self.measuring_system.is_some_and(|active| {
+            let active = usize::from(active);
+            self.referenced[active] || self.restored[active]
+        })
     }
 
     /// The data of the active parameter set.

@@ -1,8 +1,8 @@
 //! Extended monitoring of the synchronism difference: MD37150 bit 0 of the synchronous axis (G1 2.2, E-14).
 //!
 //! Without it, an offset that arose in follow-up or in the opened grouping is the base of the limits. With it, the offset counts: the
-//! difference itself is tested. It acts once all axes of the grouping have been referenced after power on (MON-10; every encoder of the
-//! model is incremental).
+//! difference itself is tested. It acts once all axes of the grouping have been referenced after power on, with an absolute
+//! encoder once they have been synchronised (MON-10).
 //!
 //! A trip in extended monitoring writes the difference into MD37135, in the next cycle. 10653 then stays, also without the difference,
 //! until a RESET at which MD37150 bit 0 = 0 and MD37135 = 0 are in effect (MON-11; both become active by this RESET). After power off and

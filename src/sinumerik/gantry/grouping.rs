@@ -54,8 +54,8 @@ impl State {
             && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
         {
             let key = self.key_of_approach(unit, direction);
-            self.ask(index, parameters, |grouping, _, log, wants| {
-                *wants = grouping.start_approach(direction, key, event, log);
+            self.ask(index, parameters, |grouping, view, log, wants| {
+                *wants = grouping.start_approach(view, direction, key, event, log);
             });
         }
         match self.groupings[index].phase {
@@ -105,8 +105,16 @@ impl State {
         match self.run_approach(number, parameters, to_nck) {
             Outcome::Running => {}
             Outcome::Failed(alarm, event) => self.ask(index, parameters, abort(Some(alarm), event)),
-            Outcome::Referenced(shift, event) => {
+            Outcome::Measured(shift, _) => self.shift_actual_value(number, shift),
+            Outcome::NotAdjusted(event) => {
+                self.warn_not_adjusted(number, event);
+                self.ask(index, parameters, abort(None, event));
+            }
+            outcome @ (Outcome::Referenced(shift, event) | Outcome::Adjusted(shift, event)) => {
                 self.set_reference(number, shift, event);
+                if matches!(outcome, Outcome::Adjusted(..)) {
+                    self.store_adjustment(number, event);
+                }
                 let locked = to_nck.axes[unit.leader()].no_automatic_synchronization();
                 self.ask(index, parameters, |grouping, view, log, wants| {
                     *wants = grouping.next_section(view, event, locked, log);
@@ -182,7 +190,9 @@ impl State {
                     }
                 }
                 Want::Rest { axis, cause } => self.travel(axis, Travel::None, cause),
-                Want::StartApproach { axis, direction, cause } => self.start_approach(axis, direction, cause),
+                Want::StartApproach { axis, direction, keeps, cause } => {
+                    self.start_approach(axis, direction, keeps, cause);
+                }
                 Want::AbortApproach(axis) => self.axes[axis].approach.abort(),
                 Want::TakeSetpoint { axis, of } => self.axes[axis].setpoint = self.axes[of].setpoint,
                 Want::RaiseOfAxis { alarm, axis, cause } => self.raise_axis_alarm(alarm, axis, cause),
@@ -202,12 +212,13 @@ impl Grouping {
     }
 
     /// Section 1 begins, by a key or by the channel.
-    fn start_approach(&mut self, direction: i8, key: i8, event: EventId, log: &mut Log) -> Wants {
+    fn start_approach(&mut self, view: &View<'_>, direction: i8, key: i8, event: EventId, log: &mut Log) -> Wants {
         let leader = self.coupling.leader();
         self.step(log, Rule::LeadingAxisApproach, [Input::None; 3], event);
         self.key = key;
         self.coupling.lead_with(leader);
-        Wants::from_iter([Want::StartApproach { axis: leader, direction: f64::from(direction), cause: event }])
+        let (direction, keeps) = (f64::from(direction), view.keeps_reference(leader));
+        Wants::from_iter([Want::StartApproach { axis: leader, direction, keeps, cause: event }])
     }
 
     fn abort(&mut self, number: AxisNumber, alarm: Option<AlarmNumber>, event: EventId, log: &mut Log) -> Wants {
@@ -241,7 +252,11 @@ impl Grouping {
         let own = !axes[next].gantry.direction_of_leading_axis;
         let direction = axes[if own { next } else { leader }].reference.cam_direction;
         let cause = log.note_plain(Place::Axis(next), Rule::ApproachStartedInGrouping, event);
-        Wants::from_iter([Want::StartApproach { axis: next, direction, cause }, Want::Rest { axis: leader, cause }])
+        let keeps = view.keeps_reference(next);
+        Wants::from_iter([
+            Want::StartApproach { axis: next, direction, keeps, cause },
+            Want::Rest { axis: leader, cause },
+        ])
     }
 
     /// RESET: sections 1 and 2 start again with the leading axis (REF-12), section 3 with 29.4 (REF-13, O-09).

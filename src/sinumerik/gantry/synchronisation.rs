@@ -75,15 +75,17 @@ impl Grouping {
         self.misalignments(view).find(|&(axis, difference)| difference.abs() > limit(axis))
     }
 
-    /// The common position: MD34100 of the leading axis after referencing, otherwise its actual position (REF-15). A leading axis
+    /// The common position: MD34100 of the leading axis after referencing, or with MD34330 = 1 (REF-20) and otherwise its actual position (REF-15). A leading axis
     /// that is not at rest there returns to it; otherwise its actual value would differ from the others.
     fn decouple(&mut self, view: &View<'_>) {
         let leader = self.coupling.leader();
         let axis = &view.axes[leader];
         let runs_out = !axis.setpoint.is_at_rest()
             || axis.deviation().abs() > axis.active_set(&view.parameters.axes[leader]).exact_stop_fine;
+        // MD34330 = 1: the leading axis stays where its encoder gave the position.
+        let to_reference_point = self.from_referencing && !stays_after_referencing(view, leader);
         let moves = if self.from_referencing || runs_out { Moves::All } else { Moves::Followers };
-        let reference = self.from_referencing.then(|| Target::Given(axis.approach.set_position()));
+        let reference = to_reference_point.then(|| Target::Given(axis.approach.set_position()));
         let target = reference.unwrap_or(Target::LeaderActual);
         self.coupling.begin_realignment(Realign { moves, target }, view.axes);
     }
@@ -108,7 +110,7 @@ impl Grouping {
         self.synchronise(view, permit, log)
     }
 
-    /// The decoupled motion of section 3: each axis with its own MD34040 (E-12).
+    /// The decoupled motion of section 3: each axis with its own MD34040, or MD34070 (E-12).
     pub(in crate::sinumerik) fn synchronise(&mut self, view: &View<'_>, permit: Permit, log: &mut Log) -> Wants {
         let mut wants = Wants::new();
         if !permit.granted {
@@ -117,7 +119,8 @@ impl Grouping {
             self.abort_synchronising([input, Input::None, Input::None], cause, log, &mut wants);
             return wants;
         }
-        let limits = |number| velocity_and_acceleration(view, number);
+        let fast = self.moves_fast(view);
+        let limits = |number| velocity_and_acceleration(view, number, fast);
         let in_position = |number: AxisNumber| {
             let axis = &view.axes[number];
             axis.deviation().abs() <= axis.active_set(&view.parameters.axes[number]).exact_stop_fine
@@ -130,7 +133,7 @@ impl Grouping {
         };
         let hindered = |(axis, motion): &(AxisNumber, Motion)| {
             let moves = matches!(motion, Motion::GoTo { target, .. } if *target != view.axes[*axis].setpoint.position);
-            moves.then(|| Some((*axis, hindered_by(view, *axis)?)))?
+            moves.then(|| Some((*axis, hindered_by(view, *axis, fast)?)))?
         };
         if let Some((axis, datum)) = commands.iter().find_map(hindered) {
             // MD34040 = 0 became active after the approach (O-30).
@@ -165,6 +168,14 @@ impl Grouping {
             Progress::Done(_) => self.close_synchronised(view, log, &mut wants),
         }
         wants
+    }
+
+    /// E-12: MD34070 where the leading axis has an absolute or distance-coded encoder and goes to its reference point.
+    fn moves_fast(&self, view: &View<'_>) -> bool {
+        let leader = self.coupling.leader();
+        let encoder = usize::from(view.axes[leader].measuring_system.unwrap_or(0));
+        let knows = view.parameters.axes[leader].reference.knows_position_before(encoder);
+        self.from_referencing && knows && !stays_after_referencing(view, leader)
     }
 
     fn abort_synchronising(&mut self, inputs: [Input; 3], cause: EventId, log: &mut Log, wants: &mut Wants) {
@@ -219,7 +230,9 @@ impl Grouping {
             self.returning = true;
             self.coupling.clear_bases();
         }
-        self.extended.readiness.observe(self.coupling.members().all(|axis| axes[axis].is_referenced()));
+        // MON-10: with an absolute encoder only synchronisation makes extended monitoring act.
+        let referenced = |axis| axes[axis].is_referenced() && !view.keeps_reference(axis);
+        self.extended.readiness.observe(self.coupling.members().all(referenced));
         // If an enable is missing on another axis, follow-up ends in hold.
         let back = self.coupling.members().all(|axis| axes[axis].enabling.is_on());
         if back && std::mem::take(&mut self.returning) {
@@ -278,7 +291,14 @@ impl Grouping {
     /// E-13: all referenced, not synchronised, difference within MD37130.
     fn make_ready(&mut self, view: &View<'_>, log: &mut Log) {
         if self.out_of_trip_limit(view).is_none() && self.tripped().is_none() {
-            self.step(log, Rule::ReadyAgain, [Input::None; 3], self.cause);
+            // At power on nothing happened to the grouping: encoders that know their position made it ready.
+            let reference = |axis: AxisNumber| {
+                let active = view.axes[axis].measuring_system.unwrap_or(0);
+                view.axes[axis].causes.reference[usize::from(active)]
+            };
+            let references = self.coupling.members().map(reference).max().unwrap_or(EventId::NONE);
+            let cause = if self.cause.is_some() { self.cause } else { references };
+            self.step(log, Rule::ReadyAgain, [Input::None; 3], cause);
             self.from_referencing = false;
         }
     }
@@ -357,20 +377,32 @@ fn exact_stop(view: &View<'_>, number: AxisNumber) -> [Input; 3] {
     [measured, limit, factor]
 }
 
-/// MD34040 of the active measuring system with the override, and the acceleration; feed stop holds.
-fn velocity_and_acceleration(view: &View<'_>, number: AxisNumber) -> Limits {
+/// Whether the position of a leading axis is known without its reference point, and MD34330 = 1 leaves it where it is.
+fn stays_after_referencing(view: &View<'_>, number: AxisNumber) -> bool {
+    let encoder = usize::from(view.axes[number].measuring_system.unwrap_or(0));
+    let reference = &view.parameters.axes[number].reference;
+    reference.knows_position_before(encoder) && reference.stops_at_marks[encoder]
+}
+
+/// The velocity of the synchronising motion and its datum: MD34040 of the active measuring system, or MD34070.
+fn velocity(view: &View<'_>, number: AxisNumber, fast: bool) -> (f64, u32) {
+    let reference = &view.parameters.axes[number].reference;
+    let encoder = usize::from(view.axes[number].measuring_system.unwrap_or(0));
+    if fast { (reference.position_velocity, 34070) } else { (reference.marker_velocity[encoder], 34040) }
+}
+
+/// The velocity with the override, and the acceleration; feed stop holds.
+fn velocity_and_acceleration(view: &View<'_>, number: AxisNumber, fast: bool) -> Limits {
     let (axis, parameters) = (&view.axes[number], &view.parameters.axes[number]);
-    let encoder = usize::from(axis.measuring_system.unwrap_or(0));
     let factor = if axis.feed_held { 0.0 } else { axis.feed_factor };
-    let velocity = (parameters.reference.marker_velocity[encoder] * factor).min(parameters.maximum_velocity);
+    let velocity = (velocity(view, number, fast).0 * factor).min(parameters.maximum_velocity);
     Limits { velocity, acceleration: parameters.maximum_acceleration }
 }
 
 /// The datum of 0 with which an axis cannot make the synchronising motion.
-fn hindered_by(view: &View<'_>, number: AxisNumber) -> Option<u32> {
-    let (axis, parameters) = (&view.axes[number], &view.parameters.axes[number]);
-    let velocity = parameters.reference.marker_velocity[usize::from(axis.measuring_system.unwrap_or(0))];
-    parameters.immovable_by.or_else(|| (velocity <= 0.0).then_some(34040))
+fn hindered_by(view: &View<'_>, number: AxisNumber, fast: bool) -> Option<u32> {
+    let (velocity, datum) = velocity(view, number, fast);
+    view.parameters.axes[number].immovable_by.or_else(|| (velocity <= 0.0).then_some(datum))
 }
 
 /// "Referenced/synchronized" of a measuring system, 0 or 1.

@@ -9,6 +9,7 @@ use crate::motion::Motion;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::axis::Kind;
 use crate::sinumerik::parameters::groupings::SYNCHRONOUS_AXES;
 use crate::units::{AxisNumber, PerAxis};
 use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
@@ -18,6 +19,14 @@ use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 pub(in crate::sinumerik) struct View<'a> {
     pub axes: &'a PerAxis<Axis>,
     pub parameters: &'a Parameters,
+}
+
+impl View<'_> {
+    /// Whether a new approach leaves the reference of an axis: an absolute encoder keeps it.
+    pub(in crate::sinumerik) fn keeps_reference(&self, number: AxisNumber) -> bool {
+        let encoder = usize::from(self.axes[number].measuring_system.unwrap_or(0));
+        self.parameters.axes[number].reference.kind[encoder] == Kind::Absolute
+    }
 }
 
 /// Whether a synchronising motion is permitted.
@@ -36,8 +45,8 @@ pub(in crate::sinumerik) enum Want {
     Move { axis: AxisNumber, motion: Motion, travel: Travel, cause: EventId },
     /// The travel request and the travel command of an axis end.
     Rest { axis: AxisNumber, cause: EventId },
-    /// A reference point approach starts in the direction of a sign.
-    StartApproach { axis: AxisNumber, direction: f64, cause: EventId },
+    /// A reference point approach starts in the direction of a sign; whether the axis `keeps` its reference.
+    StartApproach { axis: AxisNumber, direction: f64, keeps: bool, cause: EventId },
     /// A reference point approach ends.
     AbortApproach(AxisNumber),
     /// An axis takes the setpoint of another axis without interpolation.

@@ -9,7 +9,8 @@
 //! pollution.
 //!
 //! Zero marks: the distance of two zero marks must be a multiple of MD34300; lost counts are detected at the next zero mark.
-//! MD36310 (minus 100 if above 100) is the number of wrong zero marks that raises the alarm; counting restarts with the alarm.
+//! MD36310 (minus 100 if above 100) is the number of wrong zero marks that raises the alarm; counting restarts with the alarm. The distance
+//! of two distance-coded marks must be one that the code has. The marks of an absolute encoder (MD34200 = 0) are not read.
 //!
 //! Switch-over: two referenced encoders must not differ by more than MD36500. An encoder that is not referenced has no position
 //! to compare. Selecting a second measuring system that does not exist according to MD30200 has no effect.
@@ -17,7 +18,7 @@
 use crate::image::axis_from_nck;
 use crate::sinumerik::alarms;
 use crate::sinumerik::inputs::axis_signal;
-use crate::sinumerik::parameters::axis::AxisParameters;
+use crate::sinumerik::parameters::axis::{AxisParameters, Kind};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, Position};
@@ -29,6 +30,7 @@ impl State {
             self.monitor_frequency(number, encoder, parameters);
             self.monitor_fault(number, encoder, parameters);
             self.monitor_zero_marks(number, encoder, parameters);
+            self.keep_position(number, encoder, parameters);
         }
         if let Some(limit) = parameters.monitoring.encoder_difference
             && self.axes[number].referenced == [true; 2]
@@ -107,9 +109,16 @@ impl State {
         let monitor = &mut self.axes[number].monitor.encoders[encoder];
         let before = monitor.mark.replace(mark);
         let (Some(tolerated), Some(before)) = (watched.errors, before) else { return };
-        let spacing = watched.spacing.increments();
-        let remainder = (mark - before).increments().rem_euclid(spacing);
-        let slipped = Position::new(remainder.min(spacing - remainder));
+        let reference = &parameters.reference;
+        let slipped = match reference.kind[encoder] {
+            Kind::Absolute => return,
+            Kind::DistanceCoded => reference.scale[encoder].misses((mark - before).abs()),
+            Kind::ZeroMark | Kind::None => {
+                let spacing = watched.spacing.increments();
+                let remainder = (mark - before).increments().rem_euclid(spacing);
+                Position::new(remainder.min(spacing - remainder))
+            }
+        };
         // Two zero marks are each latched with an accuracy of half a count.
         let one_count = Position::new(2 * self.feedback[number].half_count[encoder].increments() + 1);
         if slipped <= one_count {
@@ -134,6 +143,10 @@ impl State {
     /// The reference of a measuring system is lost. Synchronism is lost in the same cycle.
     fn lose_reference(&mut self, number: AxisNumber, encoder: usize, cause: EventId) {
         let axis = &mut self.axes[number];
+        if std::mem::take(&mut axis.restored[encoder]) {
+            axis.causes.restored[encoder] = cause;
+            self.log.news.set(number, true);
+        }
         if std::mem::take(&mut axis.referenced[encoder]) {
             axis.causes.reference[encoder] = cause;
             self.log.news.set(number, true);

@@ -19,9 +19,29 @@ pub struct AxisPresence {
     pub mechanics: Mechanics,
 }
 
-/// MD34200 = 1: the reference point approach ends at a zero mark. With 0 an encoder that is not absolute has no reference point approach;
-/// the other values are not modelled.
-pub(in crate::sinumerik) const BY_ZERO_MARK: u8 = 1;
+/// How an encoder gets its reference (MD34200 and MD30240).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// MD34200 = 1: the reference point approach ends at a zero mark, or at the substitute mark of an absolute encoder.
+    ZeroMark,
+    /// MD34200 = 3: two distance-coded marks give the position.
+    DistanceCoded,
+    /// MD34200 = 0 and MD30240 = 4: the encoder reads its position.
+    Absolute,
+    /// No reference point approach: MD34200 = 0 without an absolute encoder. The other values are not modelled.
+    None,
+}
+
+/// A scale with distance-coded marks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scale {
+    /// MD34300: distance of two fixed marks.
+    pub spacing: Position,
+    /// MD34310: by this distance the mark between two fixed ones moves on from field to field.
+    pub shift: Position,
+    /// MD34320: it counts against the axis.
+    pub inverted: bool,
+}
 
 /// The reference point approach of one axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,6 +72,16 @@ pub struct Reference {
     pub cycle_number: i32,
     /// MD34200.
     pub mode: PerEncoder<u8>,
+    /// How each encoder gets its reference.
+    pub kind: PerEncoder<Kind>,
+    /// MD34210.
+    pub state: PerEncoder<u8>,
+    /// MD34090 alone: with an absolute encoder, the actual value where the encoder reads 0; with distance-coded marks, that of the first mark.
+    pub absolute_offset: PerEncoder<Position>,
+    /// MD34300, MD34310, MD34320.
+    pub scale: PerEncoder<Scale>,
+    /// MD34330: the axis does not travel to MD34100.
+    pub stops_at_marks: PerEncoder<bool>,
     /// MD35000: a spindle. It has no reference point approach against a cam, and NC start does not need its reference.
     pub is_spindle: bool,
     /// MD35150 as a share of MD34040.
@@ -236,14 +266,48 @@ fn reference(md: &Axis, maximum_velocity: f64, velocity: &impl Fn(f64) -> f64) -
         set_position: md.refp_set_pos.map(Position::from_user),
         cycle_number: if md.spind_assign_to_machax == 0 { md.refp_cycle_nr } else { -1 },
         mode: md.enc_refp_mode,
+        kind: std::array::from_fn(|encoder| match (md.enc_refp_mode[encoder], md.enc_type[encoder]) {
+            (1, _) => Kind::ZeroMark,
+            (3, _) => Kind::DistanceCoded,
+            (0, ABSOLUTE) => Kind::Absolute,
+            _ => Kind::None,
+        }),
+        state: md.enc_refp_state,
+        absolute_offset: md.refp_move_dist_corr.map(Position::from_user),
+        scale: std::array::from_fn(|encoder| Scale {
+            spacing: Position::from_user(md.enc_refp_marker_dist[encoder]),
+            shift: Position::from_user(md.enc_marker_inc[encoder]),
+            inverted: md.enc_invers[encoder],
+        }),
+        stops_at_marks: md.refp_stop_at_abs_marker,
         is_spindle: md.spind_assign_to_machax != 0,
         creep_tolerance: md.spind_des_velo_tol,
     }
 }
 
+/// MD30240 of an absolute encoder.
+const ABSOLUTE: u8 = 4;
+
 fn immovable_by(md: &Axis) -> Option<u32> {
     let needed = [(32000, md.max_ax_velo), (32300, md.max_ax_accel[0])];
     needed.into_iter().find(|(_, value)| *value <= 0.0).map(|(datum, _)| datum)
+}
+
+/// MD34210 = 2: an absolute encoder is adjusted; an incremental one was referenced and stands in exact stop fine.
+pub(in crate::sinumerik) const ADJUSTED: u8 = 2;
+
+impl Reference {
+    /// Whether the position of the encoder is known before the axis is at its reference point: MD34330 then decides whether it travels there.
+    #[must_use]
+    pub(in crate::sinumerik) fn knows_position_before(&self, encoder: usize) -> bool {
+        matches!(self.kind[encoder], Kind::DistanceCoded | Kind::Absolute)
+    }
+
+    /// Whether the machine data give this encoder a reference point approach.
+    #[must_use]
+    pub(in crate::sinumerik) fn has_approach(&self, encoder: usize) -> bool {
+        self.kind[encoder] != Kind::None
+    }
 }
 
 impl AxisParameters {
@@ -251,15 +315,22 @@ impl AxisParameters {
     #[must_use]
     pub(in crate::sinumerik) fn approach_hindered_by(&self, encoder: usize) -> Option<(u32, f64)> {
         let reference = &self.reference;
-        let mode = reference.mode[encoder];
-        if mode != BY_ZERO_MARK {
-            return Some((34200, f64::from(mode)));
-        }
+        let needs = match reference.kind[encoder] {
+            Kind::ZeroMark => [reference.cam_is_active, true, true],
+            Kind::DistanceCoded => [false, true, !reference.stops_at_marks[encoder]],
+            // Only an adjusted encoder travels.
+            Kind::Absolute if reference.state[encoder] != ADJUSTED => return None,
+            Kind::Absolute => [false, false, !reference.stops_at_marks[encoder]],
+            Kind::None => return Some((34200, f64::from(reference.mode[encoder]))),
+        };
         let needed = [
-            (34020, reference.cam_velocity, reference.cam_is_active),
-            (34040, reference.marker_velocity[encoder], true),
-            (34070, reference.position_velocity, true),
+            (34020, reference.cam_velocity, needs[0]),
+            (34040, reference.marker_velocity[encoder], needs[1]),
+            (34070, reference.position_velocity, needs[2]),
         ];
+        if !needs.contains(&true) {
+            return None;
+        }
         let hinders = |(_, velocity, is_needed): &(u32, f64, bool)| *is_needed && *velocity <= 0.0;
         let datum = self.immovable_by.or_else(|| needed.into_iter().find(hinders).map(|(datum, ..)| datum));
         datum.map(|datum| (datum, 0.0))

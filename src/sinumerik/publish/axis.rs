@@ -81,6 +81,8 @@ impl State {
         });
         rows.bit(axis_from_nck::referenced_synchronized_1, axis.referenced[0], || Why::Event(causes.reference[0]));
         rows.bit(axis_from_nck::referenced_synchronized_2, axis.referenced[1], || Why::Event(causes.reference[1]));
+        rows.bit(axis_from_nck::position_restored_1, axis.restored[0], || Why::Event(causes.restored[0]));
+        rows.bit(axis_from_nck::position_restored_2, axis.restored[1], || Why::Event(causes.restored[1]));
         let [current, speed, position] = axis.enabling.controllers();
         let place = Place::Axis(number);
         let alarm = self.alarms.with_reaction(Reaction::INTERFACE_SIGNALS, Some(place));

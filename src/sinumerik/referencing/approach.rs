@@ -1,4 +1,4 @@
-//! Reference point approach of one axis with an incremental encoder (R1; G1 2.3.1 runs it for each gantry axis).
+//! Reference point approach of one axis (R1; G1 2.3.1 runs it for each gantry axis).
 //!
 //! Called once per cycle for the axis that is being referenced. Reads its cam (12.7), its reference point value bits (2.4 to
 //! 2.7), the zero mark latched by the encoder, override and feed; writes the motion of the axis. Every phase repeats its command
@@ -11,7 +11,7 @@
 //! with 20005 when it starts (O-30), and so does MD34200 other than 1 of a synchronous axis when its turn comes (C-47); a distance of 0
 //! (MD34030, MD34060) ends it with the alarm of this distance. An axis whose setpoint rests on or off the cam and that does not
 //! stand (MD36060) within 10 s ends it with 20005. 20006 is raised when the axis passes the cam edge at the wrong speed for the
-//! second time. NC stop is not read. Contour monitoring (25050) stops an axis that is blocked.
+//! second time. Distance-coded marks and absolute encoders are in `known_position.rs`. NC stop is not read. Contour monitoring (25050) stops an axis that is blocked.
 
 use crate::control::Log;
 use crate::control::next;
@@ -20,7 +20,7 @@ use crate::motion::Motion;
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::inputs::{axis_signal, channel_signal};
-use crate::sinumerik::parameters::axis::AxisParameters;
+use crate::sinumerik::parameters::axis::{AxisParameters, Kind};
 use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::referencing::state::{APPROACH_CHART, Approach, Phase, TRANSITIONS};
 use crate::sinumerik::rules::Rule;
@@ -34,17 +34,23 @@ pub(in crate::sinumerik) enum Outcome {
     Running,
     /// The reference point is reached: the actual value at the present position is shifted by this distance.
     Referenced(Position, EventId),
+    /// Distance-coded marks gave the position, and it continues: the actual value is shifted by this distance.
+    Measured(Position, EventId),
+    /// The absolute encoder is adjusted: the actual value is shifted by this distance.
+    Adjusted(Position, EventId),
+    /// The absolute encoder is not adjusted (25022), and it ended.
+    NotAdjusted(EventId),
     /// It ended with an alarm.
     Failed(AlarmNumber, EventId),
 }
 
 /// The inputs of an approach in a cycle.
-struct View<'a> {
-    number: AxisNumber,
-    axis: &'a Axis,
-    parameters: &'a AxisParameters,
-    signals: &'a AxisToNck,
-    encoder: usize,
+pub(super) struct View<'a> {
+    pub(super) number: AxisNumber,
+    pub(super) axis: &'a Axis,
+    pub(super) parameters: &'a AxisParameters,
+    pub(super) signals: &'a AxisToNck,
+    pub(super) encoder: usize,
 }
 
 impl Approach {
@@ -77,20 +83,28 @@ impl Approach {
         self.phase = Phase::Idle;
     }
 
-    fn step(&mut self, log: &mut Log, number: AxisNumber, by: Rule, inputs: [Input; 3]) {
+    pub(super) fn step(&mut self, log: &mut Log, number: AxisNumber, by: Rule, inputs: [Input; 3]) {
         self.phase = next(TRANSITIONS, &mut log.taken.0[APPROACH_CHART], self.phase, by);
         self.cause = log.note(Place::Axis(number), by, inputs, self.cause);
         self.waited = 0;
     }
 
     /// Starts towards the cam; `cam_direction` is a sign, `cause` the event that requested the approach.
-    pub(in crate::sinumerik) fn start(&mut self, log: &mut Log, direction: f64, actual: Position, cause: EventId) {
+    pub(in crate::sinumerik) fn start(
+        &mut self,
+        log: &mut Log,
+        direction: f64,
+        actual: Position,
+        in_grouping: bool,
+        cause: EventId,
+    ) {
         let phase = next(TRANSITIONS, &mut log.taken.0[APPROACH_CHART], Phase::Idle, Rule::ApproachStarted);
         *self = Self {
             phase,
             cam_direction: direction,
             marker_direction: direction,
             origin: actual,
+            in_grouping,
             cause,
             ..Self::default()
         };
@@ -125,6 +139,14 @@ impl Approach {
         let creep_from_rising_edge = reference.marker_reverse[view.encoder];
         match self.phase {
             Phase::Idle | Phase::PassShift => {}
+            Phase::SearchCam if reference.kind[view.encoder] == Kind::Absolute => return self.absolute(log, view),
+            Phase::SearchCam if reference.kind[view.encoder] == Kind::DistanceCoded => {
+                self.search_marks(log, view, cam)
+            }
+            Phase::SearchMark if reference.kind[view.encoder] == Kind::DistanceCoded => {
+                return self.coded_marks(log, view, cam);
+            }
+            Phase::BrakeAfterMarks if axis.stands(view.parameters) => return self.referenced_at_rest(log, view),
             Phase::SearchCam if !reference.cam_is_active => {
                 self.origin = axis.actual;
                 self.set_position = selected(view);
@@ -165,7 +187,7 @@ impl Approach {
             Phase::LeaveCam | Phase::SearchEdge => {
                 return self.too_far(log, view, reference.maximum_cam_distance, alarms::CAM_NOT_REACHED, 34030);
             }
-            Phase::BrakeOnCam | Phase::BrakeOffCam => return self.standstill(log, view),
+            Phase::BrakeOnCam | Phase::BrakeOffCam | Phase::BrakeAfterMarks => return self.standstill(log, view),
             Phase::SearchMark => {
                 let Some(mark) = axis.zero_mark else {
                     let maximum = reference.maximum_marker_distance[view.encoder];
@@ -201,7 +223,8 @@ impl Approach {
     /// The event that ends an approach in any phase: a datum that does not allow it, feed disable, or 0 % while the override does not act
     /// (phase 2).
     fn interrupted(&mut self, log: &mut Log, view: &View<'_>) -> Option<Outcome> {
-        let creeping = matches!(self.phase, Phase::LeaveCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark);
+        let creeping = matches!(self.phase, Phase::LeaveCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark)
+            && !override_acts_on_marks(view);
         let input = if let Some((datum, value)) = view.parameters.approach_hindered_by(view.encoder) {
             Input::Datum(datum, Some(view.number), value)
         } else if view.axis.feed_disabled {
@@ -248,7 +271,7 @@ impl Approach {
         }
     }
 
-    fn too_far(
+    pub(super) fn too_far(
         &mut self,
         log: &mut Log,
         view: &View<'_>,
@@ -298,7 +321,7 @@ impl Approach {
         Outcome::Running
     }
 
-    fn fail(&mut self, log: &mut Log, view: &View<'_>, alarm: AlarmNumber, inputs: [Input; 3]) -> Outcome {
+    pub(super) fn fail(&mut self, log: &mut Log, view: &View<'_>, alarm: AlarmNumber, inputs: [Input; 3]) -> Outcome {
         self.cause = log.note(Place::Axis(view.number), Rule::ApproachAborted, inputs, self.cause);
         self.phase = Phase::Idle;
         Outcome::Failed(alarm, self.cause)
@@ -307,7 +330,7 @@ impl Approach {
     /// The direction of the movement of the phase, also while it is held: +1, −1, or 0 while braking and at the target.
     pub(in crate::sinumerik) fn direction(&self, axis: &Axis, cam_is_active: bool) -> i8 {
         let sign = match self.phase {
-            Phase::Idle | Phase::BrakeOnCam | Phase::BrakeOffCam => return 0,
+            Phase::Idle | Phase::BrakeOnCam | Phase::BrakeOffCam | Phase::BrakeAfterMarks => return 0,
             Phase::SearchCam if cam_is_active => self.cam_direction,
             Phase::LeaveCam => -self.cam_direction,
             Phase::SearchCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark => self.marker_direction,
@@ -326,11 +349,16 @@ impl Approach {
         let brake = Motion::Brake { deceleration: acceleration };
         let creep = reference.marker_velocity[view.encoder];
         let velocity = match self.phase {
-            Phase::Idle | Phase::BrakeOnCam | Phase::BrakeOffCam => return brake,
+            Phase::Idle | Phase::BrakeOnCam | Phase::BrakeOffCam | Phase::BrakeAfterMarks => return brake,
             Phase::SearchCam if reference.cam_is_active => {
                 self.cam_direction * (reference.cam_velocity * view.axis.feed_factor).min(parameters.maximum_velocity)
             }
             Phase::LeaveCam => -self.cam_direction * reference.cam_velocity,
+            Phase::SearchMark if reference.kind[view.encoder] == Kind::DistanceCoded => {
+                let factor = if override_acts_on_marks(view) { view.axis.feed_factor } else { 1.0 };
+                let share = if self.second_attempt { 0.5 } else { 1.0 };
+                self.marker_direction * (creep * share * factor).min(parameters.maximum_velocity)
+            }
             Phase::SearchCam | Phase::SearchEdge | Phase::PassShift | Phase::SearchMark => {
                 self.marker_direction * creep
             }
@@ -345,8 +373,14 @@ impl Approach {
     }
 }
 
+/// Whether the override acts in the search for marks: with distance-coded marks and without a cam (nc_programs 6.1).
+fn override_acts_on_marks(view: &View<'_>) -> bool {
+    let reference = &view.parameters.reference;
+    reference.kind[view.encoder] == Kind::DistanceCoded && !reference.cam_is_active
+}
+
 /// The value of MD34100 selected by 2.4 to 2.7; if no bit is set, value 1.
-fn selected(view: &View<'_>) -> Position {
+pub(super) fn selected(view: &View<'_>) -> Position {
     let signals = view.signals;
     let values = &view.parameters.reference.set_position;
     let index = [

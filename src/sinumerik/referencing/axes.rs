@@ -9,10 +9,11 @@
 use crate::image::{ToNck, axis_from_nck, axis_to_nck, mode_group_from_nck};
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::travel::Travel;
+use crate::sinumerik::gantry::view::View;
 use crate::sinumerik::inputs::{axis_signal, mode_group_signal};
 use crate::sinumerik::jog::keys::{key_direction, key_signal};
 use crate::sinumerik::parameters::Parameters;
-use crate::sinumerik::parameters::axis::BY_ZERO_MARK;
+use crate::sinumerik::parameters::axis::{ADJUSTED, AxisParameters, Kind};
 use crate::sinumerik::referencing::approach::Outcome;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
@@ -56,7 +57,8 @@ impl State {
                 && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
             {
                 self.axes[number].approach_key = self.key_of_approach(unit, direction);
-                self.start_approach(number, f64::from(direction), event);
+                let keeps = View { axes: &self.axes, parameters }.keeps_reference(number);
+                self.start_approach(number, f64::from(direction), keeps, event);
                 self.reference_single(unit, parameters, to_nck);
             }
         }
@@ -79,9 +81,19 @@ impl State {
                 self.travel(number, Travel::None, event);
                 self.raise_axis_alarm(alarm, number, event);
             }
+            Outcome::Measured(shift, _) => self.shift_actual_value(number, shift),
             Outcome::Referenced(shift, event) => {
                 self.travel(number, Travel::None, event);
                 self.set_reference(number, shift, event);
+            }
+            Outcome::Adjusted(shift, event) => {
+                self.travel(number, Travel::None, event);
+                self.set_reference(number, shift, event);
+                self.store_adjustment(number, event);
+            }
+            Outcome::NotAdjusted(event) => {
+                self.travel(number, Travel::None, event);
+                self.warn_not_adjusted(number, event);
             }
         }
     }
@@ -117,6 +129,10 @@ impl State {
             return false;
         }
         let Some((direction, by)) = self.approach_requested(unit, parameters, to_nck) else { return false };
+        if !self.travels(number, &parameters.axes[number]) {
+            // Nothing will move.
+            return false;
+        }
         // An approach that begins on the cam first leaves it.
         let on_cam = parameters.axes[number].reference.cam_is_active
             && to_nck.axes[number].deceleration_reference_point_approach();
@@ -171,11 +187,10 @@ impl State {
         let reference = &parameters.axes[number].reference;
         let signals = &to_nck.axes[number];
         let key = key_direction(signals);
-        let has_zero_mark = self.axes[number]
-            .measuring_system
-            .is_some_and(|active| reference.mode[usize::from(active)] == BY_ZERO_MARK);
+        let active = self.axes[number].measuring_system.map(usize::from);
+        let has_approach = active.is_some_and(|active| reference.has_approach(active));
         let hindered = reference.is_spindle || signals.axis_spindle_disable();
-        if !self.may_reference(unit) || !has_zero_mark || hindered {
+        if !self.may_reference(unit) || !has_approach || hindered {
             return None;
         }
         let forward = if reference.cam_direction > 0.0 { 1 } else { -1 };
@@ -188,8 +203,9 @@ impl State {
         if self.channels[unit.channel].referencing.wants(number, reference.cycle_number) {
             return Some((forward, RequestedBy::Channel));
         }
-        // The other key: no start, no alarm. Without a cam both directions are correct.
-        let right = key != 0 && (key == forward || !reference.cam_is_active);
+        // The other key: no start, no alarm. Without a cam both directions are correct, except for an absolute encoder.
+        let is_absolute = active.is_some_and(|active| reference.kind[active] == Kind::Absolute);
+        let right = key != 0 && (key == forward || !reference.cam_is_active && !is_absolute);
         (right && !self.axes[number].key_used).then_some((key, RequestedBy::Key))
     }
 
@@ -239,15 +255,42 @@ impl State {
         Some((direction, event))
     }
 
-    /// Begins an approach: the reference of its measuring system is lost.
-    pub(in crate::sinumerik) fn start_approach(&mut self, number: AxisNumber, direction: f64, cause: EventId) {
+    /// Begins an approach: the reference of its measuring system is lost, except for an absolute encoder.
+    pub(in crate::sinumerik) fn start_approach(
+        &mut self,
+        number: AxisNumber,
+        direction: f64,
+        keeps_reference: bool,
+        cause: EventId,
+    ) {
+        let in_grouping = self.is_gantry_axis(number);
         let axis = &mut self.axes[number];
         let encoder = usize::from(axis.measuring_system.unwrap_or(0));
-        if axis.referenced[encoder] {
-            axis.referenced[encoder] = false;
-            axis.causes.reference[encoder] = self.log.note_plain(Place::Axis(number), Rule::NewApproach, cause);
+        if !keeps_reference && (axis.referenced[encoder] || axis.restored[encoder]) {
+            let event = self.log.note_plain(Place::Axis(number), Rule::NewApproach, cause);
+            if std::mem::take(&mut axis.referenced[encoder]) {
+                axis.causes.reference[encoder] = event;
+            }
+            if std::mem::take(&mut axis.restored[encoder]) {
+                axis.causes.restored[encoder] = event;
+            }
         }
-        axis.approach.start(&mut self.log, direction, axis.actual, cause);
+        axis.approach.start(&mut self.log, direction, axis.actual, in_grouping, cause);
+    }
+
+    /// Whether an approach of this axis moves it: an absolute encoder only travels to its reference point when it is adjusted.
+    pub(in crate::sinumerik) fn travels(&self, number: AxisNumber, parameters: &AxisParameters) -> bool {
+        let reference = &parameters.reference;
+        let encoder = usize::from(self.axes[number].measuring_system.unwrap_or(0));
+        let is_adjusted = reference.state[encoder] == ADJUSTED;
+        let goes_on = is_adjusted && !reference.stops_at_marks[encoder] && !self.is_gantry_axis(number);
+        reference.kind[encoder] != Kind::Absolute || goes_on
+    }
+
+    /// 25022 with %3 = 0.
+    pub(in crate::sinumerik) fn warn_not_adjusted(&mut self, number: AxisNumber, event: EventId) {
+        let encoder = usize::from(self.axes[number].measuring_system.unwrap_or(0));
+        self.raise_encoder_alarm(alarms::ENCODER_WARNING, number, encoder, 0, event);
     }
 
     /// One cycle of an approach. Commands the motion of its axis.
@@ -353,9 +396,12 @@ impl State {
     /// Shifts the actual value at the present position; the axis is referenced.
     pub(in crate::sinumerik) fn set_reference(&mut self, number: AxisNumber, shift: Position, event: EventId) {
         let axis = &mut self.axes[number];
-        if let Some(active) = axis.measuring_system {
-            axis.referenced[usize::from(active)] = true;
-            axis.causes.reference[usize::from(active)] = event;
+        if let Some(active) = axis.measuring_system.map(usize::from) {
+            axis.referenced[active] = true;
+            axis.causes.reference[active] = event;
+            if std::mem::take(&mut axis.restored[active]) {
+                axis.causes.restored[active] = event;
+            }
         }
         self.shift_actual_value(number, shift);
     }

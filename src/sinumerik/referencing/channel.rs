@@ -1,13 +1,12 @@
 //! Channel-specific referencing (1.0, 33.0): the order of the axes of a channel, and what ends it.
 //!
-//! It waits for the enables of an axis. An axis that its machine data exclude from an approach (no encoder, MD34200 other than 1) is left out,
+//! It waits for the enables of an axis. An axis that its machine data exclude from an approach (no encoder, or none by MD34200) is left out,
 //! and so is an open grouping; an axis that is parked, has 1.3 = 1 or a velocity of 0 when its turn comes ends it with 20005.
 
 use crate::image::{ToNck, axis_to_nck, channel_to_nck, mode_group_from_nck};
 use crate::sinumerik::alarms;
 use crate::sinumerik::inputs::{axis_signal, channel_signal, mode_group_signal};
 use crate::sinumerik::parameters::Parameters;
-use crate::sinumerik::parameters::axis::BY_ZERO_MARK;
 use crate::sinumerik::referencing::state::ChannelReferencing;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
@@ -143,16 +142,15 @@ impl State {
         of_channel.filter(whole).filter(|unit| self.has_approach(unit, parameters))
     }
 
-    /// Whether the machine data allow an approach of a unit: every axis has an encoder, and that of the first axis is referenced by a zero
-    /// mark.
+    /// Whether the machine data allow an approach of a unit: every axis has an encoder, and that of the first axis has an approach.
     pub(in crate::sinumerik) fn has_approach(&self, unit: &Unit, parameters: &Parameters) -> bool {
         let (leader, encoders) = (unit.leader(), |axis: AxisNumber| parameters.axes[axis].encoders);
-        let modes = &parameters.axes[leader].reference.mode;
-        let by_zero_mark = match self.axes[leader].measuring_system {
-            Some(active) => modes[usize::from(active)] == BY_ZERO_MARK,
-            None => modes.iter().take(usize::from(encoders(leader))).any(|&mode| mode == BY_ZERO_MARK),
+        let reference = &parameters.axes[leader].reference;
+        let has_approach = match self.axes[leader].measuring_system {
+            Some(active) => reference.has_approach(usize::from(active)),
+            None => (0..usize::from(encoders(leader)).min(2)).any(|encoder| reference.has_approach(encoder)),
         };
-        by_zero_mark && unit.members().all(|axis| encoders(axis) > 0)
+        has_approach && unit.members().all(|axis| encoders(axis) > 0)
     }
 
     /// The next order number above this one with an axis that can be started; 0 if there is none.

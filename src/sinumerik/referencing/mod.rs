@@ -3,4 +3,6 @@
 pub(super) mod approach;
 pub(super) mod axes;
 pub(super) mod channel;
+pub(super) mod encoders;
+mod known_position;
 pub(super) mod state;

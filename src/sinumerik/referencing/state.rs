@@ -63,6 +63,8 @@ pub enum Phase {
     SearchMark,
     /// Phase 3: with MD34070 to the reference point.
     GoToReferencePoint,
+    /// Distance-coded marks, MD34330 = 1 or a grouping: the position is known, the axis brakes.
+    BrakeAfterMarks,
     /// At the reference point, until exact stop fine.
     ExactStop,
 }
@@ -81,6 +83,7 @@ impl Phase {
             Self::PassShift => "distance of MD34092",
             Self::SearchMark => "phase 2: to the zero mark",
             Self::GoToReferencePoint => "phase 3: to the reference point",
+            Self::BrakeAfterMarks => "braking after the distance-coded marks",
             Self::ExactStop => "waiting for exact stop fine",
         }
     }
@@ -101,6 +104,17 @@ pub const TRANSITIONS: &[Transition<Phase, Rule>] = &[
     row(Phase::SearchEdge, Rule::CamEdge, Phase::PassShift),
     row(Phase::PassShift, Rule::CamShiftPassed, Phase::SearchMark),
     row(Phase::SearchMark, Rule::ZeroMark, Phase::GoToReferencePoint),
+    row(Phase::SearchCam, Rule::MarksSearched, Phase::SearchMark),
+    row(Phase::SearchCam, Rule::MarksSearchedOffCam, Phase::SearchMark),
+    row(Phase::SearchMark, Rule::FirstMark, Phase::SearchMark),
+    row(Phase::SearchMark, Rule::CamAhead, Phase::SearchMark),
+    row(Phase::SearchMark, Rule::MarksTooFarApart, Phase::SearchMark),
+    row(Phase::SearchMark, Rule::MarksPassed, Phase::GoToReferencePoint),
+    row(Phase::SearchMark, Rule::StopAfterMarks, Phase::BrakeAfterMarks),
+    row(Phase::BrakeAfterMarks, Rule::Referenced, Phase::Idle),
+    row(Phase::SearchCam, Rule::AbsoluteTravels, Phase::GoToReferencePoint),
+    row(Phase::SearchCam, Rule::AbsoluteStays, Phase::Idle),
+    row(Phase::SearchCam, Rule::EncoderAdjusted, Phase::Idle),
     row(Phase::GoToReferencePoint, Rule::ReferencePointReached, Phase::ExactStop),
     row(Phase::ExactStop, Rule::Referenced, Phase::Idle),
 ];
@@ -124,6 +138,12 @@ pub(in crate::sinumerik) struct Approach {
     pub target: Position,
     /// The value of MD34100 that 2.4 to 2.7 selected.
     pub set_position: Position,
+    /// The approach is a section of a grouping: section 3 moves to the reference point.
+    pub in_grouping: bool,
+    /// The first of two distance-coded marks.
+    pub mark: Option<Position>,
+    /// Second attempt in the other direction, with half of MD34040: the distance of two distance-coded marks was too large.
+    pub second_attempt: bool,
     /// The axis passed the cam edge at the wrong speed once.
     pub creep_velocity_missed: bool,
     /// Number of cycles at the reference point without exact stop fine.

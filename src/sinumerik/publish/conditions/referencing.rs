@@ -3,6 +3,7 @@
 use crate::control::{Condition, Fact};
 use crate::image::{Signal, axis_from_nck, axis_to_nck, channel_from_nck, channel_to_nck, mode_group_from_nck};
 use crate::sinumerik::gantry::state::Phase as GroupingPhase;
+use crate::sinumerik::parameters::axis::Kind;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
 use crate::sinumerik::referencing::state::Phase;
 use crate::sinumerik::state::Unit;
@@ -20,6 +21,16 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
         axis_from_nck::referenced_synchronized_2,
         |look, axis| look.referenced(axis, 1),
         |look, axis| look.reference_lost(axis, 1),
+    ),
+    Row::with(
+        axis_from_nck::position_restored_1,
+        |look, axis| look.restored(axis, 0),
+        |look, axis| look.restored_no_more(axis, 0),
+    ),
+    Row::with(
+        axis_from_nck::position_restored_2,
+        |look, axis| look.restored(axis, 1),
+        |look, axis| look.restored_no_more(axis, 1),
     ),
 ];
 
@@ -46,6 +57,36 @@ impl Look<'_> {
         let set = self.state.axes[number].referenced[usize::from(encoder)];
         let what = format!("reference of measuring system {} of {}", encoder + 1, self.axis_name(number));
         Fact::new(what, word(set), word(wanted), set == wanted)
+    }
+
+    fn restored_fact(self, number: AxisNumber, encoder: u8, wanted: bool) -> Fact {
+        let word = |set| if set { "restored" } else { "not restored" };
+        let set = self.state.axes[number].restored[usize::from(encoder)];
+        let what = format!("position of measuring system {} of {}", encoder + 1, self.axis_name(number));
+        Fact::new(what, word(set), word(wanted), set == wanted)
+    }
+
+    /// 71.4 and 71.5 come at power on.
+    fn restored(self, number: AxisNumber, encoder: u8) -> Condition {
+        self.restored_fact(number, encoder, true).after(|| {
+            let state = self.parameters.axes[number].reference.state[usize::from(encoder)];
+            let what = format!("MD34210[{encoder}] of {}", self.axis_name(number));
+            Condition::All(vec![
+                Fact::new(what, state.to_string(), "3, with an incremental encoder", state == 3).into(),
+                fact("power off and on", false).into(),
+            ])
+        })
+    }
+
+    fn restored_no_more(self, number: AxisNumber, encoder: u8) -> Condition {
+        self.restored_fact(number, encoder, false).after(|| {
+            let name = self.axis_name(number);
+            Condition::Any(vec![
+                self.not_parked(number).opposite(),
+                fact(format!("a new approach of {name} begins"), false).into(),
+                fact(format!("encoder {} of {name} fails or exceeds its limit frequency", encoder + 1), false).into(),
+            ])
+        })
     }
 
     fn referenced(self, number: AxisNumber, encoder: u8) -> Condition {
@@ -92,9 +133,12 @@ impl Look<'_> {
         let cam = |wanted| self.axis(number, axis_to_nck::deceleration_reference_point_approach, wanted);
         let name = self.axis_name(number);
         let next = match axis.approach.phase() {
+            Phase::SearchMark if reference.kind[encoder] == Kind::DistanceCoded => {
+                Fact::new(format!("distance-coded marks of {name}"), "fewer than two", "two passed", false).into()
+            }
             Phase::SearchCam if reference.cam_is_active => cam(true),
             Phase::Idle | Phase::SearchCam => fact(format!("the zero mark search of {name} begins"), false).into(),
-            Phase::BrakeOnCam | Phase::BrakeOffCam => self.stands(number),
+            Phase::BrakeOnCam | Phase::BrakeOffCam | Phase::BrakeAfterMarks => self.stands(number),
             Phase::LeaveCam => cam(false),
             Phase::SearchEdge => cam(reference.marker_reverse[encoder]),
             Phase::PassShift => {
@@ -140,6 +184,7 @@ impl Look<'_> {
         let reference = &self.parameters.axes[number].reference;
         let active = self.state.axes[number].measuring_system;
         let mode = active.map_or(0, |active| reference.mode[usize::from(active)]);
+        let has_approach = active.is_some_and(|active| reference.has_approach(usize::from(active)));
         let name = self.axis_name(number);
         let mut all = vec![
             self.mode_group(unit.mode_group, mode_group_from_nck::active_machine_function_ref, true),
@@ -152,7 +197,14 @@ impl Look<'_> {
         }
         if active.is_some() {
             let what = format!("referencing mode of {name} (MD34200)");
-            all.push(Fact::new(what, mode.to_string(), "1", mode == 1).into());
+            let wanted = "1 or 3, or 0 with an absolute encoder";
+            all.push(Fact::new(what, mode.to_string(), wanted, has_approach).into());
+            let state = active.map_or(0, |active| reference.state[usize::from(active)]);
+            if active.is_some_and(|active| reference.kind[usize::from(active)] == Kind::Absolute) {
+                let what = format!("adjustment of the absolute encoder of {name} (MD34210)");
+                let adjusts = matches!(state, 1 | 2);
+                all.push(Fact::new(what, state.to_string(), "1, and the key adjusts it", adjusts).into());
+            }
         } else {
             all.push(self.not_parked(number));
         }
@@ -179,7 +231,9 @@ impl Look<'_> {
             || fact(format!("the key of {} was released since its last start", self.axis_name(number)), !used);
         let with = |direction| Condition::All(vec![self.key(number, direction), released().into()]);
         let mut any = vec![with(forward)];
-        if !reference.cam_is_active {
+        let active = self.state.axes[number].measuring_system.map(usize::from);
+        let is_absolute = active.is_some_and(|active| reference.kind[active] == Kind::Absolute);
+        if !reference.cam_is_active && !is_absolute {
             any.push(with(-forward));
         }
         if reference.cycle_number > 0 {
@@ -226,7 +280,7 @@ impl Look<'_> {
             let group = self.parameters.mode_group(channel);
             let ordered = self.ordered(channel).any(|axis| self.parameters.axes[axis].reference.cycle_number > 0);
             let name = self.channel_name(channel);
-            let what = format!("an axis of {name} with MD34110 above 0, an encoder and MD34200 = 1");
+            let what = format!("an axis of {name} with MD34110 above 0, an encoder and an approach (MD34200)");
             Condition::All(vec![
                 self.channel(channel, channel_to_nck::activate_referencing, true),
                 self.rises(Place::Channel(channel), channel_to_nck::activate_referencing, referencing.was),
