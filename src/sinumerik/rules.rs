@@ -162,11 +162,11 @@ rules! {
     AbsolutePosition "REF-26" "the absolute encoder is adjusted, and is read";
     AdjustmentLost "26030" "these data of an adjusted absolute encoder were changed";
     EncoderNotAbsolute "26020" "the encoder has no absolute position";
-    PositionTakenOver "MD34210" "the position at power off is taken over";
-    PositionRestored "MD34210" "the position at power off is restored, without a reference";
-    EncoderDataStored "MD34210" "the control stores what it knows of the position of an encoder";
-    StandsReferenced "MD34210" "referenced and at rest in exact stop fine: power off keeps the position";
-    LeavesStandstill "MD34210" "not at rest in exact stop fine, or not referenced: power off loses the position";
+    PositionTakenOver "C-73" "the position at power off is taken over";
+    PositionRestored "C-73" "the position at power off is restored, without a reference";
+    EncoderDataStored "C-73" "the control stores what it knows of the position of an encoder";
+    StandsReferenced "C-73" "referenced and at rest in exact stop fine: power off keeps the position";
+    LeavesStandstill "C-73" "not at rest in exact stop fine, or not referenced: power off loses the position";
     ApproachAborted "REF-12" "reference point approach aborted";
     ApproachCannotStart "C-46" "the approach of an axis that has its turn cannot start";
     NewApproach "REF-32" "a new approach of this measuring system began";

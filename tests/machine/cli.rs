@@ -522,7 +522,7 @@ fn test_marks_the_transitions_that_scenarios_take_and_lists_the_others() {
     assert!(chart.starts_with("flowchart TD\n"), "{chart}");
     // Eight rows of the approach (the path with MD34050 = 0 and a cam), and three rows of the grouping.
     for text in [out(&output), chart.clone()] {
-        assert!(text.contains("11 of 43 transitions taken\n"), "{text}");
+        assert!(text.contains("11 of 54 transitions taken\n"), "{text}");
         assert!(text.contains("never taken: WaitingForStart -> Synchronising (REF-14: start)\n"), "{text}");
         assert!(
             !text.contains("never taken: ReferencingSynchronousAxis -> WaitingForStart (REF-11: MD37110 = 0)"),

@@ -817,7 +817,8 @@ fn always(half: u64) {
         panic!("OPENNCK_SEED={seed}, half {half}, machines {MACHINES:?}: {error}");
     }
     // A rule is tested only if something happens: the sequences must take at least three of four rows of both tables.
-    let (taken, count) = (taken.get(), APPROACH_TRANSITIONS.len() + GROUPING_TRANSITIONS.len());
+    // The machines have incremental encoders with zero marks: eleven rows of the approach belong to other encoders (`golden/encoders`).
+    let (taken, count) = (taken.get(), APPROACH_TRANSITIONS.len() - 11 + GROUPING_TRANSITIONS.len());
     let approach = (0..APPROACH_TRANSITIONS.len()).filter(|&row| taken.0[0].has(row)).count();
     let grouping = (0..GROUPING_TRANSITIONS.len()).filter(|&row| taken.0[1].has(row)).count();
     assert!(

@@ -314,3 +314,56 @@ impl Nck {
         self.store_encoder_data();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mm(value: f64) -> Position {
+        Position::from_user(value)
+    }
+
+    fn scale(inverted: bool) -> Scale {
+        Scale { spacing: mm(20.0), shift: mm(0.02), inverted }
+    }
+
+    /// nc_programs 6.1: 20 mm / 0.02 mm, N = 1000, marks at 0, 501, 1000, 1502, 2000 periods. The actual values begin anywhere.
+    #[test]
+    fn two_distance_coded_marks_give_the_position_of_the_first_in_both_directions() {
+        // First and second mark in periods.
+        let marks =
+            [(0, 501), (501, 1000), (1000, 1502), (1502, 2000), (501, 0), (1000, 501), (1502, 1000), (2000, 1502)];
+        for (first, second) in marks {
+            let at = |periods: i64| mm(-300.0) + Position::new(periods * 20_000);
+            assert_eq!(
+                scale(false).position_of(at(first), at(second)),
+                Position::new(first * 20_000),
+                "{first} {second}"
+            );
+            // A scale against the axis: the same marks, at negative positions.
+            let turned = |periods: i64| mm(-300.0) - Position::new(periods * 20_000);
+            let position = scale(true).position_of(turned(first), turned(second));
+            assert_eq!(position, Position::new(-first * 20_000), "{first} {second}");
+        }
+    }
+
+    /// Every pair of neighbours of a long scale: the mark of field k is k · N + N / 2 + k + 1.
+    #[test]
+    fn every_pair_of_marks_of_a_scale_has_its_own_position() {
+        let marks: Vec<i64> = (0..200).flat_map(|field| [field * 1000, field * 1000 + 501 + field]).collect();
+        for pair in marks.windows(2) {
+            let at = |periods: i64| Position::new(periods * 20_000);
+            for (first, second) in [(pair[0], pair[1]), (pair[1], pair[0])] {
+                assert_eq!(scale(false).position_of(at(first), at(second)), at(first), "{first} {second}");
+                assert_eq!(scale(false).misses((at(second) - at(first)).abs()), Position::ZERO, "{first} {second}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_distance_beside_the_code_is_found() {
+        assert_eq!(scale(false).misses(mm(10.027)), mm(0.007));
+        assert_eq!(scale(false).misses(mm(9.973)), mm(0.007));
+        assert_eq!(scale(false).misses(mm(0.0)), mm(0.0));
+    }
+}
