@@ -304,11 +304,9 @@ fn encoders(archive: &Archive, number: AxisNumber, axis: &Axis, site: &Site<'_>,
         let (mode, encoder_type) = (axis.enc_refp_mode[usize::from(index)], axis.enc_type[usize::from(index)]);
         let reads = mode == 0 && encoder_type == 4;
         let (datum, what, cure) = match kind {
-            Some(EncoderModel::Incremental | EncoderModel::DistanceCoded) if reads => (
-                30240,
-                "the encoder of `plant.toml` is not absolute: alarm 26020",
-                write("absolute"),
-            ),
+            Some(EncoderModel::Incremental | EncoderModel::DistanceCoded) if reads => {
+                (30240, "the encoder of `plant.toml` is not absolute: alarm 26020", write("absolute"))
+            }
             Some(EncoderModel::Absolute) if encoder_type != 4 => {
                 let what = "the encoder of `plant.toml` is absolute, and the control uses it as an incremental one";
                 (30240, what, "set MD30240 = 4 and MD34200 = 0".to_owned())

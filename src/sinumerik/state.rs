@@ -16,7 +16,7 @@ use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunU
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::groupings::{GROUPINGS, GantryCoupling, SYNCHRONOUS_AXES};
 use crate::sinumerik::program::state::{ChannelProgram, Led};
-use crate::sinumerik::referencing::encoders::{Buffered, EncoderDatum};
+use crate::sinumerik::referencing::state::{Buffered, EncoderDatum};
 use crate::sinumerik::rules::Rule;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 use crate::variables::{EventId, Place, RParameters};

@@ -15,14 +15,13 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
 use crate::motion::Setpoint;
 use crate::sinumerik::alarms;
 use crate::sinumerik::machine_data::MachineData;
 use crate::sinumerik::nck::{Nck, axis_of};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::{ADJUSTED, AxisParameters, Kind, Scale};
+use crate::sinumerik::referencing::state::{Buffered, EncoderDatum};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisNumber, PerAxis, Position};
@@ -36,30 +35,6 @@ const RESTORED: u8 = 3;
 const OF_ADJUSTMENT: [u32; 11] = [31000, 31010, 31020, 31030, 31040, 31050, 31060, 31070, 31080, 32100, 34230];
 /// %3 of 26020: bit 4, no answer of an encoder with an absolute position, as in 25022.
 const NO_ANSWER: i64 = 1 << 4;
-
-/// Machine data of an encoder that the control writes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct EncoderDatum {
-    /// The axis.
-    pub axis: AxisNumber,
-    /// Encoder, 0 or 1.
-    pub encoder: u8,
-    /// MD34210.
-    pub state: u8,
-    /// MD34090, if it is written.
-    pub offset: Option<Position>,
-    /// The event behind it.
-    pub cause: EventId,
-}
-
-/// The position of an encoder at the last power off.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Buffered {
-    /// Its actual value.
-    pub position: Position,
-    /// It was referenced.
-    pub referenced: bool,
-}
 
 impl Scale {
     /// Distance from the nearest distance that two neighbouring marks of the scale can have.

@@ -41,6 +41,30 @@ impl ChannelReferencing {
     }
 }
 
+/// Machine data of an encoder that the control writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct EncoderDatum {
+    /// The axis.
+    pub axis: AxisNumber,
+    /// Encoder, 0 or 1.
+    pub encoder: u8,
+    /// MD34210.
+    pub state: u8,
+    /// MD34090, if it is written.
+    pub offset: Option<Position>,
+    /// The event behind it.
+    pub cause: EventId,
+}
+
+/// The position of an encoder at the last power off.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Buffered {
+    /// Its actual value.
+    pub position: Position,
+    /// It was referenced.
+    pub referenced: bool,
+}
+
 /// The phase of an approach.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Phase {
