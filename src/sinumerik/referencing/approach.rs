@@ -141,7 +141,7 @@ impl Approach {
             Phase::Idle | Phase::PassShift => {}
             Phase::SearchCam if reference.kind[view.encoder] == Kind::Absolute => return self.absolute(log, view),
             Phase::SearchCam if reference.kind[view.encoder] == Kind::DistanceCoded => {
-                self.search_marks(log, view, cam)
+                self.search_marks(log, view, cam);
             }
             Phase::SearchMark if reference.kind[view.encoder] == Kind::DistanceCoded => {
                 return self.coded_marks(log, view, cam);
