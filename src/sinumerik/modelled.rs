@@ -3,7 +3,9 @@
 //! What it writes follows from the rows of publication. What it reads is the list here; a test compares it with the sources.
 
 use crate::image::{Signal, Writer};
-use crate::image::{axis_to_nck, channel_to_nck, mode_group_to_nck, nck_hmi, nck_to_nck};
+use crate::image::{
+    axis_to_nck, channel_jump_to_nck, channel_program_to_nck, channel_to_nck, mode_group_to_nck, nck_hmi, nck_to_nck,
+};
 use crate::sinumerik::publish::known::has_row;
 
 /// The signals of the PLC and the HMI that a stage reads.
@@ -40,6 +42,7 @@ const READ: &[Signal] = &[
     channel_to_nck::activate_m01,
     channel_to_nck::activate_dry_run_feedrate,
     channel_to_nck::activate_referencing,
+    channel_to_nck::activate_program_test,
     channel_to_nck::skip_block_level_0,
     channel_to_nck::skip_block_level_1,
     channel_to_nck::skip_block_level_2,
@@ -53,6 +56,8 @@ const READ: &[Signal] = &[
     channel_to_nck::feed_disable,
     channel_to_nck::read_in_disable,
     channel_to_nck::delete_distance_to_go,
+    channel_to_nck::delete_number_of_passes,
+    channel_to_nck::program_level_abort,
     channel_to_nck::rapid_traverse_override_active,
     channel_to_nck::feed_override_active,
     channel_to_nck::nc_start_disable,
@@ -61,6 +66,10 @@ const READ: &[Signal] = &[
     channel_to_nck::nc_stop,
     channel_to_nck::nc_stop_axes_plus_spindles,
     channel_to_nck::channel_reset,
+    channel_program_to_nck::activate_associated_m0_m1,
+    channel_program_to_nck::skip_block_level_8,
+    channel_program_to_nck::skip_block_level_9,
+    channel_jump_to_nck::enable_gotos,
     axis_to_nck::feed_override,
     axis_to_nck::axis_spindle_disable,
     axis_to_nck::follow_up_mode,
@@ -89,6 +98,8 @@ const READ: &[Signal] = &[
     axis_to_nck::machine_function_increment_10000,
     axis_to_nck::machine_function_increment_variable,
     axis_to_nck::machine_function_continuous,
+    axis_to_nck::suppress_program_test,
+    axis_to_nck::activate_program_test,
     axis_to_nck::invert_handwheel_direction_of_rotation,
     axis_to_nck::controller_parameter_set,
     axis_to_nck::hardware_limit_switch_minus,

@@ -344,6 +344,7 @@ impl Nck {
         self.state.run_up(&self.parameters);
         self.state.select_modes(&self.parameters, to_nck);
         self.state.watch_emergency_stop(&self.parameters, to_nck);
+        self.select_program_tests(to_nck);
         self.reset_and_cancel(to_nck, cancel_key);
         if self.state.check_closings(&self.parameters) {
             self.resting.wake_all();

@@ -105,6 +105,8 @@ rules! {
     ProgrammedStop "M0" "programmed stop";
     StopAtBlockEnd "program" "NC stop at the block limit";
     SingleBlock "program" "single block: stop after the block";
+    ProgramTest "program test" "selected or deselected while no program runs";
+    LevelAborted "program" "program level abort: back to the caller";
     BlockBegins "block" "begins";
     BlockMoves "block" "moves the axis";
     BlockMotionEnds "block" "motion of the axis has ended";

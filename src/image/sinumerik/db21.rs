@@ -46,6 +46,8 @@ signals! {
     bool, read_in_disable, set_read_in_disable: 6, 1;
     /// Delete distance-to-go: 1 = delete it for the path axes.
     bool, delete_distance_to_go, set_delete_distance_to_go: 6, 2;
+    /// Delete number of passes: 1 = the running subprogram is not repeated again.
+    bool, delete_number_of_passes, set_delete_number_of_passes: 6, 3;
     /// Program level abort: 1 = the running subprogram is aborted.
     bool, program_level_abort, set_program_level_abort: 6, 4;
     /// Rapid traverse override active: 0 = the override is 100 %.
@@ -162,6 +164,8 @@ signals! {
 
     /// DRF selected on the HMI: 1 = yes.
     bool, drf_selected, set_drf_selected: 24, 3;
+    /// Associated M0/M1 selected on the HMI: 1 = yes.
+    bool, associated_m0_m1_selected, set_associated_m0_m1_selected: 24, 4;
     /// M01 selected on the HMI: 1 = yes.
     bool, m01_selected, set_m01_selected: 24, 5;
     /// Dry run feedrate selected on the HMI: 1 = yes.

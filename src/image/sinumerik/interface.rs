@@ -3,8 +3,9 @@
 use zerocopy::IntoBytes;
 
 use super::{
-    AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi, ModeGroupFromNck,
-    ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, ToNck, axis_to_nck, channel_to_nck, places, profiles,
+    AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelJumpToNck, ChannelProgramToNck,
+    ChannelSearchFromNck, ChannelToNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck,
+    NckHmi, NckToNck, ToNck, axis_to_nck, channel_to_nck, places, profiles,
 };
 use crate::image::{Interface, Layout, Memory, Override, Profile, SwitchSignals, Tables};
 
@@ -21,8 +22,11 @@ pub static SINUMERIK: Interface = Interface::new(Tables {
         ModeGroupFromNck::SIGNALS,
         ChannelToNck::SIGNALS,
         ChannelHmi::SIGNALS,
+        ChannelProgramToNck::SIGNALS,
         ChannelFromNck::SIGNALS,
         ChannelAuxiliary::SIGNALS,
+        ChannelSearchFromNck::SIGNALS,
+        ChannelJumpToNck::SIGNALS,
         AxisToNck::SIGNALS,
         AxisFromNck::SIGNALS,
     ],

@@ -4,6 +4,7 @@ mod db10;
 mod db11;
 mod db21;
 mod db21_auxiliary;
+mod db21_program;
 mod db31;
 mod interface;
 mod machine_functions;
@@ -17,6 +18,10 @@ pub use db11::{
 };
 pub use db21::{ChannelFromNck, ChannelHmi, ChannelToNck, channel_from_nck, channel_hmi, channel_to_nck};
 pub use db21_auxiliary::{ChannelAuxiliary, channel_auxiliary};
+pub use db21_program::{
+    ChannelJumpToNck, ChannelProgramToNck, ChannelSearchFromNck, channel_jump_to_nck, channel_program_to_nck,
+    channel_search_from_nck,
+};
 pub use db31::{AxisFromNck, AxisToNck, axis_from_nck, axis_to_nck};
 pub use interface::{SINUMERIK, Sinumerik};
 pub use parts::{FromNck, Hmi, Plain, ToNck};

@@ -5,16 +5,16 @@ use zerocopy::{FromBytes, FromZeros, Immutable, IntoBytes, KnownLayout, Unaligne
 use crate::units::{AxisNumber, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 
 use super::{
-    AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelToNck, ModeGroupFromNck, ModeGroupHmi,
-    ModeGroupToNck, NckFromNck, NckHmi, NckToNck,
+    AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelJumpToNck, ChannelProgramToNck,
+    ChannelSearchFromNck, ChannelToNck, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck,
 };
 
 /// Plain bytes of DB10: 0 to 55, 58 to 67, 110 to 271.
 pub(super) const PLAIN_NCK: usize = 56 + 10 + 162;
 /// Plain bytes of DB11: 3, 9 to 19, 23, 29 to 63.
 pub(super) const PLAIN_MODE_GROUPS: usize = 1 + 11 + 1 + 35;
-/// Plain bytes of DB21: 22 and 23, 26 to 31, 54 to 57, 272 to 415.
-pub(super) const PLAIN_CHANNEL: usize = 2 + 6 + 4 + 144;
+/// Plain bytes of DB21: 22 and 23, 26 and 27, 54 to 57, 272 to 317, 320 to 383, 385 to 415.
+pub(super) const PLAIN_CHANNEL: usize = 2 + 2 + 4 + 46 + 64 + 31;
 /// Plain bytes of DB31: 30 to 59, 103 to 147.
 pub(super) const PLAIN_AXIS: usize = 30 + 45;
 
@@ -30,6 +30,10 @@ pub struct ToNck {
     pub channels: PerChannel<ChannelToNck>,
     /// DB31 to DB61; the last axis number has no data block.
     pub axes: PerAxis<AxisToNck>,
+    /// DB21 to DB30, program control.
+    pub program_control: PerChannel<ChannelProgramToNck>,
+    /// DB21 to DB30, jumps to the start of the program.
+    pub jumps: PerChannel<ChannelJumpToNck>,
     /// Bytes without a name.
     pub plain: Plain,
 }
@@ -48,6 +52,8 @@ pub struct FromNck {
     pub axes: PerAxis<AxisFromNck>,
     /// DB21 to DB30, auxiliary functions and G functions.
     pub auxiliary: PerChannel<ChannelAuxiliary>,
+    /// DB21 to DB30, block search and associated stops.
+    pub searches: PerChannel<ChannelSearchFromNck>,
 }
 
 /// The signals that the HMI writes: strobes and selections.
@@ -88,6 +94,16 @@ impl ToNck {
         &mut self.channels[number]
     }
 
+    /// Program control in DB 20 + number.
+    pub fn program_control(&mut self, number: ChannelNumber) -> &mut ChannelProgramToNck {
+        &mut self.program_control[number]
+    }
+
+    /// Jumps to the start of the program in DB 20 + number.
+    pub fn jumps(&mut self, number: ChannelNumber) -> &mut ChannelJumpToNck {
+        &mut self.jumps[number]
+    }
+
     /// DB 30 + number.
     pub fn axis(&mut self, number: AxisNumber) -> &mut AxisToNck {
         &mut self.axes[number]
@@ -117,6 +133,12 @@ impl FromNck {
     #[must_use]
     pub fn auxiliary(&self, number: ChannelNumber) -> &ChannelAuxiliary {
         &self.auxiliary[number]
+    }
+
+    /// Block search and associated stops in DB 20 + number.
+    #[must_use]
+    pub fn searches(&self, number: ChannelNumber) -> &ChannelSearchFromNck {
+        &self.searches[number]
     }
 
     /// DB 30 + number.

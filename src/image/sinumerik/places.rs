@@ -4,8 +4,9 @@ use std::mem::offset_of;
 
 use super::parts::{PLAIN_AXIS, PLAIN_CHANNEL, PLAIN_MODE_GROUPS, PLAIN_NCK};
 use super::{
-    AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Hmi, ModeGroupFromNck,
-    ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, ToNck,
+    AxisFromNck, AxisToNck, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelJumpToNck, ChannelProgramToNck,
+    ChannelSearchFromNck, ChannelToNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck,
+    NckHmi, NckToNck, ToNck,
 };
 use crate::image::{Block, BlockTable, ByteRange, Part};
 
@@ -61,15 +62,20 @@ static MODE_GROUPS: [ByteRange; 10] = [
 
 const CHANNEL_PLAIN: usize = offset_of!(ToNck, plain.channels);
 #[rustfmt::skip]
-static CHANNEL: [ByteRange; 8] = [
+static CHANNEL: [ByteRange; 13] = [
     range(0, 21, Part::ToNck, offset_of!(ToNck, channels), size_of::<ChannelToNck>()),
     plain(22, 23, CHANNEL_PLAIN, PLAIN_CHANNEL),
     range(24, 25, Part::Hmi, offset_of!(Hmi, channels), size_of::<ChannelHmi>()),
-    plain(26, 31, CHANNEL_PLAIN + 2, PLAIN_CHANNEL),
+    plain(26, 27, CHANNEL_PLAIN + 2, PLAIN_CHANNEL),
+    range(28, 31, Part::ToNck, offset_of!(ToNck, program_control), size_of::<ChannelProgramToNck>()),
     range(32, 53, Part::FromNck, offset_of!(FromNck, channels), size_of::<ChannelFromNck>()),
-    plain(54, 57, CHANNEL_PLAIN + 8, PLAIN_CHANNEL),
+    plain(54, 57, CHANNEL_PLAIN + 4, PLAIN_CHANNEL),
     range(58, 271, Part::FromNck, offset_of!(FromNck, auxiliary), size_of::<ChannelAuxiliary>()),
-    plain(272, 415, CHANNEL_PLAIN + 12, PLAIN_CHANNEL),
+    plain(272, 317, CHANNEL_PLAIN + 8, PLAIN_CHANNEL),
+    range(318, 319, Part::FromNck, offset_of!(FromNck, searches), size_of::<ChannelSearchFromNck>()),
+    plain(320, 383, CHANNEL_PLAIN + 54, PLAIN_CHANNEL),
+    range(384, 384, Part::ToNck, offset_of!(ToNck, jumps), size_of::<ChannelJumpToNck>()),
+    plain(385, 415, CHANNEL_PLAIN + 118, PLAIN_CHANNEL),
 ];
 
 const AXIS_PLAIN: usize = offset_of!(ToNck, plain.axes);
@@ -93,14 +99,19 @@ const _: () = {
     assert!(ChannelHmi::FIRST == 24 && size_of::<ChannelHmi>() == 2);
     assert!(ChannelFromNck::FIRST == 32 && size_of::<ChannelFromNck>() == 22);
     assert!(ChannelAuxiliary::FIRST == 58 && size_of::<ChannelAuxiliary>() == 214);
+    assert!(ChannelProgramToNck::FIRST == 28 && size_of::<ChannelProgramToNck>() == 4);
+    assert!(ChannelJumpToNck::FIRST == 384 && size_of::<ChannelJumpToNck>() == 1);
+    assert!(ChannelSearchFromNck::FIRST == 318 && size_of::<ChannelSearchFromNck>() == 2);
     assert!(AxisToNck::FIRST == 0 && size_of::<AxisToNck>() == 30);
     assert!(AxisFromNck::FIRST == 60 && size_of::<AxisFromNck>() == 43);
     // The parts, without padding and in this order. They have space for each axis number; no block shows the last one.
     assert!(offset_of!(ToNck, mode_groups) == 2 && offset_of!(ToNck, channels) == 8);
-    assert!(offset_of!(ToNck, axes) == 228 && offset_of!(ToNck, plain) == 1188);
-    assert!(size_of::<ToNck>() == 1188 + PLAIN_NCK + PLAIN_MODE_GROUPS + 10 * PLAIN_CHANNEL + 32 * PLAIN_AXIS);
+    assert!(offset_of!(ToNck, axes) == 228 && offset_of!(ToNck, program_control) == 1188);
+    assert!(offset_of!(ToNck, jumps) == 1228 && offset_of!(ToNck, plain) == 1238);
+    assert!(size_of::<ToNck>() == 1238 + PLAIN_NCK + PLAIN_MODE_GROUPS + 10 * PLAIN_CHANNEL + 32 * PLAIN_AXIS);
     assert!(offset_of!(FromNck, mode_groups) == 42 && offset_of!(FromNck, channels) == 48);
     assert!(offset_of!(FromNck, axes) == 268 && offset_of!(FromNck, auxiliary) == 268 + 32 * 43);
-    assert!(size_of::<FromNck>() == 268 + 32 * 43 + 10 * 214);
+    assert!(offset_of!(FromNck, searches) == 268 + 32 * 43 + 10 * 214);
+    assert!(size_of::<FromNck>() == 268 + 32 * 43 + 10 * 214 + 10 * 2);
     assert!(offset_of!(Hmi, mode_groups) == 7 && offset_of!(Hmi, channels) == 11 && size_of::<Hmi>() == 31);
 };

@@ -7,9 +7,9 @@ use zerocopy::{FromBytes, Immutable, IntoBytes};
 
 use crate::image::table::Accessors;
 use crate::image::{
-    AxisFromNck, AxisToNck, Block, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelToNck, FromNck, Kind, Memory,
-    ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck, NckFromNck, NckHmi, NckToNck, SINUMERIK, Signal, ToNck, Writer,
-    axis_from_nck, axis_to_nck,
+    AxisFromNck, AxisToNck, Block, ChannelAuxiliary, ChannelFromNck, ChannelHmi, ChannelJumpToNck, ChannelProgramToNck,
+    ChannelSearchFromNck, ChannelToNck, FromNck, Kind, Memory, ModeGroupFromNck, ModeGroupHmi, ModeGroupToNck,
+    NckFromNck, NckHmi, NckToNck, SINUMERIK, Signal, ToNck, Writer, axis_from_nck, axis_to_nck,
 };
 
 use super::{PARTS, all_names, data_block, full_of, location, names, signals};
@@ -64,6 +64,9 @@ fn every_typed_accessor_reads_and_writes_exactly_the_bits_of_its_row() {
     every_accessor_moves_only_its_own_bits::<ChannelHmi>(ChannelHmi::SIGNALS, 24);
     every_accessor_moves_only_its_own_bits::<ChannelFromNck>(ChannelFromNck::SIGNALS, 32);
     every_accessor_moves_only_its_own_bits::<ChannelAuxiliary>(ChannelAuxiliary::SIGNALS, 58);
+    every_accessor_moves_only_its_own_bits::<ChannelProgramToNck>(ChannelProgramToNck::SIGNALS, 28);
+    every_accessor_moves_only_its_own_bits::<ChannelJumpToNck>(ChannelJumpToNck::SIGNALS, 384);
+    every_accessor_moves_only_its_own_bits::<ChannelSearchFromNck>(ChannelSearchFromNck::SIGNALS, 318);
     every_accessor_moves_only_its_own_bits::<AxisToNck>(AxisToNck::SIGNALS, 0);
     every_accessor_moves_only_its_own_bits::<AxisFromNck>(AxisFromNck::SIGNALS, 60);
 }

@@ -182,6 +182,20 @@ impl Path {
         self.blocks.is_empty()
     }
 
+    /// Drops the blocks behind the first one.
+    ///
+    /// The first block then ends at rest, so call this only at rest.
+    pub fn keep_first(&mut self) {
+        self.blocks.truncate(1);
+    }
+
+    /// Gives each block another feed, by its number and its feed.
+    pub fn set_feeds(&mut self, feed: impl Fn(u64, Feed) -> Feed) {
+        for planned in &mut self.blocks {
+            planned.block.feed = feed(planned.block.number, planned.block.feed);
+        }
+    }
+
     /// Whether another block fits.
     #[must_use]
     pub fn has_room(&self) -> bool {

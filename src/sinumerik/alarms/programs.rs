@@ -84,6 +84,7 @@ alarms! {
     16830 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 position outside the modulo range %3";
     16919 [DISPLAY] CancelKey "channel %1 action %2 not allowed while an alarm is pending";
     16920 [DISPLAY] CancelKey "channel %1 action %2 already active";
+    16924 [DISPLAY] CancelKey "channel %1 program test: caution, it changes tool data";
     16930 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 an executable block must stand between";
     17020 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 first index is not valid";
     17030 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 second index is not valid";
@@ -128,6 +129,9 @@ pub(in crate::sinumerik) const REFERENCING_COUPLED: AlarmNumber = AlarmNumber(16
 pub(in crate::sinumerik) const ALARM_PENDING: AlarmNumber = AlarmNumber(16919);
 /// An action that is already active.
 pub(in crate::sinumerik) const ALREADY_ACTIVE: AlarmNumber = AlarmNumber(16920);
+
+/// A program test begins.
+pub(in crate::sinumerik) const PROGRAM_TEST: AlarmNumber = AlarmNumber(16924);
 
 /// A cycle alarm (SETAL) of this number: `%3` and `%4` are its text. Numbers below 62000 and from 63000 to 64999 need RESET, those from 62000 NC
 /// start; from 65000 on the program goes on.

@@ -29,7 +29,8 @@ impl State {
     pub(in crate::sinumerik) fn take_axis_signals(&mut self, unit: &Unit, to_nck: &ToNck) {
         let leader = unit.leader();
         let stopped_by = unit.members().find(|&axis| to_nck.axes[axis].ramp_function_generator_fast_stop());
-        let disable = to_nck.axes[leader].axis_spindle_disable();
+        let in_test = self.programs[unit.channel].test.axes.contains(leader);
+        let disable = to_nck.axes[leader].axis_spindle_disable() || in_test;
         for number in unit.members() {
             let delete = to_nck.axes[number].delete_distance_to_go_spindle_reset();
             let was = std::mem::replace(&mut self.axes[number].signals.delete_was, delete);
@@ -56,7 +57,13 @@ impl State {
         let ends = !disable && rest;
         if disable != self.axes[leader].signals.disabled_at.is_some() && (disable || ends) {
             let input = axis_signal(leader, axis_to_nck::axis_spindle_disable, disable);
-            self.log.note_one(Place::Axis(leader), Rule::AxisDisable, input, EventId::NONE);
+            let by_test = self.programs[unit.channel].test.axes.contains(leader);
+            let test = self.programs[unit.channel].test.cause;
+            if by_test {
+                self.log.note_plain(Place::Axis(leader), Rule::ProgramTest, test);
+            } else {
+                self.log.note_one(Place::Axis(leader), Rule::AxisDisable, input, EventId::NONE);
+            }
         }
         for number in unit.members() {
             let axis = &mut self.axes[number];

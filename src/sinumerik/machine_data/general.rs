@@ -25,6 +25,10 @@ General {
     10240 SCALING_SYSTEM_IS_METRIC scaling_system_is_metric: bool = true; "", Range::ANY, PowerOn;
     /// millimetres in one inch
     10250 SCALING_VALUE_INCH scaling_value_inch: f64 = 25.4; "mm/inch", Range::POSITIVE, PowerOn;
+    /// change of the dry run (DB21.DBX0.6) while a program runs: 0 at the end of a block, 1 at once with a short stop, 2 at the next STOPRE
+    10704 DRYRUN_MASK dryrun_mask: u8 = 0; "", Range::between(0.0, 2.0), PowerOn;
+    /// change of the skip levels (DB21.DBB2, 31.6, 31.7) while a program runs: 0 stopped at the end of a block, 1 at once with a short stop, 2 at the next STOPRE
+    10706 SLASH_MASK slash_mask: u8 = 0; "", Range::between(0.0, 2.0), PowerOn;
     /// mode of each mode group after power on: 0, 1 AUTOMATIC; 2 to 5 MDI; 6, 7 JOG; machine functions are selected by their signals (O-19)
     10720 OPERATING_MODE_DEFAULT operating_mode_default: [i32; 10] = [6; 10]; "", Range::between(0.0, 7.0), PowerOn;
     /// settings of JOG

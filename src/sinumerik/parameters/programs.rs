@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use arrayvec::ArrayVec;
 
-use crate::image::ChannelToNck;
 use crate::motion::path::{Feed, PATH_AXES};
 use crate::nc_program::{AuxiliaryKind, AxisKind, AxisName, AxisNames, GFunction, Modal};
 use crate::sinumerik::machine_data::{Channel, MachineData};
@@ -35,6 +34,27 @@ impl OutputTime {
             2 => Self::End,
             3 => Self::Never,
             _ => predefined,
+        }
+    }
+}
+
+/// When a change of program control takes effect while a program runs (MD10704, MD10706).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::sinumerik) enum ChangeTime {
+    /// At the end of a block; skip levels only while the program is stopped there.
+    BlockEnd,
+    /// At once: the path stops for a short time.
+    AtOnce,
+    /// When preparation waits until everything has been executed (STOPRE).
+    StopPreparation,
+}
+
+impl ChangeTime {
+    fn new(datum: u8) -> Self {
+        match datum {
+            0 => Self::BlockEnd,
+            1 => Self::AtOnce,
+            _ => Self::StopPreparation,
         }
     }
 }
@@ -89,6 +109,10 @@ pub(in crate::sinumerik) struct ProgramParameters {
     pub default_feed: f64,
     /// SD42100 in mm/min and SD42101.
     pub dry_run: (f64, u8),
+    /// MD10704: when a change of the dry run takes effect.
+    pub dry_run_change: ChangeTime,
+    /// MD10706: when a change of the skip levels takes effect.
+    pub skip_change: ChangeTime,
     /// SD42120 in mm/min.
     pub approach_feed: f64,
     /// MD22510.
@@ -182,6 +206,8 @@ pub(in crate::sinumerik) fn programs(
         feed_stays: md.f_values_active_after_reset,
         default_feed: setting.default_feed,
         dry_run: (setting.dry_run_feed, setting.dry_run_feed_mode),
+        dry_run_change: ChangeTime::new(data.general.dryrun_mask),
+        skip_change: ChangeTime::new(data.general.slash_mask),
         approach_feed: setting.approach_feed,
         shown_groups: md.gcode_groups_to_plc,
         shows_groups_in_order: md.gcode_groups_to_plc_mode & 1 == 1,
@@ -243,10 +269,10 @@ fn program_axes(
 }
 
 impl ProgramParameters {
-    /// The feed of a block while the dry run is active (DB21.DBX0.6): SD42101 decides between SD42100 and the programmed feed.
-    pub(in crate::sinumerik) fn dry_run_feed(&self, feed: Feed, signals: &ChannelToNck) -> Feed {
+    /// The feed of a block while the dry run is active: SD42101 decides between SD42100 and the programmed feed.
+    pub(in crate::sinumerik) fn dry_run_feed(&self, feed: Feed, is_active: bool) -> Feed {
         let Feed::Programmed(programmed) = feed else { return feed };
-        if !signals.activate_dry_run_feedrate() {
+        if !is_active {
             return feed;
         }
         let dry = self.dry_run.0 * Position::PER_USER_UNIT / 60.0;

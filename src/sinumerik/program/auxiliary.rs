@@ -33,6 +33,13 @@ pub(in crate::sinumerik) struct Entry {
     pub is_quick: bool,
 }
 
+impl Entry {
+    /// M1.
+    pub(in crate::sinumerik) fn is_optional_stop(&self) -> bool {
+        self.kind == AuxiliaryKind::M && self.extension == 0 && (self.value - 1.0).abs() < 0.5
+    }
+}
+
 /// What is output in one PLC cycle.
 pub(in crate::sinumerik) type Package = ArrayVec<Entry, MOST>;
 

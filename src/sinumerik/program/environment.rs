@@ -7,7 +7,6 @@ use std::sync::Arc;
 
 use crate::control;
 use crate::control::Owner;
-use crate::image::ChannelToNck;
 use crate::nc_program::{
     AxisNames, Dialect, Environment, Library, Program, Refusal, Request, SINUMERIK, SystemVariable, Value,
 };
@@ -29,7 +28,12 @@ pub(in crate::sinumerik) struct Channel<'a> {
     /// Data that the program has written, to be stored after the stage.
     pub written: &'a mut Vec<(Target, control::Value)>,
     pub program: &'a mut ChannelProgram,
-    pub signals: &'a ChannelToNck,
+    /// The skip levels in effect, a bit each.
+    pub skips: u16,
+    /// DB21.DBX384.0.
+    pub restarts: bool,
+    /// R parameters that were written, with their values before.
+    pub r_written: Vec<(u16, f64)>,
     pub end: [f64; crate::motion::path::PATH_AXES],
     pub is_executed: bool,
 }
@@ -122,6 +126,8 @@ impl Environment for Channel<'_> {
 
     fn set_r_parameter(&mut self, index: u32, value: f64) {
         if let Ok(index) = u16::try_from(index) {
+            let before = self.r_parameters.get(self.channel, index).unwrap_or(0.0);
+            self.r_written.push((index, before));
             self.r_parameters.set(self.channel, index, value);
         }
     }
@@ -152,7 +158,8 @@ impl Environment for Channel<'_> {
                 let (index, axis) = self.settable_offset(variable)?;
                 Ok(length(self.program.settable_offset(index, axis)))
             }
-            "$P_SEARCH" | "$P_ISTEST" => Ok(Value::Bool(false)),
+            "$P_ISTEST" => Ok(Value::Bool(self.program.test.is_active)),
+            "$P_SEARCH" => Ok(Value::Bool(false)),
             _ => match self.datum(variable) {
                 Some(target) => match self.now(&target?) {
                     Some(control::Value::Boolean(value)) => Ok(Value::Bool(value)),
@@ -210,23 +217,11 @@ impl Environment for Channel<'_> {
     }
 
     fn is_skipped(&self, level: u8) -> bool {
-        match level {
-            0 => self.signals.skip_block_level_0(),
-            1 => self.signals.skip_block_level_1(),
-            2 => self.signals.skip_block_level_2(),
-            3 => self.signals.skip_block_level_3(),
-            4 => self.signals.skip_block_level_4(),
-            5 => self.signals.skip_block_level_5(),
-            6 => self.signals.skip_block_level_6(),
-            7 => self.signals.skip_block_level_7(),
-            // DBX31.6 and 31.7 have no name in the catalogue.
-            _ => false,
-        }
+        self.skips >> level & 1 == 1
     }
 
     fn is_restarting(&self) -> bool {
-        // DBX384.0 has no name in the catalogue.
-        false
+        self.restarts
     }
 
     fn find_program(&self, request: &Request<'_>) -> Option<Arc<Program>> {

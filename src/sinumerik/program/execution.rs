@@ -10,18 +10,18 @@
 //! Then the program stops (M0, M1, single block, 7.2), ends (M2, M30), or goes on with the next block in the same cycle. In G64 the path passes
 //! from one block to the next without a stop as long as nothing has to be output before the next one, and nothing holds the change of blocks.
 
-use crate::image::{ToNck, channel_to_nck};
-use crate::nc_program::{Action, End, Library};
+use crate::image::ToNck;
+use crate::nc_program::{End, Library};
 use crate::sinumerik::alarms::{Alarm, Reaction};
-use crate::sinumerik::inputs::channel_signal;
 use crate::sinumerik::machine_data::{MachineData, Target};
 use crate::sinumerik::nck::Nck;
-use crate::sinumerik::parameters::programs::OutputTime;
+use crate::sinumerik::parameters::programs::{ChangeTime, OutputTime};
+use crate::sinumerik::program::control::at_stop;
 use crate::sinumerik::program::environment::Channel;
 use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::preparation::Preparing;
 use crate::sinumerik::program::state::{
-    BlockAlarm, Criterion, Phase, Preparation, ProgramState, ProgrammedStop, Run, block_name, on_path,
+    BlockAlarm, Phase, Preparation, ProgramState, ProgrammedStop, Run, block_name, on_path,
 };
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
@@ -33,7 +33,7 @@ const CHANGES: usize = 100;
 
 /// What a block does after a look at it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Progress {
+pub(super) enum Progress {
     /// Something has changed: look again in the same cycle.
     Changed,
     /// It waits for the next cycle.
@@ -103,6 +103,7 @@ impl State {
         if runs && run.stopping.is_none() && run.resetting.is_none() {
             run.stopping = self.program_stopper(channel, run.is_mda, stage.parameters, stage.to_nck);
         }
+        self.take_program_control(run, stage);
         self.delete_distance_to_go_of_path(run, stage);
         if runs && run.stopping.is_none() {
             self.hold_block_change(run, stage);
@@ -144,7 +145,7 @@ impl State {
         true
     }
 
-    fn stop_program(&mut self, channel: ChannelNumber, event: EventId) {
+    pub(super) fn stop_program(&mut self, channel: ChannelNumber, event: EventId) {
         let program = &mut self.programs[channel];
         (program.state, program.cause) = (ProgramState::Stopped, event);
     }
@@ -190,7 +191,7 @@ impl State {
     /// Gives the path the blocks into which it can pass without a stop.
     fn lengthen_path(&mut self, run: &mut Run, stage: &Stage<'_>) {
         let moves = run.phase == Phase::Moving && run.on_path > 0 && run.returning.is_none();
-        if !moves || Self::holds_block_change(run, stage) || run.deleting {
+        if !moves || Self::holds_block_change(run, stage) || run.deleting || run.change.is_some() {
             return;
         }
         let cycle = stage.parameters.cycle.seconds();
@@ -207,7 +208,7 @@ impl State {
                 return;
             }
             let Some(mut block) = next.way else { return };
-            block.feed = stage.own.dry_run_feed(block.feed, &stage.to_nck.channels[stage.channel]);
+            block.feed = stage.own.dry_run_feed(block.feed, run.dry_run);
             if run.path.append(block, cycle).is_err() {
                 return;
             }
@@ -217,7 +218,12 @@ impl State {
 
     /// The path has passed into the next block without a stop.
     fn pass_to_next_block(&mut self, run: &mut Run, stage: &Stage<'_>) {
-        run.queue.pop_front();
+        run.take_executed();
+        let wanted = stage.to_nck.channels[stage.channel].activate_dry_run_feedrate();
+        if wanted != run.dry_run && stage.own.dry_run_change == ChangeTime::BlockEnd {
+            run.dry_run = wanted;
+            run.refeed(stage);
+        }
         self.begin_block(run, stage);
         run.phase = Phase::Moving;
         self.output(run, OutputTime::During, stage);
@@ -240,7 +246,11 @@ impl State {
 
     fn output(&mut self, run: &Run, time: OutputTime, stage: &Stage<'_>) {
         if let Some(package) = run.queue.front().and_then(|block| block.output(time)) {
-            self.programs[stage.channel].output.add(package, run.block_cause);
+            let mut package = package.clone();
+            if stage.own.outputs_m1_only_active && !stage.to_nck.channels[stage.channel].activate_m01() {
+                package.retain(|entry| !entry.is_optional_stop());
+            }
+            self.programs[stage.channel].output.add(&package, run.block_cause);
         }
     }
 
@@ -278,6 +288,7 @@ impl State {
     fn prepare(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) {
         let group = stage.parameters.mode_group(stage.channel);
         let signals = &stage.to_nck.channels[stage.channel];
+        let restarts = stage.to_nck.jumps[stage.channel].enable_gotos();
         let second = stage.to_nck.mode_groups[group].single_block_type_b();
         let preparing = Preparing {
             parameters: stage.parameters,
@@ -285,6 +296,7 @@ impl State {
             axes: &self.axes,
             to_nck: stage.to_nck,
             open: self.open_groupings(stage.parameters),
+            at_stop: at_stop(stage),
             stops_after_calculations: signals.activate_single_block() && second,
         };
         let mut environment = Channel {
@@ -296,7 +308,9 @@ impl State {
             stored: sources.stored,
             written: sources.written,
             program: &mut self.programs[stage.channel],
-            signals,
+            skips: run.skips,
+            restarts,
+            r_written: Vec::new(),
             end: run.end,
             is_executed: run.is_executed(),
         };
@@ -337,7 +351,7 @@ impl State {
     }
 
     /// Everything before a block that cannot be executed has been executed: its alarm appears, and the program stops.
-    fn raise_block_alarm(&mut self, alarm: BlockAlarm, run: &Run, stage: &Stage<'_>) {
+    pub(super) fn raise_block_alarm(&mut self, alarm: BlockAlarm, run: &Run, stage: &Stage<'_>) {
         let place = Place::Channel(stage.channel);
         let [second, third, fourth] = alarm.parameters;
         let shown = [Parameter::Channel(stage.channel), second, third, fourth];
@@ -369,13 +383,15 @@ impl State {
         run.dwell = block.dwell;
         let positions = block.positions.clone();
         let mut references = AxisSet::NONE;
-        for axis in &block.references {
+        // In a program test nothing moves, so G74 does nothing (P-62).
+        let test = self.programs[stage.channel].test.axes;
+        for axis in block.references.iter().filter(|axis| !test.contains(**axis)) {
             references.set(*axis, true);
         }
         (run.referencing, run.referencing_started) = (references, AxisSet::NONE);
         // A block into which the path would have passed is there already.
         if let (Some(mut way), 0) = (block.way, run.on_path) {
-            way.feed = stage.own.dry_run_feed(way.feed, &stage.to_nck.channels[stage.channel]);
+            way.feed = stage.own.dry_run_feed(way.feed, run.dry_run);
             if run.path.append(way, cycle).is_ok() {
                 run.on_path = 1;
             }
@@ -390,89 +406,5 @@ impl State {
         }
         run.phase = Phase::Moving;
         self.output(run, OutputTime::During, stage);
-    }
-
-    fn motion_has_ended(&mut self, run: &mut Run, stage: &Stage<'_>) -> bool {
-        let Some(block) = run.queue.front() else { return true };
-        if run.returning.is_some() {
-            return false;
-        }
-        if run.dwell > 0 {
-            // Runs on with feed disable; NC stop holds it.
-            run.dwell -= 1;
-            return false;
-        }
-        if run.positionings.iter().any(|positioning| positioning.waits && block.positions.contains(positioning)) {
-            return false;
-        }
-        let waited = block.actions.iter().any(|action| matches!(action, Action::WaitForPosition(_)));
-        if waited && !run.positionings.is_empty() || !self.references_are_done(run) {
-            return false;
-        }
-        if block.way.is_none() || run.on_path == 0 {
-            return true;
-        }
-        if !run.path.stands() {
-            return false;
-        }
-        if block.criterion != Criterion::Interpolation && !self.is_in_position(block.criterion, run, stage) {
-            return false;
-        }
-        run.path.go_on();
-        run.on_path -= 1;
-        true
-    }
-
-    /// Whether the axes of the path are within their exact stop windows.
-    fn is_in_position(&self, criterion: Criterion, run: &Run, stage: &Stage<'_>) -> bool {
-        let positioned = |axis| run.positionings.iter().any(|positioning| positioning.axis == axis);
-        stage.own.axes.path.iter().filter(|axis| !positioned(**axis)).all(|&number| {
-            let axis = &self.axes[number];
-            let set = axis.active_set(&stage.parameters.axes[number]);
-            let window = if criterion == Criterion::Coarse { set.exact_stop_coarse } else { set.exact_stop_fine };
-            axis.setpoint.is_at_rest() && axis.deviation().abs() <= window
-        })
-    }
-
-    /// The block is over: the program stops, ends, or goes on.
-    fn end_block(&mut self, run: &mut Run, stage: &Stage<'_>) -> Progress {
-        let channel = stage.channel;
-        let place = Place::Channel(channel);
-        let Some(block) = run.queue.pop_front() else { return Progress::Waits };
-        run.phase = Phase::Between;
-        // The path stands: what it would have passed into begins again when nothing holds it.
-        run.path.clear();
-        run.on_path = 0;
-        run.referencing = AxisSet::NONE;
-        let signals = &stage.to_nck.channels[channel];
-        let input = Input::Block(block_name(&block.origin.name));
-        if let Some(alarm) = run.cycle_alarm.take() {
-            self.raise_block_alarm(alarm, run, stage);
-            return Progress::Changed;
-        }
-        if block.end == Some(End::Program) {
-            let event = self.log.note_one(place, Rule::ProgramEnded, input, run.block_cause);
-            self.end_program(channel, stage.own, event, true);
-            return Progress::Ended;
-        }
-        let programmed = match block.stop {
-            ProgrammedStop::None => false,
-            ProgrammedStop::Always => true,
-            ProgrammedStop::Optional => signals.activate_m01(),
-        };
-        if programmed {
-            let event = self.log.note_one(place, Rule::ProgrammedStop, input, run.block_cause);
-            self.stop_program(channel, event);
-            self.programs[channel].programmed_stop = true;
-        } else if signals.nc_stop_at_block_limit() {
-            let pressed = channel_signal(channel, channel_to_nck::nc_stop_at_block_limit, true);
-            let event = self.log.note(place, Rule::StopAtBlockEnd, [pressed, input, Input::None], run.block_cause);
-            self.stop_program(channel, event);
-        } else if signals.activate_single_block() && block.is_executable && !block.origin.is_single_block_off {
-            let single = channel_signal(channel, channel_to_nck::activate_single_block, true);
-            let event = self.log.note(place, Rule::SingleBlock, [single, input, Input::None], run.block_cause);
-            self.stop_program(channel, event);
-        }
-        Progress::Changed
     }
 }

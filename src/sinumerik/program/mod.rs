@@ -8,12 +8,14 @@
 //! |---|---|
 //! | `state.rs` | the state of a channel's program, and of the block that runs |
 //! | `selection.rs` | the programs in memory, and the selected ones |
+//! | `control.rs` | program test, dry run, skip levels, delete passes, program level abort |
 //! | `start.rs` | NC start and its refusals, stop, RESET, end, change of the mode: the program states 35.0 to 35.4 |
 //! | `environment.rs` | what the language reads and writes: R parameters, system variables, machine data, programs |
 //! | `preparation.rs` | blocks ahead of the movement: targets in machine coordinates, limits, who may move an axis |
 //! | `outputs.rs` | when the auxiliary functions of a block are output, and which stop the program |
 //! | `geometry.rs` | units, offsets, circles |
 //! | `execution.rs` | the block that runs: before, during and at the end of its motion; the change to the next one |
+//! | `ending.rs` | the end of a block: when its motion is over, programmed stops, single block |
 //! | `actions.rs` | messages, PRESETON, NEWCONF, SETAL |
 //! | `path.rs` | the path in a cycle: overrides, holds, where the axes are, the return to the interruption point |
 //! | `positioning.rs` | POS and POSA |
@@ -33,6 +35,8 @@
 
 pub(super) mod actions;
 pub(super) mod auxiliary;
+pub(super) mod control;
+pub(super) mod ending;
 pub(super) mod environment;
 pub(super) mod execution;
 pub(super) mod geometry;

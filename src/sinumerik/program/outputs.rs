@@ -53,10 +53,14 @@ impl Preparing<'_> {
         let is = |number: i32| is_number(function, number);
         if function.kind != AuxiliaryKind::M || function.extension.unwrap_or(0) != 0 {
             ProgrammedStop::None
-        } else if is(0) || is(m0) {
+        } else if is(0) {
             ProgrammedStop::Always
-        } else if is(1) || is(m1) {
+        } else if is(1) {
             ProgrammedStop::Optional
+        } else if is(m0) {
+            ProgrammedStop::Associated
+        } else if is(m1) {
+            ProgrammedStop::AssociatedOptional
         } else {
             ProgrammedStop::None
         }

@@ -10,7 +10,7 @@ use crate::sinumerik::inputs::{axis_signal, channel_signal};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::positioning::Positioning;
-use crate::sinumerik::program::state::{Led, ProgramState, Run, on_path};
+use crate::sinumerik::program::state::{Change, Led, ProgramState, Run, on_path};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
 use crate::units::{AxisNumber, ChannelNumber, Position};
@@ -43,7 +43,8 @@ impl State {
     pub(in crate::sinumerik) fn move_program(&mut self, run: &mut Run, stage: &Stage<'_>) -> usize {
         let state = self.programs[stage.channel].state;
         let stopped = state != ProgramState::Running && state != ProgramState::Waiting;
-        let stops = stopped || run.stopping.is_some() || run.resetting.is_some();
+        let is_left = run.change == Some(Change::Level);
+        let stops = stopped || run.stopping.is_some() || run.resetting.is_some() || is_left;
         let held = if stops { Held::Stopped } else { self.holder(run, stage) };
         let ended = self.step_path(run, held, stage);
         self.step_positionings(run, held, stage);
@@ -90,7 +91,7 @@ impl State {
     }
 
     fn overrides(run: &Run, held: Held, stage: &Stage<'_>) -> Overrides {
-        if held != Held::No || run.deleting {
+        if held != Held::No || run.deleting || run.change.is_some() {
             return Overrides { feed: 0.0, rapid: 0.0 };
         }
         let signals = &stage.to_nck.channels[stage.channel];

@@ -14,7 +14,7 @@ use crate::sinumerik::program::environment::Channel;
 use crate::sinumerik::program::geometry::{self, BadCircle};
 use crate::sinumerik::program::positioning::Positioning;
 use crate::sinumerik::program::state::{
-    BlockAlarm, Criterion, Executable, Preparation, ProgrammedStop, Run, block_name, on_path,
+    Behind, BlockAlarm, Criterion, Executable, Preparation, ProgrammedStop, ReadBlock, Run, block_name, on_path,
 };
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 use crate::variables::{AlarmNumber, Parameter, short_text};
@@ -38,6 +38,8 @@ pub(in crate::sinumerik) struct Preparing<'a> {
     pub to_nck: &'a ToNck,
     /// The axes of open gantry groupings.
     pub open: AxisSet,
+    /// What takes effect when preparation has waited until everything was executed: skip levels (MD10706 = 2), dry run (MD10704 = 2).
+    pub at_stop: (Option<u16>, Option<bool>),
     /// DB21.DBX0.4 with type 2 (SBL2): calculation blocks are blocks.
     pub stops_after_calculations: bool,
 }
@@ -50,13 +52,18 @@ impl Run {
             if matches!(self.preparation, Preparation::Failed { .. }) {
                 return;
             }
-            if let Some(block) = self.again.pop_front() {
-                self.take_block(block, preparing, channel);
+            if let Some(read) = self.again.pop_front() {
+                self.take_block(read, preparing, channel);
                 continue;
             }
             match &self.preparation {
                 Preparation::Reads => {}
-                Preparation::Waits if self.is_executed() => self.preparation = Preparation::Reads,
+                Preparation::Waits if self.is_executed() => {
+                    self.preparation = Preparation::Reads;
+                    self.skips = preparing.at_stop.0.unwrap_or(self.skips);
+                    self.dry_run = preparing.at_stop.1.unwrap_or(self.dry_run);
+                    channel.skips = self.skips;
+                }
                 Preparation::Waits | Preparation::Ended | Preparation::Failed { .. } => return,
             }
             if self.is_executed() {
@@ -65,14 +72,21 @@ impl Run {
             }
             channel.take_run(self);
             let written = channel.written.len();
+            let next = self.executed + self.queue.len() as u64;
             let prepared = self.interpreter.step(channel);
+            self.r_log.extend(channel.r_written.drain(..).map(|(index, before)| (next, index, before)));
             // Written data act on the next block: they become effective at the end of the stage.
             self.pauses |= channel.written.len() > written;
             match prepared {
-                Ok(Prepared::Block(block)) => self.take_block(block, preparing, channel),
+                Ok(Prepared::Block(block)) => {
+                    let behind = self.behind_now();
+                    self.take_block(Box::new(ReadBlock { block: *block, behind }), preparing, channel);
+                }
                 Ok(Prepared::Calculated(origin)) if preparing.stops_after_calculations => {
                     let modal = self.interpreter.modal();
-                    self.queue.push_back(Executable { is_executable: true, ..Executable::new(origin, modal) });
+                    let calculation = Some(Box::new(self.behind_now()));
+                    let done = Executable { is_executable: true, calculation, ..Executable::new(origin, modal) };
+                    self.queue.push_back(done);
                 }
                 Ok(Prepared::Calculated(_)) => {
                     // An endless calculation does not hold the channel: it goes on in the next cycle.
@@ -84,6 +98,11 @@ impl Run {
                 Err(alarm) => self.fail(&alarm),
             }
         }
+    }
+
+    /// The state of preparation now.
+    pub(in crate::sinumerik) fn behind_now(&self) -> Behind {
+        Behind { interpreter: self.interpreter.clone(), axis_feeds: self.axis_feeds.clone(), end: self.end }
     }
 
     fn fail(&mut self, alarm: &ProgramAlarm) {
@@ -111,16 +130,17 @@ impl Run {
         self.end = position;
     }
 
-    fn take_block(&mut self, block: Box<Block>, preparing: &Preparing<'_>, channel: &mut Channel<'_>) {
+    fn take_block(&mut self, mut read: Box<ReadBlock>, preparing: &Preparing<'_>, channel: &mut Channel<'_>) {
         let mut end = self.end;
-        match preparing.executable(&block, self, &mut end, channel) {
+        match preparing.executable(&read.block, self, &mut end, channel) {
             Ok(executable) => {
                 self.end = end;
-                self.queue.push_back(Executable { block: Some(block), ..executable });
+                (read.behind.end, read.behind.axis_feeds) = (end, self.axis_feeds.clone());
+                self.queue.push_back(Executable { block: Some(read), ..executable });
             }
             Err(alarm) => {
                 // What is prepared again behind it stays for later.
-                self.preparation = Preparation::Failed { alarm, block: Some(block) };
+                self.preparation = Preparation::Failed { alarm, block: Some(read) };
             }
         }
     }
@@ -142,6 +162,7 @@ impl Executable {
             end: None,
             is_executable: false,
             block: None,
+            calculation: None,
         }
     }
 }

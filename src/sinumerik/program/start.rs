@@ -8,7 +8,8 @@ use crate::sinumerik::inputs::{channel_signal, mode_group_signal};
 use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
-use crate::sinumerik::program::state::{Phase, Preparation, ProgramState, Run, on_path};
+use crate::sinumerik::program::control::skip_levels;
+use crate::sinumerik::program::state::{Behind, Phase, Preparation, ProgramState, Run, on_path};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisSet, ChannelNumber, ModeGroupNumber};
@@ -71,7 +72,7 @@ impl State {
             ProgramState::Aborted => {
                 let selected = if mode == Mode::Mda { program.mda.clone() } else { program.selected.clone() };
                 match selected.filter(|path| library.program(path).is_some()) {
-                    Some(path) => self.begin_program((channel, mode), &path, own, parameters, pressed),
+                    Some(path) => self.begin_program((channel, mode), &path, own, (parameters, to_nck), pressed),
                     None if mode == Mode::Mda => {}
                     None => {
                         let event = self.log.note_one(place, Rule::NoProgramSelected, pressed, EventId::NONE);
@@ -99,7 +100,7 @@ impl State {
         (channel, mode): (ChannelNumber, Mode),
         path: &str,
         own: &ProgramParameters,
-        parameters: &Parameters,
+        (parameters, to_nck): (&Parameters, &ToNck),
         pressed: Input,
     ) {
         let automatic = mode_group_from_nck::active_mode_automatic;
@@ -115,8 +116,10 @@ impl State {
         let position = on_path(&own.axes.path, |axis| self.axes[axis].setpoint.position);
         let limits = limits(own, parameters);
         let feed = Some(own.default_feed).filter(|feed| *feed > 0.0);
+        let interpreter = Interpreter::new(path, own.modal, feed, mode == Mode::Mda);
+        let behind = Behind { interpreter: interpreter.clone(), axis_feeds: Vec::new(), end: position };
         let run = Run {
-            interpreter: Interpreter::new(path, own.modal, feed, mode == Mode::Mda),
+            interpreter,
             is_mda: mode == Mode::Mda,
             preparation: Preparation::Reads,
             queue: VecDeque::new(),
@@ -142,11 +145,18 @@ impl State {
             again: VecDeque::new(),
             referencing: AxisSet::NONE,
             referencing_started: AxisSet::NONE,
+            behind,
+            executed: 0,
+            r_log: VecDeque::new(),
+            skips: skip_levels(channel, to_nck),
+            dry_run: to_nck.channels[channel].activate_dry_run_feedrate(),
+            change: None,
+            level_signals_were: [false; 2],
         };
         let program = &mut self.programs[channel];
         program.run = Some(Box::new(run));
         (program.state, program.cause) = (ProgramState::Running, event);
-        (program.ended, program.programmed_stop) = (false, false);
+        (program.ended, program.programmed_stop, program.associated_stop) = (false, false, false);
         (program.modal, program.modal_cause) = (own.modal, event);
     }
 
@@ -155,7 +165,8 @@ impl State {
         let before = self.programs[channel].cause;
         let event = self.log.note_one(Place::Channel(channel), Rule::ProgramGoesOn, pressed, before);
         let program = &mut self.programs[channel];
-        (program.state, program.cause, program.programmed_stop) = (ProgramState::Running, event, false);
+        (program.state, program.cause) = (ProgramState::Running, event);
+        (program.programmed_stop, program.associated_stop) = (false, false);
         if let Some(run) = &mut program.run {
             (run.stopping, run.reads_again) = (None, true);
             run.referencing_started = AxisSet::NONE;
@@ -183,7 +194,7 @@ impl State {
     ) {
         let program = &mut self.programs[channel];
         (program.state, program.cause) = (ProgramState::Aborted, event);
-        (program.ended, program.programmed_stop) = (by_itself, false);
+        (program.ended, program.programmed_stop, program.associated_stop) = (by_itself, false, false);
         (program.modal, program.modal_cause) = (own.modal, event);
         program.message = None;
     }

@@ -53,6 +53,10 @@ pub(in crate::sinumerik) struct ChannelProgram {
     pub ended: bool,
     /// 32.5: stopped by M0 or M1.
     pub programmed_stop: bool,
+    /// 318.5: stopped by an M function that acts as M0 or M1 (MD22254, MD22256).
+    pub associated_stop: bool,
+    /// 33.7, and the axes that it concerns.
+    pub test: ProgramTest,
     /// The modal G functions of the block that runs.
     pub modal: Modal,
     /// The event of the block change that set them.
@@ -74,6 +78,8 @@ impl ChannelProgram {
             cause: EventId::NONE,
             ended: false,
             programmed_stop: false,
+            associated_stop: false,
+            test: ProgramTest::default(),
             modal: parameters.map_or_else(Modal::default, |parameters| parameters.modal),
             modal_cause: EventId::NONE,
             output: Output::default(),
@@ -98,6 +104,33 @@ impl ChannelProgram {
     }
 }
 
+/// Program test: the axes get no setpoints, everything else runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct ProgramTest {
+    /// 33.7.
+    pub is_active: bool,
+    /// The axes that are disabled: those of the channel without 14.0, and those with 14.1.
+    pub axes: AxisSet,
+    /// The event behind it.
+    pub cause: EventId,
+}
+
+/// The state of preparation behind a block: from there it can read on once more.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Behind {
+    pub interpreter: Interpreter,
+    pub axis_feeds: Vec<(AxisNumber, f64)>,
+    /// Where the axes of the path are then.
+    pub end: PerPathAxis,
+}
+
+/// A block that was read, with the state behind it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct ReadBlock {
+    pub block: Block,
+    pub behind: Behind,
+}
+
 /// What preparation does next.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(in crate::sinumerik) enum Preparation {
@@ -108,7 +141,7 @@ pub(in crate::sinumerik) enum Preparation {
     /// There are no more blocks.
     Ended,
     /// A block cannot be executed. `block` is prepared again after a correctable alarm of the channel.
-    Failed { alarm: BlockAlarm, block: Option<Box<Block>> },
+    Failed { alarm: BlockAlarm, block: Option<Box<ReadBlock>> },
 }
 
 /// The alarm of a block, raised when everything before the block has been executed.
@@ -167,8 +200,10 @@ pub(in crate::sinumerik) struct Executable {
     pub end: Option<End>,
     /// Single block type 1 stops after it.
     pub is_executable: bool,
-    /// The block, to be prepared again if its axes begin elsewhere.
-    pub block: Option<Box<Block>>,
+    /// The block, to be prepared again if its axes begin elsewhere; `None` for a calculation.
+    pub block: Option<Box<ReadBlock>>,
+    /// The state behind a calculation, which is a block of its own in single block type 2.
+    pub calculation: Option<Box<Behind>>,
 }
 
 impl Executable {
@@ -180,6 +215,11 @@ impl Executable {
             OutputTime::Never => return None,
         };
         Some(&self.outputs[index]).filter(|package| !package.is_empty())
+    }
+
+    /// The state of preparation behind it.
+    pub(in crate::sinumerik) fn behind(&self) -> Option<&Behind> {
+        self.block.as_deref().map(|read| &read.behind).or(self.calculation.as_deref())
     }
 
     pub(in crate::sinumerik) fn has_outputs(&self) -> bool {
@@ -212,9 +252,14 @@ pub(in crate::sinumerik) enum Criterion {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(in crate::sinumerik) enum ProgrammedStop {
     None,
+    /// M0.
     Always,
-    /// If DB21.DBX0.5 = 1.
+    /// M1, if DB21.DBX0.5 = 1.
     Optional,
+    /// MD22254.
+    Associated,
+    /// MD22256, if DB21.DBX30.5 = 1.
+    AssociatedOptional,
 }
 
 /// What the block that runs does.
@@ -277,13 +322,54 @@ pub(in crate::sinumerik) struct Run {
     /// Nothing more is prepared in this cycle.
     pub pauses: bool,
     /// Blocks that are prepared again, before any other.
-    pub again: VecDeque<Box<Block>>,
+    pub again: VecDeque<Box<ReadBlock>>,
     /// The axes of G74 in the block that runs, and those whose approach has begun.
     pub referencing: AxisSet,
     pub referencing_started: AxisSet,
+    /// Behind the last block that was executed.
+    pub behind: Behind,
+    /// How many blocks were executed.
+    pub executed: u64,
+    /// R parameters that preparation has written ahead: before which block, index, value before.
+    pub r_log: VecDeque<(u64, u16, f64)>,
+    /// The skip levels in effect, a bit each.
+    pub skips: u16,
+    /// The dry run is in effect.
+    pub dry_run: bool,
+    /// What waits until the path has come to a short stop.
+    pub change: Option<Change>,
+    /// DB21.DBX6.3 and 6.4 in the last cycle.
+    pub level_signals_were: [bool; 2],
+}
+
+/// A change of program control for which the path stops for a short time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum Change {
+    /// MD10704 = 1.
+    DryRun,
+    /// MD10706 = 1.
+    Skips,
+    /// 6.3: the subprogram that runs is not repeated.
+    Passes,
+    /// 6.4: the subprogram that runs is left.
+    Level,
 }
 
 impl Run {
+    /// The first block is over.
+    pub(in crate::sinumerik) fn take_executed(&mut self) -> Option<Executable> {
+        let done = self.queue.pop_front()?;
+        self.executed += 1;
+        if let Some(behind) = done.behind() {
+            self.behind.clone_from(behind);
+        }
+        let executed = self.executed;
+        while self.r_log.front().is_some_and(|(before, ..)| *before < executed) {
+            self.r_log.pop_front();
+        }
+        Some(done)
+    }
+
     /// Whether everything that was prepared has been executed.
     pub(in crate::sinumerik) fn is_executed(&self) -> bool {
         self.queue.is_empty() && self.phase == Phase::Between && self.path.is_empty() && self.positionings.is_empty()

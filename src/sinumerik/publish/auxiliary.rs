@@ -1,6 +1,7 @@
-//! DB21 to DB30, bytes 58 to 271: auxiliary functions, and the active G functions of the groups in MD22510.
+//! DB21 to DB30, bytes 58 to 271: auxiliary functions, and the active G functions of the groups in MD22510; bytes 318 and 319: searches and
+//! associated stops.
 
-use crate::image::{ChannelAuxiliary, channel_auxiliary};
+use crate::image::{ChannelAuxiliary, channel_auxiliary, channel_search_from_nck};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::program::auxiliary::BYTES;
 use crate::sinumerik::publish::rows::{Rows, Why};
@@ -23,5 +24,13 @@ impl State {
         }
         let first = channel_auxiliary::active_g_function_of_group_1.byte;
         rows.bytes(first, &shown, || Why::Event(program.modal_cause));
+    }
+
+    /// DB21.DBX318.x.
+    pub(super) fn show_search(&self, channel: ChannelNumber, rows: &mut impl Rows) {
+        let program = &self.programs[channel];
+        rows.bit(channel_search_from_nck::associated_m0_m1_active, program.associated_stop, || {
+            Why::Event(program.cause)
+        });
     }
 }

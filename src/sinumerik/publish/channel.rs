@@ -37,6 +37,7 @@ impl State {
         let program = &self.programs[channel];
         let by_program = || Why::Event(program.cause);
         rows.bit(channel_from_nck::m0_m1_active, program.programmed_stop, by_program);
+        rows.bit(channel_from_nck::program_test_active, program.test.is_active, || Why::Event(program.test.cause));
         rows.bit(channel_from_nck::m2_m30_active, program.ended, by_program);
         for (signal, state) in [
             (channel_from_nck::program_state_running, ProgramState::Running),

@@ -58,6 +58,7 @@ fn collect() -> Vec<Bits> {
     of(Block::Channel, &|rows| {
         state.show_channel(ChannelNumber::FIRST, &parameters, rows);
         state.show_auxiliary(ChannelNumber::FIRST, &parameters, rows);
+        state.show_search(ChannelNumber::FIRST, rows);
     });
     for (axis, _) in pair {
         of(Block::Axis, &|rows| {
@@ -87,7 +88,7 @@ mod tests {
             nck_from_nck::nc_ready,
         ];
         assert_eq!(written.iter().find(|signal| !has_row(signal)), None);
-        let named_only = [axis_from_nck::measurement_active, channel_from_nck::program_test_active];
+        let named_only = [axis_from_nck::measurement_active, channel_from_nck::transformation_active];
         assert_eq!(named_only.iter().find(|signal| has_row(signal)), None);
     }
 }

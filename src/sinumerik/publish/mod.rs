@@ -19,7 +19,8 @@ mod rows;
 use zerocopy::IntoBytes;
 
 use crate::image::{
-    AxisFromNck, ChannelAuxiliary, ChannelFromNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi, NckFromNck,
+    AxisFromNck, ChannelAuxiliary, ChannelFromNck, ChannelSearchFromNck, FromNck, Hmi, ModeGroupFromNck, ModeGroupHmi,
+    NckFromNck,
 };
 use crate::motion::Motion;
 use crate::sinumerik::jog::state::Movement;
@@ -54,6 +55,8 @@ impl Nck {
             state.show_channel(channel, parameters, &mut Written::new(bytes, ChannelFromNck::FIRST));
             let bytes = from_nck.auxiliary[channel].as_mut_bytes();
             state.show_auxiliary(channel, parameters, &mut Written::new(bytes, ChannelAuxiliary::FIRST));
+            let bytes = from_nck.searches[channel].as_mut_bytes();
+            state.show_search(channel, &mut Written::new(bytes, ChannelSearchFromNck::FIRST));
             state.programs[channel].show_values(&mut variables.channels[channel]);
         }
         variables.r_parameters.take_over(&state.r_parameters);
@@ -95,6 +98,7 @@ impl Nck {
             Place::Channel(channel) => {
                 state.show_channel(channel, parameters, &mut asked);
                 state.show_auxiliary(channel, parameters, &mut asked);
+                state.show_search(channel, &mut asked);
             }
             // What a silent axis had shown went with power off.
             Place::Axis(axis) if parameters.axes[axis].silent => {}

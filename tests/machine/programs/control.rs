@@ -260,3 +260,52 @@ fn a_subprogram_repeats_and_a_jump_goes_back() {
     let session = run("R1=0\nAGAIN:\nG91 G0 X1\nR1=R1+1\nIF R1<3 GOTOB AGAIN\nFOR R2=1 TO 4\nY2\nENDFOR\nM30");
     assert_eq!(position(&session), [3.0, 8.0, 0.0]);
 }
+
+/// P-63: with MD10704 = 1 and MD10706 = 1 a change acts at once, with a short stop of the path; with 2 it acts at STOPRE.
+#[test]
+fn dry_run_and_skip_levels_change_at_once_or_at_stopre() {
+    let session = |mask: f64, nc: &str| {
+        let mut session = automatic(nc);
+        session.machine_data("10704", mask).unwrap();
+        session.machine_data("10706", mask).unwrap();
+        session.power_on().unwrap();
+        super::prepare(&mut session, nc);
+        start(&mut session);
+        session.run("300ms").unwrap();
+        session.set("CHAN1.activate_dry_run_feedrate", 1).unwrap();
+        session.set("CHAN1.skip_block_level_9", 1).unwrap();
+        session.run("200ms").unwrap();
+        session
+    };
+    // 40 mm at 1000 mm/min; SD42100 = 5000 mm/min. The path has stopped, and goes on at once.
+    let mut at_once = session(1.0, "G64 G1 X40 F1000\n/9 Y5\nY7\nM30");
+    at_once.expect("abs(X.velocity - 5000) < 20 && CHAN1.program_state_running").unwrap();
+    at_once.wait("Y.setpoint == 7", "10s").unwrap();
+    assert_eq!(at_once.value("count(Y.setpoint == 5)").unwrap_or(0.0), 0.0);
+    let mut at_stop = session(2.0, "G1 X10 F1000\n/9 Y5\nSTOPRE\n/9 Y10\nZ20\nM30");
+    at_stop.expect("abs(X.velocity - 1000) < 20").unwrap();
+    at_stop.wait("Z.setpoint > 5", "10s").unwrap();
+    // The first skip block was read before STOPRE, the second one behind it.
+    assert_eq!(position(&at_stop)[1], 5.0);
+    at_stop.expect("abs(Z.velocity - 5000) < 20").unwrap();
+    let mut at_the_end = session(0.0, "G64 G1 X10 F1000\n/9 X12\nZ20\nM30");
+    at_the_end.expect("abs(X.velocity - 1000) < 20").unwrap();
+    at_the_end.wait("Z.setpoint > 5", "10s").unwrap();
+    // The skip level would need a stop, the dry run only the end of a block.
+    assert_eq!(position(&at_the_end)[0], 12.0);
+    at_the_end.expect("abs(Z.velocity - 5000) < 20").unwrap();
+}
+
+/// MD20700 = 1 and 2: NC start needs the reference points of the channel; 0: it does not.
+#[test]
+fn nc_start_without_reference_points_is_refused_with_md20700_of_1_and_2() {
+    for (lock, refused) in [(0.0, 0.0), (1.0, 1.0), (2.0, 1.0)] {
+        let mut session = automatic("R1=1\nM30");
+        session.machine_data("20700[CHAN1]", lock).unwrap();
+        session.pulse_for("CHAN1.channel_reset", "5cycles").unwrap();
+        start(&mut session);
+        session.run("20ms").unwrap();
+        assert_eq!(session.value("alarm(10203)").unwrap(), refused, "{lock}");
+        assert_eq!(session.value("R1").unwrap(), 1.0 - refused, "{lock}");
+    }
+}

@@ -1,7 +1,9 @@
 //! Conditions of the signals of a program: its state, the state of the channel, auxiliary functions.
 
 use crate::control::{Condition, Fact, Question};
-use crate::image::{ChannelAuxiliary, channel_auxiliary, channel_from_nck, channel_to_nck, mode_group_from_nck};
+use crate::image::{
+    ChannelAuxiliary, channel_auxiliary, channel_from_nck, channel_search_from_nck, channel_to_nck, mode_group_from_nck,
+};
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::program::state::ProgramState;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
@@ -12,6 +14,16 @@ pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
     Row::new(channel_from_nck::m0_m1_active, |look, channel| {
         let is_stopped = look.state.programs[channel].programmed_stop;
         fact(format!("the program of {} is stopped by M0 or M1", look.channel_name(channel)), is_stopped).into()
+    }),
+    Row::new(channel_from_nck::program_test_active, |look, channel| {
+        let rests = look.program(channel, ProgramState::Aborted);
+        Condition::All(vec![look.channel(channel, channel_to_nck::activate_program_test, true), rests])
+    }),
+    Row::new(channel_search_from_nck::associated_m0_m1_active, |look, channel| {
+        let is_stopped = look.state.programs[channel].associated_stop;
+        let what =
+            format!("the program of {} is stopped by an M function of MD22254 or MD22256", look.channel_name(channel));
+        fact(what, is_stopped).into()
     }),
     Row::new(channel_from_nck::m2_m30_active, |look, channel| {
         let what = format!("a program of {} has ended, and none has started since", look.channel_name(channel));

@@ -1,0 +1,242 @@
+//! Program control: what the PLC selects for programs, and when it takes effect (nc_programs.md 3.4, 6.3, 6.4).
+//!
+//! | selected by | shown | takes effect |
+//! |---|---|---|
+//! | program test 1.7; 14.0 and 14.1 of an axis | 33.7 | while the program is aborted and the axes of the channel are at rest (P-61) |
+//! | dry run 0.6 | | MD10704: at the end of a block, at once, at STOPRE |
+//! | skip levels 2.0 to 2.7, 31.6, 31.7 | | MD10706: stopped at the end of a block, at once, at STOPRE |
+//! | delete number of passes 6.3, program level abort 6.4 | | its rising edge, with a short stop of the path |
+//!
+//! A program test acts like axis disable (1.3) on the axes: setpoints and displays run, and nothing moves. Everything else runs as without it.
+//! Preparation is ahead of the movement: a change that concerns blocks which are prepared already drops them, takes back what they have
+//! written into R parameters, and reads them again.
+
+use crate::image::{ToNck, axis_to_nck, channel_to_nck};
+use crate::sinumerik::alarms::programs as alarms;
+use crate::sinumerik::inputs::{axis_signal, channel_signal};
+use crate::sinumerik::nck::Nck;
+use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::parameters::programs::ChangeTime;
+use crate::sinumerik::program::path::Stage;
+use crate::sinumerik::program::state::{Change, Phase, Preparation, ProgramState, ProgramTest, Run, on_path};
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
+use crate::units::{AxisSet, ChannelNumber};
+use crate::variables::{EventId, Input, Parameter, Place};
+
+/// The skip levels that are selected, a bit each.
+pub(in crate::sinumerik) fn skip_levels(channel: ChannelNumber, to_nck: &ToNck) -> u16 {
+    let (signals, further) = (&to_nck.channels[channel], &to_nck.program_control[channel]);
+    [
+        signals.skip_block_level_0(),
+        signals.skip_block_level_1(),
+        signals.skip_block_level_2(),
+        signals.skip_block_level_3(),
+        signals.skip_block_level_4(),
+        signals.skip_block_level_5(),
+        signals.skip_block_level_6(),
+        signals.skip_block_level_7(),
+        further.skip_block_level_8(),
+        further.skip_block_level_9(),
+    ]
+    .into_iter()
+    .enumerate()
+    .fold(0, |levels, (level, is_selected)| levels | u16::from(is_selected) << level)
+}
+
+/// What takes effect at STOPRE: skip levels, dry run.
+pub(super) fn at_stop(stage: &Stage<'_>) -> (Option<u16>, Option<bool>) {
+    let at_stop = |time| time == ChangeTime::StopPreparation;
+    let dry_run = stage.to_nck.channels[stage.channel].activate_dry_run_feedrate();
+    (
+        at_stop(stage.own.skip_change).then(|| skip_levels(stage.channel, stage.to_nck)),
+        at_stop(stage.own.dry_run_change).then_some(dry_run),
+    )
+}
+
+impl Nck {
+    /// Selects program tests, before NC start.
+    pub(in crate::sinumerik) fn select_program_tests(&mut self, to_nck: &ToNck) {
+        let (parameters, state) = (&*self.parameters, &mut *self.state);
+        for (channel, _) in parameters.existing_channels() {
+            if state.select_program_test(channel, parameters, to_nck) {
+                self.resting.wake_all();
+            }
+        }
+    }
+}
+
+impl State {
+    /// The program test of a channel. Returns whether it has changed: then all axes decide.
+    fn select_program_test(
+        &mut self,
+        channel: ChannelNumber,
+        parameters: &Parameters,
+        to_nck: &ToNck,
+    ) -> bool {
+        let axes = parameters.channels[channel].axes;
+        let before = self.programs[channel].test;
+        let is_wanted = to_nck.channels[channel].activate_program_test();
+        let concerned: AxisSet = axes
+            .iter()
+            .filter(|axis| {
+                let signals = &to_nck.axes[*axis];
+                signals.activate_program_test() || is_wanted && !signals.suppress_program_test()
+            })
+            .collect();
+        if before.is_active == is_wanted && before.axes == concerned {
+            return false;
+        }
+        let rests = axes.iter().all(|axis| self.axes[axis].setpoint.is_at_rest());
+        if self.programs[channel].state != ProgramState::Aborted || !rests {
+            return false;
+        }
+        let place = Place::Channel(channel);
+        let changed = before.axes.without(concerned).with(concerned.without(before.axes)).iter().next();
+        let input = if before.is_active == is_wanted {
+            let of_axis = |axis| {
+                if to_nck.axes[axis].activate_program_test() || !is_wanted {
+                    let value = to_nck.axes[axis].activate_program_test();
+                    axis_signal(axis, axis_to_nck::activate_program_test, value)
+                } else {
+                    let value = to_nck.axes[axis].suppress_program_test();
+                    axis_signal(axis, axis_to_nck::suppress_program_test, value)
+                }
+            };
+            changed.map_or(Input::None, of_axis)
+        } else {
+            channel_signal(channel, channel_to_nck::activate_program_test, is_wanted)
+        };
+        let event = self.log.note_one(place, Rule::ProgramTest, input, EventId::NONE);
+        self.programs[channel].test = ProgramTest { is_active: is_wanted, axes: concerned, cause: event };
+        if is_wanted && !before.is_active {
+            let shown = [Parameter::Channel(channel), Parameter::None, Parameter::None, Parameter::None];
+            self.alarms.raise(alarms::PROGRAM_TEST, place, shown, event);
+        }
+        true
+    }
+
+    /// Takes over what the PLC has selected, as soon as it may take effect.
+    pub(super) fn take_program_control(&mut self, run: &mut Run, stage: &Stage<'_>) {
+        let signals = &stage.to_nck.channels[stage.channel];
+        let stopped = matches!(self.programs[stage.channel].state, ProgramState::Stopped | ProgramState::Interrupted);
+        let skips = skip_levels(stage.channel, stage.to_nck);
+        if skips != run.skips {
+            match stage.own.skip_change {
+                ChangeTime::BlockEnd if stopped && run.phase == Phase::Between => {
+                    run.skips = skips;
+                    self.read_again_behind(run, 0, stage);
+                }
+                ChangeTime::AtOnce => run.change = run.change.or(Some(Change::Skips)),
+                ChangeTime::BlockEnd | ChangeTime::StopPreparation => {}
+            }
+        }
+        if signals.activate_dry_run_feedrate() != run.dry_run {
+            match stage.own.dry_run_change {
+                ChangeTime::AtOnce => run.change = run.change.or(Some(Change::DryRun)),
+                ChangeTime::BlockEnd if run.phase == Phase::Between => run.dry_run = !run.dry_run,
+                ChangeTime::BlockEnd | ChangeTime::StopPreparation => {}
+            }
+        }
+        let level_signals = [signals.delete_number_of_passes(), signals.program_level_abort()];
+        let were = std::mem::replace(&mut run.level_signals_were, level_signals);
+        for (index, change) in [Change::Passes, Change::Level].into_iter().enumerate() {
+            if level_signals[index] && !were[index] && run.level() > 0 {
+                run.change = Some(change);
+            }
+        }
+        let moves = |run: &Run| run.positionings.iter().any(|one| !self.axes[one.axis].setpoint.is_at_rest());
+        let rests = run.path.velocity() <= 0.0 && run.returning.is_none();
+        if run.change.is_some() && rests && (run.change != Some(Change::Level) || !moves(run)) {
+            self.change(run, stage);
+        }
+    }
+
+    /// The path stands: the change takes effect, and the program goes on.
+    fn change(&mut self, run: &mut Run, stage: &Stage<'_>) {
+        let Some(change) = run.change.take() else { return };
+        let begun = usize::from(run.phase != Phase::Between);
+        if run.on_path > 1 {
+            run.path.keep_first();
+            run.on_path = 1;
+        }
+        match change {
+            Change::DryRun => {
+                run.dry_run = stage.to_nck.channels[stage.channel].activate_dry_run_feedrate();
+                run.refeed(stage);
+            }
+            Change::Skips => {
+                run.skips = skip_levels(stage.channel, stage.to_nck);
+                self.read_again_behind(run, begun, stage);
+            }
+            Change::Passes => {
+                self.read_again_behind(run, begun, stage);
+                run.interpreter.delete_passes();
+                run.keep_behind(begun);
+            }
+            Change::Level => {
+                run.path.clear();
+                (run.on_path, run.dwell) = (0, 0);
+                run.positionings.clear();
+                run.referencing = AxisSet::NONE;
+                if begun > 0 {
+                    run.take_executed();
+                    run.phase = Phase::Between;
+                }
+                self.read_again_behind(run, 0, stage);
+                run.interpreter.abort_level();
+                let input = channel_signal(stage.channel, channel_to_nck::program_level_abort, true);
+                self.log.note_one(Place::Channel(stage.channel), Rule::LevelAborted, input, run.block_cause);
+                run.end = on_path(&stage.own.axes.path, |axis| self.axes[axis].setpoint.position);
+                run.behind.end = run.end;
+                run.keep_behind(0);
+            }
+        }
+    }
+
+    /// Drops the blocks behind the first `kept` ones, takes back what they have written into R parameters, and reads them again.
+    pub(super) fn read_again_behind(&mut self, run: &mut Run, kept: usize, stage: &Stage<'_>) {
+        let next = run.executed + kept as u64;
+        while let Some((before, index, value)) = run.r_log.back().copied() {
+            if before < next {
+                break;
+            }
+            self.r_parameters.set(stage.channel, index, value);
+            run.r_log.pop_back();
+        }
+        run.queue.truncate(kept);
+        run.again.clear();
+        let behind = run.queue.back().and_then(|block| block.behind()).unwrap_or(&run.behind);
+        run.interpreter.clone_from(&behind.interpreter);
+        run.axis_feeds.clone_from(&behind.axis_feeds);
+        run.end = behind.end;
+        run.preparation = Preparation::Reads;
+    }
+}
+
+impl Run {
+    /// The program level of the block that runs, or of the one behind which the program stands; 0 is the main program.
+    fn level(&self) -> usize {
+        let running = self.queue.front().filter(|_| self.phase != Phase::Between);
+        let next = || self.behind.interpreter.stack().count().saturating_sub(1);
+        running.map_or_else(next, |block| usize::from(block.origin.level))
+    }
+
+    /// The state of preparation was changed behind the block that runs, or behind the last one.
+    fn keep_behind(&mut self, begun: usize) {
+        let interpreter = self.interpreter.clone();
+        match self.queue.front_mut().and_then(|block| block.block.as_mut()).filter(|_| begun > 0) {
+            Some(read) => read.behind.interpreter = interpreter,
+            None => self.behind.interpreter = interpreter,
+        }
+    }
+
+    /// The blocks on the path get the feed that is in effect now.
+    pub(super) fn refeed(&mut self, stage: &Stage<'_>) {
+        let (queue, dry_run) = (&self.queue, self.dry_run);
+        self.path.set_feeds(|number, feed| {
+            let programmed = queue.iter().filter_map(|block| block.way).find(|way| way.number == number);
+            programmed.map_or(feed, |way| stage.own.dry_run_feed(way.feed, dry_run))
+        });
+    }
+}

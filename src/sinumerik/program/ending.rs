@@ -1,0 +1,102 @@
+//! The end of a block: when its motion is over, and whether the program then stops, ends or goes on.
+
+use crate::image::channel_to_nck;
+use crate::nc_program::{Action, End};
+use crate::sinumerik::inputs::channel_signal;
+use crate::sinumerik::program::execution::Progress;
+use crate::sinumerik::program::path::Stage;
+use crate::sinumerik::program::state::{Criterion, Phase, ProgrammedStop, Run, block_name};
+use crate::sinumerik::rules::Rule;
+use crate::sinumerik::state::State;
+use crate::units::AxisSet;
+use crate::variables::{Input, Place};
+
+impl State {
+    pub(super) fn motion_has_ended(&mut self, run: &mut Run, stage: &Stage<'_>) -> bool {
+        let Some(block) = run.queue.front() else { return true };
+        if run.returning.is_some() {
+            return false;
+        }
+        if run.dwell > 0 {
+            // Runs on with feed disable; NC stop holds it.
+            run.dwell -= 1;
+            return false;
+        }
+        if run.positionings.iter().any(|positioning| positioning.waits && block.positions.contains(positioning)) {
+            return false;
+        }
+        let waited = block.actions.iter().any(|action| matches!(action, Action::WaitForPosition(_)));
+        if waited && !run.positionings.is_empty() || !self.references_are_done(run) {
+            return false;
+        }
+        if block.way.is_none() || run.on_path == 0 {
+            return true;
+        }
+        if !run.path.stands() {
+            return false;
+        }
+        if block.criterion != Criterion::Interpolation && !self.is_in_position(block.criterion, run, stage) {
+            return false;
+        }
+        run.path.go_on();
+        run.on_path -= 1;
+        true
+    }
+
+    /// Whether the axes of the path are within their exact stop windows.
+    fn is_in_position(&self, criterion: Criterion, run: &Run, stage: &Stage<'_>) -> bool {
+        let positioned = |axis| run.positionings.iter().any(|positioning| positioning.axis == axis);
+        stage.own.axes.path.iter().filter(|axis| !positioned(**axis)).all(|&number| {
+            let axis = &self.axes[number];
+            let set = axis.active_set(&stage.parameters.axes[number]);
+            let window = if criterion == Criterion::Coarse { set.exact_stop_coarse } else { set.exact_stop_fine };
+            axis.setpoint.is_at_rest() && axis.deviation().abs() <= window
+        })
+    }
+
+    /// The block is over: the program stops, ends, or goes on.
+    pub(super) fn end_block(&mut self, run: &mut Run, stage: &Stage<'_>) -> Progress {
+        let channel = stage.channel;
+        let place = Place::Channel(channel);
+        let Some(block) = run.take_executed() else { return Progress::Waits };
+        run.phase = Phase::Between;
+        // The path stands: what it would have passed into begins again when nothing holds it.
+        run.path.clear();
+        run.on_path = 0;
+        run.referencing = AxisSet::NONE;
+        let signals = &stage.to_nck.channels[channel];
+        let input = Input::Block(block_name(&block.origin.name));
+        if let Some(alarm) = run.cycle_alarm.take() {
+            self.raise_block_alarm(alarm, run, stage);
+            return Progress::Changed;
+        }
+        if block.end == Some(End::Program) {
+            let event = self.log.note_one(place, Rule::ProgramEnded, input, run.block_cause);
+            self.end_program(channel, stage.own, event, true);
+            return Progress::Ended;
+        }
+        let associated = stage.to_nck.program_control[channel].activate_associated_m0_m1();
+        let programmed = match block.stop {
+            ProgrammedStop::None => false,
+            ProgrammedStop::Always | ProgrammedStop::Associated => true,
+            ProgrammedStop::Optional => signals.activate_m01(),
+            ProgrammedStop::AssociatedOptional => associated,
+        };
+        if programmed {
+            let event = self.log.note_one(place, Rule::ProgrammedStop, input, run.block_cause);
+            self.stop_program(channel, event);
+            let is_own = matches!(block.stop, ProgrammedStop::Always | ProgrammedStop::Optional);
+            let program = &mut self.programs[channel];
+            (program.programmed_stop, program.associated_stop) = (is_own, !is_own);
+        } else if signals.nc_stop_at_block_limit() {
+            let pressed = channel_signal(channel, channel_to_nck::nc_stop_at_block_limit, true);
+            let event = self.log.note(place, Rule::StopAtBlockEnd, [pressed, input, Input::None], run.block_cause);
+            self.stop_program(channel, event);
+        } else if signals.activate_single_block() && block.is_executable && !block.origin.is_single_block_off {
+            let single = channel_signal(channel, channel_to_nck::activate_single_block, true);
+            let event = self.log.note(place, Rule::SingleBlock, [single, input, Input::None], run.block_cause);
+            self.stop_program(channel, event);
+        }
+        Progress::Changed
+    }
+}
