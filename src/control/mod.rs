@@ -35,6 +35,8 @@ pub use value::{Kind, Value};
 use std::any::Any;
 use std::fmt::Debug;
 
+use serde::{Deserialize, Serialize};
+
 use crate::image::{Interface, Location, Names, OverrideCoding, Signal};
 use crate::motion::Feedback;
 use crate::nc_program::Program;
@@ -43,6 +45,19 @@ use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis,
 use crate::variables::{
     AlarmNumber, DatumValue, EventId, Events, FaultName, Place, RParameters, Rule, RuleNumber, Variables,
 };
+
+/// How a block search comes to its block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SearchKind {
+    /// Nothing before the block counts.
+    WithoutCalculation,
+    /// Everything before it is calculated; the axes go to its start.
+    Contour,
+    /// Everything before it is calculated; the axes go to its end.
+    EndPoint,
+    /// Everything before it is executed in a program test (SERUPRO).
+    ProgramTest,
+}
 
 /// A command to a control from outside, taken at the edge of a cycle.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,6 +100,15 @@ pub enum ControlCommand {
         axis: AxisNumber,
         /// Its new actual value, in millimetres or degrees.
         value: f64,
+    },
+    /// Searches a block of the selected program, from which the program goes on.
+    Search {
+        /// The channel.
+        channel: ChannelNumber,
+        /// The block: `N50`, `:50`, or a label.
+        block: String,
+        /// How.
+        kind: SearchKind,
     },
     /// The operator's alarm-cancel key.
     Cancel,

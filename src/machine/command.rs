@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Fault;
+use crate::control::SearchKind;
 use crate::control::Value;
 use crate::image::Location;
 use crate::units::{AxisNumber, ChannelNumber};
@@ -66,6 +67,15 @@ pub enum Command {
         /// Its new actual value, in millimetres or degrees.
         value: f64,
     },
+    /// Searches a block of the selected program, from which the program goes on.
+    Search {
+        /// The channel.
+        channel: ChannelNumber,
+        /// The block: `N50`, `:50`, or a label.
+        block: String,
+        /// How.
+        kind: SearchKind,
+    },
     /// "Set machine data active".
     NewConf,
     /// Power off and on.
@@ -105,6 +115,7 @@ impl Command {
             | Self::SelectProgram { .. }
             | Self::EnterBlocks { .. }
             | Self::Preset { .. }
+            | Self::Search { .. }
             | Self::NewConf
             | Self::PowerOn
             | Self::PlcStop
@@ -132,6 +143,7 @@ impl Command {
             | Self::SelectProgram { .. }
             | Self::EnterBlocks { .. }
             | Self::Preset { .. }
+            | Self::Search { .. }
             | Self::NewConf
             | Self::PowerOn
             | Self::Cancel

@@ -31,6 +31,7 @@ mod state;
 mod step;
 mod written;
 
+pub use crate::control::SearchKind;
 pub use crate::control::Value as DatumValue;
 pub use crate::plant::{Fault, FaultKind, Switch};
 pub use command::{Command, PlcOrder};

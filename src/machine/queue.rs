@@ -146,6 +146,7 @@ impl Machine {
             | Command::SelectProgram { .. }
             | Command::EnterBlocks { .. }
             | Command::Preset { .. }
+            | Command::Search { .. }
             | Command::NewConf
             | Command::Cancel
             | Command::Handwheel { .. } => {}
@@ -181,6 +182,7 @@ impl Machine {
             | ControlCommand::PlcRestarted
             | ControlCommand::RParameter { .. }
             | ControlCommand::Preset { .. }
+            | ControlCommand::Search { .. }
             | ControlCommand::Written(_)
             | ControlCommand::Fault { .. } => {}
         }
@@ -283,6 +285,9 @@ fn of_the_control(command: &Command) -> Option<ControlCommand> {
             Some(ControlCommand::EnterBlocks { channel: *channel, text: text.clone() })
         }
         &Command::Preset { axis, value } => Some(ControlCommand::Preset { axis, value }),
+        Command::Search { channel, block, kind } => {
+            Some(ControlCommand::Search { channel: *channel, block: block.clone(), kind: *kind })
+        }
         Command::NewConf => Some(ControlCommand::Activate),
         Command::Cancel => Some(ControlCommand::Cancel),
         &Command::Handwheel { number, pulses, cycles } => Some(ControlCommand::Handwheel { number, pulses, cycles }),

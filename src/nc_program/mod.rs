@@ -83,6 +83,7 @@ pub use prepared::{
     Action, AuxiliaryFunction, AuxiliaryKind, AxisWord, Block, Centre, Circle, CouplingKind, Dimension, End,
     MainRunAction, Origin, Prepared, SynchronisedAction,
 };
+pub use search::BlockTarget;
 pub use source::{Library, Program, ProgramKind, Request, normalised};
 pub use state::Interpreter;
 pub use syntax::Frequency;

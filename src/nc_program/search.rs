@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::dialect::Dialect;
-use super::head::{significant, word};
+use super::head::{Head, head, significant, word};
 use super::source::Program;
 use super::syntax::Direction;
 
@@ -149,7 +149,10 @@ impl Wanted {
     }
 
     fn is_at(&self, program: &Program, line: u32) -> bool {
-        let Some((head, _)) = program.head(line) else { return false };
+        program.head(line).is_some_and(|(head, _)| self.is_head(&head))
+    }
+
+    fn is_head(&self, head: &Head<'_>) -> bool {
         match self {
             Self::Label(label) => head.label.is_some_and(|found| found.eq_ignore_ascii_case(label)),
             Self::Number { is_main, digits } => {
@@ -169,6 +172,39 @@ pub(super) fn target(program: &Program, wanted: &Wanted, from: u32, direction: D
         Direction::Backward => backward.find(&mut found),
         Direction::Both | Direction::BothSilent => forward.find(&mut found).or_else(|| backward.find(&mut found)),
         Direction::Start => Some(1),
+    }
+}
+
+/// A block that a search of the operator looks for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BlockTarget(Wanted);
+
+impl BlockTarget {
+    /// `N50`, `:50`, or a label of 2 to 32 characters of which the first two are letters or `_`.
+    #[must_use]
+    pub fn new(text: &str) -> Option<Self> {
+        let wanted = Wanted::new(text);
+        let is_valid = match &wanted {
+            Wanted::Number { .. } => true,
+            Wanted::Label(label) => {
+                let is_part = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
+                (2..=32).contains(&label.len())
+                    && label.bytes().all(is_part)
+                    && label.bytes().take(2).all(|byte| !byte.is_ascii_digit())
+            }
+        };
+        is_valid.then_some(Self(wanted))
+    }
+
+    /// Whether this line is the block.
+    #[must_use]
+    pub fn is(&self, line: &str) -> bool {
+        self.0.is_head(&head(line))
+    }
+
+    /// The line of the block in a program.
+    pub(super) fn line(&self, program: &Program) -> Option<u32> {
+        target(program, &self.0, 0, Direction::Forward)
     }
 }
 

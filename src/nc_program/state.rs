@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::functions::Modal;
 use super::names::AxisIndex;
-use super::search::StructureKind;
+use super::search::{BlockTarget, StructureKind};
+use super::source::Program;
 use super::variables::Variable;
 
 /// The interpreter of a channel: one program from its start to its end.
@@ -151,6 +152,13 @@ impl Interpreter {
     #[must_use]
     pub fn passes(&self) -> u32 {
         self.levels.last().map_or(0, |level| level.passes)
+    }
+
+    /// Goes to a block of the main program, as if there were nothing before it. Returns whether it exists.
+    pub fn go_to(&mut self, program: &Program, block: &BlockTarget) -> bool {
+        let (Some(line), Some(level)) = (block.line(program), self.levels.first_mut()) else { return false };
+        (level.line, level.is_at_start, level.has_begun) = (line, false, true);
+        true
     }
 
     /// Drops the other passes of the current subprogram (DB21.DBX6.3).

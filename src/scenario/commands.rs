@@ -7,6 +7,7 @@ use super::failure::Failure;
 use super::naming::axis_named;
 use super::programs::NcPrograms;
 use super::session::Session;
+use super::step_values::{search_kind, search_kinds};
 use super::values::Setting;
 use crate::machine::{Command, DatumValue, Fault, FaultKind};
 use crate::source::{Place, Problem};
@@ -84,6 +85,19 @@ impl Session {
     pub fn preset(&mut self, axis: &str, value: f64) -> Result<(), Failure> {
         let axis = axis_named(&self.machine, axis)?;
         self.queue(Command::Preset { axis, value })
+    }
+
+    /// Searches a block of the selected program: `N50`, `:50` or a label. The kind is `contour`, `end_point`, `serupro` or `without_calculation`.
+    ///
+    /// # Errors
+    /// There is no such kind, or the channel does not exist.
+    pub fn search(&mut self, block: &str, kind: &str, channel: u8) -> Result<(), Failure> {
+        let channel = channel_numbered(channel)?;
+        let Some(kind) = search_kind(kind) else {
+            let found = format!("expected the kind of a block search, found {kind:?}");
+            return Err(Problem::new(found, search_kinds()).into());
+        };
+        self.queue(Command::Search { channel, block: block.to_owned(), kind })
     }
 
     /// Turns a handwheel by a number of pulses, evenly spread over a time.

@@ -8,6 +8,7 @@ use super::faults::fault;
 use super::fields::{Named, duration, texts};
 use super::naming::{Known, check_captured_name, missing_owner, place_named, written_by_others};
 use super::programs::NcPrograms;
+use super::step_values::search;
 use super::written::WrittenSteps;
 use crate::expression::{Expression, Followed};
 use crate::image::{Location, raw_value, signal_value};
@@ -91,7 +92,7 @@ impl Turn {
 }
 
 /// The verbs of a step; `include` is another one.
-const VERBS: [&str; 24] = [
+const VERBS: [&str; 25] = [
     "set",
     "write",
     "force",
@@ -108,6 +109,7 @@ const VERBS: [&str; 24] = [
     "nc",
     "mdi",
     "preset",
+    "search",
     "new_conf",
     "power_on",
     "plc",
@@ -315,6 +317,10 @@ impl<'a> Reader<'a> {
                 command(Command::EnterBlocks { channel: channel(table)?, text })
             }
             "preset" => Action::Queue(self.presets(node)?),
+            "search" => {
+                let (block, kind) = search(node)?;
+                command(Command::Search { channel: channel(table)?, block, kind })
+            }
             "new_conf" => self.flag(&node, verb).map(|()| command(Command::NewConf))?,
             "power_on" => {
                 self.flag(&node, verb)?;

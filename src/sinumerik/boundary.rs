@@ -53,7 +53,9 @@ impl Control for Nck {
                 ))
             }
             ControlCommand::SelectProgram { channel, path } => self.check_program(*channel, path),
-            ControlCommand::EnterBlocks { channel, .. } => self.check_channel(*channel),
+            ControlCommand::EnterBlocks { channel, .. } | ControlCommand::Search { channel, .. } => {
+                self.check_channel(*channel)
+            }
             &ControlCommand::Preset { axis, value } => self.check_preset(axis, value),
             ControlCommand::Handwheel { .. }
             | ControlCommand::Activate
@@ -83,6 +85,7 @@ impl Control for Nck {
             ControlCommand::SelectProgram { channel, path } => return self.select_program(*channel, path),
             ControlCommand::EnterBlocks { channel, text } => return self.enter_blocks(*channel, text),
             &ControlCommand::Preset { axis, value } => return self.preset(axis, value),
+            ControlCommand::Search { channel, block, kind } => return self.search(*channel, block, *kind),
             ControlCommand::Activate => return self.new_conf(),
             ControlCommand::Cancel => return self.press_cancel_key(),
             &ControlCommand::Handwheel { number, pulses, cycles } => {

@@ -42,6 +42,7 @@ const READ: &[Signal] = &[
     channel_to_nck::activate_m01,
     channel_to_nck::activate_dry_run_feedrate,
     channel_to_nck::activate_referencing,
+    channel_to_nck::plc_action_completed,
     channel_to_nck::activate_program_test,
     channel_to_nck::skip_block_level_0,
     channel_to_nck::skip_block_level_1,

@@ -345,6 +345,7 @@ impl Nck {
         self.state.select_modes(&self.parameters, to_nck);
         self.state.watch_emergency_stop(&self.parameters, to_nck);
         self.select_program_tests(to_nck);
+        self.start_searches(to_nck);
         self.reset_and_cancel(to_nck, cancel_key);
         if self.state.check_closings(&self.parameters) {
             self.resting.wake_all();

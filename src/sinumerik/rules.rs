@@ -107,6 +107,14 @@ rules! {
     SingleBlock "program" "single block: stop after the block";
     ProgramTest "program test" "selected or deselected while no program runs";
     LevelAborted "program" "program level abort: back to the caller";
+    SearchStarted "search" "block search begins";
+    SearchFound "search" "block found";
+    SearchMissed "search" "the program has ended before the block";
+    SearchCalculates "search" "block calculated";
+    SearchActed "search" "action blocks are output: the PLC has to complete its action";
+    SearchActions "search" "action blocks output what the search has collected";
+    SearchReady "10208" "the search is over: NC start goes on";
+    ApproachEnds "search" "the axes are where the block begins";
     BlockBegins "block" "begins";
     BlockMoves "block" "moves the axis";
     BlockMotionEnds "block" "motion of the axis has ended";

@@ -8,6 +8,7 @@
 use std::fmt::Write;
 
 use super::naming::missing_owner;
+use super::step_values::search_word;
 use crate::image::{Address, Format, Location, Profile, Writer, is_no_code};
 use crate::machine::{Command, DatumValue, Fault, Machine};
 use crate::scenario::faults::written;
@@ -186,6 +187,10 @@ impl Transcript {
             Command::Preset { axis, value } => {
                 let name = machine.names().axes[*axis].as_deref().unwrap_or_default();
                 self.put("preset", quoted(name), format!("{value:?}"));
+            }
+            Command::Search { channel, block, kind } => {
+                let kind = search_word(*kind);
+                self.program("search", *channel, &format!("{{ block = {}, kind = \"{kind}\" }}", quoted(block)));
             }
             Command::NewConf => self.step("new_conf", "true"),
             Command::PowerOn => self.step("power_on", "true"),

@@ -219,7 +219,8 @@ fn programs_are_repeated_with_their_texts() {
     let mut transcript = Transcript::begin(&heading);
     let mut trace = Trace::begin(machine.memory(), machine.cycle_time(), 0, machine.time());
     let mdi = Command::EnterBlocks { channel, text: "G0 X1\nM30".to_owned() };
-    for command in [select("parts/PART.MPF"), mdi, select("parts/OTHER.MPF"), select("parts/PART.MPF")] {
+    let search = Command::Search { channel, block: "N20".to_owned(), kind: crate::machine::SearchKind::EndPoint };
+    for command in [select("parts/PART.MPF"), mdi, search, select("parts/OTHER.MPF"), select("parts/PART.MPF")] {
         machine.queue(command).unwrap();
         transcript.edge(&machine, &[]);
         machine.step();
@@ -227,7 +228,7 @@ fn programs_are_repeated_with_their_texts() {
         machine.drain();
         trace.end_cycle(machine.cycle(), machine.time(), machine.variables());
     }
-    let text = transcript.take_text() + &transcript.rest(4);
+    let text = transcript.take_text() + &transcript.rest(5);
     let scenario =
         Scenario::parse(&text, Path::new("again.toml")).unwrap_or_else(|problem| panic!("{problem}\n{text}"));
     let finished = scenario.prepare(scenario.profiles[0], &Programs::ready()).unwrap().run();
@@ -241,6 +242,7 @@ fn programs_are_repeated_with_their_texts() {
     assert!(text.contains(expected), "{text}");
     assert!(text.contains("\n%_N_SUB_SPF\n;$PATH=parts\nM17\n"), "{text}");
     assert!(text.contains("mdi = '''\nG0 X1\nM30'''\n"), "{text}");
+    assert!(text.contains("search = { block = \"N20\", kind = \"end_point\" }\n"), "{text}");
     let again = finished.session().machine();
     for path in ["parts/PART.MPF", "parts/OTHER.MPF", "parts/SUB.SPF"] {
         assert!(again.program_text(path, false).is_some(), "{path}");

@@ -7,6 +7,7 @@ use crate::variables::AlarmNumber;
 alarms! {
     /// The alarms of programs, ascending by number.
     PROGRAMS;
+    10208 [INTERPRETER_STOP DISPLAY STOP] NcStart "channel %1 continue the program with NC start after the block search";
     10720 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %3 axis %2 programmed end point is behind software limit switch %4";
     10722 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %3 axis %2 path violates software limit switch %4";
     10730 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %3 axis %2 path leaves the working area %4";
@@ -69,6 +70,11 @@ alarms! {
     14760 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 several auxiliary functions of one group";
     14800 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 path feedrate is not positive";
     14810 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 feedrate of a positioning axis is negative %3";
+    15310 [DISPLAY] CancelKey "channel %1 block search: the program %2 does not exist";
+    15330 [DISPLAY] CancelKey "channel %1 block search: %2 is not a block number";
+    15340 [DISPLAY] CancelKey "channel %1 block search: %2 is not a label";
+    15350 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block search: block %2 not found up to the end of the program";
+    15370 [DISPLAY] CancelKey "channel %1 block search: the program has no block %2";
     15460 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 address does not fit the modal G function";
     15700 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %2 wrong number of a cycle alarm %3";
     16100 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 spindle does not exist in the channel %3";
@@ -82,10 +88,15 @@ alarms! {
     16810 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 ACP on an axis that is not modulo %3";
     16820 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %2 ACN on an axis that is not modulo %3";
     16830 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 position outside the modulo range %3";
+    16912 [DISPLAY] CancelKey "channel %1 action %2 only in the state reset";
     16919 [DISPLAY] CancelKey "channel %1 action %2 not allowed while an alarm is pending";
     16920 [DISPLAY] CancelKey "channel %1 action %2 already active";
     16924 [DISPLAY] CancelKey "channel %1 program test: caution, it changes tool data";
+    16925 [DISPLAY] CancelKey "channel %1 action %2 not allowed in this mode";
     16930 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 an executable block must stand between";
+    16935 [DISPLAY] CancelKey "channel %1 action %2 not possible during a block search with program test";
+    16936 [DISPLAY] CancelKey "channel %1 action %2 not possible while the dry run is active";
+    16937 [DISPLAY] CancelKey "channel %1 action %2 not possible while a program test is active";
     17020 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 first index is not valid";
     17030 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 second index is not valid";
     17040 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis index is wrong";
@@ -130,6 +141,28 @@ pub(in crate::sinumerik) const ALARM_PENDING: AlarmNumber = AlarmNumber(16919);
 /// An action that is already active.
 pub(in crate::sinumerik) const ALREADY_ACTIVE: AlarmNumber = AlarmNumber(16920);
 
+/// A block search is over, and NC start goes on.
+pub(in crate::sinumerik) const CONTINUE_AFTER_SEARCH: AlarmNumber = AlarmNumber(10208);
+/// Block search, and no program is selected.
+pub(in crate::sinumerik) const SEARCH_WITHOUT_PROGRAM: AlarmNumber = AlarmNumber(15310);
+/// Block search for a wrong block number.
+pub(in crate::sinumerik) const SEARCH_BLOCK_NUMBER: AlarmNumber = AlarmNumber(15330);
+/// Block search for a wrong label.
+pub(in crate::sinumerik) const SEARCH_LABEL: AlarmNumber = AlarmNumber(15340);
+/// The program has ended before the block that a search looks for.
+pub(in crate::sinumerik) const SEARCH_NOT_FOUND: AlarmNumber = AlarmNumber(15350);
+/// The block that a search without calculation looks for is not in the program.
+pub(in crate::sinumerik) const SEARCH_TARGET_MISSING: AlarmNumber = AlarmNumber(15370);
+/// An action that is possible only while no program runs or is stopped.
+pub(in crate::sinumerik) const ONLY_IN_RESET: AlarmNumber = AlarmNumber(16912);
+/// An action in the wrong mode.
+pub(in crate::sinumerik) const MODE_NOT_SUITABLE: AlarmNumber = AlarmNumber(16925);
+/// An action during a block search with program test.
+pub(in crate::sinumerik) const DURING_SERUPRO: AlarmNumber = AlarmNumber(16935);
+/// A block search with program test while the dry run is active.
+pub(in crate::sinumerik) const NOT_IN_DRY_RUN: AlarmNumber = AlarmNumber(16936);
+/// A block search with program test while a program test is active.
+pub(in crate::sinumerik) const NOT_IN_PROGRAM_TEST: AlarmNumber = AlarmNumber(16937);
 /// A program test begins.
 pub(in crate::sinumerik) const PROGRAM_TEST: AlarmNumber = AlarmNumber(16924);
 

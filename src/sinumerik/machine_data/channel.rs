@@ -32,6 +32,14 @@ Channel {
     21000 CIRCLE_ERROR_CONST circle_error_const: f64 = 0.01; "mm", Range::NOT_NEGATIVE, PowerOn;
     /// the same as a share of the radius; the greater of both acts
     21010 CIRCLE_ERROR_FACTOR circle_error_factor: f64 = 0.001; "factor", Range::NOT_NEGATIVE, PowerOn;
+    /// group of an auxiliary function of the user; 1 is not collected by a block search
+    22000 AUXFU_ASSIGN_GROUP auxfu_assign_group: [u8; 32] = [1; 32]; "", Range::between(1.0, 168.0), PowerOn;
+    /// type of an auxiliary function of the user: M, S, T, D, DL, H or F; empty: no entry
+    22010 AUXFU_ASSIGN_TYPE auxfu_assign_type: [String; 32] = std::array::from_fn(|_| String::new()); "", Range::ANY, PowerOn;
+    /// extension of an auxiliary function of the user; below 0: any
+    22020 AUXFU_ASSIGN_EXTENSION auxfu_assign_extension: [i32; 32] = [0; 32]; "", Range::ANY, PowerOn;
+    /// value of an auxiliary function of the user; below 0: any
+    22030 AUXFU_ASSIGN_VALUE auxfu_assign_value: [i32; 32] = [0; 32]; "", Range::ANY, PowerOn;
     /// H functions: 0 REAL, 1 DINT in DB21
     22110 AUXFU_H_TYPE_INT auxfu_h_type_int: i32 = 0; "", Range::ANY, PowerOn;
     /// output of M functions: 0 before the motion, 1 with it, 2 at the end of the block, 3 none, 4 as predefined
@@ -58,6 +66,10 @@ Channel {
     22510 GCODE_GROUPS_TO_PLC gcode_groups_to_plc: [u8; 8] = [1, 0, 0, 0, 0, 0, 0, 0]; "", Range::between(0.0, 64.0), PowerOn;
     /// bit 0: DB21.DBB208 to 215 show the eight groups of MD22510 in their order
     22515 GCODE_GROUPS_TO_PLC_MODE gcode_groups_to_plc_mode: u32 = 0; "", Range::ANY, PowerOn;
+    /// feed in a block search with program test: 0 SD42100 times MD22601, 1 the programmed feed times MD22601, 2 SD42100, 3 the programmed feed
+    22600 SERUPRO_SPEED_MODE serupro_speed_mode: u8 = 1; "", Range::between(0.0, 3.0), Reset;
+    /// factor of the feed in a block search with program test
+    22601 SERUPRO_SPEED_FACTOR serupro_speed_factor: f64 = 10.0; "factor", Range::POSITIVE, Reset;
     /// number of R parameters
     28050 MM_NUM_R_PARAM mm_num_r_param: i32 = 100; "", Range::between(0.0, 32_535.0), PowerOn;
 }

@@ -29,6 +29,8 @@ General {
     10704 DRYRUN_MASK dryrun_mask: u8 = 0; "", Range::between(0.0, 2.0), PowerOn;
     /// change of the skip levels (DB21.DBB2, 31.6, 31.7) while a program runs: 0 stopped at the end of a block, 1 at once with a short stop, 2 at the next STOPRE
     10706 SLASH_MASK slash_mask: u8 = 0; "", Range::between(0.0, 2.0), PowerOn;
+    /// block search with program test; bit 0: no stop at M0; bit 4: overrides are ignored
+    10708 SERUPRO_MASK serupro_mask: u32 = 0; "", Range::ANY, PowerOn;
     /// mode of each mode group after power on: 0, 1 AUTOMATIC; 2 to 5 MDI; 6, 7 JOG; machine functions are selected by their signals (O-19)
     10720 OPERATING_MODE_DEFAULT operating_mode_default: [i32; 10] = [6; 10]; "", Range::between(0.0, 7.0), PowerOn;
     /// settings of JOG
@@ -47,6 +49,8 @@ General {
     11411 ENABLE_ALARM_MASK enable_alarm_mask: u32 = 0; "", Range::ANY, Reset;
     /// an alarm resets ready of 1 its channel, 0 the mode group
     11412 ALARM_REACTION_CHAN_NOREADY alarm_reaction_chan_noready: bool = false; "", Range::ANY, PowerOn;
+    /// block search; bit 0: after the last action block, 10208 waits for DB21.DBX1.6
+    11450 SEARCH_RUN_MODE search_run_mode: u32 = 0; "", Range::ANY, PowerOn;
     /// bit 0: gaps in the channel axes (MD20070) are allowed; without it, power on raises 4000
     11640 ENABLE_CHAN_AX_GAP enable_chan_ax_gap: u32 = 0; "", Range::ANY, PowerOn;
     /// coding of the axial feed override: 1 Gray, 0 binary

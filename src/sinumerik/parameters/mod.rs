@@ -60,6 +60,8 @@ pub struct Parameters {
     pub binary_override_limit: f64,
     /// MD17900 bit 0: the traverse command is output only while the axis may move.
     pub command_only_in_motion: bool,
+    /// MD11450 bit 0: after a search, 10208 waits for DB21.DBX1.6.
+    pub search_waits_for_plc: bool,
     /// The channels that exist, with their mode groups.
     pub(super) channel_list: ArrayVec<(ChannelNumber, ModeGroupNumber), { ChannelNumber::MAX as usize }>,
     /// The mode groups that have channels.
@@ -113,6 +115,7 @@ impl Parameters {
             axis_override_factors: data.general.ovr_factor_ax_speed,
             binary_override_limit: data.general.ovr_factor_limit_bin,
             command_only_in_motion: data.general.vdi_function_mask & 1 == 1,
+            search_waits_for_plc: data.general.search_run_mode & 1 == 1,
             existing: axes.iter().filter(|(_, axis)| axis.exists).map(|(number, _)| number).collect(),
             channels: channels(data, &axes),
             mode_after_power_on: PerModeGroup::from_fn(|group| data.general.operating_mode_default[group.index()]),

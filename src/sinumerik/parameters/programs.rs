@@ -38,6 +38,40 @@ impl OutputTime {
     }
 }
 
+/// An auxiliary function, or all with one address, in a group.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::sinumerik) struct AuxiliaryGroup {
+    pub group: u32,
+    pub kind: AuxiliaryKind,
+    /// Below 0: any.
+    pub extension: i32,
+    /// Below 0: any.
+    pub value: i32,
+}
+
+/// MD22000 to 22030: entries without a type are empty.
+fn auxiliary_groups(md: &Channel) -> Vec<AuxiliaryGroup> {
+    let kind = |name: &str| match name.to_ascii_uppercase().as_str() {
+        "M" => Some(AuxiliaryKind::M),
+        "S" => Some(AuxiliaryKind::S),
+        "T" => Some(AuxiliaryKind::T),
+        "D" => Some(AuxiliaryKind::D),
+        "DL" => Some(AuxiliaryKind::SumOffset),
+        "H" => Some(AuxiliaryKind::H),
+        "F" => Some(AuxiliaryKind::F),
+        _ => None,
+    };
+    let row = |index: usize| {
+        Some(AuxiliaryGroup {
+            group: md.auxfu_assign_group[index].into(),
+            kind: kind(&md.auxfu_assign_type[index])?,
+            extension: md.auxfu_assign_extension[index],
+            value: md.auxfu_assign_value[index],
+        })
+    };
+    (0..md.auxfu_assign_group.len()).filter_map(row).collect()
+}
+
 /// When a change of program control takes effect while a program runs (MD10704, MD10706).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::sinumerik) enum ChangeTime {
@@ -113,6 +147,14 @@ pub(in crate::sinumerik) struct ProgramParameters {
     pub dry_run_change: ChangeTime,
     /// MD10706: when a change of the skip levels takes effect.
     pub skip_change: ChangeTime,
+    /// MD22000, 22010, 22020, 22030.
+    pub auxiliary_groups: Vec<AuxiliaryGroup>,
+    /// MD10708 bit 0: SERUPRO does not stop at M0.
+    pub serupro_passes_m0: bool,
+    /// MD10708 bit 4: SERUPRO ignores the overrides.
+    pub serupro_ignores_overrides: bool,
+    /// MD22600 and MD22601.
+    pub serupro_speed: (u8, f64),
     /// SD42120 in mm/min.
     pub approach_feed: f64,
     /// MD22510.
@@ -122,6 +164,20 @@ pub(in crate::sinumerik) struct ProgramParameters {
 }
 
 impl ProgramParameters {
+    /// SD42110 as the feed with which a program begins.
+    pub(in crate::sinumerik) fn initial_feed(&self) -> Option<f64> {
+        Some(self.default_feed).filter(|feed| *feed > 0.0)
+    }
+
+    /// The group that MD22000 to 22030 give an auxiliary function.
+    pub(in crate::sinumerik) fn auxiliary_group(&self, kind: AuxiliaryKind, extension: u16, value: f64) -> Option<u32> {
+        let named = self.auxiliary_groups.iter().find(|one| {
+            let is_value = one.value < 0 || (f64::from(one.value) - value).abs() < 0.5;
+            one.kind == kind && (one.extension < 0 || one.extension == i32::from(extension)) && is_value
+        });
+        named.map(|one| one.group)
+    }
+
     pub(in crate::sinumerik) fn output_time(&self, kind: AuxiliaryKind) -> OutputTime {
         let index = match kind {
             AuxiliaryKind::M => 0,
@@ -208,6 +264,10 @@ pub(in crate::sinumerik) fn programs(
         dry_run: (setting.dry_run_feed, setting.dry_run_feed_mode),
         dry_run_change: ChangeTime::new(data.general.dryrun_mask),
         skip_change: ChangeTime::new(data.general.slash_mask),
+        auxiliary_groups: auxiliary_groups(md),
+        serupro_passes_m0: data.general.serupro_mask & 1 == 1,
+        serupro_ignores_overrides: data.general.serupro_mask & 16 == 16,
+        serupro_speed: (md.serupro_speed_mode, md.serupro_speed_factor),
         approach_feed: setting.approach_feed,
         shown_groups: md.gcode_groups_to_plc,
         shows_groups_in_order: md.gcode_groups_to_plc_mode & 1 == 1,
@@ -269,6 +329,20 @@ fn program_axes(
 }
 
 impl ProgramParameters {
+    /// The feed of a block in a search by program test: MD22600 selects the dry run feed or the programmed one, and whether MD22601 multiplies
+    /// it.
+    pub(in crate::sinumerik) fn search_feed(&self, feed: Feed) -> Feed {
+        let Feed::Programmed(programmed) = feed else { return feed };
+        let (mode, factor) = self.serupro_speed;
+        let dry = self.dry_run.0 * Position::PER_USER_UNIT / 60.0;
+        Feed::Programmed(match mode {
+            0 => dry * factor,
+            1 => programmed * factor,
+            2 => dry,
+            _ => programmed,
+        })
+    }
+
     /// The feed of a block while the dry run is active: SD42101 decides between SD42100 and the programmed feed.
     pub(in crate::sinumerik) fn dry_run_feed(&self, feed: Feed, is_active: bool) -> Feed {
         let Feed::Programmed(programmed) = feed else { return feed };

@@ -61,6 +61,11 @@ impl Output {
         self.pending || !self.waiting.is_empty()
     }
 
+    /// Whether something waits behind the package that is output.
+    pub(in crate::sinumerik) fn is_waiting(&self) -> bool {
+        !self.waiting.is_empty()
+    }
+
     /// Adds a package, after the event that leads to it.
     pub(in crate::sinumerik) fn add(&mut self, package: &Package, cause: EventId) {
         if !package.is_empty() {

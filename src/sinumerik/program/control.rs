@@ -12,6 +12,7 @@
 //! written into R parameters, and reads them again.
 
 use crate::image::{ToNck, axis_to_nck, channel_to_nck};
+use crate::motion::path::Feed;
 use crate::sinumerik::alarms::programs as alarms;
 use crate::sinumerik::inputs::{axis_signal, channel_signal};
 use crate::sinumerik::nck::Nck;
@@ -68,12 +69,7 @@ impl Nck {
 
 impl State {
     /// The program test of a channel. Returns whether it has changed: then all axes decide.
-    fn select_program_test(
-        &mut self,
-        channel: ChannelNumber,
-        parameters: &Parameters,
-        to_nck: &ToNck,
-    ) -> bool {
+    fn select_program_test(&mut self, channel: ChannelNumber, parameters: &Parameters, to_nck: &ToNck) -> bool {
         let axes = parameters.channels[channel].axes;
         let before = self.programs[channel].test;
         let is_wanted = to_nck.channels[channel].activate_program_test();
@@ -229,6 +225,14 @@ impl Run {
             Some(read) => read.behind.interpreter = interpreter,
             None => self.behind.interpreter = interpreter,
         }
+    }
+
+    /// The feed of a block: that of the dry run, or of a search by program test.
+    pub(super) fn effective_feed(&self, feed: Feed, stage: &Stage<'_>) -> Feed {
+        if self.search.as_ref().is_some_and(|search| search.is_by_program_test()) {
+            return stage.own.search_feed(feed);
+        }
+        stage.own.dry_run_feed(feed, self.dry_run)
     }
 
     /// The blocks on the path get the feed that is in effect now.

@@ -70,6 +70,10 @@ impl State {
             self.raise_block_alarm(alarm, run, stage);
             return Progress::Changed;
         }
+        if block.end == Some(End::Program) && run.search.is_some() {
+            self.target_is_missing(run, stage);
+            return Progress::Changed;
+        }
         if block.end == Some(End::Program) {
             let event = self.log.note_one(place, Rule::ProgramEnded, input, run.block_cause);
             self.end_program(channel, stage.own, event, true);
@@ -78,7 +82,10 @@ impl State {
         let associated = stage.to_nck.program_control[channel].activate_associated_m0_m1();
         let programmed = match block.stop {
             ProgrammedStop::None => false,
-            ProgrammedStop::Always | ProgrammedStop::Associated => true,
+            ProgrammedStop::Always | ProgrammedStop::Associated => {
+                // SERUPRO can pass M0.
+                run.search.is_none() || !stage.own.serupro_passes_m0
+            }
             ProgrammedStop::Optional => signals.activate_m01(),
             ProgrammedStop::AssociatedOptional => associated,
         };

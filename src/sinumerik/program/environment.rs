@@ -32,6 +32,8 @@ pub(in crate::sinumerik) struct Channel<'a> {
     pub skips: u16,
     /// DB21.DBX384.0.
     pub restarts: bool,
+    /// $P_SEARCHL.
+    pub search_level: u8,
     /// R parameters that were written, with their values before.
     pub r_written: Vec<(u16, f64)>,
     pub end: [f64; crate::motion::path::PATH_AXES],
@@ -159,7 +161,8 @@ impl Environment for Channel<'_> {
                 Ok(length(self.program.settable_offset(index, axis)))
             }
             "$P_ISTEST" => Ok(Value::Bool(self.program.test.is_active)),
-            "$P_SEARCH" => Ok(Value::Bool(false)),
+            "$P_SEARCH" => Ok(Value::Bool(self.search_level > 0)),
+            "$P_SEARCHL" => Ok(Value::Int(self.search_level.into())),
             _ => match self.datum(variable) {
                 Some(target) => match self.now(&target?) {
                     Some(control::Value::Boolean(value)) => Ok(Value::Bool(value)),

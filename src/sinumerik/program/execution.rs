@@ -43,7 +43,7 @@ pub(super) enum Progress {
 }
 
 /// What is only read while programs run.
-struct Sources<'a> {
+pub(super) struct Sources<'a> {
     library: &'a Library,
     stored: &'a MachineData,
     written: &'a mut Vec<(Target, crate::control::Value)>,
@@ -103,12 +103,17 @@ impl State {
         if runs && run.stopping.is_none() && run.resetting.is_none() {
             run.stopping = self.program_stopper(channel, run.is_mda, stage.parameters, stage.to_nck);
         }
+        if run.search.is_some() && run.resetting.is_none() && self.run_search(run, stage, sources) {
+            self.show_interruption(channel, stage.parameters);
+            return true;
+        }
         self.take_program_control(run, stage);
         self.delete_distance_to_go_of_path(run, stage);
         if runs && run.stopping.is_none() {
             self.hold_block_change(run, stage);
         }
         let ended = self.move_program(run, stage);
+        self.end_approach(run, stage);
         for _ in 0..ended {
             run.on_path -= 1;
             if run.on_path > 0 {
@@ -128,7 +133,7 @@ impl State {
                 let event = self.log.now(Place::Channel(channel), event, Rule::ProgramStopped, [Input::None; 3]);
                 self.stop_program(channel, event);
             }
-        } else if runs {
+        } else if runs && !run.approaches {
             for _ in 0..CHANGES {
                 match self.execute(run, stage, sources) {
                     Progress::Changed => {}
@@ -207,8 +212,11 @@ impl State {
             if outputs || stops || !next.is_plain() || !run.positionings.is_empty() {
                 return;
             }
+            if run.search.as_ref().is_some_and(|search| search.is_target(&next.origin)) {
+                return;
+            }
             let Some(mut block) = next.way else { return };
-            block.feed = stage.own.dry_run_feed(block.feed, run.dry_run);
+            block.feed = run.effective_feed(block.feed, stage);
             if run.path.append(block, cycle).is_err() {
                 return;
             }
@@ -285,7 +293,7 @@ impl State {
         }
     }
 
-    fn prepare(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) {
+    pub(super) fn prepare(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) {
         let group = stage.parameters.mode_group(stage.channel);
         let signals = &stage.to_nck.channels[stage.channel];
         let restarts = stage.to_nck.jumps[stage.channel].enable_gotos();
@@ -311,6 +319,7 @@ impl State {
             skips: run.skips,
             restarts,
             r_written: Vec::new(),
+            search_level: run.search.as_ref().map_or(0, |search| search.level()),
             end: run.end,
             is_executed: run.is_executed(),
         };
@@ -333,6 +342,10 @@ impl State {
                     Progress::Waits
                 }
                 Preparation::Ended if !run.positionings.is_empty() => Progress::Waits,
+                Preparation::Ended if run.search.is_some() => {
+                    self.target_is_missing(run, stage);
+                    Progress::Waits
+                }
                 Preparation::Ended => {
                     let place = Place::Channel(stage.channel);
                     let event = self.log.note_plain(place, Rule::ProgramEnded, run.block_cause);
@@ -340,6 +353,12 @@ impl State {
                     Progress::Ended
                 }
             };
+        }
+        if let (Some(search), Some(block)) = (&run.search, run.queue.front())
+            && search.is_target(&block.origin)
+        {
+            self.found(run, stage);
+            return Progress::Waits;
         }
         if stage.to_nck.channels[stage.channel].read_in_disable() {
             return Progress::Waits;
@@ -391,7 +410,7 @@ impl State {
         (run.referencing, run.referencing_started) = (references, AxisSet::NONE);
         // A block into which the path would have passed is there already.
         if let (Some(mut way), 0) = (block.way, run.on_path) {
-            way.feed = stage.own.dry_run_feed(way.feed, run.dry_run);
+            way.feed = run.effective_feed(way.feed, stage);
             if run.path.append(way, cycle).is_ok() {
                 run.on_path = 1;
             }

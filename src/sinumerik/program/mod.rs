@@ -16,6 +16,7 @@
 //! | `geometry.rs` | units, offsets, circles |
 //! | `execution.rs` | the block that runs: before, during and at the end of its motion; the change to the next one |
 //! | `ending.rs` | the end of a block: when its motion is over, programmed stops, single block |
+//! | `search.rs` | block search: without calculation, to the contour, to the end point, by program test |
 //! | `actions.rs` | messages, PRESETON, NEWCONF, SETAL |
 //! | `path.rs` | the path in a cycle: overrides, holds, where the axes are, the return to the interruption point |
 //! | `positioning.rs` | POS and POSA |
@@ -46,6 +47,7 @@ pub(super) mod positioning;
 pub(super) mod preparation;
 pub(super) mod preset;
 pub(super) mod referencing;
+pub(super) mod search;
 pub(super) mod selection;
 pub(super) mod start;
 pub(super) mod state;

@@ -95,6 +95,10 @@ impl State {
             return Overrides { feed: 0.0, rapid: 0.0 };
         }
         let signals = &stage.to_nck.channels[stage.channel];
+        let by_test = run.search.as_ref().is_some_and(|search| search.is_by_program_test());
+        if by_test && stage.own.serupro_ignores_overrides {
+            return Overrides { feed: 1.0, rapid: 1.0 };
+        }
         let of = &stage.parameters.path_overrides;
         Overrides {
             feed: of.feed(signals.feed_override(), signals.feed_override_active()),

@@ -66,7 +66,7 @@ impl Run {
                 }
                 Preparation::Waits | Preparation::Ended | Preparation::Failed { .. } => return,
             }
-            if self.is_executed() {
+            if self.is_executed() && !self.search.as_ref().is_some_and(|search| search.calculates()) {
                 // Something else may have moved the axes.
                 self.end = on_path(&preparing.own.axes.path, |axis| preparing.axes[axis].setpoint.position);
             }

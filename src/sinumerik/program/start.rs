@@ -113,14 +113,30 @@ impl State {
             [pressed, active, Input::None],
             self.mode_groups[group].mode_cause,
         );
+        let interpreter = Interpreter::new(path, own.modal, own.initial_feed(), mode == Mode::Mda);
+        let run = self.new_run((channel, mode == Mode::Mda), interpreter, own, (parameters, to_nck), event);
+        let program = &mut self.programs[channel];
+        program.run = Some(Box::new(run));
+        (program.state, program.cause) = (ProgramState::Running, event);
+        (program.ended, program.programmed_stop, program.associated_stop) = (false, false, false);
+        (program.modal, program.modal_cause) = (own.modal, event);
+    }
+
+    /// A program before its first block, or before that of the interpreter.
+    pub(super) fn new_run(
+        &self,
+        (channel, is_mda): (ChannelNumber, bool),
+        interpreter: Interpreter,
+        own: &ProgramParameters,
+        (parameters, to_nck): (&Parameters, &ToNck),
+        event: EventId,
+    ) -> Run {
         let position = on_path(&own.axes.path, |axis| self.axes[axis].setpoint.position);
         let limits = limits(own, parameters);
-        let feed = Some(own.default_feed).filter(|feed| *feed > 0.0);
-        let interpreter = Interpreter::new(path, own.modal, feed, mode == Mode::Mda);
         let behind = Behind { interpreter: interpreter.clone(), axis_feeds: Vec::new(), end: position };
-        let run = Run {
+        Run {
             interpreter,
-            is_mda: mode == Mode::Mda,
+            is_mda,
             preparation: Preparation::Reads,
             queue: VecDeque::new(),
             on_path: 0,
@@ -152,12 +168,9 @@ impl State {
             dry_run: to_nck.channels[channel].activate_dry_run_feedrate(),
             change: None,
             level_signals_were: [false; 2],
-        };
-        let program = &mut self.programs[channel];
-        program.run = Some(Box::new(run));
-        (program.state, program.cause) = (ProgramState::Running, event);
-        (program.ended, program.programmed_stop, program.associated_stop) = (false, false, false);
-        (program.modal, program.modal_cause) = (own.modal, event);
+            search: None,
+            approaches: false,
+        }
     }
 
     /// NC start of a program that is stopped or interrupted.
@@ -197,6 +210,7 @@ impl State {
         (program.ended, program.programmed_stop, program.associated_stop) = (by_itself, false, false);
         (program.modal, program.modal_cause) = (own.modal, event);
         program.message = None;
+        program.search_cause = event;
     }
 
     /// What outlasts power off: R parameters, the selected programs, settable offsets.

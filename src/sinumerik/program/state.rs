@@ -4,11 +4,13 @@ use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 
+use crate::control::SearchKind;
 use crate::motion::path::{PATH_AXES, Path, PathBlock, PathLimits, PerPathAxis};
 use crate::nc_program::{Action, Block, End, Interpreter, Modal, Origin, ProgramAlarm};
 use crate::sinumerik::parameters::programs::{OutputTime, ProgramParameters};
 use crate::sinumerik::program::auxiliary::{Output, Package};
 use crate::sinumerik::program::positioning::Positioning;
+use crate::sinumerik::program::search::Search;
 use crate::units::{AxisNumber, AxisSet, Position};
 use crate::variables::{AlarmNumber, BlockName, EventId, Parameter};
 
@@ -57,6 +59,10 @@ pub(in crate::sinumerik) struct ChannelProgram {
     pub associated_stop: bool,
     /// 33.7, and the axes that it concerns.
     pub test: ProgramTest,
+    /// A search that the operator wants: its block, its type, its event.
+    pub search_request: Option<(String, SearchKind, EventId)>,
+    /// The event behind the progress of a search: 33.4, 318.1, 32.3, 32.4, 32.6.
+    pub search_cause: EventId,
     /// The modal G functions of the block that runs.
     pub modal: Modal,
     /// The event of the block change that set them.
@@ -80,6 +86,8 @@ impl ChannelProgram {
             programmed_stop: false,
             associated_stop: false,
             test: ProgramTest::default(),
+            search_request: None,
+            search_cause: EventId::NONE,
             modal: parameters.map_or_else(Modal::default, |parameters| parameters.modal),
             modal_cause: EventId::NONE,
             output: Output::default(),
@@ -87,6 +95,11 @@ impl ChannelProgram {
             message: None,
             run: None,
         }
+    }
+
+    /// The block search.
+    pub(in crate::sinumerik) fn search(&self) -> Option<&Search> {
+        self.run.as_ref()?.search.as_deref()
     }
 
     /// The settable offset of an axis.
@@ -340,6 +353,10 @@ pub(in crate::sinumerik) struct Run {
     pub change: Option<Change>,
     /// DB21.DBX6.3 and 6.4 in the last cycle.
     pub level_signals_were: [bool; 2],
+    /// A block search, until its approach begins.
+    pub search: Option<Box<Search>>,
+    /// 32.4: the return to the path is the approach after a search.
+    pub approaches: bool,
 }
 
 /// A change of program control for which the path stops for a short time.

@@ -4,6 +4,7 @@
 use crate::image::{ChannelAuxiliary, channel_auxiliary, channel_search_from_nck};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::program::auxiliary::BYTES;
+use crate::sinumerik::program::search::Search;
 use crate::sinumerik::publish::rows::{Rows, Why};
 use crate::sinumerik::state::State;
 use crate::units::ChannelNumber;
@@ -29,6 +30,8 @@ impl State {
     /// DB21.DBX318.x.
     pub(super) fn show_search(&self, channel: ChannelNumber, rows: &mut impl Rows) {
         let program = &self.programs[channel];
+        let by_test = program.search().is_some_and(Search::is_by_program_test);
+        rows.bit(channel_search_from_nck::search_by_program_test_active, by_test, || Why::Event(program.search_cause));
         rows.bit(channel_search_from_nck::associated_m0_m1_active, program.associated_stop, || {
             Why::Event(program.cause)
         });

@@ -6,6 +6,7 @@ use crate::sinumerik::axis::travel::command_signal;
 use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
+use crate::sinumerik::program::search::Search;
 use crate::sinumerik::program::state::ProgramState;
 use crate::sinumerik::publish::rows::{Rows, Why};
 use crate::sinumerik::rules::Rule;
@@ -37,6 +38,12 @@ impl State {
         let program = &self.programs[channel];
         let by_program = || Why::Event(program.cause);
         rows.bit(channel_from_nck::m0_m1_active, program.programmed_stop, by_program);
+        let by_search = || Why::Event(program.search_cause);
+        let (search, run) = (program.search(), program.run.as_deref());
+        rows.bit(channel_from_nck::action_block_active, search.is_some_and(|of| of.acts(&program.output)), by_search);
+        rows.bit(channel_from_nck::approach_block_active, run.is_some_and(|run| run.approaches), by_search);
+        rows.bit(channel_from_nck::last_action_block_active, search.is_some_and(Search::is_last_action), by_search);
+        rows.bit(channel_from_nck::block_search_active, search.is_some_and(Search::is_searching), by_search);
         rows.bit(channel_from_nck::program_test_active, program.test.is_active, || Why::Event(program.test.cause));
         rows.bit(channel_from_nck::m2_m30_active, program.ended, by_program);
         for (signal, state) in [

@@ -5,6 +5,7 @@ use crate::image::{
     ChannelAuxiliary, channel_auxiliary, channel_from_nck, channel_search_from_nck, channel_to_nck, mode_group_from_nck,
 };
 use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::program::search::Search;
 use crate::sinumerik::program::state::ProgramState;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
 use crate::units::{AxisNumber, ChannelNumber};
@@ -14,6 +15,31 @@ pub(super) const CHANNEL: &[Row<ChannelNumber>] = &[
     Row::new(channel_from_nck::m0_m1_active, |look, channel| {
         let is_stopped = look.state.programs[channel].programmed_stop;
         fact(format!("the program of {} is stopped by M0 or M1", look.channel_name(channel)), is_stopped).into()
+    }),
+    Row::new(channel_from_nck::action_block_active, |look, channel| {
+        let program = &look.state.programs[channel];
+        let acts = program.search().is_some_and(|search| search.acts(&program.output));
+        fact(format!("action blocks of {} are output after a block search", look.channel_name(channel)), acts).into()
+    }),
+    Row::new(channel_from_nck::approach_block_active, |look, channel| {
+        let approaches = look.state.programs[channel].run.as_ref().is_some_and(|run| run.approaches);
+        fact(format!("the axes of {} approach the block of a search", look.channel_name(channel)), approaches).into()
+    }),
+    Row::new(channel_from_nck::last_action_block_active, |look, channel| {
+        let is_last = look.state.programs[channel].search().is_some_and(Search::is_last_action);
+        fact(
+            format!("the last action block of {} was output, and NC start is waited for", look.channel_name(channel)),
+            is_last,
+        )
+        .into()
+    }),
+    Row::new(channel_from_nck::block_search_active, |look, channel| {
+        let searches = look.state.programs[channel].search().is_some_and(Search::is_searching);
+        fact(format!("a block search of {} runs", look.channel_name(channel)), searches).into()
+    }),
+    Row::new(channel_search_from_nck::search_by_program_test_active, |look, channel| {
+        let searches = look.state.programs[channel].search().is_some_and(Search::is_by_program_test);
+        fact(format!("a block search with program test of {} runs", look.channel_name(channel)), searches).into()
     }),
     Row::new(channel_from_nck::program_test_active, |look, channel| {
         let rests = look.program(channel, ProgramState::Aborted);
