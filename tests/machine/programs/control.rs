@@ -269,6 +269,7 @@ fn dry_run_and_skip_levels_change_at_once_or_at_stopre() {
         session.machine_data("10704", mask).unwrap();
         session.machine_data("10706", mask).unwrap();
         session.power_on().unwrap();
+        session.run("200ms").unwrap();
         super::prepare(&mut session, nc);
         start(&mut session);
         session.run("300ms").unwrap();
