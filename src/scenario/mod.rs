@@ -20,6 +20,7 @@ mod passing;
 mod programs;
 mod rules;
 mod run;
+mod searches;
 mod session;
 mod step_values;
 mod steps;

@@ -8,7 +8,7 @@ use super::faults::fault;
 use super::fields::{Named, duration, texts};
 use super::naming::{Known, check_captured_name, missing_owner, place_named, written_by_others};
 use super::programs::NcPrograms;
-use super::step_values::search;
+use super::searches::search;
 use super::written::WrittenSteps;
 use crate::expression::{Expression, Followed};
 use crate::image::{Location, raw_value, signal_value};

@@ -8,7 +8,7 @@
 use std::fmt::Write;
 
 use super::naming::missing_owner;
-use super::step_values::search_word;
+use super::searches::search_word;
 use crate::image::{Address, Format, Location, Profile, Writer, is_no_code};
 use crate::machine::{Command, DatumValue, Fault, Machine};
 use crate::scenario::faults::written;

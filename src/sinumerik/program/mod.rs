@@ -17,6 +17,7 @@
 //! | `execution.rs` | the block that runs: before, during and at the end of its motion; the change to the next one |
 //! | `ending.rs` | the end of a block: when its motion is over, programmed stops, single block |
 //! | `search.rs` | block search: without calculation, to the contour, to the end point, by program test |
+//! | `search_state.rs` | how far a search is, and what it has collected |
 //! | `actions.rs` | messages, PRESETON, NEWCONF, SETAL |
 //! | `path.rs` | the path in a cycle: overrides, holds, where the axes are, the return to the interruption point |
 //! | `positioning.rs` | POS and POSA |
@@ -48,6 +49,7 @@ pub(super) mod preparation;
 pub(super) mod preset;
 pub(super) mod referencing;
 pub(super) mod search;
+pub(super) mod search_state;
 pub(super) mod selection;
 pub(super) mod start;
 pub(super) mod state;

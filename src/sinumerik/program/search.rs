@@ -10,21 +10,20 @@
 //! last one (32.6), and with 1.6 if MD11450 bit 0 says so, 10208 asks for another NC start. That cancels 10208; the axes approach the
 //! block together (32.4), and the program goes on. A leading axis takes its grouping along, in the search and in the approach (MIS-10).
 
-use serde::{Deserialize, Serialize};
-
 use crate::control::SearchKind;
 use crate::image::{ToNck, channel_to_nck};
-use crate::motion::path::{Feed, Path, PathBlock, PerPathAxis, Way};
-use crate::nc_program::{Action, AuxiliaryKind, BlockTarget, Interpreter, Library, Origin};
+use crate::motion::path::{Feed, Path, PathBlock, Way};
+use crate::nc_program::{Action, AuxiliaryKind, BlockTarget, Interpreter, Library};
 use crate::sinumerik::alarms::programs as alarms;
 use crate::sinumerik::inputs::channel_signal;
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::operation::state::Mode;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
-use crate::sinumerik::program::auxiliary::{Entry, Output, Package};
+use crate::sinumerik::program::auxiliary::{Entry, Package};
 use crate::sinumerik::program::execution::Sources;
 use crate::sinumerik::program::path::Stage;
+use crate::sinumerik::program::search_state::{Progress, Search};
 use crate::sinumerik::program::state::{BlockAlarm, Phase, Preparation, ProgramState, Run, block_name, on_path};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
@@ -33,82 +32,6 @@ use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place, short_text
 
 /// Blocks that a search calculates in a cycle.
 const BLOCKS: usize = 1_000;
-
-/// How far a search is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) enum Progress {
-    /// 33.4: it looks for the block.
-    Searching,
-    /// The block was found: the axes of SERUPRO get their real positions back; in types 2 and 4, NC start outputs action blocks.
-    Found,
-    /// 32.3: action blocks are output.
-    Acting,
-    /// 32.6: the last one is output.
-    LastAction,
-    /// All are output; MD11450 bit 0: 1.6 is waited for.
-    WaitsForPlc,
-    /// 10208: NC start begins the approach.
-    Ready,
-}
-
-/// A block search.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Search {
-    pub kind: SearchKind,
-    /// The block, as the operator names it.
-    pub target: String,
-    pub progress: Progress,
-    /// The auxiliary functions that are output in action blocks.
-    collected: Vec<Entry>,
-    /// Where the approach leads to.
-    approach: Option<PerPathAxis>,
-    /// The search has begun in an earlier cycle, so that 33.4 can be seen.
-    begun: bool,
-}
-
-impl Search {
-    /// Whether this block is the target.
-    pub(super) fn is_target(&self, origin: &Origin) -> bool {
-        origin.level == 0 && BlockTarget::new(&self.target).is_some_and(|target| target.is(&origin.text))
-    }
-
-    /// $P_SEARCHL while it searches.
-    pub(super) fn level(&self) -> u8 {
-        match self.kind {
-            _ if !self.is_searching() => 0,
-            SearchKind::WithoutCalculation => 1,
-            SearchKind::Contour => 2,
-            SearchKind::EndPoint => 4,
-            SearchKind::ProgramTest => 5,
-        }
-    }
-
-    /// 33.4.
-    pub(in crate::sinumerik) fn is_searching(&self) -> bool {
-        self.progress == Progress::Searching
-    }
-
-    /// 32.3.
-    pub(in crate::sinumerik) fn acts(&self, output: &Output) -> bool {
-        self.progress == Progress::Acting || self.progress == Progress::LastAction && output.is_busy()
-    }
-
-    /// 32.6: until NC start.
-    pub(in crate::sinumerik) fn is_last_action(&self) -> bool {
-        let has_actions = matches!(self.kind, SearchKind::Contour | SearchKind::EndPoint);
-        has_actions && matches!(self.progress, Progress::LastAction | Progress::WaitsForPlc | Progress::Ready)
-    }
-
-    /// 318.1.
-    pub(in crate::sinumerik) fn is_by_program_test(&self) -> bool {
-        self.is_searching() && self.kind == SearchKind::ProgramTest
-    }
-
-    /// It executes nothing: it calculates up to the block.
-    pub(super) fn calculates(&self) -> bool {
-        self.is_searching() && self.kind != SearchKind::ProgramTest
-    }
-}
 
 /// The group of a function, if a search collects it (MD22000 to 22030, else the predefined groups of spindle functions).
 fn collected_group(entry: &Entry, own: &ProgramParameters) -> Option<u32> {

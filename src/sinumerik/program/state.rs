@@ -10,7 +10,7 @@ use crate::nc_program::{Action, Block, End, Interpreter, Modal, Origin, ProgramA
 use crate::sinumerik::parameters::programs::{OutputTime, ProgramParameters};
 use crate::sinumerik::program::auxiliary::{Output, Package};
 use crate::sinumerik::program::positioning::Positioning;
-use crate::sinumerik::program::search::Search;
+use crate::sinumerik::program::search_state::Search;
 use crate::units::{AxisNumber, AxisSet, Position};
 use crate::variables::{AlarmNumber, BlockName, EventId, Parameter};
 

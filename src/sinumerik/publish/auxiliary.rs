@@ -4,7 +4,7 @@
 use crate::image::{ChannelAuxiliary, channel_auxiliary, channel_search_from_nck};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::program::auxiliary::BYTES;
-use crate::sinumerik::program::search::Search;
+use crate::sinumerik::program::search_state::Search;
 use crate::sinumerik::publish::rows::{Rows, Why};
 use crate::sinumerik::state::State;
 use crate::units::ChannelNumber;

@@ -6,7 +6,7 @@ use crate::sinumerik::axis::travel::command_signal;
 use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
-use crate::sinumerik::program::search::Search;
+use crate::sinumerik::program::search_state::Search;
 use crate::sinumerik::program::state::ProgramState;
 use crate::sinumerik::publish::rows::{Rows, Why};
 use crate::sinumerik::rules::Rule;

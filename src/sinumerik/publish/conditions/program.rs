@@ -5,7 +5,7 @@ use crate::image::{
     ChannelAuxiliary, channel_auxiliary, channel_from_nck, channel_search_from_nck, channel_to_nck, mode_group_from_nck,
 };
 use crate::sinumerik::alarms::Reaction;
-use crate::sinumerik::program::search::Search;
+use crate::sinumerik::program::search_state::Search;
 use crate::sinumerik::program::state::ProgramState;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact};
 use crate::units::{AxisNumber, ChannelNumber};
