@@ -116,7 +116,11 @@ impl Composer<'_> {
         let (least, most) = self.before.dialect.cycle_alarms;
         let number = self.whole(number, at)?.unwrap_or(least);
         match u32::try_from(number) {
-            Ok(found) if (least..=most).contains(&number) => Ok(Action::CycleAlarm { number: found, text }),
+            Ok(found) if (least..=most).contains(&number) => {
+                // An alarm that stops the program: nothing behind it is prepared.
+                self.done.stops_preparation |= number < self.before.dialect.shown_alarms;
+                Ok(Action::CycleAlarm { number: found, text })
+            }
             _ => {
                 let reason = format!("the numbers are {least} to {most}");
                 Err(Fault::new(15700, at, reason).about(number.to_string()))

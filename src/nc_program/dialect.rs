@@ -28,6 +28,8 @@ pub struct Dialect {
     pub synchronised_ids: (i32, i32),
     /// The permitted numbers of cycle alarms.
     pub cycle_alarms: (i32, i32),
+    /// From this number on a cycle alarm is only shown: the program goes on.
+    pub shown_alarms: i32,
 }
 
 /// The language of the SINUMERIK 840D sl and 828D (nc_programs.md 1).
@@ -43,6 +45,7 @@ pub static SINUMERIK: Dialect = Dialect {
     program_levels: 8,
     synchronised_ids: (1, 255),
     cycle_alarms: (60_000, 69_999),
+    shown_alarms: 65_000,
 };
 
 fn sinumerik_rank(operator: Operator) -> u8 {

@@ -92,6 +92,13 @@ impl Program {
             at += line.len();
         }
         end_program(found, &text[start..], path, first_line);
+        // In an archive whose other programs name their folder, a program without one is in the folder of its kind.
+        if programs.iter().any(|program| program.folder != folder) {
+            for program in programs.iter_mut().filter(|program| program.folder == folder) {
+                program.folder =
+                    if program.kind == ProgramKind::Sub { "/_N_SPF_DIR" } else { "/_N_MPF_DIR" }.to_owned();
+            }
+        }
         if programs.is_empty() {
             programs.push(Self::of_text(file, kind, folder, text, 0));
         }
@@ -212,8 +219,12 @@ pub struct Request<'a> {
     pub caller: &'a str,
 }
 
-/// Programs in memory. Without a folder in the call a program is searched beside the caller, then in the search path in its order; a
-/// subprogram comes before a main program of the same name.
+/// The folders of a control with subprograms, in the order in which it searches them after the folder of the caller: subprograms, cycles of
+/// the user, of the manufacturer, and standard cycles (MDHELP 20108).
+const FOLDERS: [&str; 4] = ["/_N_SPF_DIR", "/_N_CUS_DIR", "/_N_CMA_DIR", "/_N_CST_DIR"];
+
+/// Programs in memory. Without a folder in the call a program is searched beside the caller, in the folders of a control, then in the search
+/// path in its order; a subprogram comes before a main program of the same name.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Library {
     programs: BTreeMap<String, Arc<Program>>,
@@ -254,7 +265,10 @@ impl Library {
     pub fn find(&self, request: &Request<'_>) -> Option<Arc<Program>> {
         let folders: Vec<&str> = match request.folder {
             Some(folder) => vec![folder],
-            None => std::iter::once(request.caller).chain(self.search_path.iter().map(String::as_str)).collect(),
+            None => {
+                let own = self.search_path.iter().map(String::as_str);
+                std::iter::once(request.caller).chain(FOLDERS).chain(own).collect()
+            }
         };
         folders.iter().find_map(|folder| {
             let in_folder = |ending: &str| {
@@ -326,7 +340,7 @@ mod tests {
             [
                 ("/_N_MPF_DIR/PART.MPF".to_owned(), "G1 X5|M30".to_owned(), 3),
                 ("/_N_SPF_DIR/L100.SPF".to_owned(), "M17".to_owned(), 7),
-                ("OTHER.SPF".to_owned(), "RET".to_owned(), 9),
+                ("/_N_SPF_DIR/OTHER.SPF".to_owned(), "RET".to_owned(), 9),
             ]
         );
     }

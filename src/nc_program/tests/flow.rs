@@ -176,6 +176,20 @@ fn programs_of_an_archive_call_each_other_by_folder() {
     assert_eq!(channel.r[1], 5.0);
 }
 
+/// MDHELP 20108: behind the folder of the caller, the folders of a control are searched; a program of an archive without a folder is in that
+/// of its kind.
+#[test]
+fn a_call_without_a_folder_searches_the_folders_of_a_control() {
+    for path in [";$PATH=/_N_SPF_DIR\n", ";$PATH=/_N_CMA_DIR\n", ""] {
+        let archive = format!("%_N_PART_MPF\n;$PATH=/_N_MPF_DIR\nSUB\nM30\n%_N_SUB_SPF\n{path}R1=5\nM17\n");
+        let mut channel = Channel::new().with("ALL.ARC", &archive);
+        let modal = crate::nc_program::Modal::default();
+        let mut interpreter = crate::nc_program::Interpreter::new("/_N_MPF_DIR/PART.MPF", modal, None, false);
+        while !matches!(interpreter.next(&mut channel).unwrap(), Prepared::Ended) {}
+        assert_eq!(channel.r[1], 5.0, "{path}");
+    }
+}
+
 #[test]
 fn single_block_and_display_are_off_where_the_program_says_so() {
     let mut channel = Channel::new()

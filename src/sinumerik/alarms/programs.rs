@@ -8,6 +8,7 @@ alarms! {
     /// The alarms of programs, ascending by number.
     PROGRAMS;
     10208 [INTERPRETER_STOP DISPLAY STOP] NcStart "channel %1 continue the program with NC start after the block search";
+    10610 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 block %3 positioning axis still moves";
     10720 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %3 axis %2 programmed end point is behind software limit switch %4";
     10722 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %3 axis %2 path violates software limit switch %4";
     10730 [CORRECTION_BLOCK LOCAL INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %3 axis %2 path leaves the working area %4";
@@ -118,6 +119,8 @@ pub(in crate::sinumerik) const FOLLOWING_AXIS_MISSING: AlarmNumber = AlarmNumber
 /// The end of a coupling that is not defined.
 pub(in crate::sinumerik) const NO_COUPLING: AlarmNumber = AlarmNumber(16796);
 
+/// A block positions an axis that a POSA still moves.
+pub(in crate::sinumerik) const STILL_POSITIONED: AlarmNumber = AlarmNumber(10610);
 /// The end point of a block is behind a software limit switch.
 pub(in crate::sinumerik) const BEHIND_SOFTWARE_LIMIT: AlarmNumber = AlarmNumber(10720);
 /// The path of a block leads behind a software limit switch.

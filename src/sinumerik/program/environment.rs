@@ -236,8 +236,9 @@ impl Environment for Channel<'_> {
     }
 }
 
-/// Whether the control has system variables that begin like this.
+/// Whether the control has system variables that begin like this. A machine or setting datum that the catalogue does not know has no name
+/// here (12550).
 fn is_of_the_control(name: &str) -> bool {
-    let groups = ["$A", "$V", "$P_", "$M", "$S", "$T", "$R"];
+    let groups = ["$A", "$V", "$P_", "$T", "$R"];
     groups.iter().any(|group| name.starts_with(group))
 }

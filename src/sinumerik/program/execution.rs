@@ -363,6 +363,10 @@ impl State {
         if stage.to_nck.channels[stage.channel].read_in_disable() {
             return Progress::Waits;
         }
+        if let Some(alarm) = run.still_positioned() {
+            self.raise_block_alarm(alarm, run, stage);
+            return Progress::Waits;
+        }
         self.begin_block(run, stage);
         self.output(run, OutputTime::Before, stage);
         run.phase = Phase::Before;

@@ -148,3 +148,28 @@ fn the_working_area_limits_the_path_of_referenced_axes() {
     assert_eq!(position(&session)[1], 40.0);
     assert_eq!(position(&super::run(&nc("WALIMOF")))[1], 60.0);
 }
+
+/// nc_programs 1.6: an alarm of SETAL that stops lets nothing behind it calculate; one that is only shown does.
+#[test]
+fn nothing_is_calculated_behind_a_cycle_alarm_that_stops() {
+    for (number, calculated) in [(61_000, 0.0), (62_000, 0.0), (65_000, 1.0)] {
+        let mut session = automatic(&format!("R1=0\nN10 SETAL({number})\nR1=1\nM30"));
+        start(&mut session);
+        session.run("200ms").unwrap();
+        session.expect(&format!("alarm({number}) && R1 == {calculated}")).unwrap();
+    }
+}
+
+/// nc_programs 1.6: an axis that POSA still moves is not positioned again: 10610, which needs RESET.
+#[test]
+fn an_axis_that_posa_still_moves_is_not_positioned_again() {
+    // 100 mm at 600 mm/min last 10 s.
+    let mut session = automatic("POSA[Z]=100 FA[Z]=600\nN20 POSA[Z]=50\nM30");
+    start(&mut session);
+    session.run("1s").unwrap();
+    session.expect("alarm(10610) && CHAN1.program_state_stopped").unwrap();
+    assert!(session.text().contains("axis Z block N20"), "{}", session.text());
+    session.pulse("CHAN1.channel_reset").unwrap();
+    session.run("1s").unwrap();
+    session.expect("alarms() == 0 && CHAN1.program_state_aborted && Z.setpoint < 50").unwrap();
+}
