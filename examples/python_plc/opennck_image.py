@@ -92,16 +92,26 @@ class Section:
 class Step:
     """One step of the NC: the published image, and the image changed by the PLC."""
 
+    __slots__ = ("number", "cycle", "starts", "taken", "first_scan", "_time", "_since_last", "_slot", "_bytes", "_places", "_of_others", "_image", "_written")
+
     def __init__(self, image, slot):
-        self.number, self.cycle, nanoseconds, since_last, self.starts, self.taken = STEP.unpack_from(slot)
-        self.time = nanoseconds / 1e9
-        self.since_last = since_last / 1e9
+        self.number, self.cycle, self._time, self._since_last, self.starts, self.taken = STEP.unpack_from(slot)
         self.first_scan = False
         self._slot = slot
         self._bytes = image.image_bytes
         self._places, self._of_others = image.places, image.of_others
         self._image = None
         self._written = {}  # the written bytes by offset
+
+    @property
+    def time(self):
+        """The time of this cycle in seconds."""
+        return self._time / 1e9
+
+    @property
+    def since_last(self):
+        """The time since the last scan in seconds."""
+        return self._since_last / 1e9
 
     @property
     def before(self):
@@ -328,20 +338,21 @@ class Image:
 
     def newest(self):
         """The newest step, if it is newer than the last one and contains the last answer; else None."""
-        number = self.words[NEWEST_STEP // 8]
+        words = self.words
+        number = words[NEWEST_STEP // 8]
         if number == self._newest or not number:
             return None
         size = self._nc_slot_bytes
         start = self._nc_slots + number % self._slots * size
         slot = self.map[start : start + size]
-        if STEP.unpack_from(slot)[0] != number or self.words[start // 8] != number:
+        step = Step(self, slot)
+        if step.number != number or words[start // 8] != number:
             return None  # it was being written
         if not IN_ORDER:
             checksum = struct.unpack_from("<Q", slot, size - 8)[0]
             if checksum not in (0, zlib.crc32(slot[:-8])):
                 return None  # not all of it is visible yet
-        step = Step(self, slot)
-        if self._answered not in (None, step.taken):
+        if self._answered is not None and self._answered != step.taken:
             return None
         step.first_scan = step.starts != self._starts
         self._newest, self._starts = number, step.starts
@@ -354,9 +365,10 @@ class Image:
         """
         while True:
             begin = looked = time.perf_counter()
-            while self.is_served():
-                step = self.newest() if self.word(STATE) == RUN else None
-                if step is not None:
+            words, generation = self.words, self.generation
+            while (state := words[STATE // 8]) != ENDED and words[GENERATION // 8] == generation:
+                # Most looks find nothing new; a look costs little.
+                if state == RUN and words[NEWEST_STEP // 8] != self._newest and (step := self.newest()) is not None:
                     yield step
                     begin = time.perf_counter()
                     continue
@@ -399,25 +411,29 @@ class Image:
 
     def answer(self, step):
         """Publishes the answer of the PLC to a step. Only changed bits count as writes of the PLC; unchanged bits leave other writers' changes intact."""
-        if not self.is_served():
+        words = self.words
+        if words[STATE // 8] == ENDED or words[GENERATION // 8] != self.generation:
             return  # the slots may be another NC's
-        number = following(self.word(NEWEST_ANSWER))
+        number = following(words[NEWEST_ANSWER // 8])
         size = self._plc_slot_bytes
         start = self._plc_slots + number % self._slots * size
+        at = start // 8
         changes = step.changes() if IN_ORDER else None
-        self.store(start, 0)  # it is being written
+        words[at] = 0  # it is being written
         if changes is not None and 8 * len(changes) <= self.image_bytes:
-            slot = ANSWER.pack(0, step.number, len(changes) + 1, self._own).ljust(HEAD, b"\0") + b"".join(CHANGE.pack(*change) for change in changes)
-            self.map[start + 8 : start + len(slot)] = slot[8:]
-            self.store(start + size - 8, 0)  # a list has no checksum
+            words[at + 1], words[at + 2], words[at + 3] = step.number, len(changes) + 1, self._own
+            if changes:
+                begin = start + HEAD
+                self.map[begin : begin + CHANGE.size * len(changes)] = b"".join([CHANGE.pack(*change) for change in changes])
+            words[at + size // 8 - 1] = 0  # a list has no checksum
         else:
             head = ANSWER.pack(number, step.number, 0, self._own).ljust(HEAD, b"\0")
             slot = (head + step.before + step.image).ljust(size - 8, b"\0")
             slot += struct.pack("<Q", 0 if IN_ORDER else zlib.crc32(slot))
             self.map[start + 8 : start + size] = slot[8:]
-        self.store(start, number)
-        self.store(NEWEST_ANSWER, number)
-        self.store(ACKNOWLEDGE, step.number)
+        words[at] = number
+        words[NEWEST_ANSWER // 8] = number
+        words[ACKNOWLEDGE // 8] = step.number
         self._answered = number
 
     def power_off_and_on(self):

@@ -1,9 +1,11 @@
 //! Lists for people and programs: the same rows as an aligned table, as JSON, or as CSV.
 
+use std::collections::BTreeSet;
+
 use clap::ValueEnum;
 
 use super::output::Output;
-use crate::source::Problem;
+use crate::source::{Problem, did_you_mean};
 
 /// Output format of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -33,6 +35,22 @@ impl Cell for String {
     }
 }
 
+/// `did you mean …?` with the words of a list that are nearest to a text that no row contains, or the fallback. `limit_exeeded` is compared
+/// with every two and three words in a row of a symbol.
+pub(super) fn near_words<'a>(wanted: &str, texts: impl Iterator<Item = &'a str>, fallback: &str) -> String {
+    let count = wanted.split('_').count();
+    let mut known = BTreeSet::new();
+    for text in texts {
+        let text = text.to_lowercase();
+        for word in text.split(|letter: char| !letter.is_alphanumeric() && letter != '_') {
+            let parts: Vec<_> = word.split('_').collect();
+            let pieces = parts.windows(count).chain(parts.windows(count + 1));
+            known.extend(pieces.map(|parts| parts.join("_")).filter(|part| part.len() > 2));
+        }
+    }
+    did_you_mean(wanted, known.iter().map(String::as_str), fallback)
+}
+
 /// Rows below a heading line. Every row has as many cells as there are headings.
 pub(super) struct List<C = String> {
     pub(super) heads: &'static [&'static str],
@@ -44,9 +62,11 @@ impl<C: Cell> List<C> {
     pub(super) fn retain_with(&mut self, filter: Option<&str>, output: &mut Output) -> u8 {
         let Some(filter) = filter else { return 0 };
         let wanted = filter.to_lowercase();
+        let texts = || self.rows.iter().flatten().map(Cell::text);
+        let cure = near_words(&wanted, texts(), "omit the filter to list all rows");
         self.rows.retain(|row| row.iter().any(|cell| cell.text().to_lowercase().contains(&wanted)));
         if self.rows.is_empty() {
-            output.warning(format!("no row contains `{filter}`; omit the filter to list all rows"));
+            output.warning(format!("no row contains `{filter}`; {cure}"));
         }
         u8::from(self.rows.is_empty())
     }

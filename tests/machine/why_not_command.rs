@@ -232,3 +232,45 @@ fn why_not_names_the_signal_that_must_rise() {
     let words = "✗ X.start_gantry_synchronization (DB31.DBX29.4) rises: it was 0 before: no, wanted yes\n";
     assert!(tree.contains(words), "{tree}");
 }
+
+/// REF-14: what moves the axes of a grouping that waits in section 3 is the start, beside the key of another approach.
+#[test]
+fn why_not_names_the_start_of_section_3_for_the_traverse_commands_of_its_axes() {
+    let directory = directory("why_not_section_3");
+    let scenario = "title = \"t\"\nmachine = \"g1_example\"\nplc = \"enable_all\"\n\
+        [[step]]\nset = { \"DB11.DBX0.2\" = 1, \"DB11.DBX1.2\" = 1 }\n\
+        [[step]]\nwait = \"X.position_controller_active\"\n[[step]]\npulse = [\"X.traversing_key_plus\"]\n\
+        [[step]]\nwait = \"alarm(10654)\"\n[[step]]\nrun = \"100ms\"\n";
+    fs::write(directory.join("s.toml"), scenario).unwrap();
+    for signal in ["X.traverse_command_minus", "XF.traverse_command_minus", "XF.traverse_request_minus"] {
+        let tree = out(&opennck(&["why-not", "s.toml", signal], &directory));
+        let words = "✗ X.start_gantry_synchronization (DB31.DBX29.4) = 0, wanted 1: never changed\n";
+        assert!(tree.contains(words), "{signal}: {tree}");
+    }
+}
+
+/// A window at rest shows MD36012, which multiplies it: 0.01 mm times 2.
+#[test]
+fn why_not_names_the_factor_of_a_window_at_rest() {
+    let directory = directory("why_not_window");
+    let scenario = "title = \"t\"\nmachine = \"g1_example\"\nplc = \"enable_all\"\n\
+        [machine_data]\n\"MD36012[Y]\" = 2\n[[step]]\nrun = \"1ms\"\n";
+    fs::write(directory.join("s.toml"), scenario).unwrap();
+    let output = opennck(&["why-not", "s.toml", "Y.position_reached_exact_stop_fine", "--all"], &directory);
+    assert!(out(&output).contains("at most 0.020000 (MD36010 × MD36012[0])"), "{}{}", out(&output), err(&output));
+}
+
+/// A misspelt filter of a catalogue.
+#[test]
+fn a_catalogue_without_a_matching_row_names_the_nearest_word() {
+    let directory = directory("near_words");
+    for (arguments, words) in [
+        (&["signals", "trip_limit_exeeded"][..], "did you mean `trip_limit_exceeded`?"),
+        (&["signals", "folow_up_active"][..], "did you mean `follow_up_active`?"),
+        (&["machine-data", "list", "GANTRY_POS_TOL_EROR"][..], "did you mean `gantry_pos_tol_error`?"),
+        (&["signals", "qqqqqqqq"][..], "omit the filter to list all signals"),
+    ] {
+        let output = opennck(arguments, &directory);
+        assert!(output.status.code() == Some(1) && err(&output).contains(words), "{arguments:?}: {}", err(&output));
+    }
+}

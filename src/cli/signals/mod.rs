@@ -4,7 +4,7 @@ mod aliases;
 
 use std::path::Path;
 
-use super::list::{Format, List};
+use super::list::{Format, List, near_words};
 use super::output::Output;
 use crate::control::Texts;
 use crate::controls;
@@ -87,13 +87,13 @@ impl Catalogue {
         }
         let mut found = 0;
         if let Some(filter) = filter {
+            let fallback = format!("omit the filter to list all signals{}", self.hint());
+            let texts = || rows.iter().flat_map(|row| &row.cells).map(String::as_str);
+            let cure = near_words(&filter.to_lowercase(), texts(), &fallback);
             rows = self.filtered(rows, filter);
             if rows.is_empty() {
                 found = 1;
-                output.warning(format!(
-                    "no signal contains `{filter}`; omit the filter to list all signals{}",
-                    self.hint()
-                ));
+                output.warning(format!("no signal contains `{filter}`; {cure}"));
             }
         }
         let rows = rows.into_iter().map(|row| {

@@ -54,10 +54,14 @@ impl Words {
         }
     }
 
-    /// Copies whole words into the file.
+    /// Copies whole words into the file. Words that are right already are not stored: most of an image stays as it was, and what no
+    /// process stores stays in the caches of the others.
     pub(super) fn write(&self, offset: usize, bytes: &[u8]) {
         for (word, bytes) in self.words()[offset / WORD..].iter().zip(bytes.as_chunks::<WORD>().0) {
-            word.store(u64::from_ne_bytes(*bytes), Ordering::Relaxed);
+            let value = u64::from_ne_bytes(*bytes);
+            if word.load(Ordering::Relaxed) != value {
+                word.store(value, Ordering::Relaxed);
+            }
         }
     }
 

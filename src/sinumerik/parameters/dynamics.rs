@@ -60,6 +60,18 @@ pub struct StopLimits {
     pub set: u8,
 }
 
+impl ParameterSet {
+    /// A window at rest, and the data behind it in words.
+    pub(in crate::sinumerik) fn window(&self, limit: StopLimit) -> (Position, String) {
+        let window = match limit {
+            StopLimit::Coarse => self.exact_stop_coarse,
+            StopLimit::Fine => self.exact_stop_fine,
+            StopLimit::Standstill => self.standstill_tolerance,
+        };
+        (window, self.stop_limits.names(limit))
+    }
+}
+
 impl StopLimits {
     /// The inputs of a cause that tests a window: the datum, and MD36012 if it changes the window.
     pub(in crate::sinumerik) fn inputs(self, limit: StopLimit, axis: AxisNumber) -> [Input; 2] {
@@ -71,6 +83,17 @@ impl StopLimits {
         let changed = (self.factor - 1.0).abs() > 0.0;
         let factor = if changed { Input::Element(36012, self.set, axis, self.factor) } else { Input::None };
         [Input::Datum(number, Some(axis), value), factor]
+    }
+
+    /// The data behind a window in words: MD36012 is named if it changes the window.
+    pub(in crate::sinumerik) fn names(self, limit: StopLimit) -> String {
+        let datum = match limit {
+            StopLimit::Coarse => "MD36000",
+            StopLimit::Fine => "MD36010",
+            StopLimit::Standstill => "MD36030",
+        };
+        let changed = (self.factor - 1.0).abs() > 0.0;
+        if changed { format!("{datum} × MD36012[{}]", self.set) } else { datum.to_owned() }
     }
 }
 

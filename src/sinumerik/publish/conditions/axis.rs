@@ -4,6 +4,7 @@ use crate::control::{Condition, Fact};
 use crate::image::{axis_from_nck, axis_to_nck, nck_from_nck};
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::axis::state::{ControllerState, STEP};
+use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
 use crate::sinumerik::state::Unit;
 use crate::units::{AxisNumber, Position};
@@ -13,8 +14,8 @@ use crate::variables::{Place, six_decimals};
 pub(super) const ROWS: &[Row<AxisNumber>] = &[
     Row::new(axis_from_nck::encoder_limit_frequency_exceeded_1, |look, axis| look.frequency(axis, 0)),
     Row::new(axis_from_nck::encoder_limit_frequency_exceeded_2, |look, axis| look.frequency(axis, 1)),
-    Row::new(axis_from_nck::position_reached_exact_stop_coarse, |look, axis| look.exact_stop(axis, true)),
-    Row::new(axis_from_nck::position_reached_exact_stop_fine, |look, axis| look.exact_stop(axis, false)),
+    Row::new(axis_from_nck::position_reached_exact_stop_coarse, |look, axis| look.exact_stop(axis, StopLimit::Coarse)),
+    Row::new(axis_from_nck::position_reached_exact_stop_fine, |look, axis| look.exact_stop(axis, StopLimit::Fine)),
     Row::new(axis_from_nck::axis_specific_alarm, |look, axis| look.shown_alarm(axis).opposite()),
     Row::new(axis_from_nck::axis_ready, |look, owner| look.axis_ready(owner)),
     Row::with(
@@ -69,11 +70,7 @@ impl Look<'_> {
         Fact::new(what, found, "above MD36300", exceeded).into()
     }
 
-    fn exact_stop(self, number: AxisNumber, coarse: bool) -> Condition {
-        let axis = &self.state.axes[number];
-        let set = axis.active_set(&self.parameters.axes[number]);
-        let (datum, window) =
-            if coarse { ("MD36000", set.exact_stop_coarse) } else { ("MD36010", set.exact_stop_fine) };
+    fn exact_stop(self, number: AxisNumber, limit: StopLimit) -> Condition {
         let pending = self.state.axes[number].travel.is_pending();
         let at_rest =
             Fact::new(format!("a movement of {} is pending", self.axis_name(number)), yes(pending), "no", !pending);
@@ -81,7 +78,7 @@ impl Look<'_> {
             self.axis(number, axis_from_nck::position_controller_active, true),
             at_rest.into(),
             self.setpoint_rests(number),
-            self.deviation(number, window, datum),
+            self.deviation(number, limit),
         ])
     }
 
@@ -90,10 +87,11 @@ impl Look<'_> {
             .into()
     }
 
-    pub(super) fn deviation(self, axis: AxisNumber, window: Position, datum: &str) -> Condition {
+    pub(super) fn deviation(self, axis: AxisNumber, limit: StopLimit) -> Condition {
         let deviation = self.state.axes[axis].deviation().abs();
+        let (window, data) = self.state.axes[axis].active_set(&self.parameters.axes[axis]).window(limit);
         let what = format!("deviation of {} from its setpoint", self.axis_name(axis));
-        let wanted = format!("at most {} ({datum})", length(window));
+        let wanted = format!("at most {} ({data})", length(window));
         Fact::new(what, length(deviation), wanted, deviation <= window).into()
     }
 

@@ -1,8 +1,9 @@
 //! Conditions of 101.x: definition, limits of the difference, ready, synchronised.
 
 use crate::control::{Condition, Fact};
-use crate::image::{axis_from_nck, axis_to_nck, channel_from_nck, mode_group_from_nck};
+use crate::image::{axis_from_nck, axis_to_nck, channel_from_nck};
 use crate::sinumerik::gantry::state::{Grouping, Phase};
+use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
 use crate::sinumerik::state::Unit;
 use crate::units::AxisNumber;
@@ -144,15 +145,37 @@ impl<'a> Look<'a> {
         self.phase(grouping, Phase::Synchronised.text(), holds).after(|| match grouping.phase {
             Phase::NotSynchronised => self.axis(number, axis_from_nck::gantry_synchronization_ready_to_start, true),
             Phase::ReferencingLeadingAxis | Phase::ReferencingSynchronousAxis => self.next_section(grouping),
-            Phase::WaitingForStart => self.starts(grouping),
+            Phase::WaitingForStart => Condition::Any(vec![self.starts(grouping), self.restores(grouping)]),
             Phase::Synchronising => self.arrives(grouping),
             Phase::Synchronised => Condition::NOTHING,
             Phase::Open => self.closes(grouping),
         })
     }
 
+    /// SYN-06: synchronism that follow-up took in operation returns with position control of all axes.
+    fn restores(self, grouping: &Grouping) -> Condition {
+        let leader = grouping.coupling.leader();
+        let mut all = vec![
+            fact("synchronism was lost in operation, by follow-up", grouping.lost_in_operation).into(),
+            fact("the grouping returns from follow-up", grouping.returning).into(),
+            self.axis(leader, axis_to_nck::no_automatic_synchronization, false),
+        ];
+        all.extend(grouping.coupling.members().map(|axis| self.in_control(axis)));
+        for axis in grouping.coupling.followers() {
+            let Some(apart) = grouping.coupling.misalignment(axis, &self.state.axes) else { continue };
+            let set = self.state.axes[axis].active_set(&self.parameters.axes[axis]);
+            let (window, data) = set.window(StopLimit::Standstill);
+            let what = format!("distance of {} from the leading axis", self.axis_name(axis));
+            all.push(
+                Fact::new(what, length(apart), format!("at most {} ({data})", length(window)), apart.abs() <= window)
+                    .into(),
+            );
+        }
+        Condition::All(all)
+    }
+
     /// 29.4 rises while a synchronising motion may run.
-    fn starts(self, grouping: &Grouping) -> Condition {
+    pub(super) fn starts(self, grouping: &Grouping) -> Condition {
         let leader = grouping.coupling.leader();
         let unit = self.unit(leader);
         let start = self.axis(leader, axis_to_nck::start_gantry_synchronization, true);
@@ -161,12 +184,9 @@ impl<'a> Look<'a> {
         Condition::All(vec![start, rises, channel, self.permit(&unit)])
     }
 
-    /// REF is active, every axis is in position control, nothing stops, no limit switch is pressed.
+    /// Referencing is allowed, every axis is in position control, nothing stops, no limit switch is pressed.
     fn permit(self, unit: &Unit) -> Condition {
-        let mut all = vec![
-            self.mode_group(unit.mode_group, mode_group_from_nck::active_machine_function_ref, true),
-            self.can_move(unit),
-        ];
+        let mut all = vec![self.may_reference(unit), self.can_move(unit)];
         for axis in unit.members() {
             all.push(self.axis(axis, axis_to_nck::hardware_limit_switch_minus, false));
             all.push(self.axis(axis, axis_to_nck::hardware_limit_switch_plus, false));
@@ -179,11 +199,10 @@ impl<'a> Look<'a> {
         let unit = self.unit(grouping.coupling.leader());
         let mut all = vec![self.permit(&unit), self.not_held(&unit)];
         for axis in grouping.coupling.members() {
-            let window = self.state.axes[axis].active_set(&self.parameters.axes[axis]).exact_stop_fine;
             let arrived = self.state.axes[axis].arrived;
             let what = format!("{} has reached the common position", self.axis_name(axis));
             all.push(fact(what, arrived).into());
-            all.push(self.deviation(axis, window, "MD36010"));
+            all.push(self.deviation(axis, StopLimit::Fine));
         }
         Condition::All(all)
     }

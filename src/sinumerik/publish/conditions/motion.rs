@@ -110,7 +110,7 @@ impl Look<'_> {
             let found = format!("{}, direction {}", axis.approach.phase().text(), sign(goes));
             all.push(Fact::new(what, found, format!("direction {}", sign(direction)), goes == direction).into());
             all.push(self.not_stopped(unit.channel));
-            all.push(self.mode_group(unit.mode_group, mode_group_from_nck::active_machine_function_ref, true));
+            all.push(self.may_reference(&unit));
             all.extend(unit.members().map(|axis| self.in_control(axis)));
         } else if self.synchronises(number) {
             let goes = match axis.motion {
@@ -127,19 +127,40 @@ impl Look<'_> {
             all.push(Fact::new(what, format!("direction {}", sign(goes)), wanted, goes == direction).into());
         } else if let Some(leader) = self.led_by_another(number) {
             // SIG-09: the command of the leading axis is also displayed here, its request is not.
+            let start = self.start_of_section_3(number);
             if command {
-                return self.axis(leader, command_signal(direction), true);
+                let along = self.axis(leader, command_signal(direction), true);
+                return Condition::Any(std::iter::once(along).chain(start).collect());
             }
             let what = format!("movement of {} for itself, in section 2 or 3", self.axis_name(number));
-            return Fact::new(what, "none", format!("direction {}", sign(direction)), false).into();
+            let itself = Fact::new(what, "none", format!("direction {}", sign(direction)), false);
+            return match start {
+                Some(start) => itself.after(|| start),
+                None => itself.into(),
+            };
         } else if self.state.is_jogging(&unit) {
             all.push(self.jog(&unit, direction, command));
         } else if self.state.programs[unit.channel].run.is_some() {
             all.push(self.moved_by_program(number, direction));
         } else {
-            all.push(self.referencing_by_key(&unit, direction));
+            let by_key = self.referencing_by_key(&unit, direction);
+            all.push(Condition::Any(std::iter::once(by_key).chain(self.start_of_section_3(number)).collect()));
         }
         Condition::All(all)
+    }
+
+    /// REF is active, or a block of the program references the unit (REF-24).
+    pub(super) fn may_reference(self, unit: &Unit) -> Condition {
+        if self.state.is_referenced_by_program(unit) {
+            return fact(format!("the program references {}", self.axis_name(unit.leader())), true).into();
+        }
+        self.mode_group(unit.mode_group, mode_group_from_nck::active_machine_function_ref, true)
+    }
+
+    /// What begins the synchronising motion of a closed grouping that waits for it (REF-14).
+    fn start_of_section_3(self, number: AxisNumber) -> Option<Condition> {
+        let waiting = self.closed_grouping(number).filter(|grouping| grouping.phase == Phase::WaitingForStart)?;
+        Some(self.starts(waiting))
     }
 
     /// Movement in JOG by a key, in the order in which `jog/keys.rs` tests.

@@ -4,6 +4,7 @@ use crate::control::{Condition, Fact};
 use crate::image::{Signal, axis_from_nck, axis_to_nck, channel_from_nck, channel_to_nck, mode_group_from_nck};
 use crate::sinumerik::gantry::state::Phase as GroupingPhase;
 use crate::sinumerik::parameters::axis::Kind;
+use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
 use crate::sinumerik::referencing::state::Phase;
 use crate::sinumerik::state::Unit;
@@ -155,7 +156,7 @@ impl Look<'_> {
                 let what = format!("distance of {name} from the reference point");
                 Fact::new(what, length(left), "0", axis.arrived).into()
             }
-            Phase::ExactStop => self.deviation(number, axis.active_set(parameters).exact_stop_fine, "MD36010"),
+            Phase::ExactStop => self.deviation(number, StopLimit::Fine),
         };
         let unit = self.unit(number);
         let phase = Fact::new(format!("approach of {name}"), axis.approach.phase().text(), "completed", false);
