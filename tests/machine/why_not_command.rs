@@ -249,6 +249,19 @@ fn why_not_names_the_start_of_section_3_for_the_traverse_commands_of_its_axes() 
     }
 }
 
+/// An axis with a handwheel waits for its pulses, beside a key.
+#[test]
+fn why_not_names_the_pulses_of_a_handwheel() {
+    let directory = directory("why_not_handwheel");
+    let scenario = "title = \"t\"\nmachine = \"g1_example\"\nplc = \"enable_all\"\n[[step]]\nrun = \"100ms\"\n\
+        [[step]]\nset = { \"Y.activate_handwheel_2\" = 1, \"Y.machine_function_increment_100\" = 1 }\n[[step]]\nrun = \"100ms\"\n";
+    fs::write(directory.join("s.toml"), scenario).unwrap();
+    let output = opennck(&["why-not", "s.toml", "Y.traverse_command_plus"], &directory);
+    let tree = out(&output);
+    assert!(tree.contains("✗ pulses of handwheel 2 for Y: none, wanted plus\n"), "{tree}{}", err(&output));
+    assert!(tree.contains("Y.traversing_key_plus (DB32.DBX4.7) = 0, wanted 1"), "{tree}");
+}
+
 /// A window at rest shows MD36012, which multiplies it: 0.01 mm times 2.
 #[test]
 fn why_not_names_the_factor_of_a_window_at_rest() {

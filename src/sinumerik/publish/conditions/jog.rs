@@ -116,6 +116,18 @@ impl Look<'_> {
         })
     }
 
+    /// Pulses of the handwheel of an axis, if it has one. With continuous a pulse has no distance.
+    pub(super) fn turned(self, number: AxisNumber, direction: &str) -> Option<Condition> {
+        let active = self.state.axes[number].jogging.handwheels;
+        let what = format!("pulses of handwheel {} for {}", active.trailing_zeros() + 1, self.axis_name(number));
+        (active != 0).then(|| {
+            Condition::All(vec![
+                self.axis(number, axis_from_nck::active_machine_function_continuous, false),
+                Fact::new(what, "none", direction, false).into(),
+            ])
+        })
+    }
+
     /// By the PLC, or by the HMI for a machine axis.
     fn assigned(self, axis: AxisNumber, handwheel: usize) -> Condition {
         let [by_plc, selected, machine_axis] = ASSIGNED[handwheel];

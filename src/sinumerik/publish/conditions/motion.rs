@@ -174,8 +174,11 @@ impl Look<'_> {
             Movement::None => {
                 // O-26: only a rising edge starts a movement.
                 let pressed = key_direction(&self.to_nck.axes[number]) == direction;
-                all.push(self.rises(Place::Axis(number), key_signal(direction), pressed));
-                true
+                let rises = self.rises(Place::Axis(number), key_signal(direction), pressed);
+                let by_key = Condition::All(vec![rises, self.key(number, direction)]);
+                let by_handwheel = self.turned(number, sign(direction));
+                all.push(Condition::Any(std::iter::once(by_key).chain(by_handwheel).collect()));
+                false
             }
             Movement::Continuous(_) => modes.continuous_held,
             Movement::Pending(_, By::Key(_)) | Movement::Path(_, By::Key(_)) => modes.increment_held,
