@@ -12,6 +12,7 @@
 
 use crate::image::ToNck;
 use crate::nc_program::{End, Library};
+use crate::sinumerik::alarms::programs::STILL_POSITIONED;
 use crate::sinumerik::alarms::{Alarm, Reaction};
 use crate::sinumerik::machine_data::{MachineData, Target};
 use crate::sinumerik::nck::Nck;
@@ -26,7 +27,7 @@ use crate::sinumerik::program::state::{
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::{AxisSet, ChannelNumber};
-use crate::variables::{EventId, Input, Parameter, Place};
+use crate::variables::{EventId, Input, Parameter, Place, short_text};
 
 /// Changes of blocks in one cycle: calculation blocks and blocks without motion take no time.
 const CHANGES: usize = 100;
@@ -363,7 +364,7 @@ impl State {
         if stage.to_nck.channels[stage.channel].read_in_disable() {
             return Progress::Waits;
         }
-        if let Some(alarm) = run.still_positioned() {
+        if let Some(alarm) = still_positioned(run) {
             self.raise_block_alarm(alarm, run, stage);
             return Progress::Waits;
         }
@@ -430,4 +431,14 @@ impl State {
         run.phase = Phase::Moving;
         self.output(run, OutputTime::During, stage);
     }
+}
+
+/// 10610: the next block positions an axis again that a POSA still moves.
+fn still_positioned(run: &Run) -> Option<BlockAlarm> {
+    let block = run.queue.front()?;
+    let moves = |axis| run.positionings.iter().any(|positioning| positioning.axis == axis);
+    let again = block.positions.iter().find(|positioning| moves(positioning.axis))?;
+    let name = &block.origin.name;
+    let parameters = [Parameter::Axis(again.axis), Parameter::Text(short_text(name)), Parameter::None];
+    Some(BlockAlarm { number: STILL_POSITIONED, parameters, block: block_name(name) })
 }
