@@ -133,7 +133,7 @@ impl Machine {
     pub(super) fn sense(&mut self, axes: AxisSet) {
         self.state.plant.press_switches(&self.definition.layout, axes);
         for axis in axes.iter() {
-            self.state.feedback[axis] = self.state.plant.feedback(axis);
+            self.state.feedback[axis] = self.state.plant.feedback(&self.definition.layout, axis);
         }
     }
 }

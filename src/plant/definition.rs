@@ -7,6 +7,7 @@
 
 use std::collections::BTreeMap;
 
+use super::leadscrew::Leadscrew;
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
 use crate::units::{Position, Time};
 
@@ -52,6 +53,8 @@ pub struct AxisPlant {
     pub drive: Drive,
     /// Encoder 1 and encoder 2.
     pub encoders: [EncoderPlant; 2],
+    /// The leadscrew between motor and slide.
+    pub leadscrew: Leadscrew,
     /// The reference cam.
     pub cam: Given<Cam>,
     /// Place of the reference cam in the file, if the file gives it.
@@ -173,6 +176,7 @@ impl AxisPlant {
             start: Position::ZERO,
             drive: Drive::default(),
             encoders: [EncoderPlant::default(); 2],
+            leadscrew: Leadscrew::default(),
             cam: Given::Unsaid,
             cam_place: None,
             limit_plus: Given::Unsaid,
@@ -277,6 +281,9 @@ fn axis(mut table: Table, place: Place) -> Result<AxisPlant, Problem> {
             *encoder = read_encoder(node)?;
         }
     }
+    if let Some(node) = table.take("leadscrew") {
+        plant.leadscrew = leadscrew(node.into_table("a leadscrew")?)?;
+    }
     let node = table.take("cam");
     plant.cam_place = node.as_ref().map(|node| node.place.clone());
     plant.cam = given(node, "a reference cam", cam)?;
@@ -341,6 +348,39 @@ fn read_encoder(node: Node) -> Result<EncoderPlant, Problem> {
     }
     table.finish()?;
     Ok(encoder)
+}
+
+fn leadscrew(mut table: Table) -> Result<Leadscrew, Problem> {
+    let mut leadscrew = Leadscrew::default();
+    if let Some(node) = table.take("backlash") {
+        let what = "a backlash of 0 mm or degrees or more";
+        leadscrew.backlash = position(&node, what)?;
+        if leadscrew.backlash < Position::ZERO {
+            return Err(node.expected(what, "write the play of the slide as a positive number"));
+        }
+    }
+    if let Some(node) = table.take("pitch_error") {
+        leadscrew.pitch_error = pitch_error(&node)?;
+    }
+    table.finish()?;
+    Ok(leadscrew)
+}
+
+fn pitch_error(node: &Node) -> Result<Vec<(Position, Position)>, Problem> {
+    let what = "pairs of position and error in ascending order of positions";
+    let cure = "write pitch_error = [[0.0, 0.0], [100.0, 0.012]]";
+    let Value::Array(pairs) = &node.value else { return Err(node.expected(what, cure)) };
+    let mut points = Vec::new();
+    for pair in pairs {
+        let Value::Array(values) = &pair.value else { return Err(pair.expected(what, cure)) };
+        let [at, error] = values.as_slice() else { return Err(pair.expected(what, cure)) };
+        let point = (position(at, "a position in mm or degrees")?, position(error, "an error in mm or degrees")?);
+        if points.last().is_some_and(|(before, _)| *before >= point.0) {
+            return Err(pair.expected(what, cure));
+        }
+        points.push(point);
+    }
+    Ok(points)
 }
 
 fn cam(mut table: Table) -> Result<Cam, Problem> {

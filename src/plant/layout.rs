@@ -1,6 +1,6 @@
 //! The plant of one machine, with all defaults filled in.
 
-use super::{Cam, EncoderKind, Given, Input, LimitSwitch, PlantDefinition, Switch};
+use super::{Cam, EncoderKind, Given, Input, Leadscrew, LimitSwitch, PlantDefinition, Switch};
 use crate::motion::Encoder;
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 
@@ -30,6 +30,8 @@ pub struct AxisMechanics {
     pub ready_after: Time,
     /// Both encoders.
     pub encoders: [Encoder; 2],
+    /// The leadscrew between motor and slide.
+    pub leadscrew: Leadscrew,
     /// Reference cam.
     pub cam: Option<Cam>,
     /// Hardware limit switch plus.
@@ -160,6 +162,7 @@ fn axis_mechanics(definition: &PlantDefinition, name: &str, hints: Hints) -> Axi
         time_constant: said.drive.time_constant.seconds(),
         ready_after: said.drive.ready_after,
         encoders,
+        leadscrew: said.leadscrew.clone(),
         cam,
         limit_plus: switch(&said.limit_plus),
         limit_minus: switch(&said.limit_minus),

@@ -9,6 +9,7 @@
 mod definition;
 mod faults;
 mod layout;
+mod leadscrew;
 mod moving;
 
 pub use definition::{
@@ -16,4 +17,5 @@ pub use definition::{
 };
 pub use faults::{Fault, FaultKind, Switch};
 pub use layout::{AxisMechanics, Hints, Layout, SlideCoupling};
+pub use leadscrew::Leadscrew;
 pub use moving::Plant;

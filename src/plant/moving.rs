@@ -7,7 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{AxisMechanics, Fault, FaultKind, Layout, Switch};
+use super::{AxisMechanics, Fault, FaultKind, Layout, Leadscrew, Switch};
 use crate::motion::{Drive, Encoder, EncoderSignal, Feedback, within_reach};
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 
@@ -20,6 +20,8 @@ struct Slide {
     /// The encoder counts at that position, kept because most slides rest most of the time.
     counts: [Position; 2],
     drive: Drive,
+    /// How far the slide is on the other side of the play of its leadscrew.
+    play: Position,
     /// Velocity by the pull of a bridge, in addition to that of the drive.
     pulled: f64,
     encoders: [Encoder; 2],
@@ -219,8 +221,11 @@ impl Plant {
     }
 
     /// The signals of drive and encoders of an axis since the last call.
-    pub fn feedback(&mut self, axis: AxisNumber) -> Feedback {
-        self.slides[axis].as_mut().map_or_else(Feedback::default, Slide::feedback)
+    pub fn feedback(&mut self, layout: &Layout, axis: AxisNumber) -> Feedback {
+        match (&mut self.slides[axis], &layout.axes[axis]) {
+            (Some(slide), Some(mechanics)) => slide.feedback(&mechanics.leadscrew),
+            (Some(_) | None, _) => Feedback::default(),
+        }
     }
 
     /// Start-up of the drives.
@@ -291,6 +296,7 @@ impl Slide {
             reported: mechanics.start,
             counts: mechanics.encoders.map(|encoder| encoder.value(mechanics.start)),
             drive: Drive::default(),
+            play: Position::ZERO,
             pulled: 0.0,
             encoders: mechanics.encoders,
             ready_in: mechanics.ready_after,
@@ -313,7 +319,8 @@ impl Slide {
     }
 
     /// The signals of drive and encoders since the last call.
-    fn feedback(&mut self) -> Feedback {
+    fn feedback(&mut self, leadscrew: &Leadscrew) -> Feedback {
+        self.play = leadscrew.play(self.play, self.position - self.reported);
         Feedback {
             encoders: self.signals(),
             half_count: [self.encoders[0].half_count(), self.encoders[1].half_count()],
@@ -322,7 +329,7 @@ impl Slide {
             drive_fault: self.drive_fault,
             absolute: self.encoders.map(|encoder| encoder.is_absolute()),
             encoder_faults: self.dead.map(|dead| dead.is_some()),
-            slide: self.position,
+            slide: self.position + leadscrew.error(self.position) + self.play,
         }
     }
 
@@ -425,16 +432,16 @@ mod tests {
     #[test]
     fn a_drive_with_a_fault_is_not_ready_and_does_not_respond() {
         let (layout, mut plant, axis) = plant();
-        assert!(plant.feedback(axis).drive_ready && !plant.feedback(axis).drive_fault);
+        assert!(plant.feedback(&layout, axis).drive_ready && !plant.feedback(&layout, axis).drive_fault);
         plant.fault(Fault { axis, kind: FaultKind::DriveFault }, Some(0));
         advance(&mut plant, &layout, axis, Some(1e9), 10);
         assert!(
-            !plant.feedback(axis).drive_ready
-                && plant.feedback(axis).drive_fault
-                && plant.feedback(axis).slide == mm(5.0)
+            !plant.feedback(&layout, axis).drive_ready
+                && plant.feedback(&layout, axis).drive_fault
+                && plant.feedback(&layout, axis).slide == mm(5.0)
         );
         plant.clear_fault(Fault { axis, kind: FaultKind::DriveFault });
-        assert!(plant.feedback(axis).drive_ready && !plant.feedback(axis).drive_fault);
+        assert!(plant.feedback(&layout, axis).drive_ready && !plant.feedback(&layout, axis).drive_fault);
     }
 
     #[test]
@@ -460,10 +467,18 @@ mod tests {
         let (layout, mut plant, axis) = plant();
         plant.fault(Fault { axis, kind: FaultKind::Friction { by: 0.25 } }, Some(0));
         advance(&mut plant, &layout, axis, Some(8e6), 200);
-        assert!((plant.feedback(axis).velocity - 6e6).abs() < 1.0, "{}", plant.feedback(axis).velocity);
+        assert!(
+            (plant.feedback(&layout, axis).velocity - 6e6).abs() < 1.0,
+            "{}",
+            plant.feedback(&layout, axis).velocity
+        );
         plant.clear_fault(Fault { axis, kind: FaultKind::Friction { by: 0.0 } });
         advance(&mut plant, &layout, axis, Some(8e6), 200);
-        assert!((plant.feedback(axis).velocity - 8e6).abs() < 1.0, "{}", plant.feedback(axis).velocity);
+        assert!(
+            (plant.feedback(&layout, axis).velocity - 8e6).abs() < 1.0,
+            "{}",
+            plant.feedback(&layout, axis).velocity
+        );
     }
 
     #[test]
@@ -471,26 +486,26 @@ mod tests {
         let (layout, mut plant, axis) = plant();
         plant.fault(Fault { axis, kind: FaultKind::Drift { by: -1e6 } }, Some(0));
         advance(&mut plant, &layout, axis, Some(0.0), 500);
-        assert_eq!(plant.feedback(axis).slide, mm(5.0));
+        assert_eq!(plant.feedback(&layout, axis).slide, mm(5.0));
         // 1 mm/s for 500 cycles of 2 ms.
         advance(&mut plant, &layout, axis, None, 500);
-        assert_eq!(plant.feedback(axis).slide, mm(4.0));
+        assert_eq!(plant.feedback(&layout, axis).slide, mm(4.0));
     }
 
     #[test]
     fn an_encoder_with_a_fault_keeps_its_value_and_counts_on_from_there() {
-        let (_, mut plant, axis) = plant();
+        let (layout, mut plant, axis) = plant();
         let dead = Fault { axis, kind: FaultKind::EncoderFault { encoder: None } };
         plant.fault(dead, Some(0));
-        assert_eq!(plant.feedback(axis).encoder_faults, [true, false]);
+        assert_eq!(plant.feedback(&layout, axis).encoder_faults, [true, false]);
         plant.fault(Fault { axis, kind: FaultKind::Push { by: mm(6.0) } }, Some(0));
         // Past the zero mark at 10 mm: only encoder 2 reports it.
-        let [first, second] = plant.feedback(axis).encoders;
+        let [first, second] = plant.feedback(&layout, axis).encoders;
         assert_eq!((first.value, first.zero_mark), (mm(0.0), None));
         assert_eq!((second.value, second.zero_mark), (mm(6.0), Some(mm(5.0))));
         plant.clear_fault(dead);
         plant.fault(Fault { axis, kind: FaultKind::Push { by: mm(1.0) } }, Some(0));
-        assert_eq!(plant.feedback(axis).encoders.map(|signal| signal.value), [mm(1.0), mm(7.0)]);
-        assert_eq!(plant.feedback(axis).encoder_faults, [false; 2]);
+        assert_eq!(plant.feedback(&layout, axis).encoders.map(|signal| signal.value), [mm(1.0), mm(7.0)]);
+        assert_eq!(plant.feedback(&layout, axis).encoder_faults, [false; 2]);
     }
 }

@@ -17,6 +17,7 @@ mod awake;
 mod axis;
 mod boundary;
 mod commissioning;
+mod compensation;
 mod gantry;
 mod inputs;
 mod jog;

@@ -155,6 +155,9 @@ impl Nck {
         for (number, axis) in self.state.axes.iter_mut() {
             // A fault outlasts power off.
             axis.causes.fault = faults[number];
+            if self.parameters.axes[number].compensation.keeps_side {
+                axis.compensation.keep_side_of(&old.axes[number].compensation);
+            }
         }
         self.state.buffered = Some(buffered);
         let log = &mut self.state.log;
@@ -384,6 +387,7 @@ impl Nck {
         }
         state.order_channel_referencing(parameters, to_nck);
         self.store_encoder_data();
+        self.compensate();
     }
 
     /// Takes the feedback of encoders and drives of these axes, and monitors it. The feedback of the other axes has not changed.

@@ -28,26 +28,7 @@ const ACTS_OTHERWISE: &[(u32, &str, &str)] = &[
         "reference each encoder before you compare the two",
     ),
     (30320, "the position is not shown modulo", "compare positions from 0 to 360 degrees only"),
-    (
-        32450,
-        "backlash is not compensated",
-        "expect positions without backlash; MD32450 = 0 makes a control do the same",
-    ),
-    (
-        32700,
-        "the encoder error is not compensated",
-        "expect positions without this compensation; MD32700 = 0 makes a control do the same",
-    ),
-    (
-        32710,
-        "sag is not compensated",
-        "expect positions without this compensation; MD32710 = 0 makes a control do the same",
-    ),
-    (
-        32750,
-        "the temperature error is not compensated",
-        "expect positions without this compensation; MD32750 = 0 makes a control do the same",
-    ),
+    (32711, "lengths in tables $AN_CEC are in mm", "write the tables in mm"),
     (
         34102,
         "a reference point approach references one encoder",
@@ -143,6 +124,9 @@ pub(super) fn findings(archive: &Archive, control: &Nck, names: &Names, site: &S
 /// The finding of a fault of a channel and its axes.
 fn of_channel(fault: &Fault, archive: &Archive, names: &Names) -> Finding {
     let (cure, index) = match fault.parameters {
+        _ if (alarms::SAG_TOO_MANY_TABLES..=alarms::SAG_PRODUCT).contains(&fault.alarm) => {
+            ("correct the table $AN_CEC, or set SD41300 ($SN_CEC_TABLE_ENABLE) of it to 0", None)
+        }
         [Parameter::Channel(channel), Parameter::Axis(axis), ..] => {
             let used = archive.data.channels[channel].axconf_machax_used;
             let cure =

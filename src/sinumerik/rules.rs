@@ -121,6 +121,16 @@ rules! {
     BlockNotExecutable "block" "cannot be executed";
     AuxiliaryOutput "auxiliary" "output of auxiliary functions";
     AuxiliaryAcknowledged "auxiliary" "one PLC cycle has passed";
+    // Compensations.
+    CompensationMoves "SIG-10" "sag or temperature compensation moves the axis";
+    CompensationRests "SIG-10" "sag and temperature compensation no longer move the axis";
+    SagTooManyTables "20120" "more than 5 tables of sag compensation have this output axis";
+    SagTableWrong "20121" "MAX is below MIN, or STEP is not above 0: the table is not evaluated";
+    SagAxesMissing "20122" "the table has no input axis or no output axis: it is not evaluated";
+    SagProduct "20123" "the tables of a product have different output axes: they are not evaluated";
+    SagLimited "20124" "the sag compensation value is above its limit";
+    SagTooFast "20125" "the sag compensation value changes faster than its limit";
+    SagFollows "20125" "the sag compensation value follows its tables again";
     // Jogging.
     TraversingKey "JOG" "key";
     KeyReleased "JOG" "no key";

@@ -117,6 +117,8 @@ pub(super) struct State {
     pub r_parameters: RParameters,
     /// Where programs want axes in this cycle; empty between cycles.
     pub led: PerAxis<Option<Led>>,
+    /// The axes with a compensation value.
+    pub compensating: AxisSet,
     /// Another writer wrote into the NCK's half. The next publication overwrites all of it (SIG-11).
     pub overwritten: bool,
 }
@@ -150,6 +152,7 @@ impl State {
             programs: PerChannel::from_fn(|channel| ChannelProgram::new(parameters.programs[channel].as_deref())),
             r_parameters: parameters.r_parameters(),
             led: PerAxis::default(),
+            compensating: AxisSet::NONE,
             overwritten: true,
         };
         for grouping in &mut state.groupings {

@@ -49,6 +49,8 @@ pub(super) fn input_name(quantity: Quantity, length: Position) -> (&'static str,
         Quantity::ModelDeviation => ("contour_deviation", length.user()),
         Quantity::ZeroMarkDeviation => ("zero_mark_deviation", length.user()),
         Quantity::Base => ("base", length.user()),
+        Quantity::Sag => ("sag", length.user()),
+        Quantity::SetpointCompensation => (AxisValue::SetpointCompensation.name(), length.user()),
         Quantity::Distance => ("distance", length.user()),
         // Events contain user units per second; all texts show user units per minute.
         Quantity::Velocity => (AxisValue::Velocity.name(), length.user() * 60.0),

@@ -13,14 +13,14 @@
 //! |---|---|---|
 //! | `position`, `setpoint` | the same value | half an increment |
 //! | `target` | setpoint + distance-to-go | half an increment |
-//! | `synchronism_difference` | the same value | half an increment |
+//! | `synchronism_difference`, `setpoint_compensation` | the same value | half an increment |
 //! | `deviation` | ± following error, or the difference of the two encoders | half an increment |
 //! | `zero_mark` | the middle of the way of the cycle | 1.5 times this way, and an increment |
 //! | `velocity` | actual velocity | 60 increments/min |
 //! | | way of the setpoint in the cycle / cycle time T | 60 (1 + 1 s/T) increments/min, because its ends are whole increments |
 //!
 //! An increment is a millionth of a mm or degree. `base`, `distance` (travelled), `velocity_command`, `contour_deviation`,
-//! `zero_mark_deviation` and faults are not compared: no value of the axis shows them.
+//! `zero_mark_deviation`, `sag` and faults are not compared: no value of the axis shows them.
 //!
 //! What no row of a trace shows is measured during the run: call [`Trace::measure_causes`] before it. Without this, lengths and velocities
 //! are not compared, and with a delay the bytes of the PLC are taken as they were written.

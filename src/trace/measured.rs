@@ -169,7 +169,9 @@ pub(super) fn possible(
             let setpoint = Possible { value: moved, tolerance: INCREMENT * 60.0 * (1.0 + 1.0 / cycle.seconds()) };
             both.map(measured).into_iter().chain([setpoint]).collect()
         }
+        Quantity::SetpointCompensation => both.map(|values| length(values.setpoint_compensation.user())).to_vec(),
         Quantity::Base
+        | Quantity::Sag
         | Quantity::Distance
         | Quantity::VelocityCommand
         | Quantity::ModelDeviation

@@ -26,11 +26,15 @@ pub enum AxisValue {
     Encoder2,
     /// Remaining distance of a movement with a target, in mm or degrees, with sign.
     DistanceToGo,
+    /// Compensation of the active encoder (leadscrew error, backlash), in mm or degrees.
+    EncoderCompensation,
+    /// Compensation of the setpoint (sag, temperature), in mm or degrees.
+    SetpointCompensation,
 }
 
 impl AxisValue {
     /// All values, in the order of the service view of the manual.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Position,
         Self::Setpoint,
         Self::Velocity,
@@ -40,6 +44,8 @@ impl AxisValue {
         Self::Encoder1,
         Self::Encoder2,
         Self::DistanceToGo,
+        Self::EncoderCompensation,
+        Self::SetpointCompensation,
     ];
 
     /// The name after the axis name.
@@ -55,6 +61,8 @@ impl AxisValue {
             Self::Encoder1 => "encoder_1",
             Self::Encoder2 => "encoder_2",
             Self::DistanceToGo => "distance_to_go",
+            Self::EncoderCompensation => "encoder_compensation",
+            Self::SetpointCompensation => "setpoint_compensation",
         }
     }
 
@@ -71,6 +79,12 @@ impl AxisValue {
             Self::Encoder1 => "Actual value of encoder 1, in mm or degrees, active or not.",
             Self::Encoder2 => "Actual value of encoder 2, in mm or degrees, active or not.",
             Self::DistanceToGo => "Remaining distance of a movement with a target, in mm or degrees, with sign.",
+            Self::EncoderCompensation => {
+                "Compensation of the active encoder (leadscrew error and backlash), in mm or degrees; part of the actual value."
+            }
+            Self::SetpointCompensation => {
+                "Compensation of the setpoint (sag and temperature), in mm or degrees; not part of the displayed values."
+            }
         }
     }
 
@@ -94,6 +108,8 @@ impl AxisValue {
             Self::Encoder1 => values.encoders[0].user(),
             Self::Encoder2 => values.encoders[1].user(),
             Self::DistanceToGo => values.distance_to_go.user(),
+            Self::EncoderCompensation => values.encoder_compensation.user(),
+            Self::SetpointCompensation => values.setpoint_compensation.user(),
         }
     }
 }

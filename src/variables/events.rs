@@ -75,6 +75,10 @@ pub enum Quantity {
     ZeroMark,
     /// Deviation of the distance of two zero marks from a multiple of their spacing.
     ZeroMarkDeviation,
+    /// Sag compensation value before its limits.
+    Sag,
+    /// Compensation of the setpoint.
+    SetpointCompensation,
 }
 
 /// An input of a decision, with its value at that time.

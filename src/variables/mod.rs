@@ -45,6 +45,10 @@ pub struct AxisValues {
     pub encoders: [Position; 2],
     /// Remaining distance of a movement with a target.
     pub distance_to_go: Position,
+    /// Compensation of the active encoder: leadscrew error and backlash, contained in the actual value.
+    pub encoder_compensation: Position,
+    /// Compensation of the setpoint: sag and temperature, contained in neither the setpoint nor the actual value.
+    pub setpoint_compensation: Position,
 }
 
 /// The complete output of the control in addition to signals.

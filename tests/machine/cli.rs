@@ -410,7 +410,7 @@ fn findings_are_grouped_and_only_those_that_change_the_behaviour_end_with_1() {
     assert_eq!(lines(&out(&listed), "    m/a.arc:").len(), 4, "{}", out(&listed));
     assert_eq!(check(&["--deny", "not-modelled"]).status.code(), Some(1));
     assert_eq!(check(&["--deny", "overlaid"]).status.code(), Some(0));
-    fs::write(directory.join("m/b.tea"), "N37100 $MA_GANTRY_AXIS_TYPE[AX2]=12\nN32450 $MA_BACKLASH[0,AX1]=0.01\n")
+    fs::write(directory.join("m/b.tea"), "N37100 $MA_GANTRY_AXIS_TYPE[AX2]=12\nN36052 $MA_STOP_ON_CLAMPING[AX1]=1\n")
         .unwrap();
     let output = check(&[]);
     assert_eq!(output.status.code(), Some(1), "{}{}", out(&output), err(&output));
@@ -419,7 +419,7 @@ fn findings_are_grouped_and_only_those_that_change_the_behaviour_end_with_1() {
          configuration, reason 2001",
         "  m/b.tea:1: alarm at power on: MD37100 $MA_GANTRY_AXIS_TYPE[AX2] = 12, axis Y1: 10651: channel CHAN1 illegal gantry \
          configuration, reason 1002",
-        "  m/b.tea:2: acts otherwise: MD32450 $MA_BACKLASH[0,AX1] = 0.01, axis X1: backlash is not compensated",
+        "  m/b.tea:2: acts otherwise: MD36052 $MA_STOP_ON_CLAMPING[AX1] = 1, axis X1: clamping has no special functions",
         "  m/b.tea:1: overlaid: MD37100 $MA_GANTRY_AXIS_TYPE[AX2] = 12, axis Y1: replaces 11 of m/a.arc:2",
     ];
     let text = out(&output);
@@ -427,7 +427,7 @@ fn findings_are_grouped_and_only_those_that_change_the_behaviour_end_with_1() {
     assert_eq!(found, expected);
     fs::write(directory.join("s.toml"), "title = \"A\"\nmachine = \"m\"\n[[step]]\nrun = \"10ms\"\n").unwrap();
     let output = opennck(&["run", "s.toml"], &directory);
-    let summary = "2 alarms at power on, 1 acts otherwise than on a control (MD32450), 1 replaced by a later file or line, 4 not modelled";
+    let summary = "2 alarms at power on, 1 acts otherwise than on a control (MD36052), 1 replaced by a later file or line, 4 not modelled";
     assert_eq!(err(&output).lines().filter(|line| line.contains(summary)).count(), 1, "{}", err(&output));
     assert_eq!(err(&output).lines().count(), 1, "one line: {}", err(&output));
 }

@@ -89,13 +89,12 @@ fn an_unusable_step_of_the_scenario_ends_with_2() {
 #[test]
 fn one_datum_of_several_axes_that_acts_otherwise_is_one_entry() {
     let directory = directory("several_axes");
-    let data =
-        "N32450 $MA_BACKLASH[0,AX1]=0.01\nN32450 $MA_BACKLASH[0,AX2]=0.01\nN36730 $MA_DRIVE_SIGNAL_TRACKING[AX2]=1\n";
+    let data = "N36052 $MA_STOP_ON_CLAMPING[AX1]=1\nN36052 $MA_STOP_ON_CLAMPING[AX2]=1\nN36730 $MA_DRIVE_SIGNAL_TRACKING[AX2]=1\n";
     fs::write(directory.join("a.tea"), data).unwrap();
     let output = opennck(&["machine-data", "check", "a.tea"], &directory);
     let text = out(&output);
     let expected = [
-        "  a.tea:1: acts otherwise: MD32450 $MA_BACKLASH = 0.01, axes X1, Y1: backlash is not compensated",
+        "  a.tea:1: acts otherwise: MD36052 $MA_STOP_ON_CLAMPING = 1, axes X1, Y1: clamping has no special functions",
         "  a.tea:3: acts otherwise: MD36730 $MA_DRIVE_SIGNAL_TRACKING[AX2] = 1, axis Y1: the signals of the drive are those of the plant",
     ];
     assert_eq!(lines(&text, "  a.tea:"), [&["  a.tea: 3 assignments"][..], &expected].concat(), "{text}");
@@ -166,8 +165,8 @@ fn the_catalogue_of_machine_data_is_listed() {
     assert!(velocity.ends_with(expected) && velocity.lines().count() == 2, "{velocity}");
     let by_text = list(&["gantry_axis", "--format", "json"]);
     assert!(by_text.contains("\"number\": \"37100\""), "{by_text}");
-    let row = list(&["32450"]);
-    assert!(row.contains("$MA_BACKLASH[0..1,axis]") && row.contains("  no  "), "{row}");
+    let row = list(&["30242"]);
+    assert!(row.contains("$MA_ENC_IS_INDEPENDENT[0..1,axis]") && row.contains("  no  "), "{row}");
     let scenario = "title = \"A\"\nmachine = \"g1_example\"\n[machine_data]\n\"99999\" = 0\n[[step]]\nrun = \"10ms\"\n";
     fs::write(directory.join("s.toml"), scenario).unwrap();
     let refused = err(&opennck(&["run", "s.toml"], &directory));

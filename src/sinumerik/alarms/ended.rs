@@ -11,7 +11,7 @@ use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
 use crate::units::AxisNumber;
-use crate::variables::{EventId, Input, Place, RaisedAlarm};
+use crate::variables::{EventId, Input, Place, Quantity, RaisedAlarm};
 
 impl State {
     /// Ends an alarm that clears by itself: its condition does not hold, as these inputs say.
@@ -81,6 +81,11 @@ impl State {
                 let fault = self.alarms.cause(alarms::DRIVE_FAULT, place);
                 let cause = if fault.is_some() { fault } else { self.axes[number].monitor.drive_cause };
                 self.log.now(place, cause, Rule::DriveFault, [ready, Input::None, Input::None])
+            }
+            alarms::SAG_TOO_FAST => {
+                let value = self.axes[number].compensation.setpoint;
+                let value = Input::Length(Quantity::SetpointCompensation, number, value);
+                self.log.note_one(place, Rule::SagFollows, value, cause)
             }
             _ => EventId::NONE,
         }

@@ -263,6 +263,24 @@ alarms! {
     /// Handwheels are turned while the axis is moved by another function.
     HANDWHEEL_NOT_POSSIBLE 20051 [DISPLAY] ByItself
         "channel %1 axis %2 handwheel not possible";
+    /// More than 5 tables of sag compensation have the same output axis; none of them is evaluated. %1: the axis.
+    SAG_TOO_MANY_TABLES 20120 [INTERFACE_SIGNALS DISPLAY] Reset
+        "axis %1 too many compensation relations";
+    /// A table of sag compensation with MAX below MIN or STEP of 0; it is not evaluated. %2: the table.
+    SAG_TABLE_WRONG 20121 [INTERFACE_SIGNALS DISPLAY] Reset
+        "axis %1 configuration error in compensation table %2";
+    /// A table of sag compensation without input or output axis; it is not evaluated. %1: the table.
+    SAG_AXES_MISSING 20122 [INTERFACE_SIGNALS DISPLAY] Reset
+        "compensation table %1 axis assignment not valid";
+    /// The tables of a product have different output axes; the product is not evaluated. %2: the table.
+    SAG_PRODUCT 20123 [INTERFACE_SIGNALS DISPLAY] Reset
+        "axis %1 different output axes of the multiplied compensation table %2";
+    /// The sag compensation value is limited to MD32720.
+    SAG_LIMITED 20124 [INTERFACE_SIGNALS DISPLAY] Reset
+        "axis %1 sum of compensation values too high: limited";
+    /// The change of the sag compensation value is limited to MD32730 and made up later.
+    SAG_TOO_FAST 20125 [INTERFACE_SIGNALS DISPLAY] ByItself
+        "axis %1 compensation value changes too fast: limited";
     /// MD36300 exceeded on the active encoder. %3: encoder.
     ENCODER_FREQUENCY 21610
         [MODE_GROUP_NOT_READY CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset

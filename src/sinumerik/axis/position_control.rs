@@ -47,7 +47,7 @@ impl Nck {
             None => (encoders[active], 1.0),
             Some(misfit) => (misfit.shown(active, encoders[active]), misfit.command),
         };
-        let actual = shown + axis.offset[active];
+        let actual = shown + axis.to_actual(active);
         if axis.monitor.encoders[active].fault || axis.signals.fast_stop {
             axis.reset_branch(branch);
             axis.monitor.restart_model(actual);

@@ -6,9 +6,11 @@ use crate::image::axis_to_nck;
 use crate::motion::{Feedback, Motion, Setpoint, coupling};
 use crate::sinumerik::axis::shaping::Shaping;
 use crate::sinumerik::axis::travel::Travel;
+use crate::sinumerik::compensation::state::Compensation;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::jog::state::Jogging;
 use crate::sinumerik::monitoring::state::AxisMonitor;
+use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::parameters::dynamics::ParameterSet;
 use crate::sinumerik::referencing::state::Approach;
@@ -81,6 +83,8 @@ pub(in crate::sinumerik) struct Axis {
     pub zero_mark: Option<Position>,
     /// Actual velocity.
     pub velocity: f64,
+    /// The compensations.
+    pub compensation: Compensation,
     /// Half a count of the active encoder.
     pub half_count: Position,
     /// True position, for display.
@@ -139,6 +143,7 @@ impl Default for Axis {
             actual: Position::ZERO,
             zero_mark: None,
             velocity: 0.0,
+            compensation: Compensation::default(),
             half_count: Position::ZERO,
             slide: Position::ZERO,
             drive_ready: false,
@@ -184,13 +189,14 @@ impl Axis {
     pub(in crate::sinumerik) fn has_movement_of(&self, other: &Self) -> bool {
         (self.setpoint, self.before, self.arrived) == (other.setpoint, other.before, other.arrived)
             && (self.branch, self.unsettled) == (other.branch, other.unsettled)
+            && self.compensation == other.compensation
             && self.monitor == other.monitor
     }
 
     /// Takes over the movement of the other axis.
     pub(in crate::sinumerik) fn take_movement_of(&mut self, other: &Self) {
         (self.setpoint, self.before, self.unsettled) = (other.setpoint, other.before, other.unsettled);
-        (self.branch, self.arrived) = (other.branch, other.arrived);
+        (self.branch, self.arrived, self.compensation) = (other.branch, other.arrived, other.compensation);
         (self.actual, self.zero_mark, self.velocity) = (other.actual, other.zero_mark, other.velocity);
         (self.half_count, self.slide, self.monitor) = (other.half_count, other.slide, other.monitor);
     }
@@ -217,9 +223,16 @@ impl Axis {
             let active = usize::from(active);
             let encoder = feedback.encoders[active];
             self.half_count = feedback.half_count[active];
-            self.actual = encoder.value + self.offset[active];
-            self.zero_mark = encoder.zero_mark.map(|mark| mark + self.offset[active]);
+            let to_actual = self.to_actual(active);
+            self.actual = encoder.value + to_actual;
+            self.zero_mark = encoder.zero_mark.map(|mark| mark + to_actual);
         }
+    }
+
+    /// What the value of an encoder gets to become an actual value: its offset, and the compensations.
+    #[must_use]
+    pub(in crate::sinumerik) fn to_actual(&self, encoder: usize) -> Position {
+        self.offset[encoder] + self.compensation.of(encoder)
     }
 
     /// Whether the active measuring system is referenced.
@@ -265,6 +278,15 @@ impl Axis {
     #[must_use]
     pub(in crate::sinumerik) fn outputs_setpoints(&self) -> bool {
         self.enabling.moves() && !self.signals.withholds_setpoint() && self.is_moving()
+    }
+
+    /// 64.6 and 64.7: +1, −1 or 0; of its own travel, or of a compensation that moves it (SIG-10).
+    #[must_use]
+    pub(in crate::sinumerik) fn command(&self, parameters: &Parameters) -> i8 {
+        match self.travel.command(parameters) {
+            0 => self.compensation.command,
+            command => command,
+        }
     }
 
     /// Whether the axis moves or is to move.

@@ -94,8 +94,12 @@ Axis {
     32420 JOG_AND_POS_JERK_ENABLE jog_and_pos_jerk_enable: bool = false; "", Range::ANY, Reset;
     /// largest jerk in JOG, referencing and of positioning axes; acceleration divided by it is the jerk time; 0 means no limit
     32430 JOG_AND_POS_MAX_JERK jog_and_pos_max_jerk: f64 = 100.0; "m/s3", Range::NOT_NEGATIVE, Reset;
-    /// backlash, active once referenced
+    /// backlash, active once the encoder is referenced; positive: the encoder leads the slide, as an encoder on the motor does
     32450 BACKLASH backlash: [f64; 2] = [0.0; 2]; "mm, deg", Range::POSITION, NewConf;
+    /// factor of the backlash for each parameter set
+    32452 BACKLASH_FACTOR backlash_factor: [f64; 6] = [1.0; 6]; "factor", Range::between(0.01, 100.0), NewConf;
+    /// backlash: bit 0 the side of the play is kept over power off; bit 1 motion of sag and temperature compensation does not change it
+    32454 BACKLASH_MODE backlash_mode: [u8; 2] = [0; 2]; "", Range::between(0.0, 3.0), NewConf;
     /// share of the speed feedforward; 1: at steady speed the following error is that of the balancing time alone
     32610 VELO_FFW_WEIGHT velo_ffw_weight: [f64; 6] = [1.0; 6]; "factor", Range::NOT_NEGATIVE, NewConf;
     /// feedforward: 0 off, 1 speed PT1, 2 torque PT1, 3 speed Tt, 4 torque Tt (2 and 4: only their speed part acts, balanced by MD32800);
@@ -106,12 +110,20 @@ Axis {
     32630 FFW_ACTIVATION_MODE ffw_activation_mode: u8 = 0; "", Range::between(0.0, 2.0), Reset;
     /// inertia for torque feedforward
     32650 AX_INERTIA ax_inertia: f64 = 0.0; "kgm2", Range::NOT_NEGATIVE, NewConf;
-    /// leadscrew error compensation
+    /// leadscrew error compensation with the table $AA_ENC_COMP, active once the encoder is referenced
     32700 ENC_COMP_ENABLE enc_comp_enable: [bool; 2] = [false; 2]; "", Range::ANY, NewConf;
-    /// sag compensation
+    /// sag compensation with the tables $AN_CEC of which this is the output axis
     32710 CEC_ENABLE cec_enable: bool = false; "", Range::ANY, NewConf;
-    /// temperature compensation
+    /// unit of the tables $AN_CEC: 1 metric; 0 is not modelled, lengths of tables are in mm
+    32711 CEC_SCALING_SYSTEM_METRIC cec_scaling_system_metric: bool = true; "", Range::ANY, NewConf;
+    /// largest sag compensation value, else alarm 20124
+    32720 CEC_MAX_SUM cec_max_sum: f64 = 1.0; "mm, deg", Range::NOT_NEGATIVE, NewConf;
+    /// largest velocity by which sag compensation moves the axis, as a share of MD32000, else alarm 20125
+    32730 CEC_MAX_VELO cec_max_velo: f64 = 10.0; "%", Range::between(0.0, 100.0), NewConf;
+    /// temperature compensation: bit 0 independent of the position (SD43900), bit 1 dependent on it (SD43910, SD43920)
     32750 TEMP_COMP_TYPE temp_comp_type: u8 = 0; "", Range::ANY, NewConf;
+    /// largest velocity by which temperature compensation moves the axis, as a share of MD32000
+    32760 COMP_ADD_VELO_FACTOR comp_add_velo_factor: f64 = 0.01; "factor", Range::between(0.0, 0.1), NewConf;
     /// time constant of the closed current loop: balancing time of the feedforward modes 2 and 4
     32800 EQUIV_CURRCTRL_TIME equiv_currctrl_time: [f64; 6] = [0.0005; 6]; "s", Range::NOT_NEGATIVE, NewConf;
     /// time constant of the closed speed loop as set in the control: balancing time of the feedforward modes 1 and 3
@@ -250,6 +262,8 @@ Axis {
     37140 GANTRY_BREAK_UP gantry_break_up: bool = false; "", Range::ANY, NewConf;
     /// bit 0 extended monitoring, bit 1 zero mark search of the synchronous axis in the direction of the leading one, bit 2 no alarm 10655
     37150 GANTRY_FUNCTION_MASK gantry_function_mask: u32 = 0; "", Range::ANY, Reset;
+    /// points of the table $AA_ENC_COMP of each encoder: at least (_MAX - _MIN) / _STEP + 1
+    38000 MM_ENC_COMP_MAX_POINTS mm_enc_comp_max_points: [i32; 2] = [0; 2]; "", Range::between(0.0, 5000.0), PowerOn;
 }
 scope Axis
 }

@@ -1,6 +1,6 @@
 //! General machine data, `$MN_`: names, cycles, keys, handwheels, override switches.
 
-use super::table::machine_data;
+use super::table::{PerTable, machine_data};
 
 machine_data! {
 /// The machine data of the whole NC.
@@ -69,6 +69,8 @@ General {
     12100 OVR_FACTOR_LIMIT_BIN ovr_factor_limit_bin: f64 = 1.2; "factor", Range::NOT_NEGATIVE, PowerOn;
     /// interface signals; bit 0: the traverse commands 64.6 and 64.7 are output 0 with the request, 1 only while the axis may move
     17900 VDI_FUNCTION_MASK vdi_function_mask: u32 = 0; "", Range::ANY, PowerOn;
+    /// points of each table $AN_CEC: at least (_MAX - _MIN) / _STEP + 1; 0 the table does not exist
+    18342 MM_CEC_MAX_POINTS mm_cec_max_points: PerTable<i32> = PerTable::filled(0); "", Range::between(0.0, 2000.0), PowerOn;
 }
 scope General
 }

@@ -18,7 +18,7 @@ use super::groups::{group, is_of_another_list};
 use super::named::{resolve, split_indices};
 use super::reading::{Assignment, Author, Line, Reading};
 use super::table::{Datum, numbered};
-use super::{MachineData, Target};
+use super::{MachineData, TableVariable, Target};
 use crate::control::{Class, Finding, Value};
 use crate::source::{Place, Problem};
 use crate::units::ChannelNumber;
@@ -75,8 +75,12 @@ impl Archive {
         let Reading { mut lines, findings, members, file: _ } = reading;
         export::mark(&mut lines);
         let mut import = Import { findings, ..Import::default() };
-        let mut known = Vec::new();
+        let (mut known, mut tables) = (Vec::new(), Vec::new());
         for (order, line) in lines.into_iter().enumerate() {
+            if let Some(variable) = TableVariable::named(identifier(&line.name)) {
+                tables.push((variable, order, line));
+                continue;
+            }
             match known_datum(&line) {
                 Ok(Some(datum)) => known.push((datum, order, line)),
                 Ok(None) => import.keep(order, line),
@@ -100,6 +104,9 @@ impl Archive {
         }
         if !named {
             import.keep_default_names_apart();
+        }
+        for (variable, order, line) in tables {
+            import.take_table(variable, order, line);
         }
         import.finish(members)
     }
@@ -214,6 +221,19 @@ impl Import {
                 ..overlaid(&before.export(datum.kind), &from)
             };
             self.findings.push(finding);
+        }
+    }
+
+    /// Stores an element of a compensation table.
+    fn take_table(&mut self, variable: TableVariable, order: usize, line: Line) {
+        if let Err(problem) = self.data.read_table_line(variable, &line.name, &line.value) {
+            let Problem { what, cure, .. } = problem;
+            let finding = Finding {
+                place: Some(line.place.clone()),
+                datum: line.name.clone(),
+                ..Finding::new(Class::Unreadable, what, cure)
+            };
+            self.unfit(finding, order, line);
         }
     }
 

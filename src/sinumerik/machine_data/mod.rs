@@ -18,6 +18,7 @@ mod catalogue;
 mod channel;
 mod channel_setting;
 mod check;
+mod compensation;
 mod export;
 mod general;
 mod groups;
@@ -28,6 +29,7 @@ mod scaling;
 mod setting;
 mod system;
 mod table;
+mod tables;
 mod target;
 mod write;
 
@@ -42,7 +44,9 @@ pub(super) use check::unequal_data;
 pub use general::General;
 pub use reading::{Assignment, Member, refusal};
 pub use setting::Setting;
-pub use table::{Datum, Effect, Range, Scope};
+pub use table::{Datum, Effect, PerTable, Range, Scope};
+pub use tables::{CompensationTables, Points, SagTable};
+pub(super) use tables::{Element, TableRefusal, TableValue, TableVariable};
 pub use target::Target;
 
 use serde::{Deserialize, Serialize};
@@ -70,6 +74,8 @@ pub struct MachineData {
     pub axes: PerAxis<Axis>,
     /// Axis-specific setting data, `$SA_`.
     pub axis_settings: PerAxis<AxisSetting>,
+    /// The tables of compensations, which are system variables.
+    pub tables: CompensationTables,
 }
 
 /// The defaults of the control: linear axes, and channels CHAN1 to CHAN10, of which only the first has axes.
@@ -89,6 +95,7 @@ impl Default for MachineData {
             channel_settings: PerChannel::default(),
             axes: PerAxis::default(),
             axis_settings: PerAxis::default(),
+            tables: CompensationTables::default(),
         }
     }
 }
@@ -315,6 +322,7 @@ impl MachineData {
         for (number, settings) in self.axis_settings.iter_mut() {
             settings.activate(&stored.axis_settings[number], level);
         }
+        self.tables.clone_from(&stored.tables);
     }
 }
 

@@ -1,6 +1,6 @@
-//! General setting data, `$SN_`: the operator's settings for JOG.
+//! General setting data, `$SN_`: the operator's settings for JOG, and the tables of sag compensation.
 
-use super::table::machine_data;
+use super::table::{PerTable, machine_data};
 
 machine_data! {
 /// The general setting data.
@@ -15,6 +15,10 @@ Setting {
     41110 JOG_SET_VELO jog_set_velo: f64 = 0.0; "mm/min", Range::NOT_NEGATIVE, Immediate;
     /// velocity of keys of rotary axes; 0 takes MD32020
     41130 JOG_ROT_AX_SET_VELO jog_rot_ax_set_velo: f64 = 0.0; "rev/min", Range::NOT_NEGATIVE, Immediate;
+    /// the table $AN_CEC with this number is evaluated
+    41300 CEC_TABLE_ENABLE cec_table_enable: PerTable<bool> = PerTable::filled(false); "", Range::ANY, Immediate;
+    /// factor of the values of the table $AN_CEC with this number
+    41310 CEC_TABLE_WEIGHT cec_table_weight: PerTable<f64> = PerTable::filled(1.0); "factor", Range::POSITION, Immediate;
 }
 scope Setting
 }

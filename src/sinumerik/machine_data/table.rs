@@ -316,7 +316,7 @@ impl<T: Scalar> Field for T {
 
 impl<T: Scalar, const N: usize> Field for [T; N] {
     const KIND: Kind = T::KIND;
-    #[expect(clippy::cast_possible_truncation, reason = "no datum has more than 31 values")]
+    #[expect(clippy::cast_possible_truncation, reason = "no datum has more than 62 values")]
     const COUNT: u8 = N as u8;
     fn value(&self, index: usize) -> Option<Value> {
         self.get(index).map(Scalar::value)
@@ -324,6 +324,36 @@ impl<T: Scalar, const N: usize> Field for [T; N] {
     fn store(&mut self, index: usize, value: &Value) -> Result<(), String> {
         let place = self.get_mut(index).ok_or_else(|| format!("an index from 0 to {}", N - 1))?;
         *place = T::from_value(value)?;
+        Ok(())
+    }
+}
+
+/// One value for each of the 62 tables of sag compensation. Two arrays, because longer ones cannot be saved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PerTable<T>([[T; 31]; 2]);
+
+impl<T: Copy> PerTable<T> {
+    /// The same value for all tables.
+    pub const fn filled(value: T) -> Self {
+        Self([[value; 31]; 2])
+    }
+
+    /// The value of a table, from 0.
+    #[must_use]
+    pub fn get(&self, table: usize) -> Option<T> {
+        self.0.get(table / 31)?.get(table % 31).copied()
+    }
+}
+
+impl<T: Scalar> Field for PerTable<T> {
+    const KIND: Kind = T::KIND;
+    const COUNT: u8 = 62;
+    fn value(&self, index: usize) -> Option<Value> {
+        self.0.get(index / 31)?.get(index % 31).map(Scalar::value)
+    }
+    fn store(&mut self, index: usize, value: &Value) -> Result<(), String> {
+        let place = self.0.get_mut(index / 31).and_then(|half| half.get_mut(index % 31));
+        *place.ok_or_else(|| format!("an index from 0 to {}", Self::COUNT - 1))? = T::from_value(value)?;
         Ok(())
     }
 }

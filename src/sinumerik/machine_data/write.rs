@@ -29,6 +29,10 @@ impl Archive {
             // Writing into a String cannot fail.
             let _ = writeln!(section, "N{} {target}={}", datum.number, value.export(datum.kind));
         }
+        let tables = sections.entry(ChannelNumber::FIRST).or_default();
+        for line in self.data.table_lines() {
+            let _ = writeln!(tables, "{line}");
+        }
         for unknown in &self.unknown {
             let section = sections.entry(unknown.channel).or_default();
             let number = unknown.number.map(|number| format!("N{number} ")).unwrap_or_default();

@@ -159,7 +159,7 @@ impl State {
 
     fn both_actual_values(&self, number: AxisNumber) -> [Position; 2] {
         let axis = &self.axes[number];
-        [0, 1].map(|encoder| self.feedback[number].encoders[encoder].value + axis.offset[encoder])
+        [0, 1].map(|encoder| self.feedback[number].encoders[encoder].value + axis.to_actual(encoder))
     }
 
     /// Whether the switch-over to another measuring system is impossible; raises the alarm.

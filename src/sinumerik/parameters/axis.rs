@@ -1,6 +1,7 @@
 //! The active machine data of one axis in the units of the model.
 
 use crate::sinumerik::machine_data::{Axis, MachineData};
+use crate::sinumerik::parameters::compensation::{AxisCompensation, axis_compensation};
 use crate::sinumerik::parameters::dynamics::{Dynamics, dynamics, jerk};
 use crate::sinumerik::parameters::mechanics::{Mechanics, PerEncoder};
 use crate::sinumerik::parameters::monitoring::{Monitoring, monitoring};
@@ -184,9 +185,17 @@ pub struct AxisParameters {
     pub gantry: Gantry,
     /// Monitoring.
     pub(in crate::sinumerik) monitoring: Monitoring,
+    /// Backlash, leadscrew error, sag and temperature.
+    pub(in crate::sinumerik) compensation: AxisCompensation,
 }
 
-pub(super) fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresence, cycle: Time) -> AxisParameters {
+pub(super) fn axis(
+    data: &MachineData,
+    number: AxisNumber,
+    presence: AxisPresence,
+    cycle: Time,
+    servo_cycles: u32,
+) -> AxisParameters {
     let md = &data.axes[number];
     let rotary = md.is_rot_ax;
     // mm/min, or rev/min of 360 degrees.
@@ -245,6 +254,7 @@ pub(super) fn axis(data: &MachineData, number: AxisNumber, presence: AxisPresenc
         reference: reference(md, maximum_velocity, &velocity),
         gantry: gantry(md, is_declared_geometry_axis),
         monitoring: monitoring(md, cycle),
+        compensation: axis_compensation(data, number, maximum_velocity, cycle.seconds(), servo_cycles),
     }
 }
 

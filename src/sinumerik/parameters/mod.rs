@@ -5,6 +5,7 @@
 
 pub(super) mod axis;
 pub(super) mod channels;
+pub(super) mod compensation;
 pub(super) mod configuration;
 pub(super) mod dynamics;
 pub(super) mod groupings;
@@ -12,6 +13,7 @@ pub(super) mod mechanics;
 pub(super) mod monitoring;
 pub(super) mod overrides;
 pub(super) mod programs;
+pub(super) mod sag;
 
 use arrayvec::ArrayVec;
 
@@ -22,6 +24,7 @@ use crate::sinumerik::parameters::configuration::{ChannelFault, faults};
 use crate::sinumerik::parameters::groupings::{Definitions, define};
 use crate::sinumerik::parameters::overrides::{effective, factor, is_zero_setting};
 use crate::sinumerik::parameters::programs::{PathOverrides, ProgramParameters, programs};
+use crate::sinumerik::parameters::sag::{SagTables, sag_tables};
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Time};
 use crate::variables::{Place, RParameters};
 
@@ -78,6 +81,10 @@ pub struct Parameters {
     pub groupings: Definitions,
     /// The faults of the channels and their axes.
     pub faults: Vec<ChannelFault>,
+    /// The tables of sag compensation that are evaluated.
+    pub(super) sag: SagTables,
+    /// The axes that a compensation can act on, or whose movement one depends on.
+    pub(super) compensated: AxisSet,
     /// The overrides of feed and rapid traverse.
     pub(super) path_overrides: PathOverrides,
     /// For programs, of each channel.
@@ -89,9 +96,10 @@ impl Parameters {
     #[must_use]
     pub fn new(data: &MachineData, presence: &PerAxis<AxisPresence>) -> Self {
         let cycle = cycle_time(data);
-        let axes = PerAxis::from_fn(|number| axis(data, number, presence[number], cycle));
+        let axes = PerAxis::from_fn(|number| axis(data, number, presence[number], cycle, servo_cycles(data)));
         let channel_list: ArrayVec<_, { ChannelNumber::MAX as usize }> =
             ChannelNumber::all().filter_map(|channel| Some((channel, data.mode_group(channel)?))).collect();
+        let sag = sag_tables(data);
         let has_channels = |group: &ModeGroupNumber| channel_list.iter().any(|(_, of)| of == group);
         Self {
             mode_group_list: ModeGroupNumber::all().filter(has_channels).collect(),
@@ -120,7 +128,18 @@ impl Parameters {
             channels: channels(data, &axes),
             mode_after_power_on: PerModeGroup::from_fn(|group| data.general.operating_mode_default[group.index()]),
             groupings: define(data, &axes),
-            faults: faults(data, &axes),
+            faults: {
+                let mut faults = faults(data, &axes);
+                faults.extend(sag.faults.iter().copied());
+                faults
+            },
+            compensated: axes
+                .iter()
+                .filter(|(_, axis)| axis.exists && axis.compensation.exists())
+                .map(|(number, _)| number)
+                .chain(sag.relations.iter().map(|relation| relation.input))
+                .collect(),
+            sag,
             path_overrides: PathOverrides::new(data),
             programs: PerChannel::from_fn(|channel| {
                 data.mode_group(channel).map(|_| Box::new(programs(data, channel, &axes)))

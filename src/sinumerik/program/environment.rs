@@ -11,7 +11,9 @@ use crate::nc_program::{
     AxisNames, Dialect, Environment, Library, Program, Refusal, Request, SINUMERIK, SystemVariable, Value,
 };
 use crate::sinumerik::axis::state::Axis;
-use crate::sinumerik::machine_data::{MachineData, Scope, Target, by_identifier};
+use crate::sinumerik::machine_data::{
+    Element, MachineData, Scope, TableRefusal, TableValue, TableVariable, Target, by_identifier,
+};
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::state::{ChannelProgram, Run};
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, Position};
@@ -27,6 +29,8 @@ pub(in crate::sinumerik) struct Channel<'a> {
     pub stored: &'a MachineData,
     /// Data that the program has written, to be stored after the stage.
     pub written: &'a mut Vec<(Target, control::Value)>,
+    /// Elements of compensation tables that the program has written, likewise.
+    pub tables: &'a mut Vec<(Element, TableValue)>,
     pub program: &'a mut ChannelProgram,
     /// The skip levels in effect, a bit each.
     pub skips: u16,
@@ -84,6 +88,47 @@ impl<'a> Channel<'a> {
         });
         let target = whole.and_then(|index| Target::new(datum.number, owner, index).ok());
         Some(target.ok_or(Refusal::FirstIndex))
+    }
+
+    /// `$AA_ENC_COMP[0,5,X]`, `$AN_CEC_STEP[0]`: an element of a compensation table.
+    fn table(&self, variable: &SystemVariable<'_>) -> Option<Result<Element, Refusal>> {
+        let table = TableVariable::named(variable.name)?;
+        let (mut numbers, mut axis) = (Vec::new(), None);
+        for value in variable.indices {
+            match value.number() {
+                Some(number) => numbers.push(number),
+                None => match self.axis(Some(value)) {
+                    Ok(found) => axis = Some(found),
+                    Err(refusal) => return Some(Err(refusal)),
+                },
+            }
+        }
+        Some(table.element(&numbers, axis).ok_or(Refusal::FirstIndex))
+    }
+
+    /// The number that an element has, or gets after the stage.
+    fn table_number(&self, element: Element) -> Result<Value, Refusal> {
+        let written = self.tables.iter().rev().find(|(other, _)| *other == element);
+        let number = match written {
+            Some((_, TableValue::Number(number))) => Some(*number),
+            Some((_, TableValue::Axis(_))) => None,
+            None => self.stored.table_number(element),
+        };
+        number.map(Value::Real).ok_or(Refusal::SecondIndex)
+    }
+
+    fn write_table(&mut self, element: Element, value: &Value) -> Result<(), Refusal> {
+        let value = match (value.number(), value) {
+            (Some(number), _) => TableValue::Number(number),
+            (None, found) => TableValue::Axis(self.axis(Some(found)).map_err(|_| Refusal::WrongType)?),
+        };
+        self.stored.may_write_table(element, value).map_err(|refusal| match refusal {
+            TableRefusal::Index(_) => Refusal::SecondIndex,
+            TableRefusal::Value(_) => Refusal::Invalid,
+            TableRefusal::Active(..) => Refusal::WriteProtected,
+        })?;
+        self.tables.push((element, value));
+        Ok(())
     }
 
     /// The stored value, or the one that the program has just written.
@@ -149,7 +194,16 @@ impl Environment for Channel<'_> {
                 };
                 Ok(length(setpoint - offset))
             }
-            "$VA_IM" => Ok(length(self.axes[axis()?].actual)),
+            "$VA_IM" => {
+                let axis = &self.axes[axis()?];
+                Ok(length(axis.actual + axis.compensation.setpoint))
+            }
+            "$VA_ENC1_COMP_VAL" => Ok(length(self.axes[axis()?].compensation.encoder[0])),
+            "$VA_ENC2_COMP_VAL" => Ok(length(self.axes[axis()?].compensation.encoder[1])),
+            "$VA_CEC_COMP_VAL" => Ok(Value::Real(self.axes[axis()?].compensation.sag / Position::PER_USER_UNIT)),
+            "$VA_TEMP_COMP_VAL" => {
+                Ok(Value::Real(self.axes[axis()?].compensation.temperature / Position::PER_USER_UNIT))
+            }
             "$P_EP" => {
                 let axis = axis()?;
                 let place = self.parameters.axes.place(axis).ok_or(Refusal::Axis)?;
@@ -163,6 +217,7 @@ impl Environment for Channel<'_> {
             "$P_ISTEST" => Ok(Value::Bool(self.program.test.is_active)),
             "$P_SEARCH" => Ok(Value::Bool(self.search_level > 0)),
             "$P_SEARCHL" => Ok(Value::Int(self.search_level.into())),
+            _ if let Some(element) = self.table(variable) => self.table_number(element?),
             _ => match self.datum(variable) {
                 Some(target) => match self.now(&target?) {
                     Some(control::Value::Boolean(value)) => Ok(Value::Bool(value)),
@@ -185,6 +240,9 @@ impl Environment for Channel<'_> {
             let value = value.number().ok_or(Refusal::WrongType)?;
             self.program.set_settable_offset(index, axis, Position::from_user(value));
             return Ok(());
+        }
+        if let Some(element) = self.table(variable) {
+            return self.write_table(element?, value);
         }
         let Some(target) = self.datum(variable) else {
             let known = is_of_the_control(variable.name);

@@ -14,7 +14,7 @@ use crate::image::ToNck;
 use crate::nc_program::{End, Library};
 use crate::sinumerik::alarms::programs::STILL_POSITIONED;
 use crate::sinumerik::alarms::{Alarm, Reaction};
-use crate::sinumerik::machine_data::{MachineData, Target};
+use crate::sinumerik::machine_data::{Element, MachineData, TableValue, Target};
 use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::programs::{ChangeTime, OutputTime};
 use crate::sinumerik::program::control::at_stop;
@@ -48,19 +48,21 @@ pub(super) struct Sources<'a> {
     library: &'a Library,
     stored: &'a MachineData,
     written: &'a mut Vec<(Target, crate::control::Value)>,
+    tables: &'a mut Vec<(Element, TableValue)>,
 }
 
 impl Nck {
     /// The stage. `scanned` says whether the PLC has seen what was output before.
     pub(in crate::sinumerik) fn run_programs(&mut self, to_nck: &ToNck, scanned: bool) {
-        let (mut written, mut new_conf) = (Vec::new(), false);
+        let (mut written, mut tables, mut new_conf) = (Vec::new(), Vec::new(), false);
         let (parameters, state) = (&*self.parameters, &mut *self.state);
         for (channel, _) in parameters.existing_channels() {
             let Some(own) = parameters.programs[channel].as_deref() else { continue };
             let acknowledged = state.acknowledge(channel, scanned);
             if let Some(mut run) = state.programs[channel].run.take() {
                 let stage = Stage { channel, parameters, own, to_nck };
-                let mut sources = Sources { library: &self.programs, stored: &self.stored, written: &mut written };
+                let (written, tables) = (&mut written, &mut tables);
+                let mut sources = Sources { library: &self.programs, stored: &self.stored, written, tables };
                 let stays = state.run_program(&mut run, &stage, &mut sources);
                 new_conf |= std::mem::take(&mut run.new_conf);
                 if stays {
@@ -77,6 +79,7 @@ impl Nck {
             // The environment has checked it.
             let _ = self.store(&target, &value);
         }
+        self.store_tables(&tables);
         if new_conf {
             self.new_conf();
         }
@@ -316,6 +319,7 @@ impl State {
             library: sources.library,
             stored: sources.stored,
             written: sources.written,
+            tables: sources.tables,
             program: &mut self.programs[stage.channel],
             skips: run.skips,
             restarts,

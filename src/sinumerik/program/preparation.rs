@@ -71,12 +71,12 @@ impl Run {
                 self.end = on_path(&preparing.own.axes.path, |axis| preparing.axes[axis].setpoint.position);
             }
             channel.take_run(self);
-            let written = channel.written.len();
+            let written = channel.written.len() + channel.tables.len();
             let next = self.executed + self.queue.len() as u64;
             let prepared = self.interpreter.step(channel);
             self.r_log.extend(channel.r_written.drain(..).map(|(index, before)| (next, index, before)));
             // Written data act on the next block: they become effective at the end of the stage.
-            self.pauses |= channel.written.len() > written;
+            self.pauses |= channel.written.len() + channel.tables.len() > written;
             match prepared {
                 Ok(Prepared::Block(block)) => {
                     let behind = self.behind_now();

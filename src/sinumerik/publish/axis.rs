@@ -116,11 +116,13 @@ impl State {
         let handwheel = || Why::Event(jogging.handwheel_cause.max(mode()));
         rows.group(axis_from_nck::handwheel_1_active, axis_from_nck::handwheel_3_active, jogging.handwheels, handwheel);
         let motion = || Why::Event(causes.motion);
-        let (request, command) = (axis.travel.request(), axis.travel.command(all));
+        let (request, command) = (axis.travel.request(), axis.command(all));
         rows.bit(axis_from_nck::traverse_request_minus, request < 0, motion);
         rows.bit(axis_from_nck::traverse_request_plus, request > 0, motion);
-        rows.bit(axis_from_nck::traverse_command_minus, command < 0, motion);
-        rows.bit(axis_from_nck::traverse_command_plus, command > 0, motion);
+        // The later of both is closer to a change.
+        let commanded = || Why::Event(causes.motion.max(axis.compensation.cause));
+        rows.bit(axis_from_nck::traverse_command_minus, command < 0, commanded);
+        rows.bit(axis_from_nck::traverse_command_plus, command > 0, commanded);
         rows.group(
             axis_from_nck::active_machine_function_increment_1,
             axis_from_nck::active_machine_function_continuous,

@@ -147,7 +147,7 @@ impl State {
         let per_user_unit = if parameters.rotary { 360.0 } else { 1.0 };
         let encoders = std::array::from_fn(|encoder| {
             if encoder < usize::from(parameters.encoders) {
-                self.feedback[number].encoders[encoder].value + axis.offset[encoder]
+                self.feedback[number].encoders[encoder].value + axis.to_actual(encoder)
             } else {
                 Position::ZERO
             }
@@ -167,6 +167,10 @@ impl State {
             synchronism_difference: Position::ZERO,
             encoders,
             distance_to_go,
+            encoder_compensation: axis
+                .measuring_system
+                .map_or(Position::ZERO, |active| axis.compensation.encoder[usize::from(active)]),
+            setpoint_compensation: axis.compensation.setpoint,
         }
     }
 }
