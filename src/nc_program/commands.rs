@@ -84,6 +84,11 @@ impl Composer<'_> {
                 none(arguments, at)?;
                 Action::NewConfiguration
             }
+            Command::EndOverlays => {
+                self.done.stops_preparation = true;
+                none(arguments, at)?;
+                Action::EndOverlays
+            }
             Command::Cancel => {
                 let mut ids = Vec::new();
                 for argument in given(arguments, at)? {

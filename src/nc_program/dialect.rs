@@ -125,7 +125,6 @@ const REFUSED: &[(&str, &str)] = &[
     ("DEFINE", MACROS),
     ("DELETE", FILES),
     ("DISABLE", INTERRUPTS),
-    ("DRFOF", OVERLAYS),
     ("DRIVE", OTHERS),
     ("EGDEF", COUPLINGS),
     ("EGDEL", COUPLINGS),

@@ -281,6 +281,8 @@ pub enum Action {
     WaitEnd(Vec<u16>),
     /// NEWCONF: makes changed machine data effective.
     NewConfiguration,
+    /// DRFOF: the DRF offsets of all axes of the channel end.
+    EndOverlays,
     /// A synchronised action begins.
     Synchronised(Box<SynchronisedAction>),
     /// CANCEL: these synchronised actions end.

@@ -312,6 +312,7 @@ pub(super) enum Command {
     Start,
     WaitEnd,
     NewConfiguration,
+    EndOverlays,
     Cancel,
     SingleBlockOff,
     SingleBlockOn,
@@ -346,6 +347,7 @@ pub(super) const COMMANDS: &[(&str, Command, bool)] = &[
     ("START", Command::Start, true),
     ("WAITE", Command::WaitEnd, true),
     ("NEWCONF", Command::NewConfiguration, true),
+    ("DRFOF", Command::EndOverlays, true),
     ("CANCEL", Command::Cancel, true),
     ("SBLOF", Command::SingleBlockOff, true),
     ("SBLON", Command::SingleBlockOn, true),
@@ -359,7 +361,15 @@ impl Command {
 
     /// Whether everything before it must have been executed.
     pub(super) fn is_stop(self) -> bool {
-        matches!(self, Self::StopPreparation | Self::Preset | Self::Get | Self::GetDirectly | Self::NewConfiguration)
+        matches!(
+            self,
+            Self::StopPreparation
+                | Self::Preset
+                | Self::Get
+                | Self::GetDirectly
+                | Self::NewConfiguration
+                | Self::EndOverlays
+        )
     }
 
     /// Whether nothing else may stand in the block.

@@ -27,6 +27,7 @@ mod monitoring;
 mod nck;
 mod opening;
 mod operation;
+mod overlay;
 mod parameters;
 mod program;
 mod publish;

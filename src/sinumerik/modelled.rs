@@ -38,6 +38,7 @@ const READ: &[Signal] = &[
     mode_group_to_nck::machine_function_increment_10000,
     mode_group_to_nck::machine_function_increment_variable,
     mode_group_to_nck::machine_function_continuous,
+    channel_to_nck::activate_drf,
     channel_to_nck::activate_single_block,
     channel_to_nck::activate_m01,
     channel_to_nck::activate_dry_run_feedrate,

@@ -131,6 +131,10 @@ rules! {
     SagLimited "20124" "the sag compensation value is above its limit";
     SagTooFast "20125" "the sag compensation value changes faster than its limit";
     SagFollows "20125" "the sag compensation value follows its tables again";
+    DrfSelected "MIS-02" "DRF: the handwheel of the axis is selected or deselected";
+    DrfMoves "MIS-02" "DRF: a handwheel moves the axis beside its program";
+    DrfRests "MIS-02" "DRF: the offset does not change";
+    DrfWhileReferencing "20053" "DRF: a handwheel is turned while the axis is referenced; its pulses are lost";
     // Jogging.
     TraversingKey "JOG" "key";
     KeyReleased "JOG" "no key";

@@ -294,6 +294,7 @@ fn messages_alarms_marks_and_channels() {
     assert_eq!(action("START(2)"), Action::Start(vec![2]));
     assert_eq!(action("WAITE(2)"), Action::WaitEnd(vec![2]));
     assert_eq!(action("NEWCONF"), Action::NewConfiguration);
+    assert_eq!(action("DRFOF"), Action::EndOverlays);
     assert_eq!(action("CANCEL(1,2)"), Action::Cancel(vec![1, 2]));
     run("MSG(\"A\")\nG4 F1\nMSG()\nM30");
     assert_eq!(alarm("SETM(1)\nR1=1\nCLEARM(1)\nM30").number, 16930);

@@ -263,6 +263,9 @@ alarms! {
     /// Handwheels are turned while the axis is moved by another function.
     HANDWHEEL_NOT_POSSIBLE 20051 [DISPLAY] ByItself
         "channel %1 axis %2 handwheel not possible";
+    /// A handwheel is turned for a DRF offset while its axis is referenced: the pulses are lost.
+    DRF_NOT_POSSIBLE 20053 [DISPLAY] CancelKey
+        "channel %1 axis %2 DRF, FTOCON, external work offset not possible";
     /// More than 5 tables of sag compensation have the same output axis; none of them is evaluated. %1: the axis.
     SAG_TOO_MANY_TABLES 20120 [INTERFACE_SIGNALS DISPLAY] Reset
         "axis %1 too many compensation relations";

@@ -6,7 +6,7 @@
 //! | 2001, 2900, 4002, 4004, 4005, 4011, 4040, 4060, 4075, 4111, 4112, 4113, 4200, 4210, 26014, 26015, 26017, 26024, 26025 | alarms of machine data: the model checks them before the control starts and reports them there |
 //! | 10620, 10630, 10631, 10721, 10723, 14790, 16xxx, 17630 to 17900, 20070, 20071, 26072, 26076 | limits in motion, actions of the operator, the PLC's positioning axes |
 //! | 20007, 20008, 22062, 22064 | MD34200 = 6 and 7 |
-//! | 20052, 20053, 20060, 20062 | geometry axes, and overlaid movements such as DRF |
+//! | 20052, 20060, 20062 | geometry axes |
 //! | 20054, 20056, 20058 | indexing axes and revolutional feed |
 //! | 20059 | AUTOMATIC with JOG at the same time (MD10735) |
 //! | 21550 | couplings other than gantry groupings, which would retract an axis from its limit switch |
@@ -60,7 +60,6 @@ alarms! {
     20007 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 reference point approach needs two measuring systems";
     20008 [START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] Reset "channel %1 axis %2 reference point approach needs a second, referenced measuring system";
     20052 [DISPLAY] CancelKey "channel %1 axis %2 already active";
-    20053 [DISPLAY] CancelKey "channel %1 axis %2 DRF, FTOCON, external work offset not possible";
     20054 [DISPLAY] CancelKey "channel %1 axis %2 indexing index not allowed";
     20056 [DISPLAY] ByItself "channel %1 axis %2 no revolutional feedrate possible";
     20058 [DISPLAY] ByItself "channel %1 axis %2 revolutional feedrate: illegal source";

@@ -88,7 +88,7 @@ impl State {
     }
 
     /// The software limit of an axis in a direction, if it is active.
-    fn software_limit(
+    pub(in crate::sinumerik) fn software_limit(
         &self,
         number: AxisNumber,
         direction: i8,
@@ -110,8 +110,13 @@ impl State {
         match self.software_limit(number, direction, parameters, to_nck) {
             None => Ahead::Free,
             Some(limit) => {
-                let way = (limit - self.axes[number].setpoint.position).increments();
-                if way.signum() * i64::from(direction) <= 0 { Ahead::Reached } else { Ahead::At(limit) }
+                let axis = &self.axes[number];
+                let way = (limit - axis.machine_setpoint()).increments();
+                if way.signum() * i64::from(direction) <= 0 {
+                    Ahead::Reached
+                } else {
+                    Ahead::At(limit - axis.overlay.position())
+                }
             }
         }
     }
@@ -123,7 +128,7 @@ impl State {
             let limit = self.software_limit(number, direction, parameters, to_nck);
             let axis = &self.axes[number];
             let beyond = limit.is_some_and(|limit| {
-                (limit - axis.setpoint.position).increments().signum() * i64::from(direction) <= 0
+                (limit - axis.machine_setpoint()).increments().signum() * i64::from(direction) <= 0
             });
             let holds = beyond && axis.setpoint.is_at_rest();
             let alarm = limit_alarm(alarms::ON_SOFTWARE_LIMIT, unit.channel, number, direction);
@@ -134,7 +139,7 @@ impl State {
                 let (second, signal) = selects_second(&to_nck.axes[number], direction);
                 let datum = [[36100, 36120], [36110, 36130]][usize::from(direction > 0)][usize::from(second)];
                 [
-                    Input::Length(Quantity::Setpoint, number, axis.setpoint.position),
+                    Input::Length(Quantity::Setpoint, number, axis.machine_setpoint()),
                     Input::Datum(datum, Some(number), limit.user()),
                     axis_signal(number, signal, second),
                 ]

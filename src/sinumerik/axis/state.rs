@@ -10,6 +10,7 @@ use crate::sinumerik::compensation::state::Compensation;
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::jog::state::Jogging;
 use crate::sinumerik::monitoring::state::AxisMonitor;
+use crate::sinumerik::overlay::state::Overlay;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::parameters::dynamics::ParameterSet;
@@ -83,6 +84,8 @@ pub(in crate::sinumerik) struct Axis {
     pub zero_mark: Option<Position>,
     /// Actual velocity.
     pub velocity: f64,
+    /// The DRF offset.
+    pub overlay: Overlay,
     /// The compensations.
     pub compensation: Compensation,
     /// Half a count of the active encoder.
@@ -143,6 +146,7 @@ impl Default for Axis {
             actual: Position::ZERO,
             zero_mark: None,
             velocity: 0.0,
+            overlay: Overlay::default(),
             compensation: Compensation::default(),
             half_count: Position::ZERO,
             slide: Position::ZERO,
@@ -190,6 +194,7 @@ impl Axis {
         (self.setpoint, self.before, self.arrived) == (other.setpoint, other.before, other.arrived)
             && (self.branch, self.unsettled) == (other.branch, other.unsettled)
             && self.compensation == other.compensation
+            && self.overlay == other.overlay
             && self.monitor == other.monitor
     }
 
@@ -197,6 +202,7 @@ impl Axis {
     pub(in crate::sinumerik) fn take_movement_of(&mut self, other: &Self) {
         (self.setpoint, self.before, self.unsettled) = (other.setpoint, other.before, other.unsettled);
         (self.branch, self.arrived, self.compensation) = (other.branch, other.arrived, other.compensation);
+        self.overlay = other.overlay;
         (self.actual, self.zero_mark, self.velocity) = (other.actual, other.zero_mark, other.velocity);
         (self.half_count, self.slide, self.monitor) = (other.half_count, other.slide, other.monitor);
     }
@@ -229,10 +235,10 @@ impl Axis {
         }
     }
 
-    /// What the value of an encoder gets to become an actual value: its offset, and the compensations.
+    /// What the value of an encoder gets to become an actual value: its offset, the compensations, and not the DRF offset.
     #[must_use]
     pub(in crate::sinumerik) fn to_actual(&self, encoder: usize) -> Position {
-        self.offset[encoder] + self.compensation.of(encoder)
+        self.offset[encoder] + self.compensation.of(encoder) - self.overlay.position()
     }
 
     /// Whether the active measuring system is referenced.
@@ -284,6 +290,7 @@ impl Axis {
     #[must_use]
     pub(in crate::sinumerik) fn command(&self, parameters: &Parameters) -> i8 {
         match self.travel.command(parameters) {
+            0 if self.overlay.command != 0 => self.overlay.command,
             0 => self.compensation.command,
             command => command,
         }
@@ -292,13 +299,13 @@ impl Axis {
     /// Whether the axis moves or is to move.
     #[must_use]
     pub(in crate::sinumerik) fn is_in_motion(&self) -> bool {
-        self.travel.is_pending() || !self.setpoint.is_at_rest()
+        self.travel.is_pending() || !self.setpoint.is_at_rest() || self.overlay.command != 0
     }
 
     /// Whether the axis moves; an axis that is held or waits for an enable does not.
     #[must_use]
     pub(in crate::sinumerik) fn is_moving(&self) -> bool {
-        self.travel.is_moving() || !self.setpoint.is_at_rest()
+        self.travel.is_moving() || !self.setpoint.is_at_rest() || self.overlay.command != 0
     }
 
     /// Shifts the actual value at the present position: nothing moves.

@@ -122,7 +122,7 @@ impl State {
         if moves {
             let ahead = self.software_limit_ahead(number, direction, parameters, to_nck);
             if direction != 0 && ahead == Ahead::Reached && !matches!(movement, Movement::Pending(..)) {
-                let reached = Input::Length(Quantity::Setpoint, number, axis.setpoint.position);
+                let reached = Input::Length(Quantity::Setpoint, number, axis.machine_setpoint());
                 self.block_jogging(number, parameters, signals, Rule::SoftwareLimit, reached, axis.causes.motion);
                 return;
             }

@@ -157,6 +157,8 @@ pub struct AxisParameters {
     pub jog_rapid_velocity: f64,
     /// MD11330 and SD41010 times MD31090: the distances of INC1 to INC10000 and INCvar.
     pub increments: [Position; 6],
+    /// MD32090: share of the velocity of keys for the DRF offset.
+    pub overlay_factor: f64,
     /// MD32080; 0 means no limit.
     pub handwheel_maximum: Position,
     /// MD32084.
@@ -237,6 +239,7 @@ pub(super) fn axis(
         jog_velocity: velocity(if setting > 0.0 { setting } else { md.jog_velo }).min(maximum_velocity),
         jog_rapid_velocity: velocity(md.jog_velo_rapid).min(maximum_velocity),
         increments: increments(data, md),
+        overlay_factor: md.handwh_velo_overlay_factor,
         handwheel_maximum: Position::from_user(md.handwh_max_incr_size),
         handwheel_stop_conditions: md.handwh_stop_cond,
         dynamics: dynamics(md, jerk, &presence.mechanics, &velocity),

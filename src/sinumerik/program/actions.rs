@@ -22,6 +22,12 @@ impl State {
                 // The path begins where its axes are now.
                 run.path.place(on_path(&stage.own.axes.path, |axis| self.axes[axis].setpoint.position));
             }
+            Action::EndOverlays => {
+                for &axis in stage.own.axes.machine_axes.iter() {
+                    self.absorb_overlay(axis);
+                }
+                run.path.place(on_path(&stage.own.axes.path, |axis| self.axes[axis].setpoint.position));
+            }
             Action::NewConfiguration => run.new_conf = true,
             Action::CycleAlarm { number, text } => {
                 let text = text.unwrap_or_default();

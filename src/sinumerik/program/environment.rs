@@ -187,7 +187,7 @@ impl Environment for Channel<'_> {
                 let axis = axis()?;
                 let setpoint = self.axes[axis].setpoint.position;
                 let offset = if variable.name == "$AA_IM" {
-                    Position::ZERO
+                    Position::ZERO - self.axes[axis].overlay.position()
                 } else {
                     let modal = self.program.modal.index(8);
                     self.program.settable_offset(modal, axis)
@@ -196,8 +196,9 @@ impl Environment for Channel<'_> {
             }
             "$VA_IM" => {
                 let axis = &self.axes[axis()?];
-                Ok(length(axis.actual + axis.compensation.setpoint))
+                Ok(length(axis.actual + axis.overlay.position() + axis.compensation.setpoint))
             }
+            "$AC_DRF" => Ok(length(self.axes[axis()?].overlay.target)),
             "$VA_ENC1_COMP_VAL" => Ok(length(self.axes[axis()?].compensation.encoder[0])),
             "$VA_ENC2_COMP_VAL" => Ok(length(self.axes[axis()?].compensation.encoder[1])),
             "$VA_CEC_COMP_VAL" => Ok(Value::Real(self.axes[axis()?].compensation.sag / Position::PER_USER_UNIT)),

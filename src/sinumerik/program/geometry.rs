@@ -16,6 +16,11 @@ pub(in crate::sinumerik) fn suppresses_offsets(block: &Block) -> bool {
     block.once.iter().any(|function| function.group == 9)
 }
 
+/// SUPA: the block has no DRF offset either.
+pub(in crate::sinumerik) fn suppresses_overlays(block: &Block) -> bool {
+    block.once.iter().any(|function| (function.group, function.index) == (9, 2))
+}
+
 /// G9, or G60 until G64.
 pub(in crate::sinumerik) fn is_exact_stop(block: &Block) -> bool {
     block.once.iter().any(|function| function.group == 11) || block.modal.index(10) == 1

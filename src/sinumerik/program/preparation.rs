@@ -240,7 +240,10 @@ impl Preparing<'_> {
     /// The settable and the programmable offset of an axis.
     fn offset(&self, block: &Block, axis: AxisNumber, channel: &Channel<'_>) -> f64 {
         if geometry::suppresses_offsets(block) {
-            return 0.0;
+            // SUPA also suppresses the DRF offset.
+            let drf =
+                if geometry::suppresses_overlays(block) { channel.axes[axis].overlay.target } else { Position::ZERO };
+            return -(drf.increments() as f64);
         }
         let settable = geometry::active_offset(block)
             .map_or(0.0, |index| channel.program.settable_offset(index, axis).increments() as f64);
@@ -314,7 +317,7 @@ impl Preparing<'_> {
                         done.references.push(axis.0);
                     }
                 }
-                Action::Message(_) | Action::CycleAlarm { .. } | Action::NewConfiguration => {
+                Action::Message(_) | Action::CycleAlarm { .. } | Action::NewConfiguration | Action::EndOverlays => {
                     done.actions.push(action.clone());
                 }
                 Action::Preset(axes) => {

@@ -48,6 +48,7 @@ impl State {
     /// The axes of a unit get other actual values: the first of them this one.
     pub(in crate::sinumerik) fn set_actual_value(&mut self, unit: &Unit, value: Position, cause: EventId) {
         let leader = unit.leader();
+        self.absorb_overlay(leader);
         let shift = value - self.axes[leader].setpoint.position;
         for number in unit.members() {
             let input = Input::Length(Quantity::Position, number, self.axes[number].actual + shift);

@@ -2,6 +2,7 @@
 
 use crate::image::axis_from_nck;
 use crate::sinumerik::alarms::Reaction;
+use crate::sinumerik::axis::travel::command_signal;
 use crate::sinumerik::gantry::state::{Grouping, Monitored, Phase};
 use crate::sinumerik::inputs::axis_signal;
 use crate::sinumerik::parameters::Parameters;
@@ -113,14 +114,15 @@ impl State {
         rows.bit(axis_from_nck::speed_controller_active, speed, enabling);
         rows.bit(axis_from_nck::current_controller_active, current, enabling);
         let jogging = &axis.jogging;
-        let handwheel = || Why::Event(jogging.handwheel_cause.max(mode()));
-        rows.group(axis_from_nck::handwheel_1_active, axis_from_nck::handwheel_3_active, jogging.handwheels, handwheel);
+        let handwheels = jogging.handwheels | axis.overlay.handwheels;
+        let handwheel = || Why::Event(jogging.handwheel_cause.max(axis.overlay.cause).max(mode()));
+        rows.group(axis_from_nck::handwheel_1_active, axis_from_nck::handwheel_3_active, handwheels, handwheel);
         let motion = || Why::Event(causes.motion);
         let (request, command) = (axis.travel.request(), axis.command(all));
         rows.bit(axis_from_nck::traverse_request_minus, request < 0, motion);
         rows.bit(axis_from_nck::traverse_request_plus, request > 0, motion);
         // The later of both is closer to a change.
-        let commanded = || Why::Event(causes.motion.max(axis.compensation.cause));
+        let commanded = || Why::Event(causes.motion.max(axis.compensation.cause).max(axis.overlay.cause));
         rows.bit(axis_from_nck::traverse_command_minus, command < 0, commanded);
         rows.bit(axis_from_nck::traverse_command_plus, command > 0, commanded);
         rows.group(
@@ -151,8 +153,14 @@ impl State {
             return Why::Event(motion);
         }
         let mover = self.mover(number);
-        let inputs = [self.axes[mover].travel.shown(mover, all), Input::None, Input::None];
-        Why::Tested(rule, inputs, self.axes[mover].causes.motion)
+        let axis = &self.axes[mover];
+        let (shown, parent) = match (axis.travel.shown(mover, all), axis.overlay.command) {
+            (Input::None, command) if command != 0 => {
+                (axis_signal(mover, command_signal(command), true), axis.overlay.cause)
+            }
+            (shown, _) => (shown, axis.causes.motion),
+        };
+        Why::Tested(rule, [shown, Input::None, Input::None], parent)
     }
 
     /// The axis that causes the movement of an axis: the one that leads its grouping now, or the axis itself.

@@ -145,9 +145,10 @@ impl State {
     fn values(&self, number: AxisNumber, parameters: &AxisParameters) -> AxisValues {
         let axis = &self.axes[number];
         let per_user_unit = if parameters.rotary { 360.0 } else { 1.0 };
+        let drf = axis.overlay.position();
         let encoders = std::array::from_fn(|encoder| {
             if encoder < usize::from(parameters.encoders) {
-                self.feedback[number].encoders[encoder].value + axis.to_actual(encoder)
+                self.feedback[number].encoders[encoder].value + axis.to_actual(encoder) + drf
             } else {
                 Position::ZERO
             }
@@ -159,8 +160,8 @@ impl State {
         };
         AxisValues {
             // During axis disable the displayed value follows the setpoint (SIG-03).
-            position: if axis.signals.disabled_at().is_some() { axis.setpoint.position } else { axis.actual },
-            setpoint: axis.setpoint.position,
+            position: drf + if axis.signals.disabled_at().is_some() { axis.setpoint.position } else { axis.actual },
+            setpoint: axis.machine_setpoint(),
             velocity: axis.velocity * 60.0 / Position::PER_USER_UNIT / per_user_unit,
             following_error: axis.deviation(),
             slide: axis.slide,

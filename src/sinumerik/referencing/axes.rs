@@ -263,6 +263,7 @@ impl State {
         keeps_reference: bool,
         cause: EventId,
     ) {
+        self.absorb_overlay(number);
         let in_grouping = self.is_gantry_axis(number);
         let axis = &mut self.axes[number];
         let encoder = usize::from(axis.measuring_system.unwrap_or(0));
