@@ -221,6 +221,11 @@ pub trait Control: Send + Sync + Debug {
         AxisSet::NONE
     }
 
+    /// Whether the holding brake of an axis is to be open. The default is a control without brakes.
+    fn opens_brake(&self, _axis: AxisNumber) -> bool {
+        true
+    }
+
     /// Takes the feedback of drives and encoders of the axes `changed`, and monitors it. The feedback of the other axes has not changed.
     fn observe(&mut self, feedback: &PerAxis<Feedback>, changed: AxisSet);
 

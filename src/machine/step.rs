@@ -32,7 +32,8 @@ impl Machine {
         self.control.decide(self.state.plc_side(), changes);
         self.record_activated(By::Nck);
         // Position control, drives and mechanics.
-        let axes = self.definition.layout.with_bridged(self.control.awake());
+        let vertical = self.definition.layout.vertical;
+        let axes = self.definition.layout.with_bridged(self.control.awake().with(vertical));
         self.move_axes(axes);
         self.displace();
         let changed = self.state.plant.news(axes);
@@ -120,6 +121,8 @@ impl Machine {
         let CycleTimes { interpolation: cycle, position_control: count } = self.control.cycle_times();
         let servo_cycle = cycle.seconds() / f64::from(count);
         self.state.plant.run_up(axes, cycle);
+        let open = self.definition.layout.vertical.iter().filter(|axis| self.control.opens_brake(*axis)).collect();
+        self.state.plant.move_brakes(&self.definition.layout, open, cycle);
         let (layout, mut moving) = (&self.definition.layout, axes);
         for part in 1..=count {
             let command = |axis, counts| self.control.velocity_command(axis, counts, part, count);

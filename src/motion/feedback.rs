@@ -5,6 +5,20 @@ use serde::{Deserialize, Serialize};
 use super::EncoderSignal;
 use crate::units::Position;
 
+/// The holding brake of a motor.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Brake {
+    /// The motor has none.
+    #[default]
+    None,
+    /// It holds.
+    Closed,
+    /// It opens or closes.
+    Moving,
+    /// It is open.
+    Open,
+}
+
 /// The signals of drive and encoders in one cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Feedback {
@@ -16,6 +30,8 @@ pub struct Feedback {
     pub velocity: f64,
     /// The drive has started up and has no fault.
     pub drive_ready: bool,
+    /// Its holding brake.
+    pub brake: Brake,
     /// The drive reports a fault.
     pub drive_fault: bool,
     /// Encoders that read their position without a movement.

@@ -17,7 +17,7 @@ mod servo;
 pub use command::Motion;
 pub use delay::{DeadTime, Pt1};
 pub use encoder::{Encoder, EncoderSignal};
-pub use feedback::Feedback;
+pub use feedback::{Brake, Feedback};
 pub use jerk::{JerkFilter, LONGEST_WINDOW};
 pub use profile::{Limits, Movement, Setpoint};
 pub use servo::{Drive, velocity_command};

@@ -7,7 +7,9 @@
 
 use std::collections::BTreeMap;
 
-use super::leadscrew::Leadscrew;
+use super::hold::{HoldingBrake, holding_brake};
+use super::leadscrew::{Leadscrew, leadscrew};
+use super::reading::{distance, position, time};
 use crate::source::{Node, Place, Problem, Table, Value, did_you_mean};
 use crate::units::{Position, Time};
 
@@ -53,6 +55,10 @@ pub struct AxisPlant {
     pub drive: Drive,
     /// Encoder 1 and encoder 2.
     pub encoders: [EncoderPlant; 2],
+    /// The weight of the slide pulls in minus direction.
+    pub gravity: bool,
+    /// The holding brake of the motor.
+    pub brake: Option<HoldingBrake>,
     /// The leadscrew between motor and slide.
     pub leadscrew: Leadscrew,
     /// The reference cam.
@@ -176,6 +182,8 @@ impl AxisPlant {
             start: Position::ZERO,
             drive: Drive::default(),
             encoders: [EncoderPlant::default(); 2],
+            gravity: false,
+            brake: None,
             leadscrew: Leadscrew::default(),
             cam: Given::Unsaid,
             cam_place: None,
@@ -281,6 +289,12 @@ fn axis(mut table: Table, place: Place) -> Result<AxisPlant, Problem> {
             *encoder = read_encoder(node)?;
         }
     }
+    if let Some(node) = table.take("gravity") {
+        plant.gravity = node.boolean("whether the weight of the slide pulls in minus direction")?;
+    }
+    if let Some(node) = table.take("brake") {
+        plant.brake = holding_brake(node)?;
+    }
     if let Some(node) = table.take("leadscrew") {
         plant.leadscrew = leadscrew(node.into_table("a leadscrew")?)?;
     }
@@ -350,39 +364,6 @@ fn read_encoder(node: Node) -> Result<EncoderPlant, Problem> {
     Ok(encoder)
 }
 
-fn leadscrew(mut table: Table) -> Result<Leadscrew, Problem> {
-    let mut leadscrew = Leadscrew::default();
-    if let Some(node) = table.take("backlash") {
-        let what = "a backlash of 0 mm or degrees or more";
-        leadscrew.backlash = position(&node, what)?;
-        if leadscrew.backlash < Position::ZERO {
-            return Err(node.expected(what, "write the play of the slide as a positive number"));
-        }
-    }
-    if let Some(node) = table.take("pitch_error") {
-        leadscrew.pitch_error = pitch_error(&node)?;
-    }
-    table.finish()?;
-    Ok(leadscrew)
-}
-
-fn pitch_error(node: &Node) -> Result<Vec<(Position, Position)>, Problem> {
-    let what = "pairs of position and error in ascending order of positions";
-    let cure = "write pitch_error = [[0.0, 0.0], [100.0, 0.012]]";
-    let Value::Array(pairs) = &node.value else { return Err(node.expected(what, cure)) };
-    let mut points = Vec::new();
-    for pair in pairs {
-        let Value::Array(values) = &pair.value else { return Err(pair.expected(what, cure)) };
-        let [at, error] = values.as_slice() else { return Err(pair.expected(what, cure)) };
-        let point = (position(at, "a position in mm or degrees")?, position(error, "an error in mm or degrees")?);
-        if points.last().is_some_and(|(before, _)| *before >= point.0) {
-            return Err(pair.expected(what, cure));
-        }
-        points.push(point);
-    }
-    Ok(points)
-}
-
 fn cam(mut table: Table) -> Result<Cam, Problem> {
     let from = required(&mut table, "from", "a cam")?;
     let to = required(&mut table, "to", "a cam")?;
@@ -440,36 +421,6 @@ fn required(table: &mut Table, key: &'static str, of: &str) -> Result<Position, 
         table.place.problem(format!("expected `{key}` of {of}, found none"), format!("write {key} = 200.0"))
     })?;
     position(&node, "a position in mm or degrees")
-}
-
-/// The largest position that the control accepts for a software limit switch; nothing is beyond it.
-const FARTHEST: f64 = 1e8;
-
-fn position(node: &Node, what: &str) -> Result<Position, Problem> {
-    let number = node.number(what)?;
-    if number.abs() > FARTHEST {
-        return Err(node.expected(what, "positions are from -100000000 to 100000000"));
-    }
-    Ok(Position::from_user(number))
-}
-
-/// A distance of at least one increment.
-fn distance(node: &Node, what: &str) -> Result<Position, Problem> {
-    let distance = position(node, what)?;
-    if distance <= Position::ZERO {
-        return Err(node.expected(what, "write a larger number"));
-    }
-    Ok(distance)
-}
-
-fn time(node: &Node) -> Result<Time, Problem> {
-    let what = "a time such as \"10ms\", at most 1h";
-    let cure = "write a number and us, ms, s, min or h, in quotes";
-    let time = match &node.value {
-        Value::Text(text) => Time::parse(text),
-        Value::Integer(_) | Value::Float(_) | Value::Boolean(_) | Value::Array(_) | Value::Table(_) => None,
-    };
-    time.filter(|time| *time <= Time::from_millis(3_600_000)).ok_or_else(|| node.expected(what, cure))
 }
 
 fn plc_cycle(node: &Node) -> Result<Time, Problem> {

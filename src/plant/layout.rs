@@ -1,6 +1,6 @@
 //! The plant of one machine, with all defaults filled in.
 
-use super::{Cam, EncoderKind, Given, Input, Leadscrew, LimitSwitch, PlantDefinition, Switch};
+use super::{Cam, EncoderKind, Given, HoldingBrake, Input, Leadscrew, LimitSwitch, PlantDefinition, Switch};
 use crate::motion::Encoder;
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 
@@ -30,6 +30,10 @@ pub struct AxisMechanics {
     pub ready_after: Time,
     /// Both encoders.
     pub encoders: [Encoder; 2],
+    /// The weight of the slide pulls in minus direction.
+    pub gravity: bool,
+    /// The holding brake of the motor.
+    pub brake: Option<HoldingBrake>,
     /// The leadscrew between motor and slide.
     pub leadscrew: Leadscrew,
     /// Reference cam.
@@ -60,6 +64,8 @@ pub struct Layout {
     pub bridges: Vec<SlideCoupling>,
     /// Switches that are inputs of the PLC.
     pub wired: Vec<(AxisNumber, Switch, Input)>,
+    /// Axes with gravity or a brake: their mechanics can change while the control does nothing.
+    pub vertical: AxisSet,
     /// Axes for which the simulator itself sets the signals of cam, plus switch and minus switch.
     pub unwired: [AxisSet; 3],
 }
@@ -97,7 +103,10 @@ impl Layout {
             })
             .collect();
         let (wired, unwired) = wires(&axes);
-        Self { axes, bridges, wired, unwired }
+        let is_vertical = |axis: &AxisMechanics| axis.gravity || axis.brake.is_some();
+        let vertical = axes.iter().filter(|(_, axis)| axis.as_ref().is_some_and(is_vertical));
+        let vertical = vertical.map(|(number, _)| number).collect();
+        Self { axes, bridges, wired, vertical, unwired }
     }
 
     /// These axes, and all axes that share a bridge with one of them.
@@ -162,6 +171,8 @@ fn axis_mechanics(definition: &PlantDefinition, name: &str, hints: Hints) -> Axi
         time_constant: said.drive.time_constant.seconds(),
         ready_after: said.drive.ready_after,
         encoders,
+        gravity: said.gravity,
+        brake: said.brake,
         leadscrew: said.leadscrew.clone(),
         cam,
         limit_plus: switch(&said.limit_plus),

@@ -3,6 +3,8 @@
 //! Drives and encoders are on the side of the motor. The slide, its true position, deviates from the position of the motor by the error of
 //! the pitch there, and by the play after each change of direction.
 
+use super::reading::position;
+use crate::source::{Node, Problem, Table, Value};
 use crate::units::Position;
 
 /// A leadscrew.
@@ -38,6 +40,39 @@ impl Leadscrew {
     pub fn play(&self, before: Position, moved: Position) -> Position {
         (before - moved).clamp(Position::ZERO, self.backlash)
     }
+}
+
+pub(super) fn leadscrew(mut table: Table) -> Result<Leadscrew, Problem> {
+    let mut leadscrew = Leadscrew::default();
+    if let Some(node) = table.take("backlash") {
+        let what = "a backlash of 0 mm or degrees or more";
+        leadscrew.backlash = position(&node, what)?;
+        if leadscrew.backlash < Position::ZERO {
+            return Err(node.expected(what, "write the play of the slide as a positive number"));
+        }
+    }
+    if let Some(node) = table.take("pitch_error") {
+        leadscrew.pitch_error = pitch_error(&node)?;
+    }
+    table.finish()?;
+    Ok(leadscrew)
+}
+
+fn pitch_error(node: &Node) -> Result<Vec<(Position, Position)>, Problem> {
+    let what = "pairs of position and error in ascending order of positions";
+    let cure = "write pitch_error = [[0.0, 0.0], [100.0, 0.012]]";
+    let Value::Array(pairs) = &node.value else { return Err(node.expected(what, cure)) };
+    let mut points = Vec::new();
+    for pair in pairs {
+        let Value::Array(values) = &pair.value else { return Err(pair.expected(what, cure)) };
+        let [at, error] = values.as_slice() else { return Err(pair.expected(what, cure)) };
+        let point = (position(at, "a position in mm or degrees")?, position(error, "an error in mm or degrees")?);
+        if points.last().is_some_and(|(before, _)| *before >= point.0) {
+            return Err(pair.expected(what, cure));
+        }
+        points.push(point);
+    }
+    Ok(points)
 }
 
 #[cfg(test)]

@@ -8,14 +8,17 @@
 
 mod definition;
 mod faults;
+mod hold;
 mod layout;
 mod leadscrew;
 mod moving;
+mod reading;
 
 pub use definition::{
     AxisPlant, Bridge, Cam, Drive, EncoderKind, EncoderPlant, Given, Input, LimitSwitch, PlantDefinition,
 };
 pub use faults::{Fault, FaultKind, Switch};
+pub use hold::HoldingBrake;
 pub use layout::{AxisMechanics, Hints, Layout, SlideCoupling};
 pub use leadscrew::Leadscrew;
 pub use moving::Plant;

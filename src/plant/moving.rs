@@ -7,8 +7,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{AxisMechanics, Fault, FaultKind, Layout, Leadscrew, Switch};
-use crate::motion::{Drive, Encoder, EncoderSignal, Feedback, within_reach};
+use super::hold::{GRAVITY, Hold};
+use super::{AxisMechanics, Fault, FaultKind, HoldingBrake, Layout, Leadscrew, Switch};
+use crate::motion::{Brake, Drive, Encoder, EncoderSignal, Feedback, within_reach};
 use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
 
 /// One slide.
@@ -20,6 +21,8 @@ struct Slide {
     /// The encoder counts at that position, kept because most slides rest most of the time.
     counts: [Position; 2],
     drive: Drive,
+    /// Its holding brake, and the weight of the slide.
+    hold: Hold,
     /// How far the slide is on the other side of the play of its leadscrew.
     play: Position,
     /// Velocity by the pull of a bridge, in addition to that of the drive.
@@ -77,6 +80,7 @@ impl Plant {
             if let (Some(slide), Some(mechanics)) = (slide, &layout.axes[axis]) {
                 slide.drive = Drive::default();
                 slide.pulled = 0.0;
+                slide.hold.power_off();
                 slide.ready_in = mechanics.ready_after;
                 for (encoder, dead) in slide.encoders.iter_mut().zip(&mut slide.dead) {
                     encoder.restart(slide.position);
@@ -148,7 +152,7 @@ impl Plant {
         for axis in axes.iter() {
             if let (Some(slide), Some(mechanics)) = (&mut self.slides[axis], &layout.axes[axis]) {
                 let command = command(axis, slide.values()).filter(|_| !slide.drive_fault);
-                changed.set(axis, slide.advance(command, mechanics.time_constant, cycle));
+                changed.set(axis, slide.advance(command, mechanics, cycle));
             }
         }
         for bridge in layout.bridges.iter().filter(|bridge| axes.contains(bridge.first)) {
@@ -223,8 +227,20 @@ impl Plant {
     /// The signals of drive and encoders of an axis since the last call.
     pub fn feedback(&mut self, layout: &Layout, axis: AxisNumber) -> Feedback {
         match (&mut self.slides[axis], &layout.axes[axis]) {
-            (Some(slide), Some(mechanics)) => slide.feedback(&mechanics.leadscrew),
+            (Some(slide), Some(mechanics)) => slide.feedback(&mechanics.leadscrew, mechanics.brake),
             (Some(_) | None, _) => Feedback::default(),
+        }
+    }
+
+    /// One cycle of the holding brakes; those of the axes `open` are to be open.
+    pub fn move_brakes(&mut self, layout: &Layout, open: AxisSet, cycle: Time) {
+        for axis in layout.vertical.iter() {
+            if let (Some(slide), Some(mechanics)) = (&mut self.slides[axis], &layout.axes[axis])
+                && let Some(brake) = mechanics.brake
+                && slide.hold.step(open.contains(axis), brake, cycle)
+            {
+                self.changed.set(axis, true);
+            }
         }
     }
 
@@ -296,6 +312,7 @@ impl Slide {
             reported: mechanics.start,
             counts: mechanics.encoders.map(|encoder| encoder.value(mechanics.start)),
             drive: Drive::default(),
+            hold: Hold::default(),
             play: Position::ZERO,
             pulled: 0.0,
             encoders: mechanics.encoders,
@@ -319,12 +336,13 @@ impl Slide {
     }
 
     /// The signals of drive and encoders since the last call.
-    fn feedback(&mut self, leadscrew: &Leadscrew) -> Feedback {
+    fn feedback(&mut self, leadscrew: &Leadscrew, brake: Option<HoldingBrake>) -> Feedback {
         self.play = leadscrew.play(self.play, self.position - self.reported);
         Feedback {
             encoders: self.signals(),
             half_count: [self.encoders[0].half_count(), self.encoders[1].half_count()],
             velocity: self.drive.velocity() + self.pulled,
+            brake: brake.map_or(Brake::None, |_| self.hold.state()),
             drive_ready: self.ready_in == Time::ZERO && !self.drive_fault,
             drive_fault: self.drive_fault,
             absolute: self.encoders.map(|encoder| encoder.is_absolute()),
@@ -379,15 +397,20 @@ impl Slide {
     }
 
     /// A command of `None` is a drive without power. Returns whether anything changed.
-    fn advance(&mut self, command: Option<f64>, time_constant: f64, cycle: f64) -> bool {
+    fn advance(&mut self, command: Option<f64>, mechanics: &AxisMechanics, cycle: f64) -> bool {
+        let time_constant = mechanics.time_constant;
         let before = (self.position, self.drive, self.pulled);
         self.pulled = 0.0;
         match command {
+            None if mechanics.gravity && self.hold.falls() => {
+                self.drive.force(self.drive.velocity() - GRAVITY * cycle);
+            }
             None if self.drift != 0.0 => self.drive.force(self.drift),
             None => self.drive.answer(0.0, time_constant, cycle),
             Some(velocity) => self.drive.answer(velocity * self.grip, time_constant, cycle),
         }
-        if self.blocked {
+        self.hold.carried |= command.is_some();
+        if self.blocked || mechanics.brake.is_some() && self.hold.holds() {
             self.drive.force(0.0);
         } else {
             self.position = self.drive.moved(self.position, cycle);

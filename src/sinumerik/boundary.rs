@@ -118,6 +118,10 @@ impl Control for Nck {
         Self::still(self)
     }
 
+    fn opens_brake(&self, axis: AxisNumber) -> bool {
+        self.state.axes[axis].enabling.opens_brake
+    }
+
     fn observe(&mut self, feedback: &PerAxis<Feedback>, changed: AxisSet) {
         Self::observe(self, feedback, changed);
     }

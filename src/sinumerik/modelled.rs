@@ -110,6 +110,7 @@ const READ: &[Signal] = &[
     axis_to_nck::second_software_limit_switch_plus,
     axis_to_nck::deceleration_reference_point_approach,
     axis_to_nck::ramp_function_generator_fast_stop,
+    axis_to_nck::open_holding_brake,
     axis_to_nck::drive_data_set_selection,
     axis_to_nck::pulse_enable,
     axis_to_nck::start_gantry_synchronization,

@@ -404,7 +404,7 @@ impl Nck {
                 state.feedback[number] = seen;
                 self.resting.hear(number);
             }
-            if axis.drive_ready != seen.drive_ready {
+            if (axis.drive_ready, axis.brake) != (seen.drive_ready, seen.brake) {
                 state.log.news.set(number, true);
             }
             axis.sense(&seen);

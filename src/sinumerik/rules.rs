@@ -45,6 +45,9 @@ rules! {
     MeasuringSystem "REF-33" "measuring system selected";
     Parking "SYN-01" "both measuring systems off";
     FollowUpByParking "SYN-01" "follow-up of a parked axis";
+    BrakeOpens "K-20" "the holding brake is to open";
+    BrakeCloses "K-20" "the holding brake is to close";
+    BrakeReached "K-20" "the holding brake is open, or begins to close";
     ParameterSet "SIG-05" "parameter set selected by 9.0 to 9.2";
     ParameterSetRefused "25200" "9.0 to 9.2 select a parameter set that does not exist";
     ParameterSetJumps "26050" "the parameter set selected by 9.0 to 9.2 has another load gear: the actual value would jump";

@@ -345,11 +345,14 @@ fn the_pages_name_every_built_in_program() {
 /// The keys that the reader of `plant.toml` takes.
 #[test]
 fn the_pages_name_every_key_of_a_plant() {
-    let (source, text) = (read("src/plant/definition.rs"), read("docs/machine_folder.md"));
-    let source = source.split("#[cfg(test)]").next().unwrap();
+    let text = read("docs/machine_folder.md");
+    let sources = ["definition", "hold", "leadscrew"].map(|name| read(&format!("src/plant/{name}.rs")));
     let mut keys = vec!["encoder1", "encoder2"];
-    for before in [".take(\"", "required(&mut table, \""] {
-        keys.extend(source.split(before).skip(1).filter_map(|rest| rest.split('"').next()));
+    for source in &sources {
+        let source = source.split("#[cfg(test)]").next().unwrap();
+        for before in [".take(\"", "required(&mut table, \""] {
+            keys.extend(source.split(before).skip(1).filter_map(|rest| rest.split('"').next()));
+        }
     }
     assert!(keys.len() > 20, "{keys:?}");
     for key in keys {

@@ -119,6 +119,8 @@ signals! {
     bool, activate_program_test, set_activate_program_test: 14, 1;
     /// Ramp-function generator fast stop: 1 = speed setpoint 0 along the ramp of the drive.
     bool, ramp_function_generator_fast_stop, set_ramp_function_generator_fast_stop: 20, 1;
+    /// Open holding brake: 1 = the brake of the motor opens, also without power; the axis may fall.
+    bool, open_holding_brake, set_open_holding_brake: 20, 5;
     /// Motor and drive data set selection, binary.
     u8, drive_data_set_selection, set_drive_data_set_selection: 21, 4 to 0;
     /// Motor has been selected: 1 = yes.
@@ -310,6 +312,8 @@ signals! {
     bool, ramp_function_generator_disable_active, set_ramp_function_generator_disable_active: 92, 1;
     /// Drive-autonomous motion active: 1 = yes.
     bool, drive_autonomous_motion_active, set_drive_autonomous_motion_active: 92, 4;
+    /// Holding brake open: 1 = the brake of the motor is open; 0 = it holds, or the motor has none.
+    bool, holding_brake_open, set_holding_brake_open: 92, 5;
     /// Active motor and drive data set, binary.
     u8, active_drive_data_set, set_active_drive_data_set: 93, 4 to 0;
     /// Drive ready: 1 = the drive can be enabled.

@@ -15,9 +15,11 @@
 //! the state that determines 61.3, 61.5 to 61.7, 93.5, 93.7 and 102.5/.6.
 
 use crate::image::{AxisToNck, Signal, ToNck, axis_from_nck, axis_to_nck, nck_from_nck};
+use crate::motion::Brake;
 use crate::motion::Motion;
 use crate::sinumerik::alarms::{self, Reaction};
-use crate::sinumerik::axis::state::{Axis, ControllerState, STEP};
+use crate::sinumerik::axis::controllers::{ControllerState, STEP};
+use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::inputs::{axis_signal, nck_signal};
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::AxisParameters;
@@ -44,6 +46,9 @@ struct Conditions {
     /// The axis and cause of alarm 21612.
     culprit: (AxisNumber, i64),
 }
+
+/// The drive holds an axis at rest for at most this number of cycles until its brake holds.
+const HOLDING_CYCLES: u64 = 1_000;
 
 impl State {
     /// Selects measuring systems by 1.5 and 1.6. Parking applies to all axes of a unit.
@@ -168,6 +173,7 @@ impl State {
                 }
                 // The controller enable takes the pulses along.
                 self.disable_pulses(axis, &to_nck.axes[axis]);
+                self.command_brake(axis, &to_nck.axes[axis]);
             }
         }
     }
@@ -224,6 +230,34 @@ impl State {
         axis.causes.drive = self.log.note(Place::Axis(number), rule, inputs, axis.causes.drive);
     }
 
+    /// The drive opens the brake when its speed controller holds the axis, and closes it when the axis is switched off.
+    fn command_brake(&mut self, number: AxisNumber, signals: &AxisToNck) {
+        let axis = &mut self.axes[number];
+        if axis.brake == Brake::None {
+            return;
+        }
+        let holds = match axis.enabling.control {
+            ControllerState::Off | ControllerState::Holding(_) => false,
+            ControllerState::SwitchingOn(cycles) => cycles >= 2 * STEP,
+            ControllerState::On | ControllerState::Braking(_) => true,
+        };
+        let powered = axis.enabling.pulses_enabled();
+        let by_plc = signals.open_holding_brake();
+        let opens = powered && holds || by_plc;
+        if opens != axis.enabling.opens_brake {
+            axis.enabling.opens_brake = opens;
+            let inputs = [
+                axis_signal(number, axis_to_nck::open_holding_brake, by_plc),
+                axis_signal(number, axis_from_nck::pulses_enabled, powered),
+                axis_signal(number, axis_from_nck::position_controller_active, axis.enabling.controllers()[2]),
+            ];
+            let rule = if opens { Rule::BrakeOpens } else { Rule::BrakeCloses };
+            let parent = axis.causes.enabling;
+            let event = self.log.note(Place::Axis(number), rule, inputs, parent);
+            self.axes[number].causes.brake = event;
+        }
+    }
+
     fn conditions(&self, unit: &Unit, parameters: &Parameters, to_nck: &ToNck) -> Conditions {
         let mut conditions = Conditions {
             enable: true,
@@ -270,6 +304,8 @@ impl State {
         let before = self.axes[number].enabling;
         let wanted = conditions.enable && conditions.healthy && !conditions.alarm.is_some();
         let powered = self.axes[number].enabling.pulses_enabled();
+        let brake = self.axes[number].brake;
+        let brake_holds = matches!(brake, Brake::Closed | Brake::Moving);
         let off = || {
             if powered { ControllerState::Braking(disable_cycles) } else { ControllerState::Off }
         };
@@ -277,15 +313,26 @@ impl State {
             ControllerState::Off if wanted => ControllerState::SwitchingOn(0),
             ControllerState::Off => ControllerState::Off,
             ControllerState::SwitchingOn(_) if !wanted => ControllerState::Off,
-            ControllerState::SwitchingOn(cycles) if cycles + 1 >= 3 * STEP => ControllerState::On,
+            ControllerState::SwitchingOn(cycles) if cycles + 1 >= 3 * STEP && !brake_holds => ControllerState::On,
+            // Position control begins when the brake is open.
+            ControllerState::SwitchingOn(cycles) if cycles + 1 >= 3 * STEP => ControllerState::SwitchingOn(cycles),
             ControllerState::SwitchingOn(cycles) => ControllerState::SwitchingOn(cycles + 1),
             ControllerState::On if wanted => ControllerState::On,
             ControllerState::On => off(),
-            ControllerState::Braking(left) if left == 0 || conditions.standing || !powered => ControllerState::Off,
+            ControllerState::Braking(left) if left == 0 || conditions.standing || !powered => {
+                if powered && brake == Brake::Open {
+                    ControllerState::Holding(HOLDING_CYCLES)
+                } else {
+                    ControllerState::Off
+                }
+            }
+            ControllerState::Holding(left) if left == 0 || !powered || brake == Brake::Closed => ControllerState::Off,
+            ControllerState::Holding(left) => ControllerState::Holding(left - 1),
             ControllerState::Braking(left) => ControllerState::Braking(left - 1),
         };
         let parked = self.axes[number].measuring_system.is_none();
-        let off = matches!(control, ControllerState::Off | ControllerState::SwitchingOn(_));
+        let off =
+            matches!(control, ControllerState::Off | ControllerState::SwitchingOn(_) | ControllerState::Holding(_));
         let follow_up = off && (conditions.follow_up && !conditions.enable || conditions.alarm.is_some() || parked);
         // Follow-up lasts until position control is active, so that control starts at the actual value.
         let waits_for_pulses = off && conditions.enable && conditions.starting && !conditions.alarm.is_some();
@@ -295,7 +342,7 @@ impl State {
         let after = self.axes[number].enabling;
         if before.controllers() != after.controllers() || before.follow_up != after.follow_up {
             // Switching off continues even if its reason is gone.
-            let goes_off = matches!(before.control, ControllerState::Braking(_));
+            let goes_off = matches!(before.control, ControllerState::Braking(_) | ControllerState::Holding(_));
             let (rule, parent) = if wanted && goes_off {
                 (Rule::ControllerOff, self.axes[number].causes.enabling)
             } else if wanted {
@@ -355,8 +402,12 @@ impl Axis {
         match self.enabling.control {
             ControllerState::On => None,
             ControllerState::Braking(_) => Some(Motion::Brake { deceleration: emergency_deceleration }),
-            ControllerState::Off | ControllerState::SwitchingOn(_) if self.enabling.follow_up => Some(Motion::Track),
-            ControllerState::Off | ControllerState::SwitchingOn(_) => Some(Motion::Hold),
+            ControllerState::Off | ControllerState::SwitchingOn(_) | ControllerState::Holding(_)
+                if self.enabling.follow_up =>
+            {
+                Some(Motion::Track)
+            }
+            ControllerState::Off | ControllerState::SwitchingOn(_) | ControllerState::Holding(_) => Some(Motion::Hold),
         }
     }
 }

@@ -3,6 +3,7 @@
 //!
 //! `state.rs` contains the state; the other files are stages, in the order in which a cycle calls them.
 
+pub(super) mod controllers;
 pub(super) mod enabling;
 pub(super) mod limits;
 pub(super) mod parameter_sets;

@@ -16,6 +16,7 @@
 //! output (1.3, 20.1, an encoder fault), restarts its branch. MD32620 = 2 and 4 act with their speed part; MD32650 has no effect.
 
 use crate::motion::velocity_command;
+use crate::sinumerik::axis::controllers::ControllerState;
 use crate::sinumerik::axis::shaping::SetpointBranch;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::nck::Nck;
@@ -40,7 +41,9 @@ impl Nck {
         let branch = self.state.shaping[number].as_deref_mut().and_then(|shaping| shaping.branch.as_mut());
         let Some(active) = axis.measuring_system.filter(|_| axis.enabling.is_powered()).map(usize::from) else {
             axis.reset_branch(branch);
-            return None;
+            // The drive stands still with power until the brake holds.
+            let holds = matches!(axis.enabling.control, ControllerState::Holding(_)) && axis.enabling.pulses_enabled();
+            return holds.then_some(0.0);
         };
         let set = axis.active_set(parameters);
         let (shown, command) = match &set.misfit {

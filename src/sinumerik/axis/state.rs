@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::image::axis_to_nck;
-use crate::motion::{Feedback, Motion, Setpoint, coupling};
+use crate::motion::{Brake, Feedback, Motion, Setpoint, coupling};
+use crate::sinumerik::axis::controllers::{ControllerState, Enabling};
 use crate::sinumerik::axis::shaping::Shaping;
 use crate::sinumerik::axis::travel::Travel;
 use crate::sinumerik::compensation::state::Compensation;
@@ -27,6 +28,8 @@ pub(in crate::sinumerik) struct Causes {
     pub enabling: EventId,
     /// 61.3.
     pub follow_up: EventId,
+    /// 92.5.
+    pub brake: EventId,
     /// 102.5, 102.6.
     pub measuring_system: EventId,
     /// 60.4, 60.5.
@@ -94,6 +97,8 @@ pub(in crate::sinumerik) struct Axis {
     pub slide: Position,
     /// The drive has started up.
     pub drive_ready: bool,
+    /// The holding brake of its motor.
+    pub brake: Brake,
     /// Enabling of position control.
     pub enabling: Enabling,
     /// Reference point approach.
@@ -151,6 +156,7 @@ impl Default for Axis {
             half_count: Position::ZERO,
             slide: Position::ZERO,
             drive_ready: false,
+            brake: Brake::None,
             enabling: Enabling::default(),
             approach: Approach::default(),
             key_used: false,
@@ -177,6 +183,7 @@ impl Axis {
         (self.motion, self.enabling, self.travel) == (other.motion, other.enabling, other.travel)
             && (self.parameter_set, self.drive_data_set, self.measuring_system, self.drive_ready)
                 == (other.parameter_set, other.drive_data_set, other.measuring_system, other.drive_ready)
+            && self.brake == other.brake
             && (self.feed_factor, self.feed_override, self.override_is_active)
                 == (other.feed_factor, other.feed_override, other.override_is_active)
             && (self.feed_held, self.feed_disabled, self.feed_holder)
@@ -224,7 +231,7 @@ impl Axis {
     pub(in crate::sinumerik) fn sense(&mut self, feedback: &Feedback) {
         self.velocity = feedback.velocity;
         self.slide = feedback.slide;
-        self.drive_ready = feedback.drive_ready;
+        (self.drive_ready, self.brake) = (feedback.drive_ready, feedback.brake);
         if let Some(active) = self.measuring_system {
             let active = usize::from(active);
             let encoder = feedback.encoders[active];
@@ -363,70 +370,6 @@ pub(in crate::sinumerik) struct Way {
     rests: bool,
     /// Direction of its target or of its motion: +1, −1 or 0.
     ahead: i8,
-}
-
-/// Duration of each step of the enabling sequence in cycles, so that brake and timer logic sees a realistic order.
-pub(in crate::sinumerik) const STEP: u8 = 2;
-
-/// The state of position control.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) enum ControllerState {
-    /// No position control.
-    #[default]
-    Off,
-    /// The controllers switch on one after another; number of cycles so far.
-    SwitchingOn(u8),
-    /// In position control.
-    On,
-    /// Braking after the enable was removed; number of cycles until the axis is switched off in any case (MD36620).
-    Braking(u64),
-}
-
-/// The state of the enabling sequence.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(in crate::sinumerik) struct Enabling {
-    /// Position control.
-    pub control: ControllerState,
-    /// Cycles with drive ready and pulse enable, up to [`STEP`].
-    pub pulses: u8,
-    /// Not in position control, and the setpoint follows the actual value.
-    pub follow_up: bool,
-}
-
-impl Enabling {
-    /// 93.7.
-    #[must_use]
-    pub(in crate::sinumerik) const fn pulses_enabled(&self) -> bool {
-        self.pulses >= STEP
-    }
-
-    /// 61.7, 61.6 and 61.5: current, speed and position controller.
-    #[must_use]
-    pub(in crate::sinumerik) const fn controllers(&self) -> [bool; 3] {
-        match self.control {
-            ControllerState::Off => [false; 3],
-            ControllerState::SwitchingOn(cycles) => [cycles >= STEP, cycles >= 2 * STEP, false],
-            ControllerState::On | ControllerState::Braking(_) => [true; 3],
-        }
-    }
-
-    /// The drive acts on velocity commands.
-    #[must_use]
-    pub(in crate::sinumerik) const fn is_powered(&self) -> bool {
-        self.pulses_enabled() && self.moves()
-    }
-
-    /// In position control, also while braking before switching off.
-    #[must_use]
-    pub(in crate::sinumerik) const fn moves(&self) -> bool {
-        matches!(self.control, ControllerState::On | ControllerState::Braking(_))
-    }
-
-    /// Ready to be moved.
-    #[must_use]
-    pub(in crate::sinumerik) const fn is_on(&self) -> bool {
-        matches!(self.control, ControllerState::On)
-    }
 }
 
 /// The limit switches of an axis in the last cycle.

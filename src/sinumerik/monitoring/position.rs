@@ -13,7 +13,7 @@
 //! not compared. An axis whose setpoint is not output (1.3, 20.1) is not compared either.
 
 use crate::sinumerik::alarms;
-use crate::sinumerik::axis::state::ControllerState;
+use crate::sinumerik::axis::controllers::ControllerState;
 use crate::sinumerik::gantry::state::Phase;
 use crate::sinumerik::parameters::axis::AxisParameters;
 use crate::sinumerik::parameters::dynamics::StopLimit;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::sinumerik::axis::state::STEP;
+use crate::sinumerik::axis::controllers::STEP;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::referencing::state::ChannelReferencing;
 use crate::units::{AxisNumber, ModeGroupNumber};

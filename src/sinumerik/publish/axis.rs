@@ -1,6 +1,7 @@
 //! The signals of an axis: DB31 to DB61, with 101.x of gantry axes.
 
 use crate::image::axis_from_nck;
+use crate::motion::Brake;
 use crate::sinumerik::alarms::Reaction;
 use crate::sinumerik::axis::travel::command_signal;
 use crate::sinumerik::gantry::state::{Grouping, Monitored, Phase};
@@ -137,6 +138,9 @@ impl State {
         });
         rows.bit(axis_from_nck::ramp_function_generator_disable_active, axis.signals.fast_stop, || {
             Why::Event(axis.signals.fast_stop_cause)
+        });
+        rows.bit(axis_from_nck::holding_brake_open, axis.brake == Brake::Open, || {
+            Why::Tested(Rule::BrakeReached, [Input::None; 3], causes.brake)
         });
         rows.number(axis_from_nck::active_drive_data_set, axis.drive_data_set, || Why::Event(causes.drive_data_set));
         rows.bit(axis_from_nck::drive_ready, axis.drive_ready, drive);

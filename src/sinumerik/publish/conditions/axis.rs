@@ -3,7 +3,7 @@
 use crate::control::{Condition, Fact};
 use crate::image::{axis_from_nck, axis_to_nck, nck_from_nck};
 use crate::sinumerik::alarms::Reaction;
-use crate::sinumerik::axis::state::{ControllerState, STEP};
+use crate::sinumerik::axis::controllers::{ControllerState, STEP};
 use crate::sinumerik::parameters::dynamics::StopLimit;
 use crate::sinumerik::publish::conditions::look::{Look, Row, fact, length, yes};
 use crate::sinumerik::state::Unit;
@@ -44,6 +44,7 @@ pub(super) const ROWS: &[Row<AxisNumber>] = &[
         |look, axis| look.switched_off(axis, 0),
     ),
     Row::new(axis_from_nck::ramp_function_generator_disable_active, |look, owner| look.fast_stop(owner)),
+    Row::new(axis_from_nck::holding_brake_open, |look, axis| look.brake(axis)),
     Row::new(axis_from_nck::drive_ready, |look, owner| look.drive_ready(owner)),
     Row::with(
         axis_from_nck::pulses_enabled,
@@ -191,6 +192,14 @@ impl Look<'_> {
         ])
     }
 
+    /// The brake opens with pulses and speed controller, or by 20.5.
+    fn brake(self, axis: AxisNumber) -> Condition {
+        Condition::Any(vec![
+            self.axis(axis, axis_to_nck::open_holding_brake, true),
+            Condition::All(vec![self.pulses_enabled(axis), self.controllers(axis, 1)]),
+        ])
+    }
+
     fn pulses_enabled(self, axis: AxisNumber) -> Condition {
         self.pulses_fact(axis, true).after(|| self.pulse_conditions(axis))
     }
@@ -222,6 +231,7 @@ impl Look<'_> {
             }
             ControllerState::On => "on".to_owned(),
             ControllerState::Braking(_) => "brakes before it is switched off".to_owned(),
+            ControllerState::Holding(_) => "waits for its brake before it is switched off".to_owned(),
         };
         Fact::new(format!("{name} of {}", self.axis_name(number)), found, "on", on)
             .after(|| self.enables(&self.unit(number)))
