@@ -49,11 +49,26 @@ static CONTROLS: &[Entry] = &[Entry {
     read: |path| Ok(Box::new(Commissioning::load(&files_of(path)?)?)),
     examine: examine_archive,
     read_contents: |archives| Ok(Box::new(Commissioning::read(archives)?)),
-    built_in: &[BuiltIn {
-        name: "g1_example",
-        files: &[("g1_example.tea", include_bytes!("../../machine_data/g1_example/g1_example.tea"))],
-        plant: ("plant.toml", include_str!("../../machine_data/g1_example/plant.toml")),
-    }],
+    built_in: &[
+        BuiltIn {
+            name: "g1_example",
+            files: &[("g1_example.tea", include_bytes!("../../machine_data/g1_example/g1_example.tea"))],
+            plant: ("plant.toml", include_str!("../../machine_data/g1_example/plant.toml")),
+        },
+        BuiltIn {
+            name: "portal",
+            files: &[("portal.tea", include_bytes!("../../machine_data/portal/portal.tea"))],
+            plant: ("plant.toml", include_str!("../../machine_data/portal/plant.toml")),
+        },
+        BuiltIn {
+            name: "portal_two_channels",
+            files: &[(
+                "portal_two_channels.tea",
+                include_bytes!("../../machine_data/portal_two_channels/portal_two_channels.tea"),
+            )],
+            plant: ("plant.toml", include_str!("../../machine_data/portal_two_channels/plant.toml")),
+        },
+    ],
 }];
 
 /// The texts of all controls; the first is the default.

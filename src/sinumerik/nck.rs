@@ -353,6 +353,10 @@ impl Nck {
         if self.state.check_closings(&self.parameters) {
             self.resting.wake_all();
         }
+        self.state.exchange_axes(changes.axes, &self.parameters, to_nck);
+        if self.state.owners.take_changed() {
+            self.resting.wake_all();
+        }
         if self.resting.take_units_stale() {
             self.state.form_units(&self.parameters);
             self.state.report_declarations(&self.parameters);

@@ -127,6 +127,12 @@ impl Resting {
         self.heard.set(axis, true);
     }
 
+    /// Something other than the movement of these axes has changed.
+    pub(super) fn hear_all(&mut self, axes: AxisSet) {
+        self.awake = self.awake.with(axes);
+        self.heard = self.heard.with(axes);
+    }
+
     /// The axes that need decisions in this cycle.
     pub(super) const fn deciding(&self) -> AxisSet {
         self.deciding

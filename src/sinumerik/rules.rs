@@ -138,6 +138,21 @@ rules! {
     DrfMoves "MIS-02" "DRF: a handwheel moves the axis beside its program";
     DrfRests "MIS-02" "DRF: the offset does not change";
     DrfWhileReferencing "20053" "DRF: a handwheel is turned while the axis is referenced; its pulses are lost";
+    // Axis exchange.
+    ExchangeRequested "DBB8" "the PLC asks for an exchange of the axis";
+    ExchangeRefused "DBB8" "the exchange of the axis is refused";
+    ExchangeDone "DBB8" "the axis is already what is asked for";
+    ReleasedByProgram "RELEASE" "a program releases the axis";
+    TakenByProgram "GET" "a program takes the axis";
+    TakenByPlc "DBB8" "the PLC takes the axis";
+    GivenToChannel "DBB8" "the PLC gives the axis to a channel";
+    TakenByAction "command axis" "a synchronised action takes the axis";
+    ReturnedToChannel "MD30450" "a neutral axis returns to its channel";
+    NeutralAfterReset "MD30450" "the axis becomes neutral";
+    ExchangePossible "DBB68" "no block uses the axis";
+    ExchangeNotPossible "DBB68" "a block uses the axis";
+    WaitsForAxis "GET" "the program waits for an axis";
+    HasItsAxes "GET" "the program has its axes";
     // Jogging.
     TraversingKey "JOG" "key";
     KeyReleased "JOG" "no key";
@@ -220,6 +235,8 @@ rules! {
     Opened "BRK-01" "grouping opened";
     Closed "BRK-05" "grouping closed";
     ClosingRefused "BRK-05" "the grouping stays open: a movement of the axis is pending";
+    ClosingInOtherChannel "BRK-05" "the grouping stays open: the axis is in another channel than the leading axis";
+    ClosingInOtherState "BRK-05" "the grouping stays open: the axis is in another state than the leading axis";
     ConcurrentAxisIgnored "DEF-11" "ignored on a synchronous axis, the value of the leading axis applies";
     UnequalData "DYN-03" "differs from the value of the leading axis";
     Overloaded "DYN-02" "the leading axis demands more than the synchronous axis can do";

@@ -10,6 +10,7 @@ use crate::motion::{Feedback, Motion};
 use crate::sinumerik::alarms;
 use crate::sinumerik::axis::shaping::Shaping;
 use crate::sinumerik::axis::state::Axis;
+use crate::sinumerik::exchange::state::Owners;
 use crate::sinumerik::gantry::state::{Declared, Grouping, Phase};
 use crate::sinumerik::jog::state::{GroupFunction, HANDWHEELS, Handwheel};
 use crate::sinumerik::operation::state::{Channel, EmergencyStop, ModeGroup, RunUp};
@@ -34,14 +35,14 @@ pub(super) struct Unit {
 }
 
 impl Unit {
-    pub(super) fn single(axis: AxisNumber, parameters: &Parameters) -> Self {
-        let channel = parameters.axes[axis].channel;
+    pub(super) fn single(axis: AxisNumber, owners: &Owners, parameters: &Parameters) -> Self {
+        let channel = owners.of(axis).channel;
         let (set, mode_group) = (AxisSet::of(axis), parameters.mode_group(channel));
         Self { axes: [axis; 1 + SYNCHRONOUS_AXES], count: 1, set, grouping: None, channel, mode_group }
     }
 
-    pub(super) fn of(coupling: &GantryCoupling, index: usize, parameters: &Parameters) -> Self {
-        let mut unit = Self::single(coupling.leader(), parameters);
+    pub(super) fn of(coupling: &GantryCoupling, index: usize, owners: &Owners, parameters: &Parameters) -> Self {
+        let mut unit = Self::single(coupling.leader(), owners, parameters);
         for (place, axis) in unit.axes.iter_mut().zip(coupling.members()) {
             *place = axis;
         }
@@ -111,6 +112,8 @@ pub(super) struct State {
     pub plc_missing: bool,
     pub plc_cause: EventId,
     pub declared: Declared,
+    /// Who has each axis.
+    pub owners: Owners,
     /// The programs of the channels.
     pub programs: PerChannel<ChannelProgram>,
     /// They outlast power off.
@@ -149,6 +152,7 @@ impl State {
             plc_missing: false,
             plc_cause: EventId::NONE,
             declared: Declared::default(),
+            owners: Owners::new(parameters),
             programs: PerChannel::from_fn(|channel| ChannelProgram::new(parameters.programs[channel].as_deref())),
             r_parameters: parameters.r_parameters(),
             led: PerAxis::default(),
@@ -185,7 +189,7 @@ impl State {
         self.units.clear();
         let mut taken = AxisSet::NONE;
         for (index, grouping) in self.groupings.iter().enumerate() {
-            let unit = Unit::of(&grouping.coupling, index, parameters);
+            let unit = Unit::of(&grouping.coupling, index, &self.owners, parameters);
             if grouping.phase == Phase::Open && grouping.is_kept_open(parameters) {
                 continue;
             }
@@ -193,7 +197,7 @@ impl State {
             self.units.push(unit);
         }
         for (axis, _) in parameters.existing().filter(|(axis, _)| !taken.contains(*axis)) {
-            self.units.push(Unit::single(axis, parameters));
+            self.units.push(Unit::single(axis, &self.owners, parameters));
         }
     }
 

@@ -3,6 +3,8 @@
 use crate::control::{AlarmRow, Chart, ClearInfo, DatumRow, Kind, Texts};
 use crate::image::{Interface, SINUMERIK, Signal};
 use crate::sinumerik::alarms::{Alarm, Cancel, not_raised};
+use crate::sinumerik::exchange;
+use crate::sinumerik::exchange::state::Holder;
 use crate::sinumerik::gantry;
 use crate::sinumerik::machine_data::{Datum, Range, Scope, catalogue};
 use crate::sinumerik::modelled::is_modelled;
@@ -86,7 +88,8 @@ impl Texts for Words {
             Chart::of("gantry", "Gantry grouping", gantry::state::TRANSITIONS, gantry::state::Phase::text, tested);
         // An abort is not a row: it is possible in every phase.
         let approach = approach.with_step_from_anywhere(Rule::ApproachAborted, referencing::state::Phase::Idle);
-        vec![approach, grouping]
+        let exchange = Chart::of("exchange", "Axis exchange", exchange::state::TRANSITIONS, Holder::text, |_| None);
+        vec![approach, grouping, exchange]
     }
 }
 

@@ -246,8 +246,16 @@ signals! {
     bool, machine_frame_coupling_collision_protection_active, set_machine_frame_coupling_collision_protection_active: 66, 0;
     /// Invert handwheel direction of rotation active: 1 = yes.
     bool, invert_handwheel_direction_of_rotation_active, set_invert_handwheel_direction_of_rotation_active: 67, 0;
-    /// Axis/spindle replacement: status.
-    u8, axis_replacement_status, set_axis_replacement_status: 68, 7 to 0;
+    /// Axis/spindle replacement: number of the channel that has the axis, binary.
+    u8, axis_replacement_channel, set_axis_replacement_channel: 68, 3 to 0;
+    /// Axis/spindle replacement: 1 = the PLC has asked for an exchange that is not carried out yet.
+    bool, axis_replacement_requested, set_axis_replacement_requested: 68, 4;
+    /// Axis/spindle replacement: 1 = the axis can be exchanged now.
+    bool, axis_replacement_possible, set_axis_replacement_possible: 68, 5;
+    /// Axis/spindle replacement: 1 = neutral axis.
+    bool, neutral_axis, set_neutral_axis: 68, 6;
+    /// Axis/spindle replacement: 1 = PLC axis.
+    bool, plc_axis, set_plc_axis: 68, 7;
     /// Active controller parameter set, binary.
     u8, active_controller_parameter_set, set_active_controller_parameter_set: 69, 2 to 0;
     /// REPOS offset: 1 = an offset exists.

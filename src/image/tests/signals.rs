@@ -293,7 +293,11 @@ fn numbers_have_the_position_of_the_manuals_and_are_big_endian() {
     axis.set_positioning_axis_f_function(1.5);
     axis.set_spindle_m_function(0x1234);
     axis.set_spindle_s_function(-2.0);
-    axis.set_axis_replacement_status(0x68);
+    axis.set_axis_replacement_channel(8);
+    axis.set_axis_replacement_requested(false);
+    axis.set_axis_replacement_possible(true);
+    axis.set_neutral_axis(true);
+    axis.set_plc_axis(false);
     let bytes = axis.as_bytes();
     assert_eq!(bytes[78 - 60..82 - 60], [0x3F, 0xC0, 0, 0]);
     assert_eq!(bytes[86 - 60..92 - 60], [0x12, 0x34, 0xC0, 0, 0, 0]);

@@ -51,7 +51,7 @@ impl State {
         match alarm.number {
             // The others are raised by stages that jog the axis.
             alarms::ON_SOFTWARE_LIMIT | alarms::HANDWHEEL_ACTIVE | alarms::HANDWHEEL_NOT_POSSIBLE => {
-                let of = parameters.mode_group(parameters.axes[number].channel);
+                let of = parameters.mode_group(self.owners.of(number).channel);
                 let group = &self.mode_groups[of];
                 let inputs = [
                     mode_group_signal(of, mode_group_from_nck::active_mode_jog, group.mode == Mode::Jog),
@@ -68,7 +68,7 @@ impl State {
             }
             alarms::GANTRY_WAITING | alarms::GANTRY_SYNCHRONISING => {
                 let (step, reset) =
-                    (self.grouping_event(number), self.channels[parameters.axes[number].channel].reset_cause);
+                    (self.grouping_event(number), self.channels[self.owners.of(number).channel].reset_cause);
                 let ends = [step, reset].into_iter().find(|&event| self.log.is_of_this_cycle(event));
                 // Without either, the message is suppressed from now on.
                 let data = parameters.axes[number].gantry.function_mask;

@@ -1,12 +1,13 @@
 //! The row of an alarm in the tables.
 
+use crate::sinumerik::alarms::axis_exchange::AXIS_EXCHANGE;
 use crate::sinumerik::alarms::{Alarm, CATALOGUE, programs};
 use crate::variables::AlarmNumber;
 
 impl Alarm {
     /// All alarms that the model can raise; not in the order of their numbers.
     pub(in crate::sinumerik) fn raised() -> impl Iterator<Item = &'static Self> {
-        CATALOGUE.iter().chain(programs::PROGRAMS)
+        CATALOGUE.iter().chain(programs::PROGRAMS).chain(AXIS_EXCHANGE)
     }
 
     /// The row of this number.
@@ -15,6 +16,7 @@ impl Alarm {
         let in_table = |table: &'static [Self]| {
             table.binary_search_by_key(&number, |alarm| alarm.number).ok().map(|index| &table[index])
         };
-        in_table(CATALOGUE).or_else(|| in_table(programs::PROGRAMS)).or_else(|| programs::of_a_cycle(number))
+        let tables = [CATALOGUE, programs::PROGRAMS, AXIS_EXCHANGE];
+        tables.into_iter().find_map(in_table).or_else(|| programs::of_a_cycle(number))
     }
 }

@@ -4,6 +4,7 @@
 //! are published in the same cycle; its reactions act from the next cycle on. To add an alarm, add a row to [`alarms!`] and a call of
 //! [`Pending::raise`](pending::Pending::raise).
 
+pub(super) mod axis_exchange;
 mod ended;
 mod find;
 pub(super) mod not_raised;
@@ -138,7 +139,7 @@ pub struct Alarm {
 macro_rules! alarms {
     ($(#[$about:meta])* $catalogue:ident: $($(#[$doc:meta])* $constant:ident $number:literal
         [$($reaction:ident)*] $cancel:ident $text:literal;)*) => {
-        $($(#[$doc])* pub(super) const $constant: AlarmNumber = AlarmNumber($number);)*
+        $($(#[$doc])* pub(in crate::sinumerik) const $constant: AlarmNumber = AlarmNumber($number);)*
 
         alarms! { $(#[$about])* $catalogue; $($number [$($reaction)*] $cancel $text;)* }
     };
@@ -393,10 +394,14 @@ alarms! {
     /// More alarms are pending than the list takes; the further ones are not shown and have no effect (C-28). %1: the first of them.
     ALARM_LIST_FULL 1_000_002 [DISPLAY] CancelKey
         "the alarm list is full: alarm %1 and further ones are not shown";
+    /// A block moves an axis that its channel does not have, and MD30552 = 0 forbids the automatic GET. The manuals give no number (O-18).
+    AXIS_NOT_IN_CHANNEL 1_000_003 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart
+        "channel %1 block %2 axis %3 is not a channel axis, and MD30552 = 0 forbids the automatic GET";
 }
 
 /// The names of the alarms for which no source gives a number (O-18), in the order of our own numbers.
-const OWN_NAMES: &[&str] = &["gantry-mixed-axis-types", "gantry-unequal-data", "alarm-list-full"];
+const OWN_NAMES: &[&str] =
+    &["gantry-mixed-axis-types", "gantry-unequal-data", "alarm-list-full", "axis-not-a-channel-axis"];
 
 impl Alarm {
     /// The name of an alarm: its number, or our own name if no source gives a number.

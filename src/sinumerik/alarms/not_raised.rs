@@ -4,7 +4,7 @@
 //! | numbers | not modelled |
 //! |---|---|
 //! | 2001, 2900, 4002, 4004, 4005, 4011, 4040, 4060, 4075, 4111, 4112, 4113, 4200, 4210, 26014, 26015, 26017, 26024, 26025 | alarms of machine data: the model checks them before the control starts and reports them there |
-//! | 10620, 10630, 10631, 10721, 10723, 14790, 16xxx, 17630 to 17900, 20070, 20071, 26072, 26076 | limits in motion, actions of the operator, the PLC's positioning axes |
+//! | 10620, 10630, 10631, 10721, 10723, 16xxx, 17630 to 17900, 20070, 20071 | limits in motion, actions of the operator, the PLC's positioning axes |
 //! | 20007, 20008, 22062, 22064 | MD34200 = 6 and 7 |
 //! | 20052, 20060, 20062 | geometry axes |
 //! | 20054, 20056, 20058 | indexing axes and revolutional feed |
@@ -41,7 +41,6 @@ alarms! {
     10631 [DISPLAY] ByItself "channel %1 axis %2 rests on working area limit %3";
     10721 [LOCAL INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %3 axis %2 programmed end point is behind software limit switch %4";
     10723 [LOCAL INTERFACE_SIGNALS DISPLAY] Reset "channel %1 block %5 axis %2 software limit switch violated, residual distance %3 %4";
-    14790 [CORRECTION_BLOCK INTERFACE_SIGNALS DISPLAY] NcStart "channel %1 block %2 axis %3 currently controlled by the PLC";
     16772 [DISPLAY] ByItself "channel %1 block %2 axis %3 is a following axis, the coupling is opened";
     16904 [DISPLAY] CancelKey "channel %1 action %2 not allowed in the present state";
     16905 [DISPLAY] CancelKey "channel %1 action %2 not allowed";
@@ -81,8 +80,6 @@ alarms! {
     26017 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] ModeGroupReset "axis %1 machine datum %2[%3] value not allowed";
     26024 [DISPLAY] Reset "axis %1 machine datum %2 value was changed";
     26025 [DISPLAY] Reset "axis %1 machine datum %2[%3] value was changed";
-    26072 [INTERFACE_SIGNALS DISPLAY] CancelKey "channel %1 axis %2 cannot be controlled by the PLC";
-    26076 [INTERPRETER_STOP START_DISABLED INTERFACE_SIGNALS DISPLAY] Reset "channel %1 axis %2 not available for the NC program, permanently a PLC axis";
     26100 [NC_NOT_READY FOLLOW_UP MODE_GROUP_AND_AXES_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "axis %1 drive %2 sign of life missing";
     26101 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED REFERENCE_AGAIN INTERFACE_SIGNALS DISPLAY STOP] Reset "axis %1 drive %2 communication failure";
     26105 [MODE_GROUP_NOT_READY FOLLOW_UP CHANNEL_NOT_READY START_DISABLED INTERFACE_SIGNALS DISPLAY STOP] PowerOn "drive of axis %1 not found";

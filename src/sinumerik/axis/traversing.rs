@@ -56,7 +56,7 @@ impl State {
             return Some(Stop::Reset(self.channels[channel].reset_cause));
         }
         let stops = self.alarms.first_alarm(|place, alarm| {
-            alarm.reaction.has(Reaction::STOP) && parameters.concerns_channel(place, channel)
+            alarm.reaction.has(Reaction::STOP) && self.owners.concerns_channel(parameters, place, channel)
                 || alarm.reaction.has(Reaction::NC_NOT_READY)
         });
         let group = parameters.mode_group(channel);

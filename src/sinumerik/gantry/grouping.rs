@@ -171,7 +171,7 @@ impl State {
         parameters: &Parameters,
         question: impl FnOnce(&mut Grouping, &View<'_>, &mut Log, &mut Wants),
     ) {
-        let view = View { axes: &self.axes, parameters };
+        let view = View { axes: &self.axes, owners: &self.owners, parameters };
         let mut wants = Wants::new();
         question(&mut self.groupings[index], &view, &mut self.log, &mut wants);
         self.carry_out(&wants);

@@ -363,7 +363,8 @@ impl Grouping {
             | Phase::Open => return None,
         };
         let number = Parameter::Number(i64::from(self.number));
-        let shown = [Parameter::Channel(axis.channel), number, Parameter::None, Parameter::None];
+        let channel = Parameter::Channel(view.owners.of(leader).channel);
+        let shown = [channel, number, Parameter::None, Parameter::None];
         Some(Want::Raise { alarm, place: Place::Axis(leader), shown, cause: self.cause })
     }
 }

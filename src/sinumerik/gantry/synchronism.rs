@@ -112,7 +112,7 @@ impl Grouping {
         }
         for found in self.monitored() {
             let place = Place::Axis(found.axis);
-            let channel = Parameter::Channel(view.parameters.axes[found.axis].channel);
+            let channel = Parameter::Channel(view.owners.of(found.axis).channel);
             let shown = [channel, Parameter::Axis(found.axis), Parameter::None, Parameter::None];
             let raise = |alarm, cause| Want::Raise { alarm, place, shown, cause };
             wants.extend(found.warning.then(|| raise(alarms::GANTRY_WARNING_LIMIT, found.causes.warning)));

@@ -8,6 +8,7 @@ use arrayvec::ArrayVec;
 use crate::motion::Motion;
 use crate::sinumerik::axis::state::Axis;
 use crate::sinumerik::axis::travel::Travel;
+use crate::sinumerik::exchange::state::Owners;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::Kind;
 use crate::sinumerik::parameters::groupings::SYNCHRONOUS_AXES;
@@ -18,6 +19,7 @@ use crate::variables::{AlarmNumber, EventId, Input, Parameter, Place};
 #[derive(Clone, Copy)]
 pub(in crate::sinumerik) struct View<'a> {
     pub axes: &'a PerAxis<Axis>,
+    pub owners: &'a Owners,
     pub parameters: &'a Parameters,
 }
 

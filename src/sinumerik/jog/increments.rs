@@ -50,7 +50,7 @@ impl State {
         resting: &Resting,
     ) {
         for number in resting.deciding().iter() {
-            let group = parameters.mode_group(parameters.axes[number].channel);
+            let group = parameters.mode_group(self.owners.of(number).channel);
             if !self.mode_groups[group].is_jogging() {
                 self.axes[number].jogging.shown = 0;
                 continue;

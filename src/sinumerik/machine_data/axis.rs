@@ -27,10 +27,15 @@ Axis {
     30350 SIMU_AX_VDI_OUTPUT simu_ax_vdi_output: bool = false; "", Range::ANY, PowerOn;
     /// concurrent positioning axis; ignored with alarm 4300 on a synchronous axis
     30450 IS_CONCURRENT_POS_AX is_concurrent_pos_ax: bool = false; "", Range::ANY, Reset;
+    /// bit 4: only the PLC moves the axis; bit 5: permanent PLC axis; bit 6: feed disable (6.0) does not act on a PLC axis; bit 7: 36.3
+    /// "all axes stationary" leaves a PLC axis out
+    30460 BASE_FUNCTION_MASK base_function_mask: u32 = 0; "", Range::ANY, PowerOn;
     /// indexing axis with a Hirth gear; not in a gantry grouping (10651, 14000), otherwise not modelled
     30505 HIRTH_IS_ACTIVE hirth_is_active: bool = false; "", Range::ANY, PowerOn;
     /// channel that owns the axis initially; must match within a grouping (10651, 30XX)
     30550 AXCONF_ASSIGN_MASTER_CHAN axconf_assign_master_chan: u8 = 0; "", Range::between(0.0, 10.0), PowerOn;
+    /// a program names a neutral axis: 0 alarm, 1 it takes the axis like GET, 2 like GETD
+    30552 AUTO_GET_TYPE auto_get_type: u8 = 1; "", Range::between(0.0, 2.0), PowerOn;
     /// the encoder is a linear scale
     31000 ENC_IS_LINEAR enc_is_linear: [bool; 2] = [false; 2]; "", Range::ANY, PowerOn;
     /// grating period of a linear scale

@@ -33,6 +33,9 @@ General {
     10708 SERUPRO_MASK serupro_mask: u32 = 0; "", Range::ANY, PowerOn;
     /// mode of each mode group after power on: 0, 1 AUTOMATIC; 2 to 5 MDI; 6, 7 JOG; machine functions are selected by their signals (O-19)
     10720 OPERATING_MODE_DEFAULT operating_mode_default: [i32; 10] = [6; 10]; "", Range::between(0.0, 7.0), PowerOn;
+    /// axis exchange; bit 0: another channel takes an axis automatically also after WAITP; bit 3: the PLC requests only exclusive or permanent
+    /// PLC axes
+    10722 AXCHANGE_MASK axchange_mask: u32 = 0; "", Range::ANY, PowerOn;
     /// settings of JOG
     10735 JOG_MODE_MASK jog_mode_mask: u32 = 0; "", Range::ANY, Reset;
     /// incremental JOG and reference point approach: 1 while the key is held, 0 from a press of the key on

@@ -8,6 +8,7 @@
 use crate::image::{ToNck, channel_to_nck, mode_group_to_nck};
 use crate::nc_program::Library;
 use crate::sinumerik::alarms::{Alarm, Cancel, Reaction};
+use crate::sinumerik::exchange::state::Owners;
 use crate::sinumerik::inputs::{channel_signal, mode_group_signal};
 use crate::sinumerik::machine_data::Effect;
 use crate::sinumerik::nck::Nck;
@@ -35,7 +36,7 @@ impl Nck {
         for group in parameters.existing_mode_groups() {
             let mut channels = parameters.existing_channels().filter(|(_, of)| *of == group);
             if channels.all(|(channel, _)| state.channels[channel].reset) {
-                let concerns = |place| parameters.concerns_mode_group(place, group);
+                let concerns = |place| state.owners.concerns_mode_group(parameters, place, group);
                 state.alarms.cancel(Cancel::ModeGroupReset, last, concerns);
             }
         }
@@ -69,10 +70,14 @@ impl State {
         let event = self.log.note_one(place, Rule::ResetDone, input, EventId::NONE);
         self.channels[channel].reset_cause = event;
         self.reset_program(channel, event);
-        self.alarms.cancel(Cancel::Reset, event, |place| parameters.concerns_channel(place, channel));
+        let concerns = |place| self.owners.concerns_channel(parameters, place, channel);
+        self.alarms.cancel(Cancel::Reset, event, concerns);
+        if self.programs[channel].run.is_none() {
+            self.return_axes(channel, event, parameters);
+        }
         for index in 0..self.groupings.len() {
             let leader = self.groupings[index].coupling.leader();
-            if parameters.axes[leader].channel == channel {
+            if self.owners.of(leader).channel == channel {
                 self.reset_grouping(index, event);
             }
         }
@@ -110,7 +115,8 @@ impl State {
         cause: EventId,
         parameters: &Parameters,
     ) {
-        let concerns = |place| channel.is_none_or(|channel| parameters.concerns_channel(place, channel));
+        let of_channel = |place, channel| self.owners.concerns_channel(parameters, place, channel);
+        let concerns = |place| channel.is_none_or(|channel| of_channel(place, channel));
         if self.alarms.cancels(by, concerns) {
             let shown = channel.unwrap_or(ChannelNumber::FIRST);
             let event = self.log.note_one(Place::Channel(shown), Rule::AlarmCancelled, pressed, cause);
@@ -125,7 +131,7 @@ impl State {
         group: ModeGroupNumber,
         parameters: &Parameters,
     ) -> Option<(AlarmNumber, EventId)> {
-        self.alarms.first_alarm(|place, alarm| takes_ready(group, parameters, place, alarm))
+        self.alarms.first_alarm(|place, alarm| takes_ready(group, (parameters, &self.owners), place, alarm))
     }
 
     /// Whether the axes that need their reference point for NC start are referenced: those with MD34110 above −1, unless MD20700
@@ -138,11 +144,11 @@ impl State {
 /// Whether an alarm at this place resets "mode group ready" of a group.
 pub(in crate::sinumerik) fn takes_ready(
     group: ModeGroupNumber,
-    parameters: &Parameters,
+    (parameters, owners): (&Parameters, &Owners),
     place: Place,
     alarm: &Alarm,
 ) -> bool {
     let only_channel = parameters.only_channel_not_ready && alarm.reaction.has(Reaction::CHANNEL_NOT_READY);
     let not_ready = alarm.reaction.has(Reaction::MODE_GROUP_NOT_READY) && !only_channel;
-    not_ready && parameters.concerns_mode_group(place, group)
+    not_ready && owners.concerns_mode_group(parameters, place, group)
 }

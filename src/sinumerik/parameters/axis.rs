@@ -122,6 +122,36 @@ pub struct Gantry {
     pub function_mask: u32,
 }
 
+/// MD30460: what the PLC may do with an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlcAxis {
+    /// Bit 4: only the PLC moves it.
+    pub exclusive: bool,
+    /// Bit 5: it is always a PLC axis.
+    pub permanent: bool,
+    /// Bit 6: feed disable 6.0 does not act while it is a PLC axis.
+    pub ignores_feed_disable: bool,
+    /// Bit 7: 36.3 leaves it out while it is a PLC axis.
+    pub ignored_by_stationary: bool,
+}
+
+impl PlcAxis {
+    const fn new(mask: u32) -> Self {
+        Self {
+            exclusive: mask >> 4 & 1 == 1,
+            permanent: mask >> 5 & 1 == 1,
+            ignores_feed_disable: mask >> 6 & 1 == 1,
+            ignored_by_stationary: mask >> 7 & 1 == 1,
+        }
+    }
+
+    /// Whether programs never get it.
+    #[must_use]
+    pub const fn is_reserved(self) -> bool {
+        self.exclusive || self.permanent
+    }
+}
+
 /// One axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AxisParameters {
@@ -131,7 +161,7 @@ pub struct AxisParameters {
     pub silent: bool,
     /// MD30300.
     pub rotary: bool,
-    /// The channel it belongs to.
+    /// The channel it belongs to after power on.
     pub channel: ChannelNumber,
     /// MD30200.
     pub encoders: u8,
@@ -147,6 +177,10 @@ pub struct AxisParameters {
     pub gantry_follower: bool,
     /// MD32060.
     pub positioning_velocity: f64,
+    /// MD30460.
+    pub plc_axis: PlcAxis,
+    /// MD30552.
+    pub automatic_get: u8,
     /// MD32310[0]: the factor of the acceleration at a corner of the path.
     pub overload: f64,
     /// SD43430 and SD43420 while SD43410 and SD43400 enable them.
@@ -228,6 +262,8 @@ pub(super) fn axis(
         jog_acceleration,
         gantry_follower: md.gantry_axis_type > 10,
         positioning_velocity: velocity(md.pos_ax_velo).min(maximum_velocity),
+        plc_axis: PlcAxis::new(md.base_function_mask),
+        automatic_get: md.auto_get_type,
         overload: md.max_accel_ovl_factor[0].max(1.0),
         working_area: {
             let settings = &data.axis_settings[number];

@@ -12,8 +12,10 @@ use crate::units::{AxisSet, ModeGroupNumber, PerAxis, PerChannel};
 pub struct ChannelParameters {
     /// MD10010; `None`: the channel does not exist.
     pub mode_group: Option<ModeGroupNumber>,
-    /// Its axes.
+    /// Its axes after power on.
     pub axes: AxisSet,
+    /// The axes that can come into it (MD20070).
+    pub known: AxisSet,
     /// The axes that need their reference point for NC start: MD34110 above −1, unless MD20700 is 0.
     pub reference_needed: AxisSet,
     /// MD20700.
@@ -34,6 +36,13 @@ pub(in crate::sinumerik) fn channels(
             mode_group: data.mode_group(channel),
             start_locked: locked,
             axes: own().map(|(number, _)| number).collect(),
+            known: axes
+                .iter()
+                .filter(|(number, axis)| {
+                    axis.exists && (axis.channel == channel || data.channel_knows(channel, *number))
+                })
+                .map(|(number, _)| number)
+                .collect(),
             reference_needed: needed.map(|(number, _)| number).collect(),
         }
     })

@@ -26,7 +26,7 @@ use crate::sinumerik::parameters::overrides::{effective, factor, is_zero_setting
 use crate::sinumerik::parameters::programs::{PathOverrides, ProgramParameters, programs};
 use crate::sinumerik::parameters::sag::{SagTables, sag_tables};
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup, Time};
-use crate::variables::{Place, RParameters};
+use crate::variables::RParameters;
 
 /// All active parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,6 +65,10 @@ pub struct Parameters {
     pub command_only_in_motion: bool,
     /// MD11450 bit 0: after a search, 10208 waits for DB21.DBX1.6.
     pub search_waits_for_plc: bool,
+    /// MD10722 bit 0: another channel takes an axis automatically also after WAITP.
+    pub exchange_after_wait: bool,
+    /// MD10722 bit 3: the PLC requests only exclusive and permanent PLC axes.
+    pub only_reserved_plc_axes: bool,
     /// The channels that exist, with their mode groups.
     pub(super) channel_list: ArrayVec<(ChannelNumber, ModeGroupNumber), { ChannelNumber::MAX as usize }>,
     /// The mode groups that have channels.
@@ -122,6 +126,8 @@ impl Parameters {
             axis_override_is_gray: data.general.ovr_ax_is_gray_code,
             axis_override_factors: data.general.ovr_factor_ax_speed,
             binary_override_limit: data.general.ovr_factor_limit_bin,
+            exchange_after_wait: data.general.axchange_mask & 1 == 1,
+            only_reserved_plc_axes: data.general.axchange_mask >> 3 & 1 == 1,
             command_only_in_motion: data.general.vdi_function_mask & 1 == 1,
             search_waits_for_plc: data.general.search_run_mode & 1 == 1,
             existing: axes.iter().filter(|(_, axis)| axis.exists).map(|(number, _)| number).collect(),
@@ -217,27 +223,5 @@ impl Parameters {
     #[must_use]
     pub fn mode_group(&self, channel: ChannelNumber) -> ModeGroupNumber {
         self.channels[channel].mode_group.unwrap_or(ModeGroupNumber::FIRST)
-    }
-
-    /// Whether an event at a place concerns a channel.
-    #[must_use]
-    pub fn concerns_channel(&self, place: Place, channel: ChannelNumber) -> bool {
-        match place {
-            Place::Nck => true,
-            Place::ModeGroup(group) => self.mode_group(channel) == group,
-            Place::Channel(other) => other == channel,
-            Place::Axis(axis) => self.axes[axis].channel == channel,
-        }
-    }
-
-    /// Whether an event at a place concerns a mode group.
-    #[must_use]
-    pub fn concerns_mode_group(&self, place: Place, group: ModeGroupNumber) -> bool {
-        match place {
-            Place::Nck => true,
-            Place::ModeGroup(other) => other == group,
-            Place::Channel(channel) => self.mode_group(channel) == group,
-            Place::Axis(axis) => self.mode_group(self.axes[axis].channel) == group,
-        }
     }
 }

@@ -100,7 +100,8 @@ pub(in crate::sinumerik) struct ProgramAxes {
     pub names: Arc<AxisNames>,
     /// The machine axis of each name.
     pub machine_axes: Arc<[AxisNumber]>,
-    /// The machine axes of the path: geometry axes first. A synchronous axis of a grouping is not among them.
+    /// The machine axes that can be on the path: geometry axes first. A synchronous axis of a grouping is not among them. Another channel or
+    /// the PLC may have one of them.
     pub path: ArrayVec<AxisNumber, PATH_AXES>,
     /// The places of geometry axes 1 to 3 in the path.
     pub geometry: [Option<usize>; 3],
@@ -280,8 +281,8 @@ fn program_axes(
     channel: ChannelNumber,
     axes: &PerAxis<AxisParameters>,
 ) -> ProgramAxes {
-    let machine_axis =
-        |number: u8| AxisNumber::new(number).filter(|axis| axes[*axis].exists && axes[*axis].channel == channel);
+    let known = |axis: AxisNumber| axes[axis].channel == channel || data.channel_knows(channel, axis);
+    let machine_axis = |number: u8| AxisNumber::new(number).filter(|axis| axes[*axis].exists && known(*axis));
     let channel_axis = |index: usize| md.axconf_machax_used.get(index).copied().and_then(machine_axis);
     let geometry = md.axconf_geoax_assign_tab.map(|number| channel_axis(usize::from(number).checked_sub(1)?));
     let mut rows: Vec<(String, AxisNumber)> = Vec::new();

@@ -8,7 +8,7 @@ use crate::sinumerik::program::path::Stage;
 use crate::sinumerik::program::state::{Criterion, Phase, ProgrammedStop, Run, block_name};
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
-use crate::units::AxisSet;
+use crate::units::{AxisNumber, AxisSet};
 use crate::variables::{Input, Place};
 
 impl State {
@@ -29,6 +29,10 @@ impl State {
         if waited && !run.positionings.is_empty() || !self.references_are_done(run) {
             return false;
         }
+        if self.waits_for_axes(run, stage) {
+            return false;
+        }
+        let Some(block) = run.queue.front() else { return true };
         if block.way.is_none() || run.on_path == 0 {
             return true;
         }
@@ -46,7 +50,8 @@ impl State {
     /// Whether the axes of the path are within their exact stop windows.
     fn is_in_position(&self, criterion: Criterion, run: &Run, stage: &Stage<'_>) -> bool {
         let positioned = |axis| run.positionings.iter().any(|positioning| positioning.axis == axis);
-        stage.own.axes.path.iter().filter(|axis| !positioned(**axis)).all(|&number| {
+        let own = |axis: &AxisNumber| self.owners.is_program_axis(*axis, stage.channel) && !positioned(*axis);
+        stage.own.axes.path.iter().filter(|axis| own(axis)).all(|&number| {
             let axis = &self.axes[number];
             let set = axis.active_set(&stage.parameters.axes[number]);
             let window = if criterion == Criterion::Coarse { set.exact_stop_coarse } else { set.exact_stop_fine };
@@ -60,6 +65,7 @@ impl State {
         let place = Place::Channel(channel);
         let Some(block) = run.take_executed() else { return Progress::Waits };
         run.phase = Phase::Between;
+        self.release_axes(&block, (channel, stage.own), run.block_cause, stage.parameters);
         // The path stands: what it would have passed into begins again when nothing holds it.
         run.path.clear();
         run.on_path = 0;

@@ -11,9 +11,11 @@ use crate::nc_program::{
     AxisNames, Dialect, Environment, Library, Program, Refusal, Request, SINUMERIK, SystemVariable, Value,
 };
 use crate::sinumerik::axis::state::Axis;
+use crate::sinumerik::exchange::state::Owners;
 use crate::sinumerik::machine_data::{
     Element, MachineData, Scope, TableRefusal, TableValue, TableVariable, Target, by_identifier,
 };
+use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::state::{ChannelProgram, Run};
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, Position};
@@ -24,6 +26,8 @@ pub(in crate::sinumerik) struct Channel<'a> {
     pub channel: ChannelNumber,
     pub parameters: &'a ProgramParameters,
     pub axes: &'a PerAxis<Axis>,
+    pub owners: &'a Owners,
+    pub all: &'a Parameters,
     pub r_parameters: &'a mut RParameters,
     pub library: &'a Library,
     pub stored: &'a MachineData,
@@ -209,6 +213,12 @@ impl Environment for Channel<'_> {
                 let axis = axis()?;
                 let place = self.parameters.axes.place(axis).ok_or(Refusal::Axis)?;
                 Ok(Value::Real(self.end[place] / Position::PER_USER_UNIT))
+            }
+            "$AA_TYP" => Ok(Value::Int(self.owners.axis_type(axis()?, self.channel))),
+            "$AA_AXCHANGE_TYP" => {
+                let axis = axis()?;
+                let data = self.all.axes[axis].plc_axis;
+                Ok(Value::Int(self.owners.exchange_type((axis, data), self.channel, false)))
             }
             "$AA_REF" => Ok(Value::Int(i32::from(self.axes[axis()?].is_referenced()))),
             "$P_UIFR" => {

@@ -67,6 +67,8 @@ impl Nck {
                 new_conf |= std::mem::take(&mut run.new_conf);
                 if stays {
                     state.programs[channel].run = Some(run);
+                } else {
+                    state.return_axes(channel, state.programs[channel].cause, parameters);
                 }
             }
             // The PLC sees change bits of 0 between two packages.
@@ -75,6 +77,7 @@ impl Nck {
                 state.programs[channel].output.cause = event;
             }
         }
+        self.resting.hear_all(state.exchanged_axes(parameters));
         for (target, value) in written {
             // The environment has checked it.
             let _ = self.store(&target, &value);
@@ -178,11 +181,11 @@ impl State {
     }
 
     /// Whether something holds the change to the next block: read-in disable, single block, NC stop at the block limit.
-    fn holds_block_change(run: &Run, stage: &Stage<'_>) -> bool {
+    fn holds_block_change(&self, run: &Run, stage: &Stage<'_>) -> bool {
         let signals = &stage.to_nck.channels[stage.channel];
         let single =
             signals.activate_single_block() && !run.queue.front().is_some_and(|one| one.origin.is_single_block_off);
-        signals.read_in_disable() || signals.nc_stop_at_block_limit() || single
+        signals.read_in_disable() || signals.nc_stop_at_block_limit() || single || self.is_axis_wanted(stage.channel)
     }
 
     /// Stops the path at the end of its block while something holds the change to the next one.
@@ -190,7 +193,7 @@ impl State {
         if run.path.is_empty() {
             return;
         }
-        if Self::holds_block_change(run, stage) {
+        if self.holds_block_change(run, stage) {
             run.path.stop_at_block_end(stage.parameters.cycle.seconds());
         } else {
             run.path.pass_block_end();
@@ -200,7 +203,7 @@ impl State {
     /// Gives the path the blocks into which it can pass without a stop.
     fn lengthen_path(&mut self, run: &mut Run, stage: &Stage<'_>) {
         let moves = run.phase == Phase::Moving && run.on_path > 0 && run.returning.is_none();
-        if !moves || Self::holds_block_change(run, stage) || run.deleting || run.change.is_some() {
+        if !moves || self.holds_block_change(run, stage) || run.deleting || run.change.is_some() {
             return;
         }
         let cycle = stage.parameters.cycle.seconds();
@@ -306,6 +309,8 @@ impl State {
             parameters: stage.parameters,
             own: stage.own,
             axes: &self.axes,
+            owners: &self.owners,
+            channel: stage.channel,
             to_nck: stage.to_nck,
             open: self.open_groupings(stage.parameters),
             at_stop: at_stop(stage),
@@ -315,6 +320,8 @@ impl State {
             channel: stage.channel,
             parameters: stage.own,
             axes: &self.axes,
+            owners: &self.owners,
+            all: stage.parameters,
             r_parameters: &mut self.r_parameters,
             library: sources.library,
             stored: sources.stored,
@@ -335,7 +342,14 @@ impl State {
     }
 
     fn take_next_block(&mut self, run: &mut Run, stage: &Stage<'_>, sources: &mut Sources<'_>) -> Progress {
+        if self.is_axis_wanted(stage.channel) {
+            // Between two blocks the PLC, or GETD of another channel, gets it in the next cycle.
+            return Progress::Waits;
+        }
         self.prepare(run, stage, sources);
+        if self.waits_for_claim(run, stage) {
+            return Progress::Waits;
+        }
         if run.queue.is_empty() {
             return match &run.preparation {
                 Preparation::Reads | Preparation::Waits => Progress::Waits,

@@ -61,7 +61,7 @@ impl State {
         let path = run.returning.as_ref().unwrap_or(&run.path);
         let direction = path.direction();
         for (place, &axis) in stage.own.axes.path.iter().enumerate() {
-            if direction[place].abs() < 1e-12 {
+            if direction[place].abs() < 1e-12 || !self.owners.is_program_axis(axis, stage.channel) {
                 continue;
             }
             let Some(unit) = self.unit_of(axis) else { continue };
@@ -144,14 +144,15 @@ impl State {
         stage.own.axes.path.iter().enumerate().any(|(place, &axis)| {
             let is_positioned = run.positionings.iter().any(|positioning| positioning.axis == axis);
             let away = (self.axes[axis].setpoint.position.increments() as f64 - position[place]).abs();
-            !is_positioned && away > ON_PATH
+            !is_positioned && away > ON_PATH && self.owners.is_program_axis(axis, stage.channel)
         })
     }
 
     /// A straight line from where the axes stand to the path; `None` while one of them still moves.
     fn way_back(&self, run: &Run, stage: &Stage<'_>) -> Option<Path> {
         let axes = &stage.own.axes;
-        if !axes.path.iter().all(|axis| self.axes[*axis].setpoint.is_at_rest()) {
+        let mut own = axes.path.iter().filter(|axis| self.owners.is_program_axis(**axis, stage.channel));
+        if !own.all(|axis| self.axes[*axis].setpoint.is_at_rest()) {
             return None;
         }
         let from = on_path(&axes.path, |axis| self.axes[axis].setpoint.position);
@@ -171,7 +172,10 @@ impl State {
     fn lead(&mut self, run: &Run, (before, now): (PerPathAxis, PerPathAxis), stage: &Stage<'_>) {
         let cycle = stage.parameters.cycle.seconds();
         for (place, &axis) in stage.own.axes.path.iter().enumerate() {
-            if run.positionings.iter().any(|positioning| positioning.axis == axis) || run.referencing.contains(axis) {
+            let other = run.positionings.iter().any(|positioning| positioning.axis == axis)
+                || run.referencing.contains(axis)
+                || !self.owners.is_program_axis(axis, stage.channel);
+            if other {
                 continue;
             }
             let setpoint = &self.axes[axis].setpoint;
@@ -188,7 +192,10 @@ impl State {
 
     fn show_travels(&mut self, run: &Run, direction: &PerPathAxis, moves: bool, held: Held, stage: &Stage<'_>) {
         for (place, &axis) in stage.own.axes.path.iter().enumerate() {
-            if run.positionings.iter().any(|positioning| positioning.axis == axis) || run.referencing.contains(axis) {
+            let other = run.positionings.iter().any(|positioning| positioning.axis == axis)
+                || run.referencing.contains(axis)
+                || !self.owners.is_program_axis(axis, stage.channel);
+            if other {
                 continue;
             }
             let sign = if direction[place] > 1e-12 {
@@ -209,7 +216,8 @@ impl State {
 
     fn end_travels(&mut self, run: &Run, held: Held, stage: &Stage<'_>, only: Option<AxisNumber>) {
         for &axis in &stage.own.axes.path {
-            if only.is_none_or(|only| only == axis) && !run.referencing.contains(axis) {
+            let own = self.owners.is_program_axis(axis, stage.channel) && !run.referencing.contains(axis);
+            if own && only.is_none_or(|only| only == axis) {
                 self.show_travel(axis, Travel::None, held, run, stage);
             }
         }
@@ -291,7 +299,8 @@ impl State {
     /// Whether all axes of a program have come to rest.
     pub(in crate::sinumerik) fn program_rests(&self, run: &Run, stage: &Stage<'_>) -> bool {
         let path = run.returning.as_ref().unwrap_or(&run.path);
-        path.velocity() <= 0.0 && stage.own.axes.path.iter().all(|axis| self.axes[*axis].setpoint.is_at_rest())
+        let mut own = stage.own.axes.path.iter().filter(|axis| self.owners.is_program_axis(**axis, stage.channel));
+        path.velocity() <= 0.0 && own.all(|axis| self.axes[*axis].setpoint.is_at_rest())
     }
 
     /// A unit that a program leads in this cycle takes its movement over. Returns whether one does.
@@ -322,7 +331,8 @@ impl State {
                 let active = |axis: &AxisNumber| {
                     runs && !run.path.is_empty() || moves(axis) || run.positionings.iter().any(|one| one.axis == *axis)
                 };
-                axes = axes.with(own.axes.path.iter().copied().filter(active).collect());
+                let mine = |axis: &AxisNumber| self.owners.is_program_axis(*axis, channel);
+                axes = axes.with(own.axes.path.iter().copied().filter(mine).filter(active).collect());
                 axes = axes.with(run.referencing);
             }
         }

@@ -7,6 +7,8 @@ use crate::nc_program::{Action, AxisIndex, AxisWord, Block, Prepared, ProgramAla
 use crate::sinumerik::alarms::programs as alarms;
 use crate::sinumerik::axis::limits::selected_limit;
 use crate::sinumerik::axis::state::Axis;
+use crate::sinumerik::exchange::programs::{Availability, availability, exchanges};
+use crate::sinumerik::exchange::state::Owners;
 use crate::sinumerik::machine_data::Target;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
@@ -16,7 +18,7 @@ use crate::sinumerik::program::positioning::Positioning;
 use crate::sinumerik::program::state::{
     Behind, BlockAlarm, Criterion, Executable, Preparation, ProgrammedStop, ReadBlock, Run, block_name, on_path,
 };
-use crate::units::{AxisNumber, AxisSet, PerAxis, Position, Time};
+use crate::units::{AxisNumber, AxisSet, ChannelNumber, PerAxis, Position, Time};
 use crate::variables::{AlarmNumber, Parameter, short_text};
 
 /// The blocks that are prepared ahead.
@@ -35,6 +37,8 @@ pub(in crate::sinumerik) struct Preparing<'a> {
     pub parameters: &'a Parameters,
     pub own: &'a ProgramParameters,
     pub axes: &'a PerAxis<Axis>,
+    pub owners: &'a Owners,
+    pub channel: ChannelNumber,
     pub to_nck: &'a ToNck,
     /// The axes of open gantry groupings.
     pub open: AxisSet,
@@ -52,6 +56,14 @@ impl Run {
             if matches!(self.preparation, Preparation::Failed { .. }) {
                 return;
             }
+            if self.is_executed() && !self.search.as_ref().is_some_and(|search| search.calculates()) {
+                // Something else may have moved the axes.
+                self.end = on_path(&preparing.own.axes.path, |axis| preparing.axes[axis].setpoint.position);
+            }
+            self.holds_preparation &= !self.is_executed();
+            if self.holds_preparation {
+                return;
+            }
             if let Some(read) = self.again.pop_front() {
                 self.take_block(read, preparing, channel);
                 continue;
@@ -65,10 +77,6 @@ impl Run {
                     channel.skips = self.skips;
                 }
                 Preparation::Waits | Preparation::Ended | Preparation::Failed { .. } => return,
-            }
-            if self.is_executed() && !self.search.as_ref().is_some_and(|search| search.calculates()) {
-                // Something else may have moved the axes.
-                self.end = on_path(&preparing.own.axes.path, |axis| preparing.axes[axis].setpoint.position);
             }
             channel.take_run(self);
             let written = channel.written.len() + channel.tables.len();
@@ -121,8 +129,13 @@ impl Run {
 
     /// The blocks behind the first one are prepared again, from where its axes are now.
     pub(in crate::sinumerik) fn reorganise(&mut self, position: PerPathAxis) {
+        self.reorganise_behind(1, position);
+    }
+
+    /// The blocks behind these are prepared again, from these positions.
+    pub(in crate::sinumerik) fn reorganise_behind(&mut self, count: usize, position: PerPathAxis) {
         self.read_again();
-        while self.queue.len() > 1 {
+        while self.queue.len() > count {
             if let Some(block) = self.queue.pop_back().and_then(|one| one.block) {
                 self.again.push_front(block);
             }
@@ -131,6 +144,25 @@ impl Run {
     }
 
     fn take_block(&mut self, mut read: Box<ReadBlock>, preparing: &Preparing<'_>, channel: &mut Channel<'_>) {
+        // A search only calculates: it takes no axes.
+        let calculates = self.search.as_ref().is_some_and(|search| search.calculates());
+        let available =
+            availability(&read.block, preparing.channel, preparing.own, preparing.owners, preparing.parameters);
+        match available {
+            Availability::Claims(claim) if !calculates => {
+                // Once everything before it has been executed, the channel gets them.
+                self.again.push_front(read);
+                (self.claim, self.pauses) = (Some(claim), true);
+                return;
+            }
+            Availability::Refused(alarm) if !calculates => {
+                self.preparation = Preparation::Failed { alarm, block: Some(read) };
+                return;
+            }
+            Availability::All | Availability::Claims(_) | Availability::Refused(_) => {}
+        }
+        // Blocks behind it may find other axes, or find them elsewhere.
+        self.holds_preparation = exchanges(&read.block) && !calculates;
         let mut end = self.end;
         match preparing.executable(&read.block, self, &mut end, channel) {
             Ok(executable) => {
@@ -343,7 +375,7 @@ impl Preparing<'_> {
                     run.pauses = true;
                 }
                 Action::Position { .. } => {}
-                Action::WaitForPosition(names) => {
+                Action::WaitForPosition(names) | Action::Release(names) | Action::Get { axes: names, .. } => {
                     for name in names {
                         self.path_axis(block, *name)?;
                     }
@@ -354,8 +386,6 @@ impl Preparing<'_> {
                 }
                 Action::Acceleration(..)
                 | Action::Override(_)
-                | Action::Release(_)
-                | Action::Get { .. }
                 | Action::SetMarks(_)
                 | Action::ClearMarks(_)
                 | Action::WaitMark { .. }

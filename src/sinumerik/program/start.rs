@@ -47,7 +47,7 @@ impl State {
             return;
         }
         let hindering = self.alarms.first_alarm(|of, alarm| {
-            alarm.reaction.has(Reaction::START_DISABLED) && parameters.concerns_channel(of, channel)
+            alarm.reaction.has(Reaction::START_DISABLED) && self.owners.concerns_channel(parameters, of, channel)
         });
         if let Some((number, _)) = hindering {
             let inputs = [pressed, Input::Alarm(number.0), Input::None];
@@ -159,6 +159,8 @@ impl State {
             cycle_alarm: None,
             pauses: false,
             again: VecDeque::new(),
+            claim: None,
+            holds_preparation: false,
             referencing: AxisSet::NONE,
             referencing_started: AxisSet::NONE,
             behind,

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::control::SearchKind;
 use crate::motion::path::{PATH_AXES, Path, PathBlock, PathLimits, PerPathAxis};
 use crate::nc_program::{Action, Block, End, Interpreter, Modal, Origin, ProgramAlarm};
+use crate::sinumerik::exchange::state::Claim;
 use crate::sinumerik::parameters::programs::{OutputTime, ProgramParameters};
 use crate::sinumerik::program::auxiliary::{Output, Package};
 use crate::sinumerik::program::positioning::Positioning;
@@ -336,6 +337,10 @@ pub(in crate::sinumerik) struct Run {
     pub pauses: bool,
     /// Blocks that are prepared again, before any other.
     pub again: VecDeque<Box<ReadBlock>>,
+    /// The axes that the next block needs and its channel does not have.
+    pub claim: Option<Claim>,
+    /// Nothing is prepared until everything has been executed: the axes may be others then.
+    pub holds_preparation: bool,
     /// The axes of G74 in the block that runs, and those whose approach has begun.
     pub referencing: AxisSet,
     pub referencing_started: AxisSet,

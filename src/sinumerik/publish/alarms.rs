@@ -5,7 +5,8 @@ use crate::sinumerik::nck::Nck;
 use crate::sinumerik::publish::rows::Why;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::State;
-use crate::variables::{AlarmNumber, EventId, Input, Place};
+use crate::units::AxisNumber;
+use crate::variables::{AlarmNumber, EventId, Input, Place, RaisedAlarm};
 
 impl Nck {
     /// The event behind a pending alarm.
@@ -27,14 +28,22 @@ impl State {
     /// cycle.
     pub(super) fn why_alarm(&self, meant: impl Fn(Place, &Alarm) -> bool) -> Why {
         let Some((number, cause)) = self.alarms.first_alarm(&meant) else {
-            return Why::Event(
-                self.alarms.last_end(|ended| Alarm::find(ended.number).is_some_and(|alarm| meant(ended.place, alarm))),
-            );
+            let of_kind =
+                |ended: &RaisedAlarm| Alarm::find(ended.number).is_some_and(|alarm| meant(ended.place, alarm));
+            let end = self.alarms.last_end(of_kind);
+            // An axis may have gone to another channel, with its alarms.
+            return Why::Event(if end.is_some() { end } else { self.exchange_of_this_cycle() });
         };
         if self.log.is_of_this_cycle(cause) {
             return Why::Event(cause);
         }
         Why::Tested(Rule::AlarmPending, [Input::Alarm(number.0), Input::None, Input::None], cause)
+    }
+
+    /// The event with which an axis got another channel or holder in this cycle.
+    pub(super) fn exchange_of_this_cycle(&self) -> EventId {
+        let causes = AxisNumber::all().map(|axis| self.owners.of(axis).cause);
+        causes.filter(|cause| self.log.is_of_this_cycle(*cause)).max().unwrap_or(EventId::NONE)
     }
 
     /// The first of these events that is of this cycle: each would have caused the change.

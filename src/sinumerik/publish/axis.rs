@@ -64,16 +64,10 @@ impl State {
 
     /// DB31 to DB61 of one axis, except the signals that a movement alone can change, and 101.x.
     #[inline]
-    pub(super) fn show_axis(
-        &self,
-        number: AxisNumber,
-        parameters: &AxisParameters,
-        all: &Parameters,
-        rows: &mut impl Rows,
-    ) {
+    pub(super) fn show_axis(&self, number: AxisNumber, all: &Parameters, rows: &mut impl Rows) {
         let axis = &self.axes[number];
         let causes = &axis.causes;
-        let mode = || self.mode_groups[all.mode_group(parameters.channel)].cause();
+        let mode = || self.mode_groups[all.mode_group(self.owners.of(number).channel)].cause();
         let [first, second] = &axis.monitor.encoders;
         rows.bit(axis_from_nck::encoder_limit_frequency_exceeded_1, first.frequency_exceeded, || {
             Why::Event(first.frequency_cause)
@@ -133,6 +127,14 @@ impl State {
             || Why::Event(jogging.function_cause.max(mode())),
         );
         rows.bit(axis_from_nck::invert_handwheel_direction_of_rotation_active, jogging.inverted, handwheel);
+        let (status, exchange) = (self.exchange_status(number), || Why::Event(self.owners.of(number).cause));
+        rows.number(axis_from_nck::axis_replacement_channel, status.channel, exchange);
+        rows.bit(axis_from_nck::axis_replacement_requested, status.requested, exchange);
+        rows.bit(axis_from_nck::axis_replacement_possible, status.possible, || {
+            Why::Event(self.owners.of(number).possible_cause)
+        });
+        rows.bit(axis_from_nck::neutral_axis, status.neutral, exchange);
+        rows.bit(axis_from_nck::plc_axis, status.plc, exchange);
         rows.number(axis_from_nck::active_controller_parameter_set, axis.parameter_set, || {
             Why::Event(causes.parameter_set)
         });

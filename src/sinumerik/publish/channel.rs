@@ -17,20 +17,20 @@ use crate::variables::{EventId, Input, Place};
 impl State {
     /// "At least one axis is being traversed in JOG", or is being referenced; also while feed stop, an override of 0 % or a missing enable
     /// holds the movement, in the complete section 3 of a grouping while 10655 is pending (O-31), and while 33.0 = 1.
-    pub(super) fn is_channel_active(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
-        let moves = !self.summary.in_motion.and(parameters.channels[channel].axes).is_empty();
+    pub(super) fn is_channel_active(&self, channel: ChannelNumber) -> bool {
+        let moves = !self.summary.in_motion.and(self.owners.of_channel(channel)).is_empty();
         moves || self.channels[channel].is_referencing()
     }
 
     /// No program runs or is stopped, and no axis moves.
-    pub(super) fn is_channel_reset(&self, channel: ChannelNumber, parameters: &Parameters) -> bool {
+    pub(super) fn is_channel_reset(&self, channel: ChannelNumber) -> bool {
         let aborted = self.programs[channel].state == ProgramState::Aborted;
-        aborted && !self.is_channel_active(channel, parameters)
+        aborted && !self.is_channel_active(channel)
     }
 
     /// DB21 to DB30 of one channel.
     pub(super) fn show_channel(&self, channel: ChannelNumber, parameters: &Parameters, rows: &mut impl Rows) {
-        let active = self.is_channel_active(channel, parameters);
+        let active = self.is_channel_active(channel);
         let motion = || self.activity(|of| of == channel, active, parameters);
         rows.bit(channel_from_nck::referencing_active, self.channels[channel].is_referencing(), || {
             Why::Event(self.channels[channel].referencing.cause)
@@ -70,13 +70,13 @@ impl State {
         rows.bit(channel_from_nck::all_axes_requiring_reference_point_are_referenced, referenced, || {
             self.why_referenced(channel, referenced, parameters)
         });
-        let standing = self.summary.standing.has_all_of(parameters.channels[channel].axes);
+        let standing = self.summary.standing.has_all_of(self.stationary_axes(channel, parameters));
         rows.bit(channel_from_nck::all_axes_stationary, standing, || {
             self.why_stationary(channel, standing, parameters)
         });
         let of_channel = |reaction: Reaction| {
             move |place: Place, alarm: &Alarm| {
-                alarm.reaction.has(reaction) && parameters.concerns_channel(place, channel)
+                alarm.reaction.has(reaction) && self.owners.concerns_channel(parameters, place, channel)
             }
         };
         let pending = |reaction| self.alarms.first(of_channel(reaction)).is_some();
@@ -100,7 +100,7 @@ impl State {
         let (now, before) = (self.summary.in_motion, self.summary.before.in_motion);
         let changed = if active { now.without(before) } else { before.without(now) };
         // An axis with a command first, then the first of axes that change together.
-        let is_meant = |axis: &AxisNumber| channels(parameters.axes[*axis].channel);
+        let is_meant = |axis: &AxisNumber| channels(self.owners.of(*axis).channel);
         let commanded = |axis: &AxisNumber| active && self.axes[*axis].travel.is_pending();
         let changed: AxisSet = changed.iter().filter(is_meant).collect();
         let Some(number) = changed.iter().find(commanded).or_else(|| changed.iter().next()) else {
@@ -143,8 +143,9 @@ impl State {
     fn why_stationary(&self, channel: ChannelNumber, standing: bool, parameters: &Parameters) -> Why {
         let (now, before) = (self.summary.standing, self.summary.before.standing);
         let changed = if standing { now.without(before) } else { before.without(now) };
-        let Some(number) = changed.and(parameters.channels[channel].axes).iter().next() else {
-            return Why::Event(EventId::NONE);
+        let Some(number) = changed.and(self.stationary_axes(channel, parameters)).iter().next() else {
+            // An axis that moves or stands has come or gone.
+            return Why::Event(self.exchange_of_this_cycle());
         };
         let rule = if standing { Rule::AllStationary } else { Rule::NotAllStationary };
         let input = if parameters.axes[number].silent {

@@ -60,11 +60,11 @@ impl State {
         let not_ready = self.mode_group_alarm(number, parameters);
         let ready = self.run_up.is_nc_ready() && not_ready.is_none();
         rows.bit(mode_group_from_nck::mode_group_ready, ready, || {
-            let alarm = || self.why_alarm(|place, alarm| takes_ready(number, parameters, place, alarm));
+            let alarm = || self.why_alarm(|place, alarm| takes_ready(number, (parameters, &self.owners), place, alarm));
             self.why_ready(ready, alarm)
         });
         let mut channels = parameters.existing_channels().filter(|(_, group)| *group == number);
-        let reset = channels.all(|(channel, _)| self.is_channel_reset(channel, parameters));
+        let reset = channels.all(|(channel, _)| self.is_channel_reset(channel));
         rows.bit(mode_group_from_nck::all_channels_in_reset_state, reset, || {
             let mut own = parameters.existing_channels().filter(|(_, group)| *group == number);
             let by_program = own.find_map(|(channel, _)| self.of_this_cycle([self.programs[channel].cause]));

@@ -63,7 +63,7 @@ fn collect() -> Vec<Bits> {
     for (axis, _) in pair {
         of(Block::Axis, &|rows| {
             let own = &parameters.axes[axis];
-            state.show_axis(axis, own, &parameters, rows);
+            state.show_axis(axis, &parameters, rows);
             state.show_movement(axis, own, &parameters, rows);
             state.show_gantry_axis(axis, rows);
         });

@@ -66,7 +66,7 @@ impl Nck {
                 let bytes = from_nck.axes[number].as_mut_bytes();
                 let mut rows = Written::new(bytes, AxisFromNck::FIRST);
                 if decided.contains(number) {
-                    state.show_axis(number, axis, parameters, &mut rows);
+                    state.show_axis(number, parameters, &mut rows);
                 }
                 state.show_movement(number, axis, parameters, &mut rows);
             }
@@ -103,7 +103,7 @@ impl Nck {
             // What a silent axis had shown went with power off.
             Place::Axis(axis) if parameters.axes[axis].silent => {}
             Place::Axis(axis) => {
-                state.show_axis(axis, &parameters.axes[axis], parameters, &mut asked);
+                state.show_axis(axis, parameters, &mut asked);
                 state.show_movement(axis, &parameters.axes[axis], parameters, &mut asked);
                 state.show_gantry_axis(axis, &mut asked);
             }

@@ -57,7 +57,7 @@ impl State {
                 && let Some((direction, event)) = self.approach_wanted(unit, parameters, to_nck)
             {
                 self.axes[number].approach_key = self.key_of_approach(unit, direction);
-                let keeps = View { axes: &self.axes, parameters }.keeps_reference(number);
+                let keeps = View { axes: &self.axes, owners: &self.owners, parameters }.keeps_reference(number);
                 self.start_approach(number, f64::from(direction), keeps, event);
                 self.reference_single(unit, parameters, to_nck);
             }

@@ -6,6 +6,7 @@
 mod auxiliary;
 mod control;
 mod errors;
+mod exchange;
 mod motion;
 mod random;
 mod values;

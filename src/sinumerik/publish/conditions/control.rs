@@ -185,7 +185,7 @@ impl Look<'_> {
                 self.parameters.only_channel_not_ready && alarm.reaction.has(Reaction::CHANNEL_NOT_READY);
             alarm.reaction.has(Reaction::MODE_GROUP_NOT_READY)
                 && !only_channel
-                && self.parameters.concerns_mode_group(place, group)
+                && self.state.owners.concerns_mode_group(self.parameters, place, group)
         })
     }
 
@@ -203,7 +203,7 @@ impl Look<'_> {
     }
 
     pub(super) fn at_rest(self, channel: ChannelNumber) -> Condition {
-        let axes = self.parameters.channels[channel].axes;
+        let axes = self.state.owners.of_channel(channel);
         let moving = self.state.summary.in_motion.and(axes);
         let found = if moving.is_empty() {
             "none".to_owned()
@@ -227,7 +227,7 @@ impl Look<'_> {
     }
 
     fn all_stand(self, channel: ChannelNumber) -> Condition {
-        let axes = self.parameters.channels[channel].axes;
+        let axes = self.state.stationary_axes(channel, self.parameters);
         let standing = self.state.summary.standing;
         let what = format!("axes of {} that are not stationary", self.channel_name(channel));
         let holds = standing.has_all_of(axes);
@@ -239,7 +239,7 @@ impl Look<'_> {
 
     fn no_channel_alarm(self, channel: ChannelNumber, words: &str, reaction: Reaction) -> Condition {
         self.no_alarm(format!("alarm of {} with {words}", self.channel_name(channel)), |place, alarm| {
-            alarm.reaction.has(reaction) && self.parameters.concerns_channel(place, channel)
+            alarm.reaction.has(reaction) && self.state.owners.concerns_channel(self.parameters, place, channel)
         })
     }
 

@@ -179,7 +179,7 @@ impl Look<'_> {
     }
 
     fn function_of_axis(self, number: AxisNumber, bit: usize) -> Condition {
-        let group = self.parameters.mode_group(self.parameters.axes[number].channel);
+        let group = self.parameters.mode_group(self.state.owners.of(number).channel);
         let central = |wanted| self.nck(nck_to_nck::increment_inputs_active_in_mode_group_area, wanted);
         let own = Self::requested(bit, |signal, value| self.axis(number, signal, value), Function::of_axis);
         let of_group = self.mode_group(group, OF_GROUP[bit], true);

@@ -120,7 +120,10 @@ impl<'a> Look<'a> {
     /// The unit of an axis.
     pub(super) fn unit(self, axis: AxisNumber) -> Unit {
         let mut units = self.state.units.iter();
-        units.find(|unit| unit.set.contains(axis)).copied().unwrap_or_else(|| Unit::single(axis, self.parameters))
+        units
+            .find(|unit| unit.set.contains(axis))
+            .copied()
+            .unwrap_or_else(|| Unit::single(axis, &self.state.owners, self.parameters))
     }
 
     /// The grouping of a gantry axis.

@@ -8,6 +8,7 @@
 //! | file | signals |
 //! |---|---|
 //! | `axis.rs` | enabling, measuring systems, exact stop, standstill |
+//! | `exchange.rs` | 68.4 to 68.7 |
 //! | `referencing.rs` | 60.4, 60.5, 33.0 |
 //! | `gantry.rs` | 101.x |
 //! | `motion.rs` | 64.4 to 64.7, and what stops and holds movements |
@@ -19,6 +20,7 @@
 
 mod axis;
 mod control;
+mod exchange;
 mod gantry;
 mod jog;
 mod look;
@@ -52,7 +54,7 @@ impl Nck {
                 row.or_else(|| look.auxiliary(channel, question))
             }
             Place::Axis(axis) => {
-                let found = [axis::ROWS, referencing::ROWS, gantry::ROWS, motion::ROWS, jog::ROWS];
+                let found = [axis::ROWS, exchange::ROWS, referencing::ROWS, gantry::ROWS, motion::ROWS, jog::ROWS];
                 found.iter().find_map(|rows| look.find(rows, axis, question))
             }
         }
@@ -79,7 +81,7 @@ mod tests {
             Block::Channel if signal.byte >= 58 => true,
             Block::Channel => is_in(control::CHANNEL, signal) || is_in(program::CHANNEL, signal),
             _ => {
-                let all = [axis::ROWS, referencing::ROWS, gantry::ROWS, motion::ROWS, jog::ROWS];
+                let all = [axis::ROWS, exchange::ROWS, referencing::ROWS, gantry::ROWS, motion::ROWS, jog::ROWS];
                 all.iter().any(|rows| is_in(rows, signal))
             }
         };

@@ -249,7 +249,7 @@ impl Look<'_> {
     pub(super) fn not_stopped(self, channel: ChannelNumber) -> Condition {
         let group = self.parameters.mode_group(channel);
         let stops = self.no_alarm(format!("alarm that stops {}", self.channel_name(channel)), |place, alarm| {
-            alarm.reaction.has(Reaction::STOP) && self.parameters.concerns_channel(place, channel)
+            alarm.reaction.has(Reaction::STOP) && self.state.owners.concerns_channel(self.parameters, place, channel)
                 || alarm.reaction.has(Reaction::NC_NOT_READY)
         });
         Condition::All(vec![

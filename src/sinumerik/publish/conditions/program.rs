@@ -115,7 +115,8 @@ impl Look<'_> {
             asks(channel_to_nck::nc_stop_axes_plus_spindles, false),
             asks(channel_from_nck::all_axes_requiring_reference_point_are_referenced, true),
             self.no_alarm(format!("alarm that disables NC start of {}", self.channel_name(channel)), |place, alarm| {
-                alarm.reaction.has(Reaction::START_DISABLED) && self.parameters.concerns_channel(place, channel)
+                alarm.reaction.has(Reaction::START_DISABLED)
+                    && self.state.owners.concerns_channel(self.parameters, place, channel)
             }),
             self.not_stopped(channel),
             Fact::new("selected program", selected.0, "one", selected.1).into(),

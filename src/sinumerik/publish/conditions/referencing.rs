@@ -263,7 +263,7 @@ impl Look<'_> {
 
     /// The axes of a channel that channel-specific referencing does not leave out.
     fn ordered(self, channel: ChannelNumber) -> impl Iterator<Item = AxisNumber> {
-        let axes = self.parameters.channels[channel].axes;
+        let axes = self.state.owners.of_channel(channel);
         axes.iter().filter(move |&axis| self.state.has_approach(&self.unit(axis), self.parameters))
     }
 
