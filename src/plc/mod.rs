@@ -30,6 +30,7 @@ mod io;
 mod process;
 mod programs;
 mod registry;
+mod spin_ctrl;
 pub mod step7;
 #[cfg(test)]
 mod tests;
@@ -39,10 +40,11 @@ pub use closure::{ClosureProgram, program, program_for, program_with_fault};
 pub use io::PlcIo;
 pub use process::PlcProcess;
 pub use programs::{
-    LimitEdgeMarker, MACHINE_CONTROL_PANEL_LAYOUT, MachineControlPanel, ToolChange, enable_all, gantry_start,
-    limit_edge_marker, machine_control_panel, shared_reference_cam, tool_change,
+    LimitEdgeMarker, MACHINE_CONTROL_PANEL_LAYOUT, MachineControlPanel, PositionAxis, ToolChange, enable_all,
+    gantry_start, limit_edge_marker, machine_control_panel, position_axis, shared_reference_cam, tool_change,
 };
 pub use registry::Programs;
+pub use spin_ctrl::{SpinCtrl, SpinCtrlInputs, SpinCtrlOutputs};
 
 use crate::image::AsBytes;
 use crate::source::Problem;

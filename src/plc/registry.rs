@@ -9,7 +9,8 @@ use crate::units::Time;
 
 use super::process::PlcProcess;
 use super::{
-    PlcProgram, enable_all, gantry_start, limit_edge_marker, machine_control_panel, shared_reference_cam, tool_change,
+    PlcProgram, enable_all, gantry_start, limit_edge_marker, machine_control_panel, position_axis,
+    shared_reference_cam, tool_change,
 };
 
 type Constructor = Arc<dyn Fn(&Names) -> Result<Box<dyn PlcProgram>, Problem> + Send + Sync>;
@@ -31,7 +32,7 @@ impl Default for Programs {
 }
 
 impl Programs {
-    /// The built-in programs: `enable_all`, `gantry_start`, `limit_edge_marker`, `machine_control_panel`, `shared_reference_cam`,
+    /// The built-in programs: `enable_all`, `gantry_start`, `limit_edge_marker`, `machine_control_panel`, `position_axis`, `shared_reference_cam`,
     /// `tool_change`.
     #[must_use]
     pub fn ready() -> Self {
@@ -40,6 +41,7 @@ impl Programs {
             .with("gantry_start", |_| Ok(gantry_start().boxed()))
             .with("limit_edge_marker", |_| Ok(limit_edge_marker().boxed()))
             .with("machine_control_panel", |_| Ok(machine_control_panel().boxed()))
+            .with("position_axis", |_| Ok(position_axis().boxed()))
             .with("shared_reference_cam", |_| Ok(shared_reference_cam().boxed()))
             .with("tool_change", |_| Ok(tool_change().boxed()))
     }

@@ -36,6 +36,7 @@ mod referencing;
 mod resting;
 mod rules;
 mod shown;
+mod single_axis;
 mod state;
 mod strobe;
 mod texts;

@@ -350,13 +350,7 @@ impl Nck {
         self.select_program_tests(to_nck);
         self.start_searches(to_nck);
         self.reset_and_cancel(to_nck, cancel_key);
-        if self.state.check_closings(&self.parameters) {
-            self.resting.wake_all();
-        }
-        self.state.exchange_axes(changes.axes, &self.parameters, to_nck);
-        if self.state.owners.take_changed() {
-            self.resting.wake_all();
-        }
+        self.exchange_axes(changes.axes, to_nck);
         if self.resting.take_units_stale() {
             self.state.form_units(&self.parameters);
             self.state.report_declarations(&self.parameters);
@@ -371,6 +365,7 @@ impl Nck {
         state.enable(parameters, to_nck, resting);
         state.select_functions(parameters, to_nck, resting);
         self.run_programs(to_nck, changes.scanned);
+        self.position_single_axes(changes.axes, to_nck);
         let (parameters, state, resting) = (&*self.parameters, &mut *self.state, &*self.resting);
         let mut next = 0;
         while let Some(index) = state.next_awake(next, resting) {

@@ -149,10 +149,27 @@ rules! {
     TakenByAction "command axis" "a synchronised action takes the axis";
     ReturnedToChannel "MD30450" "a neutral axis returns to its channel";
     NeutralAfterReset "MD30450" "the axis becomes neutral";
-    ExchangePossible "DBB68" "no block uses the axis";
-    ExchangeNotPossible "DBB68" "a block uses the axis";
+    ExchangePossible "DBB68" "nothing uses the axis";
+    ExchangeNotPossible "DBB68" "a block uses the axis, or it is positioned alone";
     WaitsForAxis "GET" "the program waits for an axis";
     HasItsAxes "GET" "the program has its axes";
+    // Axes that are positioned alone.
+    OrderStarted "FC18" "the PLC starts a positioning axis";
+    OrderRefused "FC18" "the positioning axis cannot be started";
+    OrderMoves "FC18" "moves to the target";
+    OrderReached "FC18" "in position, with exact stop fine";
+    OrderEnds "FC18" "the axis has come to rest";
+    OrderWithdrawn "FC18" "Start is 0";
+    OrderDropped "FC18" "the rest of the way is dropped";
+    NoSpindle "FC18" "a function for spindles, and the axis is no spindle";
+    PlcControls "28.7" "the PLC controls the axis";
+    PlcStops "28.6" "the PLC stops the axis along its braking ramp";
+    PlcResumes "28.2" "the PLC lets the axis go on";
+    PlcResets "28.1" "reset of the axis by the PLC";
+    PlcControlsNoMore "28.7" "the channel controls the axis again";
+    ControlNotGivenBack "28.7" "the PLC keeps the axis while it has an alarm";
+    Positioning "76.5" "the axis is positioned";
+    PositioningEnds "76.5" "the axis is no longer positioned";
     // Jogging.
     TraversingKey "JOG" "key";
     KeyReleased "JOG" "no key";

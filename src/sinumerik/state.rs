@@ -19,6 +19,7 @@ use crate::sinumerik::parameters::groupings::{GROUPINGS, GantryCoupling, SYNCHRO
 use crate::sinumerik::program::state::{ChannelProgram, Led};
 use crate::sinumerik::referencing::state::{Buffered, EncoderDatum};
 use crate::sinumerik::rules::Rule;
+use crate::sinumerik::single_axis::state::SingleAxes;
 use crate::units::{AxisNumber, AxisSet, ChannelNumber, ModeGroupNumber, PerAxis, PerChannel, PerModeGroup};
 use crate::variables::{EventId, Place, RParameters};
 
@@ -114,6 +115,8 @@ pub(super) struct State {
     pub declared: Declared,
     /// Who has each axis.
     pub owners: Owners,
+    /// The axes that the PLC or synchronised actions position.
+    pub single: SingleAxes,
     /// The programs of the channels.
     pub programs: PerChannel<ChannelProgram>,
     /// They outlast power off.
@@ -153,6 +156,7 @@ impl State {
             plc_cause: EventId::NONE,
             declared: Declared::default(),
             owners: Owners::new(parameters),
+            single: SingleAxes::default(),
             programs: PerChannel::from_fn(|channel| ChannelProgram::new(parameters.programs[channel].as_deref())),
             r_parameters: parameters.r_parameters(),
             led: PerAxis::default(),

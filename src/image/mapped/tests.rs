@@ -76,7 +76,7 @@ fn sections_have_one_writer_and_step_7_addresses() {
     let (_nc, plc) = both(&file, &Memory::new());
     let of = |db| plc.sections().iter().filter(move |s| s.area == Area::DataBlock(db)).collect::<Vec<&Section>>();
     let spans: Vec<_> = of(31).iter().map(|s| (s.first, s.length, s.writer, s.name.as_str())).collect();
-    // In DB31, bytes 0 to 59 belong to the PLC, 60 to 102 to the NCK; the rest is plain memory.
+    // In DB31, bytes 0 to 59 belong to the PLC, 60 to 107 to the NCK; the rest is plain memory.
     assert_eq!(spans, [(0, 60, Source::Plc, "X"), (60, 43, Source::Nck, "X"), (103, 45, Source::Plc, "X")]);
     let hmi: Vec<_> = of(10).iter().filter(|s| s.writer == Source::Hmi).map(|s| (s.first, s.length)).collect();
     assert_eq!(hmi, [(97, 7)]);

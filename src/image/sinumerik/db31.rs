@@ -1,4 +1,5 @@
-//! DB31 to DB61: one machine axis or spindle each. The PLC writes bytes 0 to 29, the NCK bytes 60 to 102.
+//! DB31 to DB61: one machine axis or spindle each. The PLC writes bytes 0 to 43, the NCK bytes 60 to 107. Bytes 32 to 43 and 104 to 107 are those
+//! of FC 18 (SpinCtrl): the list manual does not name them, and the 828D shows the same bits at DB380x.DBB3000 and DB390x.DBB3000.
 //!
 //! Where G1 contradicts the list manual, the list manual applies: 4.3 is feed stop and 4.4 is traversing key disable (E-02), the measuring
 //! systems are 1.5 and 1.6 (E-03), 12.2 and 12.3 are the second *software* limit switches (E-04), minus precedes plus (E-05).
@@ -6,8 +7,8 @@
 use crate::image::table::signals;
 
 signals! {
-    /// DB31 bytes 0 to 29: signals from the PLC to the axis.
-    pub struct AxisToNck, axis_to_nck: Axis, Plc, 0 to 29;
+    /// DB31 bytes 0 to 43: signals from the PLC to the axis.
+    pub struct AxisToNck, axis_to_nck: Axis, Plc, 0 to 43;
 
     /// Feed override: position of the switch in Gray code (MD12000 = 1) or per cent in binary; position 1 = 0 %.
     u8, feed_override, set_feed_override: 0, 7 to 0;
@@ -156,11 +157,50 @@ signals! {
     /// No automatic synchronization of the gantry grouping: 1 = the synchronization run does not start automatically; effective on the
     /// leading axis.
     bool, no_automatic_synchronization, set_no_automatic_synchronization: 29, 5;
+    /// FC 18: 1 = start spindle oscillation.
+    bool, start_spindle_oscillation, set_start_spindle_oscillation: 32, 4;
+    /// FC 18: 1 = start spindle rotation.
+    bool, start_spindle_rotation, set_start_spindle_rotation: 32, 5;
+    /// FC 18: 1 = start spindle positioning.
+    bool, start_spindle_positioning, set_start_spindle_positioning: 32, 6;
+    /// FC 18: a rising edge starts a positioning axis; 0 before its target is reached stops it.
+    bool, start_positioning_axis, set_start_positioning_axis: 32, 7;
+    /// FC 18: 1 = stop spindle oscillation.
+    bool, stop_spindle_oscillation, set_stop_spindle_oscillation: 33, 4;
+    /// FC 18: 1 = stop spindle rotation.
+    bool, stop_spindle_rotation, set_stop_spindle_rotation: 33, 5;
+    /// FC 18: 1 = the target is a distance (IC).
+    bool, incremental_position, set_incremental_position: 34, 0;
+    /// FC 18: 1 = shortest distance (DC).
+    bool, shortest_distance, set_shortest_distance: 34, 1;
+    /// FC 18: 1 = target and feedrate are in inches.
+    bool, position_in_inches, set_position_in_inches: 34, 2;
+    /// FC 18: 1 = with handwheel override.
+    bool, positioning_with_handwheel_override, set_positioning_with_handwheel_override: 34, 3;
+    /// FC 18: 1 = direction of rotation as for M4.
+    bool, direction_of_rotation_as_m4, set_direction_of_rotation_as_m4: 34, 5;
+    /// FC 18: 1 = constant cutting rate.
+    bool, constant_cutting_rate, set_constant_cutting_rate: 34, 6;
+    /// FC 18: 1 = automatic gear selection.
+    bool, automatic_gear_selection, set_automatic_gear_selection: 34, 7;
+    /// FC 18: 1 = absolute target, approached in minus direction (ACN).
+    bool, approach_in_minus_direction, set_approach_in_minus_direction: 35, 0;
+    /// FC 18: 1 = absolute target, approached in plus direction (ACP).
+    bool, approach_in_plus_direction, set_approach_in_plus_direction: 35, 1;
+    /// FC 18: 1 = the target is the number of an indexing position.
+    bool, indexing_position, set_indexing_position: 35, 7;
+
+    numbers {
+        /// FC 18: target or distance in mm or degrees, or inches.
+        f32, positioning_target, set_positioning_target: 36;
+        /// FC 18: feedrate in mm/min or rev/min, or inches/min; 0 or less: MD32060.
+        f32, positioning_feedrate, set_positioning_feedrate: 40;
+    }
 }
 
 signals! {
-    /// DB31 bytes 60 to 102: signals from the axis to the PLC.
-    pub struct AxisFromNck, axis_from_nck: Axis, Nck, 60 to 102;
+    /// DB31 bytes 60 to 107: signals from the axis to the PLC.
+    pub struct AxisFromNck, axis_from_nck: Axis, Nck, 60 to 107;
 
     /// Spindle, no axis: 1 = spindle, 0 = axis.
     bool, spindle_no_axis, set_spindle_no_axis: 60, 0;
@@ -400,6 +440,16 @@ signals! {
     bool, position_measuring_system_1_activated, set_position_measuring_system_1_activated: 102, 5;
     /// Position measuring system 2 activated: 1 = yes.
     bool, position_measuring_system_2_activated, set_position_measuring_system_2_activated: 102, 6;
+    /// FC 18: 1 = the axis cannot be started; its error number says why.
+    bool, positioning_not_started, set_positioning_not_started: 104, 0;
+    /// FC 18: 1 = an error while traversing; its error number says which.
+    bool, positioning_error, set_positioning_error: 104, 1;
+    /// FC 18: 1 = position reached, with exact stop fine.
+    bool, position_reached, set_position_reached: 104, 6;
+    /// FC 18: 1 = the PLC positions the axis.
+    bool, positioning_active, set_positioning_active: 104, 7;
+    /// FC 18: error number; 0 without an error.
+    u8, positioning_error_number, set_positioning_error_number: 107, 7 to 0;
 
     numbers {
         /// F function of the positioning axis: its feedrate; kept until overwritten.

@@ -15,8 +15,8 @@ pub(super) const PLAIN_NCK: usize = 56 + 10 + 162;
 pub(super) const PLAIN_MODE_GROUPS: usize = 1 + 11 + 1 + 35;
 /// Plain bytes of DB21: 22 and 23, 26 and 27, 54 to 57, 272 to 317, 320 to 383, 385 to 415.
 pub(super) const PLAIN_CHANNEL: usize = 2 + 2 + 4 + 46 + 64 + 31;
-/// Plain bytes of DB31: 30 to 59, 103 to 147.
-pub(super) const PLAIN_AXIS: usize = 30 + 45;
+/// Plain bytes of DB31: 44 to 59, 108 to 147.
+pub(super) const PLAIN_AXIS: usize = 16 + 40;
 
 /// The signals that the PLC writes to the NCK. The plain bytes of the interface blocks, which have no entry in the catalogue, follow them.
 #[derive(Clone, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]

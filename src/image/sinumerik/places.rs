@@ -81,10 +81,10 @@ static CHANNEL: [ByteRange; 13] = [
 const AXIS_PLAIN: usize = offset_of!(ToNck, plain.axes);
 #[rustfmt::skip]
 static AXIS: [ByteRange; 4] = [
-    range(0, 29, Part::ToNck, offset_of!(ToNck, axes), size_of::<AxisToNck>()),
-    plain(30, 59, AXIS_PLAIN, PLAIN_AXIS),
-    range(60, 102, Part::FromNck, offset_of!(FromNck, axes), size_of::<AxisFromNck>()),
-    plain(103, 147, AXIS_PLAIN + 30, PLAIN_AXIS),
+    range(0, 43, Part::ToNck, offset_of!(ToNck, axes), size_of::<AxisToNck>()),
+    plain(44, 59, AXIS_PLAIN, PLAIN_AXIS),
+    range(60, 107, Part::FromNck, offset_of!(FromNck, axes), size_of::<AxisFromNck>()),
+    plain(108, 147, AXIS_PLAIN + 16, PLAIN_AXIS),
 ];
 
 const _: () = {
@@ -102,16 +102,16 @@ const _: () = {
     assert!(ChannelProgramToNck::FIRST == 28 && size_of::<ChannelProgramToNck>() == 4);
     assert!(ChannelJumpToNck::FIRST == 384 && size_of::<ChannelJumpToNck>() == 1);
     assert!(ChannelSearchFromNck::FIRST == 318 && size_of::<ChannelSearchFromNck>() == 2);
-    assert!(AxisToNck::FIRST == 0 && size_of::<AxisToNck>() == 30);
-    assert!(AxisFromNck::FIRST == 60 && size_of::<AxisFromNck>() == 43);
+    assert!(AxisToNck::FIRST == 0 && size_of::<AxisToNck>() == 44);
+    assert!(AxisFromNck::FIRST == 60 && size_of::<AxisFromNck>() == 48);
     // The parts, without padding and in this order. They have space for each axis number; no block shows the last one.
     assert!(offset_of!(ToNck, mode_groups) == 2 && offset_of!(ToNck, channels) == 8);
-    assert!(offset_of!(ToNck, axes) == 228 && offset_of!(ToNck, program_control) == 1188);
-    assert!(offset_of!(ToNck, jumps) == 1228 && offset_of!(ToNck, plain) == 1238);
-    assert!(size_of::<ToNck>() == 1238 + PLAIN_NCK + PLAIN_MODE_GROUPS + 10 * PLAIN_CHANNEL + 32 * PLAIN_AXIS);
+    assert!(offset_of!(ToNck, axes) == 228 && offset_of!(ToNck, program_control) == 1636);
+    assert!(offset_of!(ToNck, jumps) == 1676 && offset_of!(ToNck, plain) == 1686);
+    assert!(size_of::<ToNck>() == 1686 + PLAIN_NCK + PLAIN_MODE_GROUPS + 10 * PLAIN_CHANNEL + 32 * PLAIN_AXIS);
     assert!(offset_of!(FromNck, mode_groups) == 42 && offset_of!(FromNck, channels) == 48);
-    assert!(offset_of!(FromNck, axes) == 268 && offset_of!(FromNck, auxiliary) == 268 + 32 * 43);
-    assert!(offset_of!(FromNck, searches) == 268 + 32 * 43 + 10 * 214);
-    assert!(size_of::<FromNck>() == 268 + 32 * 43 + 10 * 214 + 10 * 2);
+    assert!(offset_of!(FromNck, axes) == 268 && offset_of!(FromNck, auxiliary) == 268 + 32 * 48);
+    assert!(offset_of!(FromNck, searches) == 268 + 32 * 48 + 10 * 214);
+    assert!(size_of::<FromNck>() == 268 + 32 * 48 + 10 * 214 + 10 * 2);
     assert!(offset_of!(Hmi, mode_groups) == 7 && offset_of!(Hmi, channels) == 11 && size_of::<Hmi>() == 31);
 };

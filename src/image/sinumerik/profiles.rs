@@ -29,7 +29,7 @@ static D840_SL: [Window; 4] = [
     Window::new(31, 0, 147, Block::Axis, 0, 31),
 ];
 
-static D828: [Window; 21] = [
+static D828: [Window; 23] = [
     Window::new(1800, 0, 1, Block::ModeGroup, 4, 1),
     Window::new(2600, 0, 1, Block::Nck, 56, 1),
     Window::new(2700, 0, 3, Block::Nck, 106, 1),
@@ -44,11 +44,13 @@ static D828: [Window; 21] = [
     Window::new(3800, 0, 11, Block::Axis, 0, 8),
     Window::new(3800, 1000, 1003, Block::Axis, 12, 8),
     Window::new(3800, 2000, 2003, Block::Axis, 16, 8),
+    Window::new(3800, 3000, 3011, Block::Axis, 32, 8),
     Window::new(3800, 4000, 4003, Block::Axis, 20, 8),
     Window::new(3800, 5000, 5007, Block::Axis, 24, 8),
     Window::new(3900, 0, 11, Block::Axis, 60, 8),
     Window::new(3900, 1000, 1003, Block::Axis, 74, 8),
     Window::new(3900, 2000, 2003, Block::Axis, 82, 8),
+    Window::new(3900, 3000, 3003, Block::Axis, 104, 8),
     Window::new(3900, 4000, 4003, Block::Axis, 92, 8),
     Window::new(3900, 5000, 5007, Block::Axis, 96, 8),
 ];

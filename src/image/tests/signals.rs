@@ -289,7 +289,7 @@ fn signals_have_the_position_and_the_writer_of_the_manuals() {
 /// SIG-11
 #[test]
 fn numbers_have_the_position_of_the_manuals_and_are_big_endian() {
-    let mut axis = AxisFromNck::read_from_bytes(&[0xA5; 43]).unwrap();
+    let mut axis = AxisFromNck::read_from_bytes(&[0xA5; 48]).unwrap();
     axis.set_positioning_axis_f_function(1.5);
     axis.set_spindle_m_function(0x1234);
     axis.set_spindle_s_function(-2.0);

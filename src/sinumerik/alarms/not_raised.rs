@@ -4,7 +4,7 @@
 //! | numbers | not modelled |
 //! |---|---|
 //! | 2001, 2900, 4002, 4004, 4005, 4011, 4040, 4060, 4075, 4111, 4112, 4113, 4200, 4210, 26014, 26015, 26017, 26024, 26025 | alarms of machine data: the model checks them before the control starts and reports them there |
-//! | 10620, 10630, 10631, 10721, 10723, 16xxx, 17630 to 17900, 20070, 20071 | limits in motion, actions of the operator, the PLC's positioning axes |
+//! | 10620, 10630, 10631, 10721, 10723, 16xxx, 17630 to 17900 | limits in motion, actions of the operator |
 //! | 20007, 20008, 22062, 22064 | MD34200 = 6 and 7 |
 //! | 20052, 20060, 20062 | geometry axes |
 //! | 20054, 20056, 20058 | indexing axes and revolutional feed |
@@ -65,8 +65,6 @@ alarms! {
     20059 [DISPLAY] CancelKey "channel %1 axis %2 already active, cause %3";
     20060 [DISPLAY] CancelKey "channel %1 axis %2 cannot be moved as a geometry axis";
     20062 [DISPLAY] CancelKey "channel %1 axis %2 already active as geometry axis";
-    20070 [DISPLAY] ByItself "channel %1 axis %2 programmed end position is behind software limit switch %3";
-    20071 [DISPLAY] ByItself "channel %1 axis %2 programmed end position is behind working area limit %3";
     21550 [START_DISABLED DISPLAY] Reset "channel %1 axis %2 motion off the hardware limit switch not possible, cause %3";
     21620 [START_DISABLED LOCAL FOLLOW_UP INTERFACE_SIGNALS DISPLAY] Reset "channel %1 axis %2 emergency braking ramp active";
     22060 [DISPLAY] ByItself "channel %1 axis %2 position control expected";

@@ -179,7 +179,8 @@ impl State {
                 let kept = is_automatic && of.stays_in_channel && !parameters.exchange_after_wait;
                 of.channel == channel || !kept
             }
-            Holder::Program | Holder::Plc | Holder::Command => false,
+            Holder::Command => !self.is_positioned_alone(axis),
+            Holder::Program | Holder::Plc => false,
         };
         if is_free {
             self.hand_over(&unit, channel, Rule::TakenByProgram, [Input::None; 3], cause, parameters);
@@ -243,21 +244,28 @@ impl State {
                 used = used.with(of_run.map(|(_, axis)| axis).filter(mine).collect());
             }
         }
+        // An axis that is positioned alone is not free, either. Synchronous axes go with their leading axis.
+        used = used.with(self.single.moving);
+        for unit in &self.units {
+            if used.contains(unit.leader()) {
+                used = used.with(unit.set);
+            }
+        }
         let before = std::mem::replace(&mut self.owners.used, used);
-        let mut changed = AxisSet::NONE;
-        for axis in used.without(before).with(before.without(used)).iter() {
+        let changed = used.without(before).with(before.without(used));
+        for axis in changed.iter() {
             let is_used = used.contains(axis);
             let rule = if is_used { Rule::ExchangeNotPossible } else { Rule::ExchangePossible };
             let of = *self.owners.of(axis);
             let program = &self.programs[of.channel];
-            let cause =
-                if is_used { program.block_cause() } else { program.block_cause().max(program.cause).max(of.cause) };
-            let event = self.log.note_plain(Place::Axis(axis), rule, cause);
-            let members = self.unit_of(axis).map_or_else(|| AxisSet::of(axis), |unit| unit.set);
-            for member in members.iter() {
-                self.owners.of_mut(member).possible_cause = event;
-            }
-            changed = changed.with(members);
+            let leader = self.units.iter().find(|unit| unit.set.contains(axis)).map_or(axis, |unit| unit.leader());
+            let alone = self.single.axes[leader].cause;
+            let cause = match is_used {
+                true if self.single.moving.contains(leader) => alone,
+                true => program.block_cause(),
+                false => program.block_cause().max(program.cause).max(of.cause).max(alone),
+            };
+            self.owners.of_mut(axis).possible_cause = self.log.note_plain(Place::Axis(axis), rule, cause);
         }
         changed
     }

@@ -10,6 +10,7 @@ use crate::sinumerik::alarms;
 use crate::sinumerik::exchange::state::{Holder, Request, Wanted};
 use crate::sinumerik::inputs::{axis_number, axis_signal};
 use crate::sinumerik::jog::state::Movement;
+use crate::sinumerik::nck::Nck;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::rules::Rule;
 use crate::sinumerik::state::{State, Unit};
@@ -22,9 +23,21 @@ const MOST_PLC_AXES: usize = 12;
 /// Code 50XX of alarm 10658: the PLC asks for the leading axis, and not all axes are known in the channel.
 const UNKNOWN_IN_CHANNEL_OF_PLC: i64 = 5_000;
 
+impl Nck {
+    /// Requests of the PLC for the axes whose signals have changed, and requests that waited. Before that, the groupings that are to close
+    /// compare who has their axes.
+    pub(in crate::sinumerik) fn exchange_axes(&mut self, changed: AxisSet, to_nck: &ToNck) {
+        let keeps_open = self.state.check_closings(&self.parameters);
+        self.state.answer_requests(changed, &self.parameters, to_nck);
+        if self.state.owners.take_changed() || keeps_open {
+            self.resting.wake_all();
+        }
+    }
+}
+
 impl State {
     /// Takes the requests of the PLC for these axes, whose signals have changed, and carries out those that can be.
-    pub(in crate::sinumerik) fn exchange_axes(&mut self, changed: AxisSet, parameters: &Parameters, to_nck: &ToNck) {
+    fn answer_requests(&mut self, changed: AxisSet, parameters: &Parameters, to_nck: &ToNck) {
         for axis in changed.and(parameters.existing).iter() {
             let signals = &to_nck.axes[axis];
             let strobe = signals.replacement_activation_signal();

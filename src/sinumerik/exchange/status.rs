@@ -1,6 +1,7 @@
 //! What the interface and programs see of the holder of an axis: DBB68, 36.3, `$AA_TYP`, `$AA_AXCHANGE_TYP`, `$AA_AXCHANGE_STAT`.
 
 use crate::sinumerik::exchange::state::{Holder, Owners};
+use crate::sinumerik::jog::state::Movement;
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::axis::PlcAxis;
 use crate::sinumerik::state::State;
@@ -61,9 +62,10 @@ impl State {
         let of = self.owners.of(axis);
         let unit = self.units.iter().find(|unit| unit.set.contains(axis));
         Status {
-            channel: of.channel.number(),
+            // An axis that does not exist is in no channel.
+            channel: if unit.is_some() { of.channel.number() } else { 0 },
             requested: of.request.is_some_and(|request| request.by.is_by_plc()),
-            possible: unit.is_some_and(|unit| self.is_exchange_possible(unit)),
+            possible: unit.is_some() && !self.owners.used.contains(axis),
             neutral: of.holder == Holder::Neutral,
             plc: of.holder == Holder::Plc,
         }
@@ -76,5 +78,19 @@ impl State {
         };
         let axes = self.owners.of_channel(channel);
         axes.without(axes.iter().filter(left_out).collect())
+    }
+
+    /// The axes whose movement makes a channel active. The PLC and synchronised actions move theirs beside it; a PLC axis that is jogged or
+    /// referenced counts.
+    pub(in crate::sinumerik) fn active_axes(&self, channel: ChannelNumber) -> AxisSet {
+        let synchronising = self.synchronising();
+        let alone = |axis: &AxisNumber| {
+            let of = &self.axes[*axis];
+            let by_operator = of.jogging.movement != Movement::None || of.approach.is_running();
+            let is_alone = matches!(self.owners.of(*axis).holder, Holder::Plc | Holder::Command);
+            is_alone && !by_operator && !synchronising.contains(*axis)
+        };
+        let axes = self.owners.of_channel(channel);
+        axes.without(axes.iter().filter(alone).collect())
     }
 }

@@ -11,13 +11,14 @@ use crate::nc_program::{
     AxisNames, Dialect, Environment, Library, Program, Refusal, Request, SINUMERIK, SystemVariable, Value,
 };
 use crate::sinumerik::axis::state::Axis;
-use crate::sinumerik::exchange::state::Owners;
+use crate::sinumerik::exchange::state::{Holder, Owners};
 use crate::sinumerik::machine_data::{
     Element, MachineData, Scope, TableRefusal, TableValue, TableVariable, Target, by_identifier,
 };
 use crate::sinumerik::parameters::Parameters;
 use crate::sinumerik::parameters::programs::ProgramParameters;
 use crate::sinumerik::program::state::{ChannelProgram, Run};
+use crate::sinumerik::single_axis::state::SingleAxes;
 use crate::units::{AxisNumber, ChannelNumber, PerAxis, Position};
 use crate::variables::RParameters;
 
@@ -27,6 +28,7 @@ pub(in crate::sinumerik) struct Channel<'a> {
     pub parameters: &'a ProgramParameters,
     pub axes: &'a PerAxis<Axis>,
     pub owners: &'a Owners,
+    pub single: &'a SingleAxes,
     pub all: &'a Parameters,
     pub r_parameters: &'a mut RParameters,
     pub library: &'a Library,
@@ -218,7 +220,12 @@ impl Environment for Channel<'_> {
             "$AA_AXCHANGE_TYP" => {
                 let axis = axis()?;
                 let data = self.all.axes[axis].plc_axis;
-                Ok(Value::Int(self.owners.exchange_type((axis, data), self.channel, false)))
+                Ok(Value::Int(self.owners.exchange_type((axis, data), self.channel, self.single.moving.contains(axis))))
+            }
+            "$AA_SNGLAX_STAT" => {
+                let axis = axis()?;
+                let is_single = matches!(self.owners.of(axis).holder, Holder::Plc | Holder::Command);
+                Ok(Value::Int(self.single.status(axis, is_single)))
             }
             "$AA_REF" => Ok(Value::Int(i32::from(self.axes[axis()?].is_referenced()))),
             "$P_UIFR" => {

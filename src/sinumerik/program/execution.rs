@@ -321,6 +321,7 @@ impl State {
             parameters: stage.own,
             axes: &self.axes,
             owners: &self.owners,
+            single: &self.single,
             all: stage.parameters,
             r_parameters: &mut self.r_parameters,
             library: sources.library,

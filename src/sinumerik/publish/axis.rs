@@ -135,6 +135,7 @@ impl State {
         });
         rows.bit(axis_from_nck::neutral_axis, status.neutral, exchange);
         rows.bit(axis_from_nck::plc_axis, status.plc, exchange);
+        self.show_single_axis(number, rows);
         rows.number(axis_from_nck::active_controller_parameter_set, axis.parameter_set, || {
             Why::Event(causes.parameter_set)
         });

@@ -18,7 +18,7 @@ impl State {
     /// "At least one axis is being traversed in JOG", or is being referenced; also while feed stop, an override of 0 % or a missing enable
     /// holds the movement, in the complete section 3 of a grouping while 10655 is pending (O-31), and while 33.0 = 1.
     pub(super) fn is_channel_active(&self, channel: ChannelNumber) -> bool {
-        let moves = !self.summary.in_motion.and(self.owners.of_channel(channel)).is_empty();
+        let moves = !self.summary.in_motion.and(self.active_axes(channel)).is_empty();
         moves || self.channels[channel].is_referencing()
     }
 

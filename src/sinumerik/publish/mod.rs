@@ -15,6 +15,7 @@ mod control;
 pub(super) mod known;
 mod program;
 mod rows;
+mod single_axis;
 
 use zerocopy::IntoBytes;
 

@@ -203,7 +203,7 @@ impl Look<'_> {
     }
 
     pub(super) fn at_rest(self, channel: ChannelNumber) -> Condition {
-        let axes = self.state.owners.of_channel(channel);
+        let axes = self.state.active_axes(channel);
         let moving = self.state.summary.in_motion.and(axes);
         let found = if moving.is_empty() {
             "none".to_owned()

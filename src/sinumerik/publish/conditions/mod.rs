@@ -9,6 +9,7 @@
 //! |---|---|
 //! | `axis.rs` | enabling, measuring systems, exact stop, standstill |
 //! | `exchange.rs` | 68.4 to 68.7 |
+//! | `single_axis.rs` | 63.0 to 63.2, 76.5, 104.0 to 104.7 |
 //! | `referencing.rs` | 60.4, 60.5, 33.0 |
 //! | `gantry.rs` | 101.x |
 //! | `motion.rs` | 64.4 to 64.7, and what stops and holds movements |
@@ -27,6 +28,7 @@ mod look;
 mod motion;
 mod program;
 mod referencing;
+mod single_axis;
 
 use crate::control::{Condition, Question};
 use crate::image::{NckHmi, ToNck};
@@ -54,7 +56,15 @@ impl Nck {
                 row.or_else(|| look.auxiliary(channel, question))
             }
             Place::Axis(axis) => {
-                let found = [axis::ROWS, exchange::ROWS, referencing::ROWS, gantry::ROWS, motion::ROWS, jog::ROWS];
+                let found = [
+                    axis::ROWS,
+                    exchange::ROWS,
+                    single_axis::ROWS,
+                    referencing::ROWS,
+                    gantry::ROWS,
+                    motion::ROWS,
+                    jog::ROWS,
+                ];
                 found.iter().find_map(|rows| look.find(rows, axis, question))
             }
         }
@@ -81,7 +91,15 @@ mod tests {
             Block::Channel if signal.byte >= 58 => true,
             Block::Channel => is_in(control::CHANNEL, signal) || is_in(program::CHANNEL, signal),
             _ => {
-                let all = [axis::ROWS, exchange::ROWS, referencing::ROWS, gantry::ROWS, motion::ROWS, jog::ROWS];
+                let all = [
+                    axis::ROWS,
+                    exchange::ROWS,
+                    single_axis::ROWS,
+                    referencing::ROWS,
+                    gantry::ROWS,
+                    motion::ROWS,
+                    jog::ROWS,
+                ];
                 all.iter().any(|rows| is_in(rows, signal))
             }
         };

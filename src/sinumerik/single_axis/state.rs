@@ -1,0 +1,129 @@
+//! The state of the axes that are positioned alone.
+
+use serde::{Deserialize, Serialize};
+
+use crate::units::{AxisNumber, AxisSet, PerAxis, Position};
+use crate::variables::{AlarmNumber, EventId};
+
+/// Who positions an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum OrderedBy {
+    /// FC 18.
+    Plc,
+    /// A synchronised action.
+    Action,
+}
+
+/// A movement to a target.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Order {
+    /// In machine coordinates.
+    pub target: Position,
+    /// In increments per second, at 100 %.
+    pub velocity: f64,
+    pub by: OrderedBy,
+    /// The event of its start.
+    pub cause: EventId,
+    /// The axis was in position control since its start.
+    pub begun: bool,
+    /// It brakes, and then the order ends like this.
+    pub ending: Option<Outcome>,
+}
+
+/// How an order ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) enum Outcome {
+    /// Nothing is shown: there was none, Start is 0 again, or the rest was dropped.
+    #[default]
+    None,
+    /// In position, with exact stop fine.
+    Reached,
+    /// It was stopped: its error number.
+    Failed(u8),
+    /// It could not be started: its error number.
+    Refused(u8),
+}
+
+impl Outcome {
+    /// The error number that the interface shows.
+    pub(in crate::sinumerik) const fn error(self) -> u8 {
+        match self {
+            Self::None | Self::Reached => 0,
+            Self::Failed(number) | Self::Refused(number) => number,
+        }
+    }
+}
+
+/// The PLC controls the axis: 28.x and 63.x.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct Independence {
+    /// 63.1.
+    pub taken: bool,
+    /// 63.2.
+    pub stopped: bool,
+    /// 63.0.
+    pub reset: bool,
+    /// 28.1 and 28.2 in the last cycle.
+    pub reset_was: bool,
+    pub resume_was: bool,
+    /// The event behind the latest change.
+    pub cause: EventId,
+}
+
+/// One axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct SingleAxis {
+    pub order: Option<Order>,
+    pub outcome: Outcome,
+    /// The event behind order and outcome.
+    pub cause: EventId,
+    /// Why a start is refused, as long as this is shown: 20070 or 20071 with the direction, or 20072.
+    pub limit: Option<(AlarmNumber, i8)>,
+    /// DBD78 in mm/min or rev/min.
+    pub feed: f32,
+    /// The event behind 76.5 and DBD78.
+    pub positioning_cause: EventId,
+    /// Start, the starts of a spindle, and 2.2 in the last cycle.
+    pub start_was: bool,
+    pub spindle_was: bool,
+    pub delete_was: bool,
+    pub independence: Independence,
+}
+
+/// All axes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(in crate::sinumerik) struct SingleAxes {
+    pub axes: PerAxis<SingleAxis>,
+    /// Those with an order.
+    pub moving: AxisSet,
+    /// Those with an order, a refusal that is shown, or under the control of the PLC: the stage looks at them in every cycle.
+    pub watched: AxisSet,
+    /// Those that a program or an order positions: 76.5.
+    pub positioning: AxisSet,
+}
+
+impl SingleAxes {
+    /// An order begins or ends.
+    pub(in crate::sinumerik) fn set_order(&mut self, axis: AxisNumber, order: Option<Order>) {
+        self.moving.set(axis, order.is_some());
+        self.axes[axis].order = order;
+    }
+
+    /// Updates whether the stage looks at an axis in every cycle.
+    pub(in crate::sinumerik) fn note_watched(&mut self, axis: AxisNumber) {
+        let one = &self.axes[axis];
+        self.watched.set(axis, one.order.is_some() || one.limit.is_some() || one.independence.taken);
+    }
+
+    /// `$AA_SNGLAX_STAT`.
+    pub(in crate::sinumerik) fn status(&self, axis: AxisNumber, is_single: bool) -> i32 {
+        let one = &self.axes[axis];
+        match (one.order, one.outcome) {
+            (Some(_), _) if one.independence.stopped => 3,
+            (Some(_), _) => 4,
+            (None, Outcome::Failed(_) | Outcome::Refused(_)) => 5,
+            (None, Outcome::Reached) => 2,
+            (None, Outcome::None) => i32::from(is_single || one.independence.taken),
+        }
+    }
+}
